@@ -1,0 +1,1 @@
+"""Vehicle and driveline around the axle, co-simulation, speed sweeps and their figures."""

@@ -1,0 +1,1 @@
+"""FMI layer: variable table, model description, slaves, builder and the command line."""

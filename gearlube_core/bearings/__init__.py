@@ -1,0 +1,1 @@
+"""Dynamic roller bearings: every roller's orbit, load and film."""

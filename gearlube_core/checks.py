@@ -1,0 +1,53 @@
+"""Input checks that say what, got, limit with unit, and cure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from gearlube_core.errors import ParameterError
+
+
+def _quantity(value: float, unit: str) -> str:
+    return f"{value:g}" if unit in ("", "1") else f"{value:g} {unit}"
+
+
+def check_finite(name: str, value: float, unit: str = "", cure: str = "") -> float:
+    """Return `value` as float; raise ParameterError when it is not a finite number."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        message = f"{name} must be a number in {unit or '1'}, got {value!r}."
+        raise ParameterError(f"{message} {cure}".strip()) from None
+    if not math.isfinite(number):
+        raise ParameterError(f"{name} must be finite, got {_quantity(number, unit)}. {cure}".strip())
+    return number
+
+
+def check_within(
+    name: str, value: float, low: float, high: float, unit: str = "", cure: str = ""
+) -> float:
+    """Return `value` as float; raise ParameterError outside the closed interval [low, high]."""
+    number = check_finite(name, value, unit, cure)
+    if not low <= number <= high:
+        limits = f"within {low:g} to {_quantity(high, unit)}"
+        message = f"{name} must be {limits}, got {_quantity(number, unit)}."
+        raise ParameterError(f"{message} {cure}".strip())
+    return number
+
+
+def check_positive(name: str, value: float, unit: str = "", cure: str = "") -> float:
+    """Return `value` as float; raise ParameterError unless it is finite and above zero."""
+    number = check_finite(name, value, unit, cure)
+    if not number > 0.0:
+        message = f"{name} must be above {_quantity(0.0, unit)}, got {_quantity(number, unit)}."
+        raise ParameterError(f"{message} {cure}".strip())
+    return number
+
+
+def check_option(name: str, value: str, options: Iterable[str]) -> str:
+    """Return `value`; raise ParameterError when it is none of `options`."""
+    allowed = tuple(options)
+    if value not in allowed:
+        raise ParameterError(f"{name} must be one of {', '.join(allowed)}; got {value!r}.")
+    return value

@@ -1,0 +1,1 @@
+"""Dry contact: Hertzian ellipses and rough surfaces: kernels and closed forms."""

@@ -1,0 +1,1 @@
+"""Mesh dynamics with backlash and dynamic bearings."""

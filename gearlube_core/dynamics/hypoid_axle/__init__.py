@@ -1,0 +1,1 @@
+"""The 8-DOF lubricated hypoid axle of Mohammadpour et al. 2015."""

@@ -1,0 +1,1 @@
+"""Elastohydrodynamic film thickness correlations, named by author and year: kernels."""

@@ -1,0 +1,1 @@
+"""Friction of a lubricated flank: viscous traction, boundary friction, and their sum."""

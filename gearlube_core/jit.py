@@ -1,0 +1,21 @@
+"""The one decorator of every compiled kernel.
+
+Kernels are pure and allocation-free: floats, NamedTuples of floats and float64 arrays in,
+numbers (and an integer status where they can fail) out. They never raise, so that the complete
+time step can be lowered to an object file that needs nothing but libm.
+`error_model="numpy"` makes a division by zero give inf or NaN instead of an exception.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from numba import njit
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def kernel(function: _Function) -> _Function:
+    """Compile `function` with numba on first call and keep the machine code on disk."""
+    return njit(cache=True, error_model="numpy")(function)  # type: ignore[no-any-return]

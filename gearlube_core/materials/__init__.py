@@ -1,0 +1,1 @@
+"""Lubricants and solids: parameter sets with sources, and their elastic pairing."""

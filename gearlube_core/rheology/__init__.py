@@ -1,0 +1,1 @@
+"""How viscosity depends on temperature, pressure and shear: kernels."""

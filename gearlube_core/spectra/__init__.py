@@ -1,0 +1,1 @@
+"""Spectra and order cuts of signals sampled at equal pinion angles."""

@@ -1,0 +1,1 @@
+"""Tooth contact: everything that writes a mesh table."""

@@ -1,0 +1,37 @@
+"""Conversions at the border between people's units and SI."""
+
+from __future__ import annotations
+
+import math
+
+ZERO_CELSIUS = 273.15  # K
+
+
+def celsius_to_kelvin(temperature_degc: float) -> float:
+    """Return the absolute temperature [K] of `temperature_degc` [degC]."""
+    return temperature_degc + ZERO_CELSIUS
+
+
+def kelvin_to_celsius(temperature: float) -> float:
+    """Return the Celsius temperature [degC] of `temperature` [K]."""
+    return temperature - ZERO_CELSIUS
+
+
+def kmh_to_ms(speed_kmh: float) -> float:
+    """Return the speed [m/s] of `speed_kmh` [km/h]."""
+    return speed_kmh / 3.6
+
+
+def ms_to_kmh(speed: float) -> float:
+    """Return the speed [km/h] of `speed` [m/s]."""
+    return speed * 3.6
+
+
+def rpm_to_rads(speed_rpm: float) -> float:
+    """Return the angular speed [rad/s] of `speed_rpm` [1/min]."""
+    return speed_rpm * math.pi / 30.0
+
+
+def rads_to_rpm(speed: float) -> float:
+    """Return the rotational speed [1/min] of `speed` [rad/s]."""
+    return speed * 30.0 / math.pi
