@@ -1,0 +1,236 @@
+"""Hypoid gear blank: pitch cones, mean point and tooth direction in the fixed frame of the pair."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.checks import check_positive, check_within
+from gearlube_core.errors import ParameterError
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MemberBlank:
+    """One member's blank: pitch cone, spiral angle and tooth height data.
+
+    Parameters
+    ----------
+    teeth : int
+        Number of teeth [-].
+    face_width, outer_cone_distance : float
+        Along the pitch cone generator [m].
+    pitch_angle, spiral_angle : float
+        Half angle of the pitch cone and mean spiral angle [rad].
+    pitch_apex, face_apex : float
+        Distance of the apex beyond the crossing point [m]; negative: before it.
+    """
+
+    teeth: int
+    face_width: float
+    outer_cone_distance: float
+    pitch_angle: float
+    spiral_angle: float
+    pitch_apex: float
+    face_apex: float
+
+    def __post_init__(self) -> None:
+        check_within("teeth", self.teeth, 3, 400)
+        check_positive("face_width", self.face_width, "m", "Give metres, not millimetres.")
+        check_within("pitch_angle", self.pitch_angle, 0.01, 1.56, "rad", "Give radians.")
+        check_within("spiral_angle", self.spiral_angle, -1.2, 1.2, "rad", "Give radians.")
+        if not self.outer_cone_distance > self.face_width:
+            raise ParameterError(
+                f"outer_cone_distance must exceed face_width {self.face_width:g} m, "
+                f"got {self.outer_cone_distance:g} m. Swap them or check the units."
+            )
+
+    @property
+    def mean_cone_distance(self) -> float:
+        """Cone distance at mid-face [m]."""
+        return self.outer_cone_distance - 0.5 * self.face_width
+
+    @property
+    def mean_pitch_radius(self) -> float:
+        """Pitch radius at mid-face [m]."""
+        return self.mean_cone_distance * math.sin(self.pitch_angle)
+
+    @property
+    def addendum(self) -> float:
+        """Addendum of a uniform-depth blank [m]: (face apex - pitch apex) sin(pitch angle)."""
+        return (self.face_apex - self.pitch_apex) * math.sin(self.pitch_angle)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HypoidBlank:
+    """Blank of a hypoid pair with perpendicular axes, and its geometry at the mean point.
+
+    Frame (see docs/conventions.md): origin at the crossing point on the gear axis, gear axis = z
+    with the gear body towards +z, pinion axis parallel to x at y = +offset, pinion body towards +x.
+
+    Parameters
+    ----------
+    pinion, gear : MemberBlank
+    offset : float
+        Distance of the axes [m].
+    gear_cutter_radius : float
+        Point radius of the gear cutter at mid working depth [m].
+    gear_blade_angle_convex, gear_blade_angle_concave : float
+        Gear blade angles [rad].
+    name, source : str
+        Where the data come from.
+
+    References
+    ----------
+    Mohammadpour et al. 2015, Table A1; Karagiannis et al. 2012, Table 1.
+    """
+
+    pinion: MemberBlank
+    gear: MemberBlank
+    offset: float
+    gear_cutter_radius: float
+    gear_blade_angle_convex: float
+    gear_blade_angle_concave: float
+    name: str
+    source: str
+
+    def __post_init__(self) -> None:
+        check_within("offset", self.offset, 0.0, 0.5, "m", "Give metres, not millimetres.")
+        check_positive("gear_cutter_radius", self.gear_cutter_radius, "m")
+
+    @classmethod
+    def named(cls, name: str) -> HypoidBlank:
+        """Return a blank that ships with the package, e.g. "mohammadpour_2015"."""
+        resource = files("gearlube_core.blank") / f"{name}.toml"
+        if not resource.is_file():
+            raise ParameterError(f"No blank is called {name!r}. Shipped: mohammadpour_2015.")
+        return cls._from_dict(tomllib.loads(resource.read_text(encoding="utf-8")))
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> HypoidBlank:
+        """Read a blank from a TOML file with the fields of blank/mohammadpour_2015.toml."""
+        return cls._from_dict(tomllib.loads(Path(path).read_text(encoding="utf-8")))
+
+    @classmethod
+    def _from_dict(cls, data: dict[str, Any]) -> HypoidBlank:
+        def member(key: str) -> MemberBlank:
+            fields = data[key]
+            return MemberBlank(
+                teeth=int(fields["teeth"]),
+                face_width=fields["face_width_mm"] * 1e-3,
+                outer_cone_distance=fields["outer_cone_distance_mm"] * 1e-3,
+                pitch_angle=math.radians(fields["pitch_angle_deg"]),
+                spiral_angle=math.radians(fields["spiral_angle_deg"]),
+                pitch_apex=fields["pitch_apex_mm"] * 1e-3,
+                face_apex=fields["face_apex_mm"] * 1e-3,
+            )
+
+        try:
+            cutter = data["gear_cutter"]
+            return cls(
+                pinion=member("pinion"),
+                gear=member("gear"),
+                offset=data["pair"]["offset_mm"] * 1e-3,
+                gear_cutter_radius=cutter["point_radius_mm"] * 1e-3,
+                gear_blade_angle_convex=math.radians(cutter["convex_blade_angle_deg"]),
+                gear_blade_angle_concave=math.radians(cutter["concave_blade_angle_deg"]),
+                name=data["name"],
+                source=data["source"],
+            )
+        except KeyError as missing:
+            raise ParameterError(
+                f"The blank file lacks the field {missing}. "
+                "Compare it with blank/mohammadpour_2015.toml of the package."
+            ) from None
+
+    @property
+    def ratio(self) -> float:
+        """Teeth ratio gear / pinion [-]; the final drive ratio."""
+        return self.gear.teeth / self.pinion.teeth
+
+    @property
+    def normal_pressure_angle(self) -> float:
+        """Mean of the gear's two blade angles [rad]."""
+        return 0.5 * (self.gear_blade_angle_convex + self.gear_blade_angle_concave)
+
+    @property
+    def working_depth(self) -> float:
+        """Sum of the addenda of a uniform-depth blank [m]."""
+        return self.pinion.addendum + self.gear.addendum
+
+    @property
+    def mean_normal_module(self) -> float:
+        """Normal module at mid-face of the gear [m]."""
+        return 2.0 * self.gear.mean_pitch_radius * math.cos(self.gear.spiral_angle) / self.gear.teeth
+
+    @property
+    def pinion_axis(self) -> Vector:
+        """Unit vector of positive (driving) pinion rotation, shape (3,)."""
+        return np.array([-1.0, 0.0, 0.0])
+
+    @property
+    def gear_axis(self) -> Vector:
+        """Unit vector of positive (driven) gear rotation, shape (3,)."""
+        return np.array([0.0, 0.0, 1.0])
+
+    @property
+    def pinion_apex(self) -> Vector:
+        """Apex of the pinion's pitch cone [m], shape (3,)."""
+        return np.array([-self.pinion.pitch_apex, self.offset, 0.0])
+
+    @property
+    def gear_apex(self) -> Vector:
+        """Apex of the gear's pitch cone [m], shape (3,)."""
+        return np.array([0.0, 0.0, -self.gear.pitch_apex])
+
+    def mean_point(self) -> Vector:
+        """Return the mid-face point of the gear pitch cone where the pinion's cone touches it.
+
+        The common normal of two touching cones meets both axes: the gear's cone normal leaves the
+        gear axis at z_n = z + r tan(pitch angle) and must reach the pinion axis (y = offset, z = 0).
+
+        Returns
+        -------
+        ndarray of shape (3,) [m]
+        """
+        delta = self.gear.pitch_angle
+        r = self.gear.mean_pitch_radius
+        z = self.gear_apex[2] + self.gear.mean_cone_distance * math.cos(delta)
+        z_normal = z + r * math.tan(delta)
+        sine = self.offset * math.tan(delta) / z_normal
+        check_within("offset tan(gear pitch angle) / z_n", sine, -1.0, 1.0, cure="Reduce offset.")
+        theta = math.asin(sine)
+        return np.array([r * math.cos(theta), r * math.sin(theta), z])
+
+    def pitch_normal(self) -> Vector:
+        """Return the unit normal of the pitch plane at the mean point, from gear root to tip."""
+        generator = self.gear_generator()
+        outward = np.cross(np.cross(self.gear_axis, self.mean_point()), generator)
+        return outward / np.linalg.norm(outward)
+
+    def gear_generator(self) -> Vector:
+        """Return the unit vector along the gear's pitch cone, apex to mean point, shape (3,)."""
+        line = self.mean_point() - self.gear_apex
+        return line / np.linalg.norm(line)
+
+    def tooth_trace(self) -> Vector:
+        """Return the unit tangent of the tooth in the pitch plane at the mean point, shape (3,)."""
+        generator = self.gear_generator()
+        across = np.cross(self.pitch_normal(), generator)
+        psi = self.gear.spiral_angle
+        return math.cos(psi) * generator - math.sin(psi) * across
+
+    def drive_flank_normal(self) -> Vector:
+        """Return the unit normal of the drive flanks at the mean point, pinion into gear, (3,)."""
+        across = np.cross(self.pitch_normal(), self.tooth_trace())
+        across *= np.sign(across @ np.cross(self.gear_axis, self.mean_point()))
+        alpha = self.normal_pressure_angle
+        return math.cos(alpha) * across - math.sin(alpha) * self.pitch_normal()

@@ -1,0 +1,141 @@
+"""Evaluation of a mesh table inside a time step."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.jit import kernel
+
+# order of the series in a packed coefficient array (see mesh_table.packing)
+K_M, R_P, R_G, N_X, N_Y, N_Z, E = range(7)
+N_SERIES = 7
+
+# order of the channels in a packed window (see mesh_table.packing)
+SHARE, R_E, SIDE_FLOW, PRESSURE, ENTRAIN, ARM_P, ARM_G, XI_X, XI_Y, XI_Z = range(10)
+N_CHANNELS = 10
+
+
+class LoadBracket(NamedTuple):
+    """Two neighbouring load levels and the weight of the upper one."""
+
+    lower: int
+    upper: int
+    weight: float
+
+
+class MeshSeries(NamedTuple):
+    """Values of the series at one pinion angle and, where dynamics needs them, d/d(angle)."""
+
+    k_m: float
+    R_p: float
+    R_g: float
+    n_x: float
+    n_y: float
+    n_z: float
+    dk_m: float
+    dn_x: float
+    dn_y: float
+    dn_z: float
+    de: float
+
+
+@kernel
+def load_bracket(torque: float, levels: NDArray[float64], n_levels: int) -> LoadBracket:
+    """Return where abs(torque) [N.m] lies in the rising `levels` [N.m]; held outside."""
+    load = abs(torque)
+    if n_levels < 2 or load <= levels[0]:
+        return LoadBracket(0, 0, 0.0)
+    upper = 1
+    while upper < n_levels - 1 and load > levels[upper]:
+        upper += 1
+    span = levels[upper] - levels[upper - 1]
+    return LoadBracket(upper - 1, upper, min(1.0, (load - levels[upper - 1]) / span))
+
+
+@kernel
+def blend_series(
+    packed: NDArray[float64], size: int, bracket: LoadBracket, out: NDArray[float64]
+) -> None:
+    """Interpolate the packed coefficients of all series, shape (L * size,), into out (size,)."""
+    lower = bracket.lower * size
+    upper = bracket.upper * size
+    for i in range(size):
+        out[i] = packed[lower + i] + bracket.weight * (packed[upper + i] - packed[lower + i])
+
+
+@kernel
+def mesh_series(
+    coefficients: NDArray[float64], n_orders: int, z_p: float, phi: float
+) -> MeshSeries:
+    """Return all series at pinion angle `phi` [rad].
+
+    `coefficients` has shape (N_SERIES * (2 n_orders + 1),): the series are grouped by order,
+    first the means, then for each order h the N_SERIES cosine and the N_SERIES sine coefficients.
+    """
+    k = coefficients[K_M]
+    rp = coefficients[R_P]
+    rg = coefficients[R_G]
+    nx = coefficients[N_X]
+    ny = coefficients[N_Y]
+    nz = coefficients[N_Z]
+    dk = 0.0
+    dnx = 0.0
+    dny = 0.0
+    dnz = 0.0
+    de = 0.0
+    c1 = math.cos(z_p * phi)
+    s1 = math.sin(z_p * phi)
+    c = 1.0
+    s = 0.0
+    for h in range(1, n_orders + 1):
+        c, s = c * c1 - s * s1, s * c1 + c * s1
+        i = N_SERIES * (2 * h - 1)
+        j = i + N_SERIES
+        w = h * z_p
+        k += coefficients[i + K_M] * c + coefficients[j + K_M] * s
+        rp += coefficients[i + R_P] * c + coefficients[j + R_P] * s
+        rg += coefficients[i + R_G] * c + coefficients[j + R_G] * s
+        nx += coefficients[i + N_X] * c + coefficients[j + N_X] * s
+        ny += coefficients[i + N_Y] * c + coefficients[j + N_Y] * s
+        nz += coefficients[i + N_Z] * c + coefficients[j + N_Z] * s
+        dk += w * (coefficients[j + K_M] * c - coefficients[i + K_M] * s)
+        dnx += w * (coefficients[j + N_X] * c - coefficients[i + N_X] * s)
+        dny += w * (coefficients[j + N_Y] * c - coefficients[i + N_Y] * s)
+        dnz += w * (coefficients[j + N_Z] * c - coefficients[i + N_Z] * s)
+        de += w * (coefficients[j + E] * c - coefficients[i + E] * s)
+    return MeshSeries(k, rp, rg, nx, ny, nz, dk, dnx, dny, dnz, de)
+
+
+@kernel
+def pair_channels(
+    windows: NDArray[float64],
+    n_nodes: int,
+    bracket: LoadBracket,
+    z_p: float,
+    phi: float,
+    pair: int,
+    out: NDArray[float64],
+) -> None:
+    """Interpolate the packed window channels of one tooth pair into out, shape (N_CHANNELS,).
+
+    `windows` has shape (L * (n_nodes + 1) * N_CHANNELS,), the first node repeated at the end.
+    Linear between nodes, so that shares that sum to 1 at the nodes do so everywhere.
+    """
+    periods = z_p * phi / (2.0 * math.pi) + pair
+    position = periods / 3.0
+    position = (position - math.floor(position)) * n_nodes
+    node = int(position)
+    if node >= n_nodes:
+        node = n_nodes - 1
+    t = position - node
+    stride = (n_nodes + 1) * N_CHANNELS
+    a = bracket.lower * stride + node * N_CHANNELS
+    b = bracket.upper * stride + node * N_CHANNELS
+    for i in range(N_CHANNELS):
+        low = windows[a + i] + t * (windows[a + i + N_CHANNELS] - windows[a + i])
+        high = windows[b + i] + t * (windows[b + i + N_CHANNELS] - windows[b + i])
+        out[i] = low + bracket.weight * (high - low)

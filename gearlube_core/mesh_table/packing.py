@@ -1,0 +1,88 @@
+"""Mesh tables as the flat arrays that the kernels of a time step read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.contact.elliptical_hertz import hertz_coefficients
+from gearlube_core.film.chittenden_1985 import film_geometry
+from gearlube_core.mesh_table.kernels import N_CHANNELS, N_SERIES
+from gearlube_core.mesh_table.table import SERIES_UNITS, MeshTable
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class PackedMesh:
+    """Arrays of a mesh table for `mesh_table.kernels`.
+
+    Parameters
+    ----------
+    levels : ndarray of shape (L,)
+        Load levels, pinion torque [N.m].
+    series : ndarray of shape (L * N_SERIES * (2 H + 1),)
+        Fourier coefficients grouped by load, then order, then cosine before sine.
+    windows : ndarray of shape (L * (N + 1) * N_CHANNELS,)
+        Pair data at the nodes, the first node repeated at the end.
+    orders, nodes : int
+        H and N.
+    """
+
+    levels: Array
+    series: Array
+    windows: Array
+    orders: int
+    nodes: int
+
+    @property
+    def series_size(self) -> int:
+        """Number of series coefficients at one load level."""
+        return N_SERIES * (2 * self.orders + 1)
+
+
+def pack_mesh(table: MeshTable, contact_modulus: float) -> PackedMesh:
+    """Return the flat arrays of `table`.
+
+    What depends on position alone (ellipse, film geometry) is evaluated here, once, by the same
+    kernels that everything else uses.
+
+    Parameters
+    ----------
+    table : MeshTable
+    contact_modulus : float
+        E* [Pa].
+    """
+    levels = table.torque.size
+    orders = table.orders
+    series = np.empty((levels, 2 * orders + 1, N_SERIES))
+    for column, key in enumerate(SERIES_UNITS):
+        coefficients = table.series[key]
+        series[:, 0, column] = coefficients[:, 0, 0]
+        series[:, 1::2, column] = coefficients[:, 1:, 0]
+        series[:, 2::2, column] = coefficients[:, 1:, 1]
+    nodes = table.nodes
+    windows = np.empty((levels, nodes + 1, N_CHANNELS))
+    data = table.windows
+    for level in range(levels):
+        for node in range(nodes):
+            R_x, R_y = data["R_x"][level, node], data["R_y"][level, node]
+            R_e, side_flow = film_geometry(R_x, R_y, data["psi"][level, node])
+            windows[level, node] = (
+                data["share"][level, node],
+                R_e,
+                side_flow,
+                hertz_coefficients(R_x, R_y, contact_modulus)[2],
+                data["entrainment_arm"][level, node],
+                data["friction_arm_p"][level, node],
+                data["friction_arm_g"][level, node],
+                data["xi_x"][level, node],
+                data["xi_y"][level, node],
+                data["xi_z"][level, node],
+            )
+    windows[:, nodes] = windows[:, 0]
+    return PackedMesh(
+        np.ascontiguousarray(table.torque), series.ravel(), windows.ravel(), orders, nodes
+    )

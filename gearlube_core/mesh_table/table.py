@@ -1,0 +1,170 @@
+"""MeshTable: everything that mesh dynamics needs to know of a tooth contact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import as_file, files
+from pathlib import Path
+from typing import Literal, NamedTuple, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.errors import TableError
+
+Array = NDArray[np.float64]
+Kind = Literal["table", "inferred", "completed"]
+
+SERIES_UNITS: Mapping[str, str] = {
+    "k_m": "N/m",
+    "R_p": "m",
+    "R_g": "m",
+    "n_x": "1",
+    "n_y": "1",
+    "n_z": "1",
+    "e": "m",
+}
+WINDOW_UNITS: Mapping[str, str] = {
+    "share": "1",
+    "R_x": "m",
+    "R_y": "m",
+    "psi": "rad",
+    "entrainment_arm": "m",
+    "friction_arm_p": "m",
+    "friction_arm_g": "m",
+    "xi_x": "1",
+    "xi_y": "1",
+    "xi_z": "1",
+}
+PAIRS = 3
+SHARE_TOLERANCE = 1e-9  # shares are normalised in double precision before they are stored
+
+
+class Provenance(NamedTuple):
+    """Where a datum comes from: printed in a source, inferred from it, or completed by us."""
+
+    kind: Kind
+    derivation: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshTable:
+    """Periodic mesh data against pinion angle and load.
+
+    A *series* is periodic in one mesh period: value(phi) = sum_h [c_h cos(h z_p phi) +
+    s_h sin(h z_p phi)], h = 0 .. H. A *window* follows one tooth pair over `PAIRS` mesh periods;
+    pair j = 0, 1, 2 sits at ((z_p phi / 2 pi + j) mod 3) / 3 of the window, and its share is zero
+    outside its contact. Phase zero: pair 0 enters contact.
+
+    Parameters
+    ----------
+    name : str
+    pinion_teeth, gear_teeth : int
+        Numbers of teeth [-].
+    torque : ndarray of shape (L,)
+        Pinion torque of each load level [N.m], increasing. Between levels data are interpolated
+        linearly, outside held.
+    contact_ratio : float
+        Length of contact of a pair in mesh periods [-], at most `PAIRS`.
+    series : mapping of str to ndarray of shape (L, H + 1, 2)
+        Cosine and sine coefficients of k_m [N/m] (secant stiffness along the line of action),
+        R_p, R_g [m] (contact radii), n_x, n_y, n_z [-] (unit normal, pinion into gear) and
+        e [m] (unloaded transmission error).
+    windows : mapping of str to ndarray of shape (L, N)
+        Per pair, at N nodes over the window, N divisible by `PAIRS`: load share [-], R_x and R_y
+        [m] (relative radii along the minor and the major axis of the contact ellipse), psi [rad]
+        (entrainment from the minor axis), entrainment_arm [m] (mean surface speed per pinion
+        speed), friction_arm_p/g [m], xi [-] (unit sliding direction, pinion relative to gear).
+    provenance : mapping of str to Provenance
+        One entry for each series and window.
+
+    Raises
+    ------
+    TableError
+        When a datum is missing, has the wrong shape, is not finite or contradicts another.
+
+    References
+    ----------
+    Mohammadpour et al. 2015, eq. (5) and (23); Karagiannis et al. 2012, eq. (26)-(29). The papers'
+    flank functions of period contact_ratio do not repeat with the mesh for non-integer contact
+    ratios; windows in a period of `PAIRS` mesh periods do.
+    """
+
+    name: str
+    pinion_teeth: int
+    gear_teeth: int
+    torque: Array
+    contact_ratio: float
+    series: Mapping[str, Array]
+    windows: Mapping[str, Array]
+    provenance: Mapping[str, Provenance]
+
+    def __post_init__(self) -> None:
+        levels = self.torque.size
+        if self.torque.ndim != 1 or levels < 1 or np.any(np.diff(self.torque) <= 0.0):
+            raise TableError(f"{self.name}: torque must be a rising list [N.m], got {self.torque}.")
+        if not 1.0 <= self.contact_ratio <= PAIRS:
+            raise TableError(
+                f"{self.name}: contact_ratio must be within 1 to {PAIRS}, got "
+                f"{self.contact_ratio:g}. More simultaneous pairs need a longer window."
+            )
+        self._check("series", self.series, SERIES_UNITS, 3)
+        self._check("windows", self.windows, WINDOW_UNITS, 2)
+        nodes = self.nodes
+        if nodes % PAIRS:
+            raise TableError(f"{self.name}: the window needs {PAIRS} n nodes, got {nodes}.")
+        share = self.windows["share"].reshape(levels, PAIRS, nodes // PAIRS).sum(axis=1)
+        worst = float(np.max(np.abs(share - 1.0)))
+        if worst > SHARE_TOLERANCE:
+            raise TableError(f"{self.name}: load shares must sum to 1, off by {worst:.3g}.")
+
+    def _check(
+        self, kind: str, data: Mapping[str, Array], wanted: Mapping[str, str], ndim: int
+    ) -> None:
+        shape = None
+        for key in wanted:
+            if key not in data:
+                raise TableError(f"{self.name}: {kind} lacks {key!r} [{wanted[key]}].")
+            values = data[key]
+            shape = values.shape if shape is None else shape
+            if values.ndim != ndim or values.shape[0] != self.torque.size or values.shape != shape:
+                raise TableError(
+                    f"{self.name}: {kind} {key!r} has shape {values.shape}, expected {shape} "
+                    f"with {self.torque.size} load levels first."
+                )
+            if not np.all(np.isfinite(values)):
+                raise TableError(f"{self.name}: {kind} {key!r} holds a NaN or an infinity.")
+            origin = self.provenance.get(key)
+            if origin is None or origin.kind not in get_args(Kind) or not origin.derivation:
+                raise TableError(f"{self.name}: {key!r} needs a provenance and its derivation.")
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes in a window [-]."""
+        return int(self.windows["share"].shape[1])
+
+    @property
+    def orders(self) -> int:
+        """Highest mesh order of the series [-]."""
+        return int(self.series["k_m"].shape[1]) - 1
+
+    @property
+    def ratio(self) -> float:
+        """Teeth ratio gear / pinion [-]."""
+        return self.gear_teeth / self.pinion_teeth
+
+    def mean(self, key: str, torque: float) -> float:
+        """Return the mean over a mesh period of series `key` at pinion torque `torque` [N.m]."""
+        return float(np.interp(abs(torque), self.torque, self.series[key][:, 0, 0]))
+
+    @classmethod
+    def named(cls, name: str) -> MeshTable:
+        """Return a table that ships with the package, e.g. "mohammadpour_2015"."""
+        from gearlube_core.mesh_table.netcdf import read_mesh_table
+
+        resource = files("gearlube_core.mesh_table") / "data" / f"{name}.nc"
+        if not resource.is_file():
+            raise TableError(f"No mesh table is called {name!r}. Shipped: mohammadpour_2015.")
+        with as_file(resource) as path:
+            return read_mesh_table(Path(path))
