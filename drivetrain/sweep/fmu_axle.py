@@ -1,0 +1,150 @@
+"""An FMI 2.0 co-simulation slave, stepped with as little work per step as possible."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.errors import ParameterError, StepError
+
+INPUTS = ("pinion.torque", "wheel.torque", "oil.temperature")
+
+
+class FmuAxle:
+    """One instance of the axle FMU.
+
+    Parameters
+    ----------
+    directory : Path
+        Folder into which the FMU was unzipped.
+    channels : sequence of str
+        Real outputs that `read` returns, in this order.
+
+    Notes
+    -----
+    Value references are looked up once and all outputs come in one fmi2GetReal call into a buffer
+    that is reused. What the FMU logs is kept in `messages`.
+    """
+
+    def __init__(self, directory: Path, channels: Sequence[str]) -> None:
+        from fmpy import fmi2, read_model_description
+        from fmpy.fmi1 import FMICallException
+
+        description = read_model_description(str(directory))
+        self.guid = description.guid
+        self.messages: list[str] = []
+        self._variables = {v.name: v for v in description.modelVariables}
+        missing = [name for name in (*INPUTS, *channels) if name not in self._variables]
+        if missing:
+            raise ParameterError(
+                f"The FMU must have the variables of a gearlube hypoid axle, "
+                f"{', '.join(missing)} is missing. Build it with `gearlube build-fmu`."
+            )
+        self._fmi = fmi2
+        self._call_error = FMICallException
+        # The callbacks must outlive the instance, hence an attribute.
+        self._callbacks = self._make_callbacks()
+        self._slave: Any = fmi2.FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=str(directory),
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="axle",
+        )
+        self._slave.instantiate(callbacks=self._callbacks)
+        self._input_references = self._references(INPUTS)
+        self._inputs = (ctypes.c_double * len(INPUTS))()
+        self._output_references = self._references(channels)
+        self._outputs = (ctypes.c_double * len(channels))()
+        self._view: NDArray[np.float64] = np.ctypeslib.as_array(self._outputs)
+        self._time = 0.0
+
+    def __enter__(self) -> FmuAxle:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self._slave.freeInstance()
+
+    def _references(self, names: Sequence[str]) -> Any:
+        references = [self._variables[name].valueReference for name in names]
+        return (ctypes.c_uint * len(references))(*references)
+
+    def _make_callbacks(self) -> Any:
+        from fmpy import calloc, free
+
+        def log(_environment: Any, _name: Any, status: int, _category: Any, message: bytes) -> None:
+            if status > 0 and message:
+                self.messages.append(message.decode(errors="replace").strip())
+
+        fmi2 = self._fmi
+        callbacks = fmi2.fmi2CallbackFunctions()
+        callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(log)
+        callbacks.allocateMemory = fmi2.fmi2CallbackAllocateMemoryTYPE(calloc)
+        callbacks.freeMemory = fmi2.fmi2CallbackFreeMemoryTYPE(free)
+        return callbacks
+
+    def _refusal(self, what: str) -> str:
+        return f"{what}: {' '.join(self.messages) or 'the FMU gave no reason.'}"
+
+    def set_parameters(self, values: Mapping[str, str | float | int]) -> None:
+        """Set FMU parameters by name; enumerations take the name of their item."""
+        for name, value in values.items():
+            variable = self._variables.get(name)
+            if variable is None:
+                raise ParameterError(f"The FMU has no parameter {name!r}. Rebuild the FMU.")
+            reference = [variable.valueReference]
+            if variable.type == "Enumeration":
+                items = {item.name: int(item.value) for item in variable.declaredType.items}
+                if value not in items:
+                    raise ParameterError(
+                        f"{name} must be one of {', '.join(items)}; got {value!r}."
+                    )
+                self._slave.setInteger(reference, [items[str(value)]])
+            elif variable.type == "Integer":
+                self._slave.setInteger(reference, [int(value)])
+            else:
+                self._slave.setReal(reference, [float(value)])
+
+    def initialise(self, pinion_torque: float, wheel_torque: float, temperature: float) -> None:
+        """Enter and leave initialisation mode with these inputs [N.m, N.m, K]."""
+        self._inputs[:] = [pinion_torque, wheel_torque, temperature]
+        slave = self._slave
+        try:
+            slave.setupExperiment(startTime=0.0)
+            slave.enterInitializationMode()
+            slave.fmi2SetReal(slave.component, self._input_references, 3, self._inputs)
+            slave.exitInitializationMode()
+        except self._call_error as error:
+            raise StepError(self._refusal("The axle FMU could not be initialised")) from error
+        self._time = 0.0
+
+    def read(self) -> NDArray[np.float64]:
+        """Return the channels; the array is overwritten by the next call."""
+        slave = self._slave
+        slave.fmi2GetReal(
+            slave.component, self._output_references, len(self._outputs), self._outputs
+        )
+        return self._view
+
+    def step(self, h: float, pinion_torque: float, wheel_torque: float) -> None:
+        """Advance by `h` [s] with constant torques [N.m]."""
+        inputs, slave = self._inputs, self._slave
+        inputs[0] = pinion_torque
+        inputs[1] = wheel_torque
+        try:
+            slave.fmi2SetReal(slave.component, self._input_references, 3, inputs)
+            slave.fmi2DoStep(slave.component, self._time, h, 1)
+        except self._call_error as error:
+            refusal = self._refusal(f"The axle FMU refused the step at t = {self._time:.4f} s")
+            raise StepError(refusal) from error
+        self._time += h

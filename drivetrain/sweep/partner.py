@@ -1,0 +1,43 @@
+"""Which driver a point runs against, and the shaft speed that goes with its vehicle speed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from drivetrain.road_load import mohammadpour_2015_road_load
+from drivetrain.sweep.recording import Driver
+from drivetrain.sweep.settings import SweepSettings
+from gearlube_core.units import kmh_to_ms
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Operation:
+    """Operating point of the axle.
+
+    Parameters
+    ----------
+    driver : Driver
+        Partner of the axle.
+    pinion_speed : float
+        Speed of the pinion at the start [rad/s].
+    tyre_radius : float
+        Dynamic radius of the tyres [m].
+    """
+
+    driver: Driver
+    pinion_speed: float
+    tyre_radius: float
+
+
+def operation(settings: SweepSettings, speed_kmh: float) -> Operation:
+    """Return the driver and the start of the point at `speed_kmh` [km/h]."""
+    from drivetrain.drivers import CoupledVehicle, SpeedHold
+
+    speed = kmh_to_ms(speed_kmh)
+    road = mohammadpour_2015_road_load()
+    kind = CoupledVehicle if settings.driver == "vehicle" else SpeedHold
+    return Operation(
+        driver=kind(speed),
+        pinion_speed=road.pinion_speed(speed),
+        tyre_radius=road.tyre.rolling_radius,
+    )

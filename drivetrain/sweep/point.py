@@ -1,0 +1,117 @@
+"""One point of a sweep: the axle FMU with its driver at one speed and one preload."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from drivetrain.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
+from drivetrain.sweep.curves import mesh_cycle, roller_zone, spectra, waves
+from drivetrain.sweep.fmu_axle import FmuAxle
+from drivetrain.sweep.partner import Operation, operation
+from drivetrain.sweep.quantities import described
+from drivetrain.sweep.recording import Recording, record
+from drivetrain.sweep.scalars import scalars
+from drivetrain.sweep.settings import SweepSettings
+from drivetrain.sweep.unpack import unpacked
+from gearlube_core.errors import GearLubeError
+from gearlube_core.spectra import angle_window
+from gearlube_core.units import kmh_to_ms
+
+logger = logging.getLogger(__name__)
+
+FINISHED, FAILED = 1, 0
+
+
+def run_point(
+    fmu: Path | str, speed_kmh: float, preload: float, settings: SweepSettings
+) -> xr.Dataset:
+    """Simulate one point and return everything the figures need.
+
+    Parameters
+    ----------
+    fmu : path
+        The axle FMU, or the folder into which it was unzipped (faster for many points).
+    speed_kmh : float
+        Vehicle speed [km/h].
+    preload : float
+        Bearing preload [N].
+    settings : SweepSettings
+        Everything else.
+
+    Returns
+    -------
+    xarray.Dataset
+        Scalars, spectra, one revolution of waveforms, mean mesh cycle and roller load zone, with
+        units. `status` is 0 and `message` says why when the FMU or its driver refused.
+    """
+    try:
+        with unpacked(Path(fmu)) as directory:
+            recording, where = _simulate(directory, speed_kmh, preload, settings)
+        return summarise(recording, where, speed_kmh, preload, settings)
+    except GearLubeError as error:
+        logger.warning("%g km/h, %g N failed: %s", speed_kmh, preload, error)
+        return failed_point(speed_kmh, preload, str(error))
+
+
+def _simulate(
+    directory: Path, speed_kmh: float, preload: float, settings: SweepSettings
+) -> tuple[Recording, Operation]:
+    where = operation(settings, speed_kmh)
+    with FmuAxle(directory, CHANNELS) as axle:
+        axle.set_parameters(settings.fmu_parameters)
+        axle.set_parameters({"bearing.preload": preload, "pinion.speed_start": where.pinion_speed})
+        return record(axle, where.driver, settings, CHANNELS), where
+
+
+def summarise(
+    recording: Recording,
+    where: Operation,
+    speed_kmh: float,
+    preload: float,
+    settings: SweepSettings,
+) -> xr.Dataset:
+    """Turn a recording into the dataset of its point."""
+    window = angle_window(
+        recording.time,
+        recording["pinion.angle"],
+        revolutions=recording.revolutions,
+        samples_per_revolution=recording.teeth * recording.steps_per_mesh_period,
+    )
+    numbers = scalars(recording, window, backlash=settings.backlash, tyre_radius=where.tyre_radius)
+    dataset = xr.Dataset(
+        {
+            "status": FINISHED,
+            "message": "",
+            **numbers,
+            **spectra(recording, window),
+            **waves(recording),
+            **mesh_cycle(recording),
+            **roller_zone(recording),
+        },
+        coords={
+            **_operating_point(speed_kmh, preload),
+            "bearing": list(BEARINGS),
+            "axis": list(AXES),
+            "source": list(LOSSES),
+            "flank": list(FLANKS),
+        },
+    )
+    return described(dataset)
+
+
+def failed_point(speed_kmh: float, preload: float, message: str) -> xr.Dataset:
+    """Return the row of a point that could not be computed."""
+    variables = {"status": FAILED, "message": message}
+    return described(xr.Dataset(variables, coords=_operating_point(speed_kmh, preload)))
+
+
+def _operating_point(speed_kmh: float, preload: float) -> dict[str, np.float64]:
+    return {
+        "speed": np.float64(kmh_to_ms(speed_kmh)),
+        "speed_kmh": np.float64(speed_kmh),
+        "preload": np.float64(preload),
+    }

@@ -1,0 +1,100 @@
+"""Names, units and descriptions of everything in a sweep file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+SEPARATION_MEANINGS = ("none", "single-sided", "double-sided")
+
+# name: (unit, description)
+QUANTITIES: Mapping[str, tuple[str, str]] = {
+    "speed": ("m s-1", "vehicle speed asked for"),
+    "speed_kmh": ("km h-1", "vehicle speed asked for"),
+    "preload": ("N", "bearing preload"),
+    "status": ("1", "1: finished, 0: failed, see message"),
+    "message": ("", "why a point failed"),
+    "vehicle_speed": ("m s-1", "mean vehicle speed over the record"),
+    "pinion_speed": ("rad s-1", "mean pinion speed"),
+    "pinion_torque": ("N m", "mean torque on the pinion"),
+    "wheel_torque": ("N m", "mean load torque on the wheel gear"),
+    "mesh_frequency": ("Hz", "mean tooth mesh frequency"),
+    "pinion_frequency": ("Hz", "mean rotation frequency of the pinion"),
+    "wheel_frequency": ("Hz", "mean rotation frequency of the wheel gear"),
+    "pinion_cage_frequency": ("Hz", "mean rotation frequency of the pinion bearing cage"),
+    "wheel_cage_frequency": ("Hz", "mean rotation frequency of the wheel bearing cage"),
+    "record_revolutions": ("1", "pinion revolutions analysed"),
+    "communication_step": ("s", "communication step, mesh period over an integer"),
+    "dte_min": ("m", "smallest dynamic transmission error"),
+    "dte_max": ("m", "largest dynamic transmission error"),
+    "dte_mean": ("m", "mean dynamic transmission error"),
+    "dte_pp": ("m", "peak-to-peak dynamic transmission error"),
+    "dte_rms": ("m", "rms of the dynamic transmission error about its mean"),
+    "separation": ("1", "loss of tooth contact"),
+    "separated_fraction": ("1", "share of time without contact on the drive flank"),
+    "mesh_force_min": ("N", "smallest mesh force"),
+    "mesh_force_max": ("N", "largest mesh force"),
+    "mesh_force_mean": ("N", "mean mesh force"),
+    "dynamic_factor": ("1", "largest over mean mesh force"),
+    "radial_min": ("m", "smallest radial displacement of the pinion, sqrt(y2 + z2)"),
+    "radial_max": ("m", "largest radial displacement of the pinion, sqrt(y2 + z2)"),
+    "radial_mean": ("m", "mean radial displacement of the pinion, sqrt(y2 + z2)"),
+    "radial_pp": ("m", "peak-to-peak radial displacement of the pinion"),
+    "axial_pp": ("m", "peak-to-peak axial displacement of the pinion"),
+    "wheel_axial_pp": ("m", "peak-to-peak axial displacement of the wheel gear"),
+    "roller_load_min": ("N", "smallest load of roller 1 of pinion bearing 1"),
+    "roller_load_max": ("N", "largest load of roller 1 of pinion bearing 1"),
+    "roller_load_mean": ("N", "mean load of roller 1 of pinion bearing 1"),
+    "bearing_roller_load_min": ("N", "smallest load of any roller of the bearing"),
+    "bearing_roller_load_max": ("N", "largest load of any roller of the bearing"),
+    "bearing_force_mean": ("N", "mean force of the bearing on its shaft"),
+    "bearing_force_pp": ("N", "peak-to-peak force of the bearing on its shaft"),
+    "power_in": ("W", "mean power into the pinion"),
+    "loss": ("W", "mean power lost"),
+    "efficiency_mesh": ("1", "efficiency of the gear mesh, eq. (21): flank friction only"),
+    "efficiency_axle": ("1", "efficiency with all modelled losses"),
+    "energy_closure_error": ("1", "energy that the balance does not account for, over input"),
+    "film_thickness_min": ("m", "smallest central film thickness on a loaded flank"),
+    "film_ratio_min": ("1", "smallest film ratio on a loaded flank"),
+    "flank_temperature_max": ("K", "largest film temperature on a flank"),
+    "frequency": ("Hz", "frequency of the bin at the mean speed"),
+    "order": ("1", "cycles per pinion revolution"),
+    "dte_spectrum": ("m", "amplitude of the dynamic transmission error"),
+    "radial_spectrum": ("m", "amplitude of the radial displacement of the pinion"),
+    "axial_spectrum": ("m", "amplitude of the axial displacement of the pinion"),
+    "bearing_force_spectrum": ("N", "amplitude of the force of bearing 1 along y"),
+    "roller_load_spectrum": ("N", "amplitude of the load of roller 1 of pinion bearing 1"),
+    "pinion_angle": ("rad", "pinion angle within one revolution"),
+    "dte_wave": ("m", "dynamic transmission error over one pinion revolution"),
+    "mesh_force_wave": ("N", "mesh force over one pinion revolution"),
+    "pinion_y_wave": ("m", "displacement of the pinion along y over one revolution"),
+    "pinion_z_wave": ("m", "displacement of the pinion along z over one revolution"),
+    "roller_load_wave": ("N", "load of roller 1 of pinion bearing 1 over one revolution"),
+    "mesh_phase": ("1", "mesh cycles since the pinion angle was a multiple of the pitch"),
+    "flank_load": ("N", "load on the flank, mean over the cycles"),
+    "flank_film_thickness": ("m", "central film thickness, mean over the cycles"),
+    "flank_film_ratio": ("1", "film ratio, mean over the cycles"),
+    "flank_friction_coefficient": ("1", "coefficient of friction, mean over the cycles"),
+    "flank_temperature": ("K", "film temperature, mean over the cycles"),
+    "cage_angle": ("rad", "angle of the pinion bearing cage"),
+    "roller_zone_mean": ("N", "mean load of roller 1 at this cage angle"),
+    "roller_zone_min": ("N", "smallest load of roller 1 at this cage angle"),
+    "roller_zone_max": ("N", "largest load of roller 1 at this cage angle"),
+    "mode_frequency": ("Hz", "undamped natural frequency at the mean mesh stiffness"),
+}
+
+
+def described(dataset: xr.Dataset) -> xr.Dataset:
+    """Return `dataset` with `units` and `long_name` on every known variable."""
+    for name in map(str, dataset.variables):
+        if name in QUANTITIES:
+            unit, text = QUANTITIES[name]
+            dataset[name].attrs.update(units=unit, long_name=text)
+    if "separation" in dataset:
+        dataset["separation"].attrs.update(
+            flag_values=np.arange(3, dtype=np.int64),
+            flag_meanings=" ".join(SEPARATION_MEANINGS),
+        )
+    return dataset

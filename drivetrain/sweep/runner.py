@@ -1,0 +1,243 @@
+"""A grid of speeds and preloads: compute what is missing, keep every finished point."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import BrokenExecutor, Future, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from drivetrain.sweep.executors import Crew, PointFunction, crew_for
+from drivetrain.sweep.merge import merge, save
+from drivetrain.sweep.point import FINISHED, failed_point, run_point
+from drivetrain.sweep.settings import SweepSettings
+from drivetrain.sweep.store import PointStore
+from drivetrain.sweep.unpack import fmu_guid, unpacked
+from gearlube_core import __version__
+from gearlube_core.checks import check_within
+from gearlube_core.errors import GearLubeError, ParameterError
+
+logger = logging.getLogger(__name__)
+
+_ATTEMPTS = 3  # local pools, should processes die
+
+Place = tuple[float, float]  # speed [km/h], preload [N]
+
+
+class SweepInterruptedError(GearLubeError):
+    """The sweep was stopped from the keyboard; its finished points are on disk."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """What an observer is told after every point."""
+
+    done: int
+    total: int
+    speed_kmh: float
+    preload: float
+    finished: bool
+    reused: bool
+
+
+Observer = Callable[[Progress], None]
+
+
+def run_sweep(
+    fmu: Path | str,
+    *,
+    speeds_kmh: Sequence[float],
+    preloads: Sequence[float],
+    settings: SweepSettings | None = None,
+    out: Path | str = "gearlube_sweep",
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    observer: Observer | None = None,
+    command_line: str = "",
+    point: PointFunction = run_point,
+) -> xr.Dataset:
+    """Run the axle FMU over a grid of vehicle speeds and bearing preloads.
+
+    Parameters
+    ----------
+    fmu : path
+        The axle FMU.
+    speeds_kmh, preloads : sequence of float
+        Grid [km/h], [N].
+    settings : SweepSettings
+        Shared by all points.
+    out : path
+        Folder of results: points/ holds every finished point; sweep.nc and summary.csv all.
+        Points that are already there are not computed again; failed ones are.
+    jobs : int
+        Local processes [-]; all processors if None. Without effect on a cluster.
+    scheduler : str
+        Address of a running Dask scheduler, "tcp://host:port".
+    observer : callable
+        Called with a `Progress` after every point.
+    command_line : str
+        Noted in the file.
+    point : callable
+        Computes one point; importable by the workers.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (preload, speed); also written to out/sweep.nc.
+
+    Raises
+    ------
+    SweepInterruptedError
+        After Ctrl-C, when the finished points have been saved.
+    """
+    fmu, out = Path(fmu), Path(out)
+    settings = settings or SweepSettings()
+    speeds = sorted({check_within("speed", v, 1.0, 400.0, "km/h") for v in speeds_kmh})
+    loads = sorted({check_within("preload", p, 1.0, 1e5, "N") for p in preloads})
+    if not speeds or not loads:
+        raise ParameterError("A sweep needs at least one speed and one preload, got none.")
+    with unpacked(fmu) as directory:
+        guid = fmu_guid(directory)
+    keys = {
+        (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=__version__)
+        for p in loads
+        for v in speeds
+    }
+    store = PointStore(out / "points")
+    began = time.monotonic()
+    book = _Book(keys, store, observer)
+    book.reuse()
+    try:
+        _compute(book, fmu, settings, jobs=jobs, scheduler=scheduler, point=point)
+    except KeyboardInterrupt:
+        raise SweepInterruptedError(
+            f"Stopped: {len(book.finished)} of {len(keys)} points are finished and kept in "
+            f"{store.directory}. Run the same command again to compute the rest."
+        ) from None
+    sweep = merge(loads, speeds, book.points).assign_attrs(
+        {
+            "title": "Speed sweep of a lubricated hypoid axle",
+            "gearlube_version": __version__,
+            "fmu_guid": guid,
+            "command_line": command_line,
+            "scheduler": scheduler or "local processes",
+            "computed_points": len(keys) - book.reused,
+            "wall_time": time.monotonic() - began,
+            **{f"setting_{name}": value for name, value in settings.as_dict().items()},
+        }
+    )
+    save(sweep, out)
+    return sweep
+
+
+class _Book:
+    """Which points are there and which are due."""
+
+    def __init__(
+        self, keys: dict[Place, str], store: PointStore, observer: Observer | None
+    ) -> None:
+        self.keys = keys
+        self.points: dict[Place, xr.Dataset] = {}
+        self.reused = 0
+        self._store = store
+        self._observer = observer
+
+    @property
+    def finished(self) -> list[Place]:
+        return [at for at, dataset in self.points.items() if int(dataset["status"]) == FINISHED]
+
+    @property
+    def due(self) -> list[Place]:
+        return [at for at in self.keys if at not in self.points]
+
+    def reuse(self) -> None:
+        for at, key in self.keys.items():
+            dataset = self._store.load(key)
+            if dataset is not None:
+                self.reused += 1
+                self._enter(at, dataset, reused=True)
+
+    def add(self, at: Place, dataset: xr.Dataset) -> None:
+        if int(dataset["status"]) == FINISHED:
+            self._store.save(self.keys[at], dataset)
+        self._enter(at, dataset, reused=False)
+
+    def _enter(self, at: Place, dataset: xr.Dataset, *, reused: bool) -> None:
+        self.points[at] = dataset
+        if self._observer is not None:
+            self._observer(
+                Progress(
+                    done=len(self.points),
+                    total=len(self.keys),
+                    speed_kmh=at[0],
+                    preload=at[1],
+                    finished=int(dataset["status"]) == FINISHED,
+                    reused=reused,
+                )
+            )
+
+
+def _compute(
+    book: _Book,
+    fmu: Path,
+    settings: SweepSettings,
+    *,
+    jobs: int | None,
+    scheduler: str | None,
+    point: PointFunction,
+) -> None:
+    """Compute all due points; a point whose process died is tried again in a new pool."""
+    last = ""
+    for _ in range(_ATTEMPTS):
+        if not book.due:
+            return
+        workers = min(jobs, len(book.due)) if jobs else None
+        try:
+            with crew_for(fmu, jobs=workers, scheduler=scheduler, point=point) as crew:
+                _collect(book, crew, settings)
+        except BrokenExecutor as error:
+            last = str(error)
+            logger.warning("A worker process died; trying its points again: %s", error)
+    for speed_kmh, preload in book.due:
+        message = f"The process of this point died {_ATTEMPTS} times: {last}"
+        book.add((speed_kmh, preload), failed_point(speed_kmh, preload, message))
+
+
+def _collect(book: _Book, crew: Crew, settings: SweepSettings) -> None:
+    """Submit what is due and enter results as they come; the same loop for every executor."""
+    futures: dict[Future[xr.Dataset], Place] = {
+        crew.executor.submit(crew.run, *crew.leading, *at, settings): at for at in book.due
+    }
+    try:
+        for future in as_completed(futures):
+            book.add(futures[future], _result(future, futures[future]))
+    except KeyboardInterrupt:
+        _keep_what_is_running(book, futures)
+        raise
+
+
+def _result(future: Future[xr.Dataset], at: Place) -> xr.Dataset:
+    try:
+        return future.result()
+    except BrokenExecutor:
+        raise
+    except Exception as error:
+        # The boundary of the sweep: whatever went wrong in one point becomes a row.
+        logger.warning("%g km/h, %g N failed", *at, exc_info=error)
+        return failed_point(*at, f"{type(error).__name__}: {error}")
+
+
+def _keep_what_is_running(book: _Book, futures: dict[Future[xr.Dataset], Place]) -> None:
+    """Cancel what has not begun, wait for the points under way and keep them."""
+    logger.info("Stopping; the points under way will be kept (Ctrl-C again to drop them).")
+    for future in futures:
+        future.cancel()
+    for future, at in futures.items():
+        if at not in book.points and not future.cancelled():
+            with contextlib.suppress(BrokenExecutor):
+                book.add(at, _result(future, at))

@@ -1,0 +1,125 @@
+"""Bookkeeping of a sweep: nothing computed twice, nothing lost, failures are rows."""
+
+import numpy as np
+import pytest
+import sweep_stand_in as stand_in
+import xarray as xr
+
+from drivetrain.sweep import SweepInterruptedError, SweepSettings, load_sweep, run_sweep
+from drivetrain.sweep.merge import merge
+from gearlube_core.errors import GearLubeError, ParameterError
+
+SETTINGS = SweepSettings()
+SPEEDS = (20.0, 40.0, 60.0)
+
+
+@pytest.fixture
+def fmu(tmp_path):
+    return stand_in.write_fmu(tmp_path / "axle.fmu")
+
+
+def sweep(fmu, out, point, **options):
+    seen = []
+    arguments = {"speeds_kmh": SPEEDS, "preloads": (2500.0, 6000.0), "jobs": 1} | options
+    dataset = run_sweep(
+        fmu, settings=SETTINGS, out=out, observer=seen.append, point=point, **arguments
+    )
+    return dataset, seen
+
+
+def test_points_are_laid_out_over_preload_and_speed_with_ragged_spectra_padded(fmu, tmp_path):
+    dataset, seen = sweep(fmu, tmp_path / "out", stand_in.small_point)
+    assert dataset["dte_pp"].dims == ("preload", "speed")
+    assert dataset["dte_pp"].sel(preload=6000.0).values == pytest.approx([26e-9, 46e-9, 66e-9])
+    spectrum = dataset["dte_spectrum"]
+    assert spectrum.shape == (2, 3, 60)
+    np.testing.assert_array_equal(np.isfinite(spectrum).sum("bin"), [[20, 40, 60]] * 2)
+    assert [p.done for p in seen] == [1, 2, 3, 4, 5, 6]
+
+
+def test_file_tells_settings_version_and_fmu_and_can_be_read_by_speed_in_kmh(fmu, tmp_path):
+    sweep(fmu, tmp_path / "out", stand_in.small_point, command_line="gearlube sweep")
+    dataset = load_sweep(tmp_path / "out")
+    assert dataset.attrs["fmu_guid"] == "{test}"
+    assert dataset.attrs["command_line"] == "gearlube sweep"
+    assert dataset.attrs["setting_equations"] == "consistent"
+    assert float(dataset["dte_pp"].sel(speed_kmh=40.0, preload=2500.0)) == pytest.approx(42.5e-9)
+    assert (tmp_path / "out" / "summary.csv").read_text().startswith("preload,")
+
+
+def test_second_run_computes_nothing_and_gives_the_same_dataset(fmu, tmp_path):
+    first, _ = sweep(fmu, tmp_path / "out", stand_in.small_point)
+    second, seen = sweep(fmu, tmp_path / "out", stand_in.refusing_point)
+    assert all(progress.reused for progress in seen)
+    xr.testing.assert_identical(first.drop_attrs(), second.drop_attrs())
+
+
+def test_only_new_speeds_are_computed_when_the_grid_grows(fmu, tmp_path):
+    sweep(fmu, tmp_path / "out", stand_in.small_point)
+    _, seen = sweep(fmu, tmp_path / "out", stand_in.small_point, speeds_kmh=(*SPEEDS, 80.0))
+    assert [p.speed_kmh for p in seen if not p.reused] == [80.0, 80.0]
+
+
+def test_a_damaged_point_file_is_computed_again(fmu, tmp_path):
+    first, _ = sweep(fmu, tmp_path / "out", stand_in.small_point)
+    victim = min((tmp_path / "out" / "points").iterdir())
+    victim.write_bytes(victim.read_bytes()[:1000])
+    second, seen = sweep(fmu, tmp_path / "out", stand_in.small_point)
+    assert sum(not progress.reused for progress in seen) == 1
+    xr.testing.assert_identical(first.drop_attrs(), second.drop_attrs())
+
+
+def test_failed_points_are_rows_with_a_message_and_are_tried_again(fmu, tmp_path):
+    dataset, _ = sweep(fmu, tmp_path / "out", stand_in.refusing_point)
+    np.testing.assert_array_equal(dataset["status"], [[1, 0, 0]] * 2)
+    assert dataset["message"].values[0, 1] == "the FMU refused the step"
+    assert dataset["message"].values[1, 2] == "GearLubeError: unforeseen"
+    assert np.isnan(dataset["dte_pp"].values[0, 1])
+    again, seen = sweep(fmu, tmp_path / "out", stand_in.small_point)
+    assert sum(not progress.reused for progress in seen) == 4
+    assert int(again["status"].sum()) == 6
+
+
+def test_a_point_whose_process_died_is_computed_by_another_process(fmu, tmp_path):
+    directory = tmp_path / "unzipped"
+    directory.mkdir()
+    (directory / "modelDescription.xml").write_text('<fmiModelDescription guid="{test}"/>')
+    dataset, _ = sweep(directory, tmp_path / "out", stand_in.dying_point, jobs=2)
+    assert int(dataset["status"].sum()) == 6
+
+
+def test_ctrl_c_keeps_finished_points_and_says_how_to_go_on(fmu, tmp_path):
+    with pytest.raises(SweepInterruptedError, match="Run the same command again"):
+        sweep(fmu, tmp_path / "out", stand_in.interrupting_point, preloads=(2500.0,))
+    kept = len(list((tmp_path / "out" / "points").iterdir()))
+    assert kept == 3  # two were finished, the third was under way and is waited for
+    _, seen = sweep(fmu, tmp_path / "out", stand_in.small_point, preloads=(2500.0,))
+    assert all(progress.reused for progress in seen)
+
+
+def test_missing_points_stay_nan_in_the_merged_dataset(fmu, tmp_path):
+    lone = stand_in.small_point(tmp_path_with_description(tmp_path), 20.0, 2500.0, SETTINGS)
+    dataset = merge([2500.0], [20.0, 40.0], {(20.0, 2500.0): lone})
+    assert np.isnan(dataset["dte_pp"].values[0, 1])
+    assert dataset["status"].values.tolist() == [[1, 0]]
+
+
+def tmp_path_with_description(tmp_path):
+    (tmp_path / "modelDescription.xml").write_text("<x/>")
+    return tmp_path
+
+
+def test_an_empty_grid_is_refused(fmu, tmp_path):
+    with pytest.raises(ParameterError, match="at least one speed"):
+        sweep(fmu, tmp_path / "out", stand_in.small_point, speeds_kmh=())
+
+
+def test_a_file_that_is_no_fmu_is_refused_with_the_cure(tmp_path):
+    with pytest.raises(ParameterError, match="build-fmu"):
+        sweep(tmp_path / "missing.fmu", tmp_path / "out", stand_in.small_point)
+
+
+def test_a_scheduler_that_does_not_answer_is_named(fmu, tmp_path, monkeypatch):
+    monkeypatch.setattr("drivetrain.sweep.cluster._CONNECT_TIMEOUT", 0.5)
+    with pytest.raises(GearLubeError, match=r"No Dask scheduler answered at tcp://127\.0\.0\.1:9"):
+        sweep(fmu, tmp_path / "out", stand_in.small_point, scheduler="tcp://127.0.0.1:9")
