@@ -10,13 +10,9 @@ from numpy.typing import NDArray
 
 from gearlube_core.jit import kernel
 
-# order of the series in a packed coefficient array (see mesh_table.packing)
+# order of the series in a packed coefficient array (that of table.SERIES_UNITS)
 K_M, R_P, R_G, N_X, N_Y, N_Z, E = range(7)
 N_SERIES = 7
-
-# order of the channels in a packed window (see mesh_table.packing)
-SHARE, R_E, SIDE_FLOW, PRESSURE, ENTRAIN, ARM_P, ARM_G, XI_X, XI_Y, XI_Z = range(10)
-N_CHANNELS = 10
 
 
 class LoadBracket(NamedTuple):
@@ -118,11 +114,12 @@ def pair_channels(
     z_p: float,
     phi: float,
     pair: int,
+    n_channels: int,
     out: NDArray[float64],
 ) -> None:
-    """Interpolate the packed window channels of one tooth pair into out, shape (N_CHANNELS,).
+    """Interpolate the packed window channels of one tooth pair into out, shape (n_channels,).
 
-    `windows` has shape (L * (n_nodes + 1) * N_CHANNELS,), the first node repeated at the end.
+    `windows` has shape (L * (n_nodes + 1) * n_channels,), the first node repeated at the end.
     Linear between nodes, so that shares that sum to 1 at the nodes do so everywhere.
     """
     periods = z_p * phi / (2.0 * math.pi) + pair
@@ -132,10 +129,10 @@ def pair_channels(
     if node >= n_nodes:
         node = n_nodes - 1
     t = position - node
-    stride = (n_nodes + 1) * N_CHANNELS
-    a = bracket.lower * stride + node * N_CHANNELS
-    b = bracket.upper * stride + node * N_CHANNELS
-    for i in range(N_CHANNELS):
-        low = windows[a + i] + t * (windows[a + i + N_CHANNELS] - windows[a + i])
-        high = windows[b + i] + t * (windows[b + i + N_CHANNELS] - windows[b + i])
+    stride = (n_nodes + 1) * n_channels
+    a = bracket.lower * stride + node * n_channels
+    b = bracket.upper * stride + node * n_channels
+    for i in range(n_channels):
+        low = windows[a + i] + t * (windows[a + i + n_channels] - windows[a + i])
+        high = windows[b + i] + t * (windows[b + i + n_channels] - windows[b + i])
         out[i] = low + bracket.weight * (high - low)

@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 
 from gearlube_core.blank.hypoid_blank import HypoidBlank
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.materials.solid import Solid, contact_modulus
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.mesh_table.table import PAIRS, MeshTable, Provenance
 from gearlube_core.tooth_contact.inferred_contact import (
@@ -102,8 +102,7 @@ def inferred_mesh_table(blank: HypoidBlank) -> MeshTable:
     z_p, z_g = blank.pinion.teeth, blank.gear.teeth
     torque = np.array(TORQUE_LEVELS)
     levels = torque.size
-    steel = Solid.named("steel_mohammadpour_2015")
-    modulus = contact_modulus(steel, steel)
+    modulus = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 
     contact_ratio = 0.5 * sum(contact_ratio_bounds(blank))
     periods = np.arange(PAIRS * NODES_PER_PITCH) / NODES_PER_PITCH

@@ -7,12 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlube_core.contact.elliptical_hertz import hertz_coefficients
-from gearlube_core.film.chittenden_1985 import film_geometry
-from gearlube_core.mesh_table.kernels import N_CHANNELS, N_SERIES
+from gearlube_core.friction.flank_data import contact_geometry
+from gearlube_core.mesh_table.kernels import N_SERIES
 from gearlube_core.mesh_table.table import SERIES_UNITS, MeshTable
 
 Array = NDArray[np.float64]
+
+# order of the channels of a packed window
+SHARE, R_E, SIDE_FLOW, PRESSURE, ENTRAIN, ARM_P, ARM_G, XI_X, XI_Y, XI_Z = range(10)
+N_CHANNELS = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,13 +71,15 @@ def pack_mesh(table: MeshTable, contact_modulus: float) -> PackedMesh:
     data = table.windows
     for level in range(levels):
         for node in range(nodes):
-            R_x, R_y = data["R_x"][level, node], data["R_y"][level, node]
-            R_e, side_flow = film_geometry(R_x, R_y, data["psi"][level, node])
+            geometry = contact_geometry(
+                data["R_x"][level, node],
+                data["R_y"][level, node],
+                data["psi"][level, node],
+                contact_modulus,
+            )
             windows[level, node] = (
                 data["share"][level, node],
-                R_e,
-                side_flow,
-                hertz_coefficients(R_x, R_y, contact_modulus)[2],
+                *geometry,
                 data["entrainment_arm"][level, node],
                 data["friction_arm_p"][level, node],
                 data["friction_arm_g"][level, node],

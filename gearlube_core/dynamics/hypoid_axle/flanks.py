@@ -1,0 +1,135 @@
+"""Friction on the flanks of all simultaneous tooth pairs."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
+from gearlube_core.dynamics.packed_mesh import (
+    ARM_G,
+    ARM_P,
+    ENTRAIN,
+    N_CHANNELS,
+    PRESSURE,
+    R_E,
+    SHARE,
+    SIDE_FLOW,
+    XI_X,
+    XI_Y,
+    XI_Z,
+)
+from gearlube_core.friction.flank import flank_friction
+from gearlube_core.friction.flank_data import ContactGeometry, FlankState
+from gearlube_core.jit import kernel
+from gearlube_core.mesh_table.kernels import LoadBracket, pair_channels
+from gearlube_core.mesh_table.table import PAIRS
+from gearlube_core.rheology.lubricant_state import LubricantState
+
+_PAIRS = PAIRS
+
+
+class FlankSum(NamedTuple):
+    """Friction of all pairs: torques, force on the pinion, and power lost."""
+
+    torque_p: float  # N.m
+    torque_g: float  # N.m
+    f_x: float  # N, on the pinion; the gear carries the opposite
+    f_y: float
+    f_z: float
+    viscous_power: float  # W
+    boundary_power: float  # W
+
+
+@kernel
+def pair_friction(
+    s: NDArray[float64],
+    load: float,
+    channels: NDArray[float64],
+    oil: LubricantState,
+    p: AxleParameters,
+) -> tuple[FlankState, float]:
+    """Return the state of one flank under `load` [N] and its sliding speed [m/s].
+
+    dU = w_p r_p - w_g r_g + xi.(v_p - v_g): the rate that the friction force does work on, so that
+    its power is -f abs(dU) whatever the motion.
+    """
+    sliding = (
+        channels[ARM_P] * s[W_P]
+        - channels[ARM_G] * s[W_G]
+        + channels[XI_X] * (s[V_P] - s[V_G])
+        + channels[XI_Y] * (s[V_P + 1] - s[V_G + 1])
+        + channels[XI_Z] * (s[V_P + 2] - s[V_G + 2])
+    )
+    flank = flank_friction(
+        load,
+        channels[ENTRAIN] * s[W_P],
+        sliding,
+        ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE]),
+        oil,
+        p.surface,
+        p.solid,
+        int(p.friction_form),
+    )
+    return flank, sliding
+
+
+@kernel
+def flank_sum(
+    s: NDArray[float64],
+    force: float,
+    windows: NDArray[float64],
+    n_nodes: int,
+    bracket: LoadBracket,
+    oil: LubricantState,
+    p: AxleParameters,
+    channels: NDArray[float64],
+) -> FlankSum:
+    """Return the friction of all pairs that share the mesh force `force` [N].
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+    force : float
+        Mesh force [N]; pair i carries abs(force) times its share.
+    windows : ndarray
+        Packed windows of the mesh table.
+    n_nodes : int
+    bracket : LoadBracket
+    oil : LubricantState
+    p : AxleParameters
+    channels : ndarray of shape (N_CHANNELS,)
+        Work space.
+
+    References
+    ----------
+    Mohammadpour et al. 2015, eq. (10), (11), (20), (23). Printed eq. (10) has the arm of the
+    normal force; a friction force acts at the arm xi . (j x r) of Karagiannis et al. 2012 eq. (8).
+    """
+    torque_p = 0.0
+    torque_g = 0.0
+    f_x = 0.0
+    f_y = 0.0
+    f_z = 0.0
+    viscous = 0.0
+    boundary = 0.0
+    if p.friction_form >= 0.0 and force != 0.0:
+        for pair in range(_PAIRS):
+            pair_channels(windows, n_nodes, bracket, p.z_p, s[PHI_P], pair, N_CHANNELS, channels)
+            load = abs(force) * channels[SHARE]
+            if load > 0.0:
+                flank, sliding = pair_friction(s, load, channels, oil, p)
+                f = flank.viscous_friction + flank.boundary_friction
+                if sliding < 0.0:
+                    f = -f
+                torque_p -= f * channels[ARM_P]
+                torque_g += f * channels[ARM_G]
+                f_x -= f * channels[XI_X]
+                f_y -= f * channels[XI_Y]
+                f_z -= f * channels[XI_Z]
+                viscous += flank.viscous_friction * abs(sliding)
+                boundary += flank.boundary_friction * abs(sliding)
+    return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary)

@@ -1,0 +1,203 @@
+"""Fixed-step RK4 over one communication interval."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.bearings.palmgren_1959 import drag_torque
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
+from gearlube_core.dynamics.hypoid_axle.rhs import StepInputs, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    N_ODE,
+    N_STATE,
+    PINION_WORK,
+    TIME_IN_STEP,
+    W_G,
+    W_P,
+    WORK_MARK,
+    X,
+)
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.jit import kernel
+from gearlube_core.mesh_table.kernels import N_SERIES, blend_series, load_bracket
+from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
+
+OK = 0
+NOT_FINITE = 1
+TOO_MANY_STEPS = 2
+
+MAX_STEPS = 1_000_000  # in one communication interval
+LOAD_FILTER_TIME = 0.02  # s, load level follows the torque below the driveline's shuffle
+REAL_AXIS_LIMIT = 2.0  # RK4 is stable to 2.78 on the negative real axis
+DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
+
+
+class StepControl(NamedTuple):
+    """What the integrator step is tied to."""
+
+    steps_per_mesh_period: float
+    steps_per_highest_period: float
+    highest_frequency: float  # Hz, at reference_stiffness
+    reference_stiffness: float  # N/m
+    compliance_rate: float  # R_p^2/I_p + R_g^2/I_g + 1/m_p + 1/m_g [1/kg]
+
+
+@kernel
+def step_limit(
+    p: AxleParameters, control: StepControl, pinion_speed: float, mean_stiffness: float
+) -> float:
+    """Return the longest integrator step [s].
+
+    A share of the mesh period, a share of the period of the highest mode (which rises at most with
+    the root of the mesh stiffness), and the stability limit of the mesh damping.
+    """
+    mesh = p.z_p * abs(pinion_speed) / (2.0 * math.pi)
+    stiffening = math.sqrt(max(1.0, mean_stiffness / control.reference_stiffness))
+    mode = control.highest_frequency * stiffening
+    rate = max(mesh * control.steps_per_mesh_period, mode * control.steps_per_highest_period)
+    c = p.modal_damping
+    if c == 0.0:
+        c = p.loss * mean_stiffness / reference_frequency(p, pinion_speed)
+    rate = max(rate, c * control.compliance_rate / REAL_AXIS_LIMIT)
+    return 1.0 / rate
+
+
+@kernel
+def rk4_step(
+    s: NDArray[float64],
+    h: float,
+    inputs: StepInputs,
+    series: NDArray[float64],
+    n_orders: int,
+    windows: NDArray[float64],
+    n_nodes: int,
+    oil: LubricantState,
+    p: AxleParameters,
+    levels: NDArray[float64],
+    n_levels: int,
+    work: NDArray[float64],
+) -> None:
+    """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
+
+    `work` has shape (work_size(n_orders),): trial state, slope, sum of slopes, channels, blended
+    series.
+    """
+    trial = work[0:N_STATE]
+    slope = work[N_STATE : N_STATE + N_ODE]
+    total = work[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
+    channels = work[N_STATE + 2 * N_ODE : N_STATE + 2 * N_ODE + N_CHANNELS]
+    blended = work[N_STATE + 2 * N_ODE + N_CHANNELS :]
+    bracket = load_bracket(s[LOAD_TORQUE], levels, n_levels)
+    blend_series(series, N_SERIES * (2 * n_orders + 1), bracket, blended)
+    axle_rhs(s, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, slope)
+    for i in range(N_ODE):
+        total[i] = slope[i]
+        trial[i] = s[i] + 0.5 * h * slope[i]
+    axle_rhs(trial, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, slope)
+    for i in range(N_ODE):
+        total[i] += 2.0 * slope[i]
+        trial[i] = s[i] + 0.5 * h * slope[i]
+    axle_rhs(trial, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, slope)
+    for i in range(N_ODE):
+        total[i] += 2.0 * slope[i]
+        trial[i] = s[i] + h * slope[i]
+    axle_rhs(trial, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, slope)
+    for i in range(N_ODE):
+        s[i] += h / 6.0 * (total[i] + slope[i])
+    s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
+        abs(inputs.pinion_torque) - s[LOAD_TORQUE]
+    )
+
+
+def work_size(n_orders: int) -> int:
+    """Return the length of the integrator's work array."""
+    return N_STATE + 2 * N_ODE + N_CHANNELS + N_SERIES * (2 * n_orders + 1)
+
+
+@kernel
+def step_inputs(
+    s: NDArray[float64],
+    pinion_torque: float,
+    wheel_torque: float,
+    oil: LubricantState,
+    p: AxleParameters,
+) -> StepInputs:
+    """Return the torques on both shafts and the drag of both bearings of each."""
+    drag_p = 0.0
+    drag_g = 0.0
+    if p.drag != 0.0:
+        drag_p = 2.0 * drag_torque(s[W_P], p.preload, oil.nu)
+        drag_g = 2.0 * drag_torque(s[W_G], p.preload, oil.nu)
+    return StepInputs(pinion_torque, wheel_torque, drag_p, drag_g)
+
+
+@kernel
+def advance(
+    s: NDArray[float64],
+    duration: float,
+    pinion_torque: float,
+    wheel_torque: float,
+    oil_temperature: float,
+    series: NDArray[float64],
+    n_orders: int,
+    windows: NDArray[float64],
+    n_nodes: int,
+    levels: NDArray[float64],
+    n_levels: int,
+    p: AxleParameters,
+    control: StepControl,
+    work: NDArray[float64],
+) -> int:
+    """Advance the axle by `duration` [s] under constant inputs; return a status.
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+        Changed in place, also when the status is not OK.
+    duration : float
+        Communication step [s].
+    pinion_torque, wheel_torque : float
+        [N.m]
+    oil_temperature : float
+        [K]
+    series, n_orders, windows, n_nodes, levels, n_levels
+        Packed mesh table.
+    p : AxleParameters
+    control : StepControl
+    work : ndarray of shape (work_size(n_orders),)
+
+    Returns
+    -------
+    int
+        OK, NOT_FINITE or TOO_MANY_STEPS.
+    """
+    oil = lubricant_state(p.oil, oil_temperature)
+    bracket = load_bracket(s[LOAD_TORQUE], levels, n_levels)
+    size = N_SERIES * (2 * n_orders + 1)
+    k_low = series[bracket.lower * size]
+    k_mean = k_low + bracket.weight * (series[bracket.upper * size] - k_low)
+    wanted = duration / step_limit(p, control, s[W_P], k_mean)
+    if not wanted < MAX_STEPS:
+        return TOO_MANY_STEPS
+    steps = max(1, int(math.ceil(wanted)))
+    h = duration / steps
+    for i in range(7):
+        s[WORK_MARK + i] = s[PINION_WORK + i]
+    s[TIME_IN_STEP] = duration
+    for _ in range(steps):
+        inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
+        rk4_step(
+            s, h, inputs, series, n_orders, windows, n_nodes, oil, p, levels, n_levels, work
+        )
+    total = 0.0
+    for i in range(N_ODE):
+        total += abs(s[i])
+    if not total < math.inf or abs(s[X]) > DIVERGED_UM:
+        return NOT_FINITE
+    return OK

@@ -1,0 +1,128 @@
+"""Force between the flanks: stiffness with backlash, damping, and the motion that drives them."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.state import (
+    MICRO,
+    PHI_P,
+    U_G,
+    U_P,
+    V_G,
+    V_P,
+    W_G,
+    W_P,
+    X,
+)
+from gearlube_core.jit import kernel
+from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series
+
+
+class MeshForce(NamedTuple):
+    """Mesh force and what it does."""
+
+    force: float  # along the line of action, > 0 on the drive flank [N]
+    x_rate: float  # d(DTE)/dt [m/s]
+    torque_p: float  # on the pinion [N.m]
+    torque_g: float  # on the gear [N.m]
+    damping_power: float  # [W]
+    stiffness: float  # k_m [N/m]
+    n_x: float
+    n_y: float
+    n_z: float
+
+
+@kernel
+def backlash_deflection(x: float, backlash: float) -> float:
+    """Return f(x) [m]: x for x >= 0, 0 within the backlash, x + backlash beyond.
+
+    References
+    ----------
+    Mohammadpour et al. 2015, eq. (3), with backlash = 2b.
+    """
+    if x >= 0.0:
+        return x
+    if x <= -backlash:
+        return x + backlash
+    return 0.0
+
+
+@kernel
+def reference_frequency(p: AxleParameters, pinion_speed: float) -> float:
+    """Return the mesh frequency [Hz], clamped from below by p.frequency_floor."""
+    return max(p.z_p * abs(pinion_speed) / (2.0 * math.pi), p.frequency_floor)
+
+
+@kernel
+def mesh_force(
+    s: NDArray[float64], series: NDArray[float64], n_orders: int, p: AxleParameters
+) -> MeshForce:
+    """Return the mesh force in state `s`.
+
+    x' = R_p w_p - R_g w_g + n.(v_p - v_g) + n'.(u_p - u_g) w_p - e' w_p
+    F = k_m f(x) + c_m x',  c_m = 0.009 k_m / f_m
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+    series : ndarray of shape (N_SERIES * (2 n_orders + 1),)
+        Coefficients at the present load.
+    n_orders : int
+    p : AxleParameters
+
+    Notes
+    -----
+    Consistent form: no force within the backlash, no adhesion, and the pinion carries the torque
+    -F dx/dphi_p - k_m' f^2/2, so that the mesh exchanges no energy with nothing. The printed form
+    lets c_m x' act within the backlash and the pinion carry -R_p F.
+
+    References
+    ----------
+    Mohammadpour et al. 2015, eq. (1)-(4); eq. (4) with f_m in Hz, clamped from below because it
+    diverges at rest.
+    """
+    m: MeshSeries = mesh_series(series, n_orders, p.z_p, s[PHI_P])
+    w_p = s[W_P]
+    d_x = (s[U_P] - s[U_G]) / MICRO
+    d_y = (s[U_P + 1] - s[U_G + 1]) / MICRO
+    d_z = (s[U_P + 2] - s[U_G + 2]) / MICRO
+    turning = m.dn_x * d_x + m.dn_y * d_y + m.dn_z * d_z
+    arm_p = m.R_p - m.de + turning
+    approach = (
+        m.n_x * (s[V_P] - s[V_G])
+        + m.n_y * (s[V_P + 1] - s[V_G + 1])
+        + m.n_z * (s[V_P + 2] - s[V_G + 2])
+    )
+    x_rate = arm_p * w_p - m.R_g * s[W_G] + approach
+    f = backlash_deflection(s[X] / MICRO, p.backlash)
+    elastic = m.k_m * f
+    c = p.modal_damping
+    if c == 0.0:
+        c = p.loss * m.k_m / reference_frequency(p, w_p)
+    force = elastic + c * x_rate
+    torque_p = -m.R_p * force
+    if p.consistent != 0.0:
+        if f == 0.0:
+            force = 0.0
+        elif f > 0.0:
+            force = max(force, 0.0)
+        else:
+            force = min(force, 0.0)
+        torque_p = -arm_p * force - 0.5 * m.dk_m * f * f
+    return MeshForce(
+        force,
+        x_rate,
+        torque_p,
+        m.R_g * force,
+        (force - elastic) * x_rate,
+        m.k_m,
+        m.n_x,
+        m.n_y,
+        m.n_z,
+    )

@@ -1,0 +1,25 @@
+"""Layout of the axle's state vector.
+
+Displacements and the transmission error are kept in micrometres (MICRO per metre): their natural
+size then stands beside the speeds, which relative tolerances of an adaptive integrator need.
+"""
+
+from __future__ import annotations
+
+MICRO = 1.0e6  # um per m
+
+X = 0  # dynamic transmission error [um]
+W_P, W_G = 1, 2  # speeds of pinion and gear [rad/s]
+PHI_P, PHI_G = 3, 4  # angles [rad]; all periodic data are indexed by the pinion's
+U_P, V_P = 5, 8  # displacement [um] and velocity [m/s] of the pinion, x y z
+U_G, V_G = 11, 14  # ditto of the gear
+CAGE_P, CAGE_G = 17, 18  # cage angles [rad]
+PINION_WORK, WHEEL_WORK = 19, 20  # work of the external torques [J]
+VISCOUS, BOUNDARY = 21, 22  # flank friction losses [J]
+MESH_DAMPING, BEARING_DAMPING, BEARING_TORQUE = 23, 24, 25  # other losses [J]
+N_ODE = 26  # everything above is integrated
+
+LOAD_TORQUE = 26  # filtered abs(pinion torque) that selects the load level [N.m]
+TIME_IN_STEP = 27  # length of the last communication step [s]
+WORK_MARK = 28  # the seven energies at the start of the last communication step [J]
+N_STATE = WORK_MARK + 7
