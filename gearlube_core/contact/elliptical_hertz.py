@@ -1,0 +1,129 @@
+"""Elliptical contact of smooth elastic solids after Hertz: kernels."""
+
+from __future__ import annotations
+
+import math
+
+from gearlube_core.contact.elliptic_integrals import complete_elliptic_k_d
+from gearlube_core.jit import kernel
+
+_ITERATIONS = 12
+_TOLERANCE = 1.0e-13  # on ln(a/b)
+_LARGEST_LOG_RATIO = 18.0  # a/b = 6.6e7, beyond any ellipse that is not a line contact
+
+
+@kernel
+def log_curvature_ratio(log_ellipticity: float) -> float:
+    """Return ln(R_y/R_x) of the solids that touch in an ellipse with a/b = exp(argument).
+
+    R_y/R_x = (K - D) / ((b/a)^2 D)
+
+    Parameters
+    ----------
+    log_ellipticity
+        ln(a/b) [1], not negative.
+
+    Returns
+    -------
+    float
+        [1], between 1.5 and 2 times the argument for slender ellipses.
+
+    Notes
+    -----
+    Same as [(a/b)^2 E - K] / [K - E] of Johnson 1985 eq. (4.28).
+    """
+    K, D = complete_elliptic_k_d(math.exp(-log_ellipticity))
+    return math.log((K - D) / D) + 2.0 * log_ellipticity
+
+
+@kernel
+def ellipticity(radius_ratio: float) -> float:
+    """Return a/b of the contact ellipse of two solids.
+
+    Solves [(a/b)^2 E - K] / [K - E] = R_y/R_x with m = 1 - (b/a)^2 by secants in ln(a/b)
+
+    Parameters
+    ----------
+    radius_ratio
+        R_y/R_x [1], at least 1: larger over smaller relative radius of curvature.
+
+    Returns
+    -------
+    float
+        a/b [1], at least 1.
+
+    Notes
+    -----
+    Ratios from 1 to 1e12; larger ones return the ellipse of the limit.
+    Source: Johnson 1985 eq. (4.28).
+    """
+    target = math.log(radius_ratio)
+    if target <= 0.0:
+        return 1.0
+    # the slope of the curve lies between 3/2 (circle) and 2 (slender ellipse)
+    low, high = 0.5 * target, min(target / 1.5, _LARGEST_LOG_RATIO)
+    x_old, x = low, 0.637 * target  # 2/pi, the Hamrock and Brewe exponent
+    f_old = log_curvature_ratio(x_old) - target
+    for _ in range(_ITERATIONS):
+        x = min(max(x, low), high)
+        f = log_curvature_ratio(x) - target
+        slope = (f - f_old) / (x - x_old) if x != x_old else 1.75
+        slope = min(max(slope, 1.5), 2.5)
+        x_old, f_old = x, f
+        step = f / slope
+        x -= step
+        if abs(step) < _TOLERANCE:
+            break
+    return math.exp(x)
+
+
+@kernel
+def hertz_coefficients(
+    R_x: float, R_y: float, contact_modulus: float
+) -> tuple[float, float, float]:
+    """Return what a unit load would give: semi-axes along x and y, and mean pressure.
+
+    a = k b,  b = [3 E R W / (pi k E*)]^(1/3),  p_mean = W/(pi a b),  1/R = 1/R_x + 1/R_y
+
+    Parameters
+    ----------
+    R_x, R_y
+        Relative principal radii of curvature [m], positive, in either order.
+    contact_modulus
+        E* [Pa].
+
+    Returns
+    -------
+    tuple of float
+        c_x, c_y, c_p with semi-axis along x = c_x W^(1/3) [m], along y = c_y W^(1/3) [m] and
+        p_mean = c_p W^(1/3) [Pa]; the area is W/p_mean [m2].
+
+    Notes
+    -----
+    Smooth elastic half-spaces; contact small against both radii.
+    Source: Johnson 1985 sec. 4.2; Hamrock and Brewe 1983 for this arrangement.
+    """
+    k = ellipticity(max(R_x, R_y) / min(R_x, R_y))
+    K, D = complete_elliptic_k_d(1.0 / k)
+    m = (1.0 - 1.0 / k) * (1.0 + 1.0 / k)
+    E = K - m * D
+    R = R_x * R_y / (R_x + R_y)
+    c_b = (3.0 * E * R / (math.pi * k * contact_modulus)) ** (1.0 / 3.0)
+    c_a = k * c_b
+    c_p = 1.0 / (math.pi * c_a * c_b)
+    if R_x <= R_y:
+        return c_b, c_a, c_p
+    return c_a, c_b, c_p
+
+
+@kernel
+def hertz_ellipse(
+    R_x: float, R_y: float, contact_modulus: float, load: float
+) -> tuple[float, float, float]:
+    """Return semi-axes along x and y [m] and mean pressure [Pa] under a load [N].
+
+    Parameters, equations and source as in `hertz_coefficients`.
+    """
+    c_x, c_y, c_p = hertz_coefficients(R_x, R_y, contact_modulus)
+    cube_root = max(load, 0.0) ** (1.0 / 3.0)
+    return c_x * cube_root, c_y * cube_root, c_p * cube_root

@@ -1,0 +1,150 @@
+"""Film of an elliptical contact with oblique entrainment, Chittenden et al. 1985."""
+
+from __future__ import annotations
+
+import math
+
+from gearlube_core.jit import kernel
+
+# Chittenden et al. 1985 part II; Mohammadpour et al. 2015 eq. (22)
+_SPEED_EXPONENT = 0.68
+_MATERIAL_EXPONENT = 0.49
+_LOAD_EXPONENT = -0.073
+_CENTRAL_COEFFICIENT = 4.31
+_CENTRAL_SIDE_FLOW = 1.23
+_MINIMUM_COEFFICIENT = 3.68
+_MINIMUM_SIDE_FLOW = 0.67
+
+
+@kernel
+def _entrainment_radii(R_x: float, R_y: float, psi: float) -> tuple[float, float]:
+    cosine_squared = math.cos(psi) ** 2
+    sine_squared = 1.0 - cosine_squared
+    R_e = 1.0 / (cosine_squared / R_x + sine_squared / R_y)
+    R_s = 1.0 / (sine_squared / R_x + cosine_squared / R_y)
+    return R_e, R_s
+
+
+@kernel
+def film_geometry(R_x: float, R_y: float, psi: float) -> tuple[float, float]:
+    """Return the radius along entrainment and the side-flow factor of the central film.
+
+    1/R_e = cos^2 psi/R_x + sin^2 psi/R_y,  1/R_s = sin^2 psi/R_x + cos^2 psi/R_y,
+    side flow = 1 - exp[-1.23 (R_s/R_e)^(2/3)]
+
+    Parameters
+    ----------
+    R_x, R_y
+        Relative principal radii of curvature along the minor and the major axis of the contact
+        ellipse, R_x <= R_y [m].
+    psi
+        Angle between entrainment and the minor axis x [rad].
+
+    Returns
+    -------
+    tuple of float
+        R_e [m] and the side-flow factor [1], 0 to 1.
+
+    Notes
+    -----
+    Evaluate once per contact position; neither depends on load, speed or oil.
+    Source: Chittenden et al. 1985; Mohammadpour et al. 2015 eq. (22).
+    """
+    R_e, R_s = _entrainment_radii(R_x, R_y, psi)
+    return R_e, 1.0 - math.exp(-_CENTRAL_SIDE_FLOW * (R_s / R_e) ** (2.0 / 3.0))
+
+
+@kernel
+def minimum_film_geometry(R_x: float, R_y: float, psi: float) -> tuple[float, float]:
+    """Return the radius along entrainment and the side-flow factor of the minimum film.
+
+    side flow = 1 - exp[-0.67 (R_s/R_e)^(2/3)]
+
+    Parameters, returns and source as in `film_geometry`.
+    """
+    R_e, R_s = _entrainment_radii(R_x, R_y, psi)
+    return R_e, 1.0 - math.exp(-_MINIMUM_SIDE_FLOW * (R_s / R_e) ** (2.0 / 3.0))
+
+
+@kernel
+def _power_product(
+    R_e: float, eta0: float, alpha: float, speed: float, load: float, reduced_modulus: float
+) -> float:
+    """Return R_e U^0.68 G^0.49 W^-0.073 with one exponential."""
+    stiffness = reduced_modulus * R_e
+    return R_e * math.exp(
+        _SPEED_EXPONENT * math.log(eta0 * speed / stiffness)
+        + _MATERIAL_EXPONENT * math.log(alpha * reduced_modulus)
+        + _LOAD_EXPONENT * math.log(load / (stiffness * R_e))
+    )
+
+
+@kernel
+def central_film_thickness(
+    R_e: float,
+    side_flow: float,
+    eta0: float,
+    alpha: float,
+    entrainment_speed: float,
+    load: float,
+    reduced_modulus: float,
+) -> float:
+    """Return the film thickness in the centre of an elliptical contact.
+
+    h_c = R_e 4.31 U^0.68 G^0.49 W^-0.073 {1 - exp[-1.23 (R_s/R_e)^(2/3)]}
+    U = eta0 u/(E' R_e),  G = alpha E',  W = F/(E' R_e^2),  u = (u_1 + u_2)/2
+
+    Parameters
+    ----------
+    R_e, side_flow
+        From `film_geometry` [m], [1].
+    eta0
+        Viscosity at inlet temperature and atmospheric pressure [Pa s].
+    alpha
+        Pressure-viscosity coefficient [1/Pa].
+    entrainment_speed
+        Mean surface speed u [m/s], positive.
+    load
+        F [N], positive.
+    reduced_modulus
+        E' = 2 E* [Pa].
+
+    Returns
+    -------
+    float
+        h_c [m].
+
+    Notes
+    -----
+    Fully flooded, isothermal, steady, piezoviscous-elastic regime. Computed for R_s/R_e from
+    about 0.1 to 10, U about 1e-11, W about 1e-7 to 1e-6.
+    Mohammadpour et al. 2015 write U* = pi eta0 U'/(4 Er R_e), W* = pi F/(2 Er R_e^2) and
+    G* = (2/pi) Er alpha. With Er = pi E* these are eta0 U'/(2 E' R_e), F/(E' R_e^2) and
+    alpha E'. The coefficient 4.31 belongs to U with the mean speed, so U' is the sum of the
+    two surface speeds, U' = 2 u; reading the mean into it makes the film 2^0.68 = 1.60 times
+    too thin. The load exponent is printed there as +0.073; the film falls with load.
+    Source: Chittenden et al. 1985; Mohammadpour et al. 2015 eq. (22).
+    """
+    product = _power_product(R_e, eta0, alpha, entrainment_speed, load, reduced_modulus)
+    return _CENTRAL_COEFFICIENT * side_flow * product
+
+
+@kernel
+def minimum_film_thickness(
+    R_e: float,
+    side_flow: float,
+    eta0: float,
+    alpha: float,
+    entrainment_speed: float,
+    load: float,
+    reduced_modulus: float,
+) -> float:
+    """Return the smallest film thickness of an elliptical contact.
+
+    h_m = R_e 3.68 U^0.68 G^0.49 W^-0.073 {1 - exp[-0.67 (R_s/R_e)^(2/3)]}
+
+    Parameters, range and source as in `central_film_thickness`, with `side_flow` from
+    `minimum_film_geometry`. Returns h_m [m].
+    """
+    product = _power_product(R_e, eta0, alpha, entrainment_speed, load, reduced_modulus)
+    return _MINIMUM_COEFFICIENT * side_flow * product
