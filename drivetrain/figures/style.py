@@ -1,0 +1,99 @@
+"""One look for all figures: legible, colour-blind safe, without pyplot's global state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+# Okabe and Ito (2008), colours that people with colour vision deficiency tell apart.
+BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK = (
+    "#0072B2",
+    "#D55E00",
+    "#009E73",
+    "#E69F00",
+    "#CC79A7",
+    "#56B4E9",
+    "#000000",
+)
+SERIES = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
+MARKERS = ("o", "s", "^", "D", "v", "P")
+HATCHES = ("", "////", "....", "xxxx", "\\\\\\\\", "++++")
+GREY = "#B0B0B0"
+
+_STYLE = {
+    "font.size": 9.5,
+    "axes.titlesize": 10.5,
+    "axes.labelsize": 10,
+    "legend.fontsize": 8.5,
+    "legend.frameon": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#E3E3E3",
+    "grid.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.6,
+    "lines.markersize": 4.5,
+    "savefig.dpi": 150,
+    "figure.dpi": 100,
+}
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """Apply the style while a figure is drawn."""
+    import matplotlib
+
+    with matplotlib.rc_context(_STYLE):  # type: ignore[arg-type]
+        yield
+
+
+def new_figure(width: float = 8.0, height: float = 4.8) -> Any:
+    """Return an empty figure [inch] that lays itself out."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def preload_label(preload: float) -> str:
+    """Return "preload 2500 N"."""
+    return f"preload {preload:g} N"
+
+
+def speed_limits(dataset: xr.Dataset) -> tuple[float, float]:
+    """Return limits of the speed axis [km/h], a little wider than the data."""
+    speeds = dataset["speed_kmh"].values
+    pad = max(0.03 * float(speeds[-1] - speeds[0]), 1.0)
+    return float(speeds[0]) - pad, float(speeds[-1]) + pad
+
+
+def cell_edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the edges of cells around `centres`; a lone cell is 2 wide."""
+    if centres.size == 1:
+        return np.array([centres[0] - 1.0, centres[0] + 1.0])
+    middle = 0.5 * (centres[1:] + centres[:-1])
+    return np.concatenate(
+        [[2.0 * centres[0] - middle[0]], middle, [2.0 * centres[-1] - middle[-1]]]
+    )
+
+
+def typical_speeds(dataset: xr.Dataset, count: int = 3) -> list[int]:
+    """Return positions of up to `count` finished speeds spread from the lowest to the highest."""
+    finished = np.flatnonzero((dataset["status"] == 1).any("preload").values)
+    if finished.size == 0:
+        return []
+    chosen = finished[np.linspace(0, finished.size - 1, min(count, finished.size)).astype(int)]
+    return [int(i) for i in chosen]
+
+
+def outlined(text: Any, colour: str = "black", width: float = 2.0) -> Any:
+    """Give text or a line a thin outline, so that it reads on any background."""
+    from matplotlib import patheffects
+
+    text.set_path_effects([patheffects.withStroke(linewidth=width, foreground=colour)])
+    return text
