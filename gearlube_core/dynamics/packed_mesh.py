@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.friction.flank_data import contact_geometry
-from gearlube_core.mesh_table.kernels import N_SERIES
+from gearlube_core.mesh_table.kernels import N_SERIES, R_G, R_P
 from gearlube_core.mesh_table.table import SERIES_UNITS, MeshTable
 
 Array = NDArray[np.float64]
@@ -46,7 +46,7 @@ class PackedMesh:
         return N_SERIES * (2 * self.orders + 1)
 
 
-def pack_mesh(table: MeshTable, contact_modulus: float) -> PackedMesh:
+def pack_mesh(table: MeshTable, contact_modulus: float, radii: str) -> PackedMesh:
     """Return the flat arrays of `table`.
 
     What depends on position alone (ellipse, film geometry) is evaluated here, once, by the same
@@ -57,6 +57,10 @@ def pack_mesh(table: MeshTable, contact_modulus: float) -> PackedMesh:
     table : MeshTable
     contact_modulus : float
         E* [Pa].
+    radii : {"consistent", "paper", "mean"}
+        "consistent": R_g = R_p z_g/z_p, since the unloaded transmission error already is the
+        integral of the ratio error; "paper": both as tabulated, which counts it twice; "mean":
+        both constant, at the teeth ratio.
     """
     levels = table.torque.size
     orders = table.orders
@@ -66,6 +70,10 @@ def pack_mesh(table: MeshTable, contact_modulus: float) -> PackedMesh:
         series[:, 0, column] = coefficients[:, 0, 0]
         series[:, 1::2, column] = coefficients[:, 1:, 0]
         series[:, 2::2, column] = coefficients[:, 1:, 1]
+    if radii == "mean":
+        series[:, 1:, R_P] = 0.0
+    if radii != "paper":
+        series[:, :, R_G] = table.ratio * series[:, :, R_P]
     nodes = table.nodes
     windows = np.empty((levels, nodes + 1, N_CHANNELS))
     data = table.windows

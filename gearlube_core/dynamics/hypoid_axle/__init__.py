@@ -1,1 +1,19 @@
 """The 8-DOF lubricated hypoid axle of Mohammadpour et al. 2015."""
+
+from gearlube_core.dynamics.hypoid_axle.linearise import linearise, modes
+from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
+from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_INDEX, OUTPUT_NAMES
+from gearlube_core.dynamics.hypoid_axle.parameters import (
+    HypoidAxleParameters,
+    mohammadpour_2015_axle,
+)
+
+__all__ = [
+    "OUTPUT_INDEX",
+    "OUTPUT_NAMES",
+    "HypoidAxle",
+    "HypoidAxleParameters",
+    "linearise",
+    "modes",
+    "mohammadpour_2015_axle",
+]

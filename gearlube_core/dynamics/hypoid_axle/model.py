@@ -1,0 +1,311 @@
+"""The axle as an object: initialise, step, read outputs, save and restore the state."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import root
+
+from gearlube_core.bearings.parameters import ROLLERS_MAX
+from gearlube_core.checks import check_finite, check_within
+from gearlube_core.dynamics.hypoid_axle.integrate import (
+    NOT_FINITE,
+    OK,
+    TOO_MANY_STEPS,
+    StepControl,
+    advance,
+    work_size,
+)
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.linearise import linearise
+from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.rhs import StepInputs, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    MICRO,
+    N_ODE,
+    N_STATE,
+    U_G,
+    U_P,
+    V_G,
+    V_P,
+    W_G,
+    W_P,
+    X,
+)
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
+from gearlube_core.errors import ConvergenceError, StepError
+from gearlube_core.mesh_table.kernels import load_bracket
+from gearlube_core.rheology.lubricant_state import lubricant_state
+
+Array = NDArray[np.float64]
+
+MAX_TORQUE = 1e4  # N.m, pinion; wheel three times that: far beyond any car axle
+MAX_SPEED = 5e3  # rad/s
+MAX_STEP = 0.1  # s, communication step
+_MESSAGES = {
+    NOT_FINITE: (
+        "the axle state is no longer finite or the teeth have parted by more than 0.1 m. "
+        "Reduce the torques or check for an unstable option (equations='as_printed')"
+    ),
+    TOO_MANY_STEPS: (
+        "the step needs more than 1000000 integrator steps. Shorten the communication step"
+    ),
+}
+
+
+class HypoidAxle:
+    """Lubricated hypoid axle: 8 DOF, dynamic tapered roller bearings, three flanks.
+
+    Parameters
+    ----------
+    parameters : HypoidAxleParameters
+
+    Notes
+    -----
+    Integrated by fixed-step RK4 tied to the mesh period and the highest mode. Same input, same
+    bits. Instances share nothing.
+
+    References
+    ----------
+    Mohammadpour et al. 2015.
+    """
+
+    def __init__(self, parameters: HypoidAxleParameters) -> None:
+        self.parameters = parameters
+        self.packed: PackedMesh = pack_mesh(
+            parameters.mesh, _contact_modulus(parameters), parameters.radii
+        )
+        self.kernel_parameters: AxleParameters = parameters.kernel_parameters(0.0)
+        self._state = np.zeros(N_STATE)
+        self._trial = np.zeros(N_STATE)
+        self._outputs = np.zeros(N_OUTPUTS)
+        self._work = np.zeros(work_size(self.packed.orders))
+        self._rollers = np.zeros(ROLLERS_MAX)
+        self._control = StepControl(0.0, 0.0, 1.0, 1.0, 0.0)
+        self._inputs = np.zeros(3)
+        self.outputs: Array = self._outputs.view()
+        self.outputs.flags.writeable = False
+        self.state_view: Array = self._state.view()
+        self.state_view.flags.writeable = False
+
+    @property
+    def highest_frequency(self) -> float:
+        """Highest natural frequency at the initial load [Hz]; 1 before `initialise`."""
+        return self._control.highest_frequency
+
+    def initialise(
+        self,
+        *,
+        pinion_speed: float,
+        pinion_torque: float,
+        wheel_torque: float,
+        oil_temperature: float,
+    ) -> None:
+        """Put the axle into static equilibrium under the torques, turning at `pinion_speed`.
+
+        Parameters
+        ----------
+        pinion_speed : float
+            [rad/s]
+        pinion_torque, wheel_torque : float
+            [N.m]; the wheel torque is a load.
+        oil_temperature : float
+            [K]
+
+        Raises
+        ------
+        ParameterError
+            When an input is not finite or out of range.
+        ConvergenceError
+            When no static equilibrium is found.
+        """
+        check_within("pinion_speed", pinion_speed, -MAX_SPEED, MAX_SPEED, "rad/s")
+        self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
+        s = self._state
+        s[:] = 0.0
+        s[W_P] = pinion_speed
+        s[W_G] = pinion_speed / self.parameters.mesh.ratio
+        s[LOAD_TORQUE] = abs(pinion_torque)
+        self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
+        self.kernel_parameters = self.parameters.kernel_parameters(pinion_torque)
+        self._settle(pinion_torque, oil_temperature)
+        self._control = self._step_control(pinion_torque, oil_temperature)
+        self._write_outputs()
+
+    def step(
+        self, h: float, pinion_torque: float, wheel_torque: float, oil_temperature: float
+    ) -> None:
+        """Advance by `h` [s] under constant torques [N.m] and oil temperature [K].
+
+        Raises
+        ------
+        ParameterError
+            When an input is not finite or out of range.
+        StepError
+            When the step cannot be made; the axle is then as before the step.
+        """
+        check_finite("step size", h, "s")
+        if not 0.0 < h <= MAX_STEP:
+            raise StepError(
+                f"step size must be above 0 and at most {MAX_STEP:g} s, got {h:g} s. "
+                "A communication step of about 1e-4 s resolves the bearing modes."
+            )
+        self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
+        mesh = self.packed
+        trial = self._trial
+        trial[:] = self._state
+        status = advance(
+            trial,
+            h,
+            pinion_torque,
+            wheel_torque,
+            oil_temperature,
+            mesh.series,
+            mesh.orders,
+            mesh.windows,
+            mesh.nodes,
+            mesh.levels,
+            mesh.levels.size,
+            self.kernel_parameters,
+            self._control,
+            self._work,
+        )
+        if status != OK:
+            raise StepError(f"step of {h:g} s refused: {_MESSAGES[status]}.")
+        self._state[:] = trial
+        self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
+        self._write_outputs()
+
+    def get_state(self) -> Array:
+        """Return everything that the future depends on, shape (N_STATE + 8,)."""
+        control = np.array(self._control)
+        return np.concatenate([self._state, self._inputs, control])
+
+    def set_state(self, state: Array) -> None:
+        """Continue from what `get_state` returned; bit-exact.
+
+        Raises
+        ------
+        StepError
+            When the array has the wrong length or holds a NaN; the axle is then as before.
+        """
+        values = np.asarray(state, dtype=np.float64)
+        size = N_STATE + 3 + len(StepControl._fields)
+        if values.shape != (size,) or not np.all(np.isfinite(values)):
+            raise StepError(
+                f"an axle state has {size} finite numbers, got shape {values.shape}. "
+                "Use an array from get_state of the same release."
+            )
+        self._state[:] = values[:N_STATE]
+        self._inputs[:] = values[N_STATE : N_STATE + 3]
+        self._control = StepControl(*values[N_STATE + 3 :].tolist())
+        self.kernel_parameters = self.parameters.kernel_parameters(0.0)
+        self._write_outputs()
+
+    def _check_inputs(self, pinion_torque: float, wheel_torque: float, oil: float) -> None:
+        limit = MAX_TORQUE
+        check_within("pinion.torque", pinion_torque, -limit, limit, "N.m", "Check the unit.")
+        limit *= 3.0
+        check_within("wheel.torque", wheel_torque, -limit, limit, "N.m", "Check the unit.")
+        self.parameters.oil.check_temperature(oil, "oil.temperature")
+
+    def _settle(self, pinion_torque: float, oil_temperature: float) -> None:
+        """Solve the six displacements and the transmission error for static equilibrium."""
+        s = self._state
+        p = self.kernel_parameters._replace(friction_form=-1.0)
+        mesh = self.packed
+        oil = lubricant_state(p.oil, oil_temperature)
+        series = self._series_at(pinion_torque)
+        bracket = load_bracket(s[LOAD_TORQUE], mesh.levels, mesh.levels.size)
+        slope = np.zeros(N_ODE)
+        channels = np.zeros(N_CHANNELS)
+        inputs = StepInputs(pinion_torque, 0.0, 0.0, 0.0)
+        deflection = pinion_torque / series[1] / series[0]
+        s[X] = MICRO * (deflection if deflection >= 0.0 else deflection - p.backlash)
+        # at rest: hysteresis and the ratio error's speed play no part in a static state
+        speeds = s[W_P], s[W_G]
+        free = np.r_[U_P : U_P + 3, U_G : U_G + 3]
+        rows = np.r_[V_P : V_P + 3, V_G : V_G + 3]
+        at_rest = s.copy()
+        at_rest[W_P] = at_rest[W_G] = 0.0
+        scale = np.array(3 * [p.m_p] + 3 * [p.m_g])
+
+        def residual(u: Array) -> Array:
+            at_rest[free] = u
+            axle_rhs(
+                at_rest,
+                inputs,
+                series,
+                mesh.orders,
+                mesh.windows,
+                mesh.nodes,
+                bracket,
+                oil,
+                p,
+                channels,
+                slope,
+            )
+            return scale * slope[rows]
+
+        force = max(abs(pinion_torque / series[1]), 1.0)
+        found = root(residual, np.zeros(6), method="hybr", options={"xtol": 1e-12})
+        worst = float(np.max(np.abs(residual(found.x))))
+        if worst > 1e-4 * force:
+            raise ConvergenceError(
+                f"no static equilibrium at a pinion torque of {pinion_torque:g} N.m: bearing "
+                f"forces are out by {worst:g} N. Increase the bearing preload or reduce the torque."
+            )
+        s[free] = found.x
+        s[W_P], s[W_G] = speeds
+
+    def _series_at(self, torque: float) -> Array:
+        """Return the series' means at a load as packed coefficients without harmonics."""
+        mesh = self.packed
+        blocks = mesh.series.reshape(mesh.levels.size, mesh.series_size)
+        means = np.array([np.interp(abs(torque), mesh.levels, column) for column in blocks.T])
+        means[7:] = 0.0
+        return means
+
+    def _step_control(self, torque: float, oil_temperature: float) -> StepControl:
+        parameters = self.parameters
+        linear = linearise(self, oil_temperature, torque)
+        frequencies = linear.modes()[0]
+        series = self._series_at(torque)
+        p = self.kernel_parameters
+        compliance = series[1] ** 2 / p.I_p + series[2] ** 2 / p.I_g + 1.0 / p.m_p + 1.0 / p.m_g
+        return StepControl(
+            float(parameters.steps_per_mesh_period),
+            float(parameters.steps_per_highest_period),
+            float(np.max(frequencies)),
+            float(series[0]),
+            float(compliance),
+        )
+
+    def _write_outputs(self) -> None:
+        mesh = self.packed
+        torque_p, torque_g, oil_temperature = self._inputs
+        write_outputs(
+            self._state,
+            torque_p,
+            torque_g,
+            oil_temperature,
+            mesh.series,
+            mesh.orders,
+            mesh.windows,
+            mesh.nodes,
+            mesh.levels,
+            mesh.levels.size,
+            self.kernel_parameters,
+            self._work,
+            self._rollers,
+            self._outputs,
+        )
+
+
+def _contact_modulus(parameters: HypoidAxleParameters) -> float:
+    from gearlube_core.materials.solid import contact_modulus
+
+    return contact_modulus(parameters.solid, parameters.solid)
