@@ -1,0 +1,204 @@
+"""Load of one roller from the approach of its races, with the film and the hysteresis.
+
+The film adds to the approach and depends on the load: d = g + H(d), with the geometric approach
+g and H = A (d/d_f)^(-0.045 n) between the limits of `parameters`. Both kernels solve this
+equation. Because H depends on the approach only, the quasi-steady load is a function of g and
+has a potential (see `shaft_energy`). The squeeze speed needs no memory either: at a given speed
+v = dH/dt = -0.045 n (H/d) dd/dt. All approaches here are in units of d_f = FILM_FLOOR_APPROACH.
+"""
+
+from __future__ import annotations
+
+import math
+
+from gearlube_core.bearings.inlining import inlined
+from gearlube_core.bearings.ninth_root import (
+    ROOT_MIN,
+    ninth_root_change,
+    ninth_root_refined,
+    ninth_root_residual,
+    ninth_root_start,
+)
+from gearlube_core.bearings.parameters import (
+    FILM_FLOOR_APPROACH,
+    FILM_RANGE,
+    BearingParameters,
+)
+from gearlube_core.film.mostofi_gohar_1983 import (
+    LOAD_EXPONENT,
+    MATERIAL_EXPONENT,
+    SPEED_EXPONENT,
+    SQUEEZE_FACTOR_MIN,
+    SQUEEZE_RATE,
+    SQUEEZE_SHARE,
+)
+from gearlube_core.jit import kernel
+
+N_LINE = 10.0 / 9.0  # 1, exponent of a line contact, Mohammadpour et al. 2015 eq. (25)
+_M_LINE = -LOAD_EXPONENT * N_LINE  # 0.05: the film goes with d^-0.05
+_Y_MAX = FILM_RANGE ** (1.0 / 9.0)
+_FACTOR_MIN = FILM_RANGE**-_M_LINE
+# y^-0.45 = x^-0.05 for 1 <= y <= 2^(8/9) in powers of y - 1.4, relative error 1.6e-8
+_C0, _C1, _C2 = 8.5949307304674676e-01, -2.7626541955432316e-01, 1.4306731966889319e-01
+_C3, _C4, _C5 = -8.3471653477310503e-02, 5.1380959307017110e-02, -3.2342442232490484e-02
+_C6, _C7, _C8 = 2.1439964607431590e-02, -1.6579160463181739e-02, 9.5607876228063268e-03
+# 132 v/u at which the squeeze factor reaches its lower clip, and where its Pade form turns
+_T_MAX = math.log((1.0 - SQUEEZE_FACTOR_MIN) / SQUEEZE_SHARE)
+_T_MIN = -math.sqrt(12.0)
+
+
+@kernel
+def film_amplitude(
+    shaft_speed: float, eta0: float, alpha: float, p: BearingParameters
+) -> tuple[float, float]:
+    """Return the film at and below the floor load, and the squeeze scale of the kernels.
+
+    A = c (eta0 u)^0.647 alpha^0.46 / d_f,  t = 132 d_f/u, with u = r_u |shaft speed|.
+
+    Parameters
+    ----------
+    shaft_speed : float
+        Speed of the inner race [rad/s].
+    eta0, alpha : float
+        Viscosity [Pa s] and pressure-viscosity coefficient [1/Pa], above zero.
+    p : BearingParameters
+        Bearing.
+
+    Returns
+    -------
+    tuple of float
+        A [FILM_FLOOR_APPROACH]; t [s], zero without squeeze.
+    """
+    u = p.film_speed_radius * abs(shaft_speed)
+    if p.film_constant == 0.0 or u == 0.0:
+        return 0.0, 0.0
+    shape = math.exp(SPEED_EXPONENT * math.log(eta0 * u) + MATERIAL_EXPONENT * math.log(alpha))
+    scale = SQUEEZE_RATE * FILM_FLOOR_APPROACH / u * p.squeeze
+    return p.film_constant * shape / FILM_FLOOR_APPROACH, scale
+
+
+@inlined
+def _squeezed_excess(t: float) -> float:
+    """Return q(t)/q(0) - 1 = 3 (1 - exp(t)), clipped as the squeeze factor, t = 132 v/u.
+
+    Pade [2/2] form of exp(t) - 1, exact to 2e-8 for |t| < 0.1 and to 0.04 at t = -3.
+    """
+    t = _T_MAX if t > _T_MAX else t
+    t = _T_MIN if t < _T_MIN else t
+    return -36.0 * t / (12.0 + t * (t - 6.0))
+
+
+@inlined
+def roller_load_line(
+    g: float, g_rate: float, film: float, squeeze_scale: float, K: float, c: float, w_min: float
+) -> tuple[float, float]:
+    """Return the load of a roller with n = 10/9, without branches or library calls.
+
+    w = K x^n + n K x^(n-1) (c x' + x_squeeze),  x = g + A x^-0.05.
+
+    Parameters
+    ----------
+    g, g_rate : float
+        Geometric approach [d_f] and its rate [d_f/s].
+    film, squeeze_scale : float
+        From `film_amplitude`.
+    K : float
+        kn d_f^n [N].
+    c : float
+        Hysteresis time, loss/f_ref [s].
+    w_min : float
+        Lower limit of the load: 0, or -inf to allow tension [N].
+
+    Returns
+    -------
+    tuple of float
+        Load and its quasi-steady part K x^n [N].
+
+    Notes
+    -----
+    The film equation is solved by one Chebyshev step from x0 = g + A, x by one more Halley step:
+    relative error of x below 1e-9 for A < x/10, of K x^n given x below 1e-15.
+    """
+    raw = g + film
+    touching = 0.0 if raw <= 0.0 else 1.0
+    x0 = ROOT_MIN if raw < ROOT_MIN else raw
+    inverse = 1.0 / x0
+    start = ninth_root_start(x0)
+    r = ninth_root_residual(start, inverse)
+    y0 = ninth_root_refined(start, r)
+    s = 1.0 if start < 1.0 else start
+    s = (_Y_MAX if s > _Y_MAX else s) - 1.4
+    s2 = s * s
+    s4 = s2 * s2
+    low = (_C0 + _C1 * s) + (_C2 + _C3 * s) * s2
+    high = (_C4 + _C5 * s) + (_C6 + _C7 * s) * s2
+    factor = (low + (high + _C8 * s4) * s4) * (1.0 - r * (0.05 + r * (0.02375 + r * 0.0154375)))
+    factor = _FACTOR_MIN if x0 > FILM_RANGE else factor
+    factor = 1.0 if x0 < 1.0 else factor
+    slope = _M_LINE * film * factor * inverse
+    slope = 0.0 if x0 < 1.0 else slope
+    slope = 0.0 if x0 > FILM_RANGE else slope
+    q = 1.0 / (1.0 + slope)
+    step = film * (1.0 - factor) * q
+    change = -step * (1.0 - 0.5 * (1.0 + _M_LINE) * step * slope * q * inverse)
+    x = raw + change
+    y = y0 + y0 * ninth_root_change(change * inverse)
+    correction = -(1.0 + _M_LINE) * slope * change * inverse
+    x_rate = g_rate * q * (1.0 - correction * q)
+    squeezed = (x - g) * _squeezed_excess(-squeeze_scale * (slope + correction) * x_rate)
+    stiffness = touching * K * y
+    steady = stiffness * x
+    w = steady + N_LINE * stiffness * (c * x_rate + squeezed)
+    return w_min if w < w_min else w, steady
+
+
+@kernel
+def film_and_slope(x: float, film: float, n: float) -> tuple[float, float]:
+    """Return the film and -dH/dx at the approach x; all in units of FILM_FLOOR_APPROACH.
+
+    H = A min(max(x, 1), FILM_RANGE)^(-0.045 n).
+    """
+    m = -LOAD_EXPONENT * n
+    if x <= 1.0:
+        return film, 0.0
+    if x >= FILM_RANGE:
+        return film * FILM_RANGE**-m, 0.0
+    h = film * x**-m
+    return h, m * h / x
+
+
+@kernel
+def approach_with_film(g: float, film: float, n: float) -> float:
+    """Return x with x = g + H(x), by Newton; all in units of FILM_FLOOR_APPROACH."""
+    x = g + film
+    for _ in range(12):
+        h, slope = film_and_slope(x, film, n)
+        change = (g + h - x) / (1.0 + slope)
+        x += change
+        if abs(change) <= 1e-15 * abs(x):
+            break
+    return x
+
+
+@kernel
+def roller_load_general(
+    g: float,
+    g_rate: float,
+    film: float,
+    squeeze_scale: float,
+    K: float,
+    c: float,
+    w_min: float,
+    n: float,
+) -> tuple[float, float]:
+    """Return the load of a roller for any exponent n; otherwise as `roller_load_line`."""
+    x = approach_with_film(g, film, n)
+    if x <= 0.0:
+        return max(w_min, 0.0), 0.0
+    h, slope = film_and_slope(x, film, n)
+    x_rate = g_rate / (1.0 + slope)
+    squeezed = h * _squeezed_excess(-squeeze_scale * slope * x_rate)
+    stiffness = K * x ** (n - 1.0)
+    steady = stiffness * x
+    w = steady + n * stiffness * (c * x_rate + squeezed)
+    return w_min if w < w_min else w, steady

@@ -1,0 +1,157 @@
+"""Forces and roller loads of a single bearing; the axle uses the faster `shaft_forces`."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gearlube_core.bearings.parameters import (
+    COS_TABLE,
+    FILM_FLOOR_APPROACH,
+    SIN_TABLE,
+    BearingParameters,
+)
+from gearlube_core.bearings.roller_contact import (
+    N_LINE,
+    film_amplitude,
+    roller_load_general,
+    roller_load_line,
+)
+from gearlube_core.bearings.shaft_forces import approach_terms
+from gearlube_core.jit import kernel
+
+
+@kernel
+def bearing_forces(
+    r1: float,
+    r2: float,
+    xa: float,
+    vr1: float,
+    vr2: float,
+    vxa: float,
+    cage_angle: float,
+    shaft_speed: float,
+    f_ref: float,
+    eta0: float,
+    alpha: float,
+    p: BearingParameters,
+    side: float,
+) -> tuple[float, float, float, float]:
+    """Return the force of one bearing on the shaft, and the power of its hysteresis.
+
+    Parameters
+    ----------
+    r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p
+        As in `shaft_bearing_forces`.
+    side : float
+        +1 or -1, the axial direction of displacement that loads the bearing [1].
+
+    Returns
+    -------
+    tuple of float
+        F_r1, F_r2, F_a [N]; lost power, >= 0 [W].
+
+    References
+    ----------
+    Mohammadpour et al. 2015 eq. (24)-(27).
+    """
+    film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)
+    cos_c = math.cos(cage_angle)
+    sin_c = math.sin(cage_angle)
+    g0, g1, g2, ga, v1, v2, va = approach_terms(
+        r1, r2, xa, vr1, vr2, vxa, cos_c, sin_c, p.cage_ratio * shaft_speed, p
+    )
+    K = p.kn * FILM_FLOOR_APPROACH**p.n
+    c = p.loss / f_ref
+    w_min = 0.0 if p.clip != 0.0 else -math.inf
+    count = int(p.n_rollers)
+    line = p.n == N_LINE
+    sum_cos = sum_sin = sum_all = lost = 0.0
+    for i in range(count):
+        cos_b = COS_TABLE[count, i]
+        sin_b = SIN_TABLE[count, i]
+        g = g0 + side * ga + g1 * cos_b + g2 * sin_b
+        rate = side * va + v1 * cos_b + v2 * sin_b
+        if line:
+            w, steady = roller_load_line(g, rate, film, squeeze_scale, K, c, w_min)
+        else:
+            w, steady = roller_load_general(g, rate, film, squeeze_scale, K, c, w_min, p.n)
+        sum_cos += w * cos_b
+        sum_sin += w * sin_b
+        sum_all += w
+        lost += (w - steady) * rate
+    return (
+        -p.cos_contact * (sum_cos * cos_c - sum_sin * sin_c),
+        -p.cos_contact * (sum_cos * sin_c + sum_sin * cos_c),
+        -side * p.sin_contact * sum_all,
+        lost * FILM_FLOOR_APPROACH / p.approach_factor,
+    )
+
+
+@kernel
+def roller_loads(
+    r1: float,
+    r2: float,
+    xa: float,
+    vr1: float,
+    vr2: float,
+    vxa: float,
+    cage_angle: float,
+    shaft_speed: float,
+    f_ref: float,
+    eta0: float,
+    alpha: float,
+    p: BearingParameters,
+    side: float,
+    out: np.ndarray,
+) -> int:
+    """Write the load of every roller of one bearing into `out`, roller 0 first.
+
+    Parameters
+    ----------
+    r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p, side
+        As in `bearing_forces`.
+    out : ndarray, shape (>= n_rollers,)
+        Receives w_i [N].
+
+    Returns
+    -------
+    int
+        0, or 1 when `out` is too short (nothing is written then).
+
+    References
+    ----------
+    Mohammadpour et al. 2015 eq. (25), (26).
+    """
+    count = int(p.n_rollers)
+    if out.shape[0] < count:
+        return 1
+    film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)
+    g0, g1, g2, ga, v1, v2, va = approach_terms(
+        r1,
+        r2,
+        xa,
+        vr1,
+        vr2,
+        vxa,
+        math.cos(cage_angle),
+        math.sin(cage_angle),
+        p.cage_ratio * shaft_speed,
+        p,
+    )
+    K = p.kn * FILM_FLOOR_APPROACH**p.n
+    c = p.loss / f_ref
+    w_min = 0.0 if p.clip != 0.0 else -math.inf
+    line = p.n == N_LINE
+    for i in range(count):
+        cos_b = COS_TABLE[count, i]
+        sin_b = SIN_TABLE[count, i]
+        g = g0 + side * ga + g1 * cos_b + g2 * sin_b
+        rate = side * va + v1 * cos_b + v2 * sin_b
+        if line:
+            w, _ = roller_load_line(g, rate, film, squeeze_scale, K, c, w_min)
+        else:
+            w, _ = roller_load_general(g, rate, film, squeeze_scale, K, c, w_min, p.n)
+        out[i] = w
+    return 0
