@@ -13,6 +13,7 @@ from drivetrain.figures.style import (
     PURPLE,
     VERMILLION,
     house_style,
+    name_levels,
     new_figure,
     speed_limits,
 )
@@ -27,13 +28,13 @@ def operating_points(dataset: xr.Dataset) -> Any:
         _campbell(right, dataset)
         for ax in (left, right):
             ax.set_xlabel("vehicle speed [km/h]")
-            ax.set_xlim(*speed_limits(dataset))
         figure.suptitle("Operating points", fontsize=11.5)
     return figure
 
 
 def _torques(ax: Any, row: xr.Dataset) -> None:
     speed = row["speed_kmh"].values
+    ax.set_xlim(*speed_limits(row))
     ax.plot(speed, row["wheel_torque"], color=VERMILLION, marker="s", label="wheel gear, load")
     ax.plot(speed, row["pinion_torque"], color=BLUE, marker="o", label="pinion, drive")
     ax.set_ylabel("mean torque [N m]")
@@ -45,6 +46,7 @@ def _torques(ax: Any, row: xr.Dataset) -> None:
 def _campbell(ax: Any, dataset: xr.Dataset) -> None:
     row = dataset.isel(preload=0)
     speed = row["speed_kmh"].values
+    ax.set_xlim(*speed_limits(dataset))
     for multiple, style in ((1, "-"), (2, (0, (5, 2))), (3, (0, (1, 1.2)))):
         name = "mesh $f_m$" if multiple == 1 else f"${multiple}f_m$"
         ax.semilogy(speed, multiple * row["mesh_frequency"], color=BLUE, ls=style, label=name)
@@ -56,13 +58,14 @@ def _campbell(ax: Any, dataset: xr.Dataset) -> None:
     _modes(ax, dataset)
     ax.set_ylabel("frequency [Hz]")
     ax.set_title("excitation and natural frequencies")
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, -0.42), ncols=3)
+    ax.figure.legend(*ax.get_legend_handles_labels(), loc="outside lower right", ncols=5)
 
 
 def _modes(ax: Any, dataset: xr.Dataset) -> None:
     """Shade each natural frequency from its value at the lowest to that at the highest preload."""
     if "mode_frequency" not in dataset:
         return
+    middles = {}
     for name, values in zip(
         dataset["mode"].values, dataset["mode_frequency"].values.T, strict=True
     ):
@@ -70,13 +73,5 @@ def _modes(ax: Any, dataset: xr.Dataset) -> None:
             continue
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
         ax.axhspan(low, high * 1.002, color="#404040", alpha=0.35, lw=0)
-        ax.annotate(
-            str(name),
-            (1.0, (low * high) ** 0.5),
-            xycoords=("axes fraction", "data"),
-            xytext=(4, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=7.5,
-            annotation_clip=False,
-        )
+        middles[str(name)] = (low * high) ** 0.5
+    name_levels(ax, middles)

@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 from drivetrain.figures.style import (
     cell_edges,
     house_style,
+    name_levels,
     new_figure,
     outlined,
     preload_label,
 )
 
 _DYNAMIC_RANGE = 70.0  # dB between the top and the bottom of the colour scale
-_ROWS = 500  # frequency cells of a map; a cell shows the largest line inside it
+_LOWEST_LINE = 0.02  # lines that stay below this share of the axis are left out
+_ROWS = 160  # frequency cells of a map; a cell shows the largest line inside it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,10 +111,10 @@ def spectrum_map(
                 rasterized=True,
             )
             _mesh_lines(ax, dataset.isel(preload=row), top)
+            ax.set_ylim(0.0, top)
             _mode_lines(ax, dataset.isel(preload=row), top, named=row == count - 1)
             ax.set_title(preload_label(float(dataset["preload"][row])))
             ax.set_xlabel("vehicle speed [km/h]")
-            ax.set_ylim(0.0, top)
         axes[0].set_ylabel("frequency [Hz]")
         bar = figure.colorbar(mesh, ax=list(axes), pad=0.02, shrink=0.95, extend="min")
         bar.set_label(f"amplitude [dB re {channel.reference_text}]")
@@ -175,7 +177,7 @@ def _mesh_lines(ax: Any, row: xr.Dataset, top: float) -> None:
     for frequency, multiple, name in lines:
         values = multiple * frequency.values
         known = np.isfinite(values)
-        if not np.any(known):
+        if not np.any(known) or np.nanmax(values) < _LOWEST_LINE * top:
             continue
         (line,) = ax.plot(
             speed[known], values[known], color="white", lw=0.9, ls=(0, (6, 6)), alpha=0.75
@@ -201,25 +203,13 @@ def _mesh_lines(ax: Any, row: xr.Dataset, top: float) -> None:
 def _mode_lines(ax: Any, row: xr.Dataset, top: float, *, named: bool) -> None:
     if "mode_frequency" not in row:
         return
-    names = [str(name) for name in row["mode"].values]
-    placed: list[float] = []
-    for name, frequency in sorted(
-        zip(names, row["mode_frequency"].values, strict=True), key=lambda item: item[1]
-    ):
-        if not np.isfinite(frequency) or frequency > top:
-            continue
+    levels = {
+        str(name): float(frequency)
+        for name, frequency in zip(row["mode"].values, row["mode_frequency"].values, strict=True)
+        if frequency <= top
+    }
+    for frequency in levels.values():
         line = ax.axhline(frequency, color="#7FFFD4", lw=0.9, ls=":", alpha=0.9)
         outlined(line, width=1.4)
-        if named:
-            height = frequency if not placed else max(frequency, placed[-1] + 0.034 * top)
-            placed.append(height)
-            ax.annotate(
-                name,
-                (1.0, height),
-                xycoords=("axes fraction", "data"),
-                xytext=(4, 0),
-                textcoords="offset points",
-                va="center",
-                fontsize=8,
-                annotation_clip=False,
-            )
+    if named:
+        name_levels(ax, levels)

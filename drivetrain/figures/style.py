@@ -91,6 +91,35 @@ def typical_speeds(dataset: xr.Dataset, count: int = 3) -> list[int]:
     return [int(i) for i in chosen]
 
 
+def name_levels(ax: Any, levels: dict[str, float], size: float = 8.0) -> None:
+    """Write names at their heights beside the right edge of `ax`, moved apart where they touch.
+
+    A thin leader joins a moved name to its level.
+    """
+    ax.figure.canvas.draw_idle()
+    to_axes = ax.transAxes.inverted()
+    heights = {
+        name: float(to_axes.transform(ax.transData.transform((ax.get_xlim()[0], level)))[1])
+        for name, level in levels.items()
+    }
+    box = ax.get_position()
+    line = 1.35 * size / 72.0 / (0.8 * ax.figure.get_figheight() * max(box.height, 0.1))
+    above = -np.inf
+    for name, height in sorted(heights.items(), key=lambda item: item[1]):
+        above = max(height, above + line)
+        ax.annotate(
+            name,
+            (1.0, height),
+            xytext=(1.035, above),
+            xycoords="axes fraction",
+            textcoords="axes fraction",
+            va="center",
+            fontsize=size,
+            annotation_clip=False,
+            arrowprops={"arrowstyle": "-", "lw": 0.5, "color": "#606060", "shrinkA": 0.5},
+        )
+
+
 def outlined(text: Any, colour: str = "black", width: float = 2.0) -> Any:
     """Give text or a line a thin outline, so that it reads on any background."""
     from matplotlib import patheffects

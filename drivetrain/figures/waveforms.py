@@ -11,6 +11,7 @@ from drivetrain.figures.style import (
     SERIES,
     house_style,
     new_figure,
+    outlined,
     preload_label,
     typical_speeds,
 )
@@ -45,6 +46,8 @@ def waveforms(dataset: xr.Dataset) -> Any:
 
 def roller_zone(dataset: xr.Dataset) -> Any:
     """Return the polar plot of the load of one roller against cage angle: its loaded zone."""
+    from matplotlib.ticker import MaxNLocator
+
     columns = typical_speeds(dataset)
     angle = dataset["cage_angle"].values
     closed = np.append(angle, angle[:1])
@@ -67,8 +70,11 @@ def roller_zone(dataset: xr.Dataset) -> Any:
                 ax.fill_between(closed, low, high, color=colour, alpha=0.2, lw=0)
                 ax.plot(closed, mean, color=colour, label=preload_label(preload))
             ax.set_ylim(0.0, 1.05 * top)
+            ax.yaxis.set_major_locator(MaxNLocator(4))
             ax.set_rlabel_position(112.5)
             ax.tick_params(labelsize=8)
+            for text in ax.get_yticklabels():
+                outlined(text, "white", 2.5)
             ax.set_title(f"{float(dataset['speed_kmh'][column]):g} km/h", pad=14)
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, ncols=len(handles), loc="outside lower center")

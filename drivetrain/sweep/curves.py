@@ -41,14 +41,16 @@ def spectra(recording: Recording, window: AngleWindow) -> Variables:
     }
 
 
-def waves(recording: Recording) -> Variables:
+def waves(recording: Recording, window: AngleWindow) -> Variables:
     """Return waveforms over the last pinion revolution that starts at a multiple of 2 pi."""
     angle = recording["pinion.angle"]
     turn = 2.0 * math.pi
-    points = recording.teeth * WAVE_POINTS_PER_MESH
-    start = turn * math.floor(angle[-1] / turn - 1.0)
-    within = turn * np.arange(points) / points
-    at = start + within
+    one_turn = AngleWindow(
+        start=turn * math.floor(angle[-1] / turn - 1.0),
+        revolutions=1,
+        samples_per_revolution=recording.teeth * WAVE_POINTS_PER_MESH,
+        mean_speed=window.mean_speed,
+    )
     signals = {
         "dte_wave": recording["mesh.dte"],
         "mesh_force_wave": recording["mesh.force"],
@@ -56,12 +58,11 @@ def waves(recording: Recording) -> Variables:
         "pinion_z_wave": recording["pinion.displacement.z"],
         "roller_load_wave": recording["bearing[1].roller[1].load"],
     }
+    samples = resample(angle, np.stack(list(signals.values()), axis=1), one_turn)
     # A record of hardly more than one turn may not contain a whole turn from a multiple of 2 pi.
-    columns = {
-        name: ("pinion_angle", np.interp(at, angle, signal, left=np.nan, right=np.nan))
-        for name, signal in signals.items()
-    }
-    return {"pinion_angle": ("pinion_angle", within), **columns}
+    samples[one_turn.angle < angle[0]] = np.nan
+    columns = {name: ("pinion_angle", samples[:, i]) for i, name in enumerate(signals)}
+    return {"pinion_angle": ("pinion_angle", one_turn.angle - one_turn.start), **columns}
 
 
 def mesh_cycle(recording: Recording) -> Variables:

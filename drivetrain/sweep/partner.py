@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from drivetrain.driveline_parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from drivetrain.sweep.recording import Driver
 from drivetrain.sweep.settings import SweepSettings
@@ -35,9 +36,13 @@ def operation(settings: SweepSettings, speed_kmh: float) -> Operation:
 
     speed = kmh_to_ms(speed_kmh)
     road = mohammadpour_2015_road_load()
-    kind = CoupledVehicle if settings.driver == "vehicle" else SpeedHold
+    driver: CoupledVehicle | SpeedHold
+    if settings.driver == "vehicle":
+        driver = CoupledVehicle(DrivelineParameters(road_load=road), speed)
+    else:
+        driver = SpeedHold(road, speed)
     return Operation(
-        driver=kind(speed),
-        pinion_speed=road.pinion_speed(speed),
+        driver=driver,
+        pinion_speed=driver.initial_pinion_speed,
         tyre_radius=road.tyre.rolling_radius,
     )

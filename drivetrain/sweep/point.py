@@ -88,7 +88,7 @@ def summarise(
             "message": "",
             **numbers,
             **spectra(recording, window),
-            **waves(recording),
+            **waves(recording, window),
             **mesh_cycle(recording),
             **roller_zone(recording),
         },
