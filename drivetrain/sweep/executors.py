@@ -16,10 +16,8 @@ import xarray as xr
 
 from drivetrain.sweep.settings import SweepSettings
 from drivetrain.sweep.unpack import unpacked
-from gearlube_core.checks import check_within
 
 PointFunction = Callable[[Path, float, float, SweepSettings], xr.Dataset]
-_MOST_JOBS = 1024
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +46,7 @@ def _leave_interrupts_to_the_parent() -> None:
 @contextmanager
 def local_crew(fmu: Path, jobs: int | None, point: PointFunction) -> Iterator[Crew]:
     """Run points in `jobs` spawned processes; the FMU is unzipped once for all of them."""
-    workers = int(check_within("jobs", jobs or default_jobs(), 1, _MOST_JOBS))
+    workers = default_jobs() if jobs is None else jobs
     with unpacked(fmu) as directory:
         executor = ProcessPoolExecutor(
             max_workers=workers,

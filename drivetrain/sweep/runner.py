@@ -12,7 +12,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from drivetrain.sweep.executors import Crew, PointFunction, crew_for
+from drivetrain.sweep.executors import Crew, PointFunction, crew_for, default_jobs
 from drivetrain.sweep.merge import merge, save
 from drivetrain.sweep.point import FINISHED, failed_point, run_point
 from drivetrain.sweep.settings import SweepSettings
@@ -24,6 +24,7 @@ from gearlube_core.errors import GearLubeError, ParameterError
 
 logger = logging.getLogger(__name__)
 
+_MOST_JOBS = 1024
 _ATTEMPTS = 3  # local pools, should processes die
 
 Place = tuple[float, float]  # speed [km/h], preload [N]
@@ -101,6 +102,8 @@ def run_sweep(
     loads = sorted({check_within("preload", p, 1.0, 1e5, "N") for p in preloads})
     if not speeds or not loads:
         raise ParameterError("A sweep needs at least one speed and one preload, got none.")
+    if jobs is not None:
+        check_within("jobs", jobs, 1, _MOST_JOBS, "", "Leave it out to use all processors.")
     with unpacked(fmu) as directory:
         guid = fmu_guid(directory)
     keys = {
@@ -196,7 +199,7 @@ def _compute(
     for _ in range(_ATTEMPTS):
         if not book.due:
             return
-        workers = min(jobs, len(book.due)) if jobs else None
+        workers = min(jobs or default_jobs(), len(book.due))
         try:
             with crew_for(fmu, jobs=workers, scheduler=scheduler, point=point) as crew:
                 _collect(book, crew, settings)

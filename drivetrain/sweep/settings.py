@@ -79,7 +79,7 @@ class SweepSettings:
 
     def __post_init__(self) -> None:
         check_within(
-            "oil_temperature", self.oil_temperature, 233.15, 473.15, "K", "Kelvin, not Celsius."
+            "oil_temperature", self.oil_temperature, 253.15, 433.15, "K", "That is -20 to 160 degC."
         )
         check_option("driver", self.driver, DRIVERS)
         check_within("roughness_rms", self.roughness_rms, 1e-9, 1e-5, "m", "0.5 um is 0.5e-6 m.")

@@ -1,0 +1,32 @@
+"""Compile the axle before many processes need it."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from drivetrain.sweep.channels import CHANNELS
+from drivetrain.sweep.fmu_axle import FmuAxle
+from drivetrain.sweep.partner import operation
+from drivetrain.sweep.settings import SweepSettings
+from drivetrain.sweep.unpack import unpacked
+
+_SPEED_KMH = 50.0
+
+
+def warm_up(fmu: Path, settings: SweepSettings) -> float:
+    """Initialise the FMU and take two steps; return the wall time this took [s].
+
+    The machine code stays in numba's cache on disk, from where the workers load it.
+    """
+    began = time.monotonic()
+    where = operation(settings, _SPEED_KMH)
+    with unpacked(fmu) as directory, FmuAxle(directory, CHANNELS) as axle:
+        axle.set_parameters(settings.fmu_parameters)
+        axle.set_parameters({"pinion.speed_start": where.pinion_speed})
+        torques = where.driver.initial_torques()
+        axle.initialise(*torques, settings.oil_temperature)
+        for _ in range(2):
+            axle.step(settings.communication_step, *torques)
+            axle.read()
+    return time.monotonic() - began

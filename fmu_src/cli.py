@@ -1,0 +1,179 @@
+"""The command `gearlube`."""
+
+from __future__ import annotations
+
+import logging
+import shlex
+import sys
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.logging import RichHandler
+
+from fmu_src.arguments import speeds_from
+from fmu_src.spread_values import SpreadingCommand
+from gearlube_core import __version__
+from gearlube_core.checks import check_within
+from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.units import celsius_to_kelvin
+
+logger = logging.getLogger("gearlube")
+console = Console(stderr=True)
+
+BAD_ARGUMENT, FAILED, INTERRUPTED = 2, 1, 130
+_DEFAULT_SPEEDS = ("20:100:5",)
+_QUICK_SPEEDS = ("20:100:40",)
+_DEFAULT_PRELOADS = (2500.0, 6000.0)
+
+app = typer.Typer(
+    name="gearlube",
+    help="Lubricated hypoid axles: build the FMU, run speed sweeps, get a report.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_show_locals=False,
+)
+
+
+class _SweepCommand(SpreadingCommand):
+    spreading = frozenset({"--speeds", "--preload"})
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"gearlube {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _common(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version."),
+    ] = False,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log details.")] = False,
+) -> None:
+    handler = RichHandler(console=console, show_path=False, show_time=False, markup=False)
+    logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler], force=True)
+    logger.setLevel(logging.INFO)
+    logging.getLogger("drivetrain").setLevel(logging.INFO)
+    if verbose:
+        for name in ("gearlube", "drivetrain", "fmu_src", "gearlube_core"):
+            logging.getLogger(name).setLevel(logging.DEBUG)
+
+
+@app.command(cls=_SweepCommand)
+def sweep(
+    speeds: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Vehicle speeds [km/h]: first:last:step and single values. Default 20:100:5.",
+            metavar="RANGE...",
+        ),
+    ] = None,
+    preload: Annotated[
+        list[float] | None,
+        typer.Option(
+            help="Bearing preloads [N], one or more. Default 2500 6000.", metavar="FORCE..."
+        ),
+    ] = None,
+    oil_temperature: Annotated[
+        float, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
+    ] = 95.0,
+    oil: Annotated[
+        str, typer.Option(help="mohammadpour_2015 or karagiannis_2012.")
+    ] = "mohammadpour_2015",
+    roughness_um: Annotated[
+        float, typer.Option(help="Composite rms roughness of the flanks [um].", metavar="UM")
+    ] = 0.5,
+    equations: Annotated[
+        str, typer.Option(help="consistent, or as_printed in the paper.")
+    ] = "consistent",
+    friction: Annotated[
+        str, typer.Option(help="Flank friction: consistent, as_printed or off.")
+    ] = "consistent",
+    bearing_torque_loss: Annotated[
+        str, typer.Option(help="Drag torque of the bearings: palmgren or none.")
+    ] = "palmgren",
+    driver: Annotated[
+        str, typer.Option(help="vehicle: coupled driveline; hold: road load and speed hold.")
+    ] = "vehicle",
+    jobs: Annotated[
+        int | None, typer.Option(help="Local processes. Default: all processors.", metavar="N")
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(help="Address of a running Dask scheduler instead of local processes."),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_sweep"),
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Few speeds and short records, for a first look.")
+    ] = False,
+    fmu: Annotated[
+        Path | None, typer.Option(help="Axle FMU to run. Default: that of this installation.")
+    ] = None,
+) -> None:
+    """Sweep vehicle speed and bearing preload; write sweep.nc, summary.csv and report.html.
+
+    Finished points are kept in OUT/points: run the same command again to go on after a stop.
+    """
+    from drivetrain.sweep import SweepInterruptedError, SweepSettings, quick_settings
+    from fmu_src.sweep_console import console_sweep
+
+    try:
+        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        settings = SweepSettings(
+            oil_temperature=celsius_to_kelvin(oil_temperature),
+            oil=oil,
+            roughness_rms=roughness_um * 1e-6,
+            equations=equations,
+            friction=friction,
+            bearing_torque_loss=bearing_torque_loss,
+            driver=driver,
+        )
+        failures = console_sweep(
+            console,
+            fmu=fmu,
+            speeds_kmh=speeds_from(speeds or (_QUICK_SPEEDS if quick else _DEFAULT_SPEEDS)),
+            preloads=preload or list(_DEFAULT_PRELOADS),
+            settings=quick_settings(settings) if quick else settings,
+            out=out,
+            jobs=jobs,
+            scheduler=scheduler,
+            command_line=shlex.join(["gearlube", *sys.argv[1:]]),
+        )
+    except SweepInterruptedError as error:
+        logger.warning("%s", error)
+        raise typer.Exit(INTERRUPTED) from None
+    except ParameterError as error:
+        logger.error("%s", error)
+        raise typer.Exit(BAD_ARGUMENT) from None
+    except GearLubeError as error:
+        logger.error("%s", error)
+        raise typer.Exit(FAILED) from None
+    if failures:
+        raise typer.Exit(FAILED)
+
+
+@app.command("build-fmu")
+def build_fmu(
+    out: Annotated[Path, typer.Option(help="Folder that gets HypoidAxle.fmu.")] = Path(),
+) -> None:
+    """Build HypoidAxle.fmu (FMI 2.0 co-simulation)."""
+    from fmu_src.build import build_hypoid_axle
+
+    began = time.monotonic()
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        path = build_hypoid_axle(out)
+    except (GearLubeError, OSError) as error:
+        logger.error("The FMU was not built: %s", error)
+        raise typer.Exit(FAILED) from None
+    logger.info("Built %s in %.1f s.", path, time.monotonic() - began)
+
+
+def main() -> None:
+    """Entry point of the command `gearlube`."""
+    app()

@@ -1,0 +1,44 @@
+"""Options that take several values after one flag."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Sequence
+from typing import Any
+
+from typer.core import TyperCommand
+
+_VALUE = re.compile(r"^[+\-]?[\d.]")  # a number, or a range that begins with one
+
+
+def spread(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
+    """Repeat a flag before every number that follows it.
+
+    >>> spread(["--preload", "2500", "6000", "--out", "x"], {"--preload"})
+    ['--preload', '2500', '--preload', '6000', '--out', 'x']
+    """
+    result: list[str] = []
+    flag, taken = "", 0
+    for argument in arguments:
+        if argument in flags:
+            flag, taken = argument, 0
+        elif flag and taken and _VALUE.match(argument):
+            result.append(flag)
+        elif flag and taken:
+            flag = ""
+        else:
+            taken += bool(flag)
+            result.append(argument)
+            continue
+        result.append(argument)
+    return result
+
+
+class SpreadingCommand(TyperCommand):
+    """A command whose options named in `spreading` take all the numbers that follow them."""
+
+    spreading: Collection[str] = frozenset()
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse `args` after repeating the flags."""
+        return super().parse_args(ctx, spread(args, self.spreading))

@@ -1,0 +1,82 @@
+"""A sweep with messages and a progress bar."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from drivetrain.report import write_report
+from drivetrain.sweep import Progress as PointProgress
+from drivetrain.sweep import SweepSettings, run_sweep
+from drivetrain.sweep.warm_up import warm_up
+from fmu_src.fmu_cache import cached_hypoid_axle
+
+logger = logging.getLogger("gearlube")
+
+_NOTABLE = 5.0  # s, a warm-up that was a compilation
+
+
+def console_sweep(
+    console: Console,
+    *,
+    fmu: Path | None,
+    speeds_kmh: list[float],
+    preloads: list[float],
+    settings: SweepSettings,
+    out: Path,
+    jobs: int | None,
+    scheduler: str | None,
+    command_line: str,
+) -> int:
+    """Run a sweep, write its report, and return the number of failed points."""
+    if fmu is None:
+        fmu = cached_hypoid_axle()
+    if scheduler is None:
+        logger.info("Preparing the axle; the first time this compiles it, about 20 s.")
+        seconds = warm_up(fmu, settings)
+        if seconds > _NOTABLE:
+            logger.info("Compiled in %.0f s; the machine code is kept for later runs.", seconds)
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console) as bar:
+        task = bar.add_task("sweep", total=len(speeds_kmh) * len(set(preloads)))
+
+        def observe(progress: PointProgress) -> None:
+            where = f"{progress.speed_kmh:g} km/h, {progress.preload:g} N"
+            bar.update(task, completed=progress.done, description=where)
+
+        dataset = run_sweep(
+            fmu,
+            speeds_kmh=speeds_kmh,
+            preloads=preloads,
+            settings=settings,
+            out=out,
+            jobs=jobs,
+            scheduler=scheduler,
+            observer=observe,
+            command_line=command_line,
+        )
+        bar.update(task, description="report")
+        report = write_report(dataset, out)
+    failures = int((dataset["status"] == 0).sum())
+    if failures:
+        logger.warning("%d points failed; the report says why.", failures)
+    computed = dataset.attrs["computed_points"]
+    logger.info("%d points computed in %.1f s.", computed, dataset.attrs["wall_time"])
+    logger.info("Results: %s, %s, %s", report, out / "sweep.nc", out / "summary.csv")
+    return failures
