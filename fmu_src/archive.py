@@ -1,0 +1,34 @@
+"""Zip files that are equal whenever their content is equal."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+
+_EARLIEST = (1980, 1, 1, 0, 0, 0)  # the zip format knows no earlier time
+_REGULAR_FILE = 0o100644 << 16
+
+
+def write_archive(path: Path, content: Mapping[str, bytes]) -> None:
+    """Write `content` (name in the archive -> bytes) to `path` in one atomic move.
+
+    Entries are sorted, without time stamps, and stored uncompressed: the output of zlib differs
+    between its implementations.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as stream, zipfile.ZipFile(stream, "w") as archive:
+            for name in sorted(content):
+                entry = zipfile.ZipInfo(name, _EARLIEST)
+                entry.create_system = 3
+                entry.external_attr = _REGULAR_FILE
+                archive.writestr(entry, content[name])
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise

@@ -1,0 +1,71 @@
+"""What an FMU consists of, independent of the FMI version and of the tool that packs it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_src.variable import Variable
+
+Value = float | int | bool | str
+
+
+class Model(Protocol):
+    """A model in motion: what the slave needs of it."""
+
+    @property
+    def outputs(self) -> NDArray[np.float64]:
+        """Present outputs, in the order of `Definition.output_names`."""
+
+    @property
+    def step(self) -> Callable[..., None]:
+        """(h, *inputs): advance by h [s]; raise a GearLubeError and stay put if impossible."""
+
+    def get_state(self) -> NDArray[np.float64]:
+        """Return everything that the future depends on."""
+
+    def set_state(self, state: NDArray[np.float64]) -> None:
+        """Continue from a state that `get_state` returned."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Definition:
+    """An FMU as data.
+
+    Parameters
+    ----------
+    name : str
+        Model name and model identifier.
+    description : str
+        One line for the user.
+    variables : tuple of Variable
+        The table; the place in it is the value reference.
+    output_names : tuple of str
+        Names of the model's outputs in the order of `Model.outputs`.
+    start_model : callable
+        (parameters by name, input values) -> initialised `Model`.
+    stop_time, step_size : float
+        Default experiment [s].
+    """
+
+    name: str
+    description: str
+    variables: tuple[Variable, ...]
+    output_names: tuple[str, ...]
+    start_model: Callable[[Mapping[str, Value], Sequence[float]], Model]
+    stop_time: float
+    step_size: float
+
+    @cached_property
+    def references(self) -> dict[str, int]:
+        """Value reference of every name."""
+        return {variable.name: i for i, variable in enumerate(self.variables)}
+
+    def references_of(self, causality: str) -> list[int]:
+        """Return the value references of all variables with this causality."""
+        return [i for i, v in enumerate(self.variables) if v.causality == causality]

@@ -1,0 +1,80 @@
+"""Tables of the variables for people: in docs/fmu.md and inside the FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape
+
+from fmu_src.definition import Definition
+from fmu_src.units import UNITS
+from fmu_src.variable import Variable
+
+HEADINGS = ("Name", "Unit", "Shown in", "Start", "Range", "Description")
+_TITLES = {"input": "Inputs", "parameter": "Parameters", "output": "Outputs"}
+
+
+def _shown(variable: Variable, value: float) -> str:
+    if variable.literals:
+        return variable.literals[int(value) - 1]
+    for display in UNITS[variable.unit].display if variable.unit else ():
+        if display.name == variable.display_unit:
+            return f"{display.factor * value + display.offset:.6g} {display.name}"
+    return f"{value:.6g}"
+
+
+def row(variable: Variable) -> tuple[str, ...]:
+    """Return the cells of `variable` under `HEADINGS`; start and range in the display unit."""
+    limits = ""
+    if variable.literals:
+        limits = ", ".join(variable.literals)
+    elif variable.minimum is not None and variable.maximum is not None:
+        limits = f"{_shown(variable, variable.minimum)} to {_shown(variable, variable.maximum)}"
+    return (
+        variable.name,
+        variable.unit or variable.type,
+        variable.display_unit,
+        "" if variable.start is None else _shown(variable, variable.start),
+        limits,
+        variable.description,
+    )
+
+
+def _sections(definition: Definition) -> Iterable[tuple[str, list[tuple[str, ...]]]]:
+    for causality, title in _TITLES.items():
+        yield title, [row(v) for v in definition.variables if v.causality == causality]
+
+
+def variables_markdown(definition: Definition) -> str:
+    """Return the variables as Markdown tables, one for each causality."""
+    lines: list[str] = []
+    for title, rows in _sections(definition):
+        lines += [f"### {title}", "", "| " + " | ".join(HEADINGS) + " |"]
+        lines += ["|" + "---|" * len(HEADINGS)]
+        lines += [f"| `{cells[0]}` | " + " | ".join(cells[1:]) + " |" for cells in rows]
+        lines += [""]
+    return "\n".join(lines)
+
+
+def index_html(definition: Definition) -> str:
+    """Return documentation/index.html of the FMU."""
+    body = [
+        f"<h1>{escape(definition.name)}</h1>",
+        f"<p>{escape(definition.description)}.</p>",
+        "<p>This FMU computes in the Python package gearlube, which must be installed where it "
+        "runs. A host that is not Python itself preloads libpython and sets PYTHONPATH. "
+        "Communication steps are above 0 and at most 0.1 s; outputs hold the end of the last "
+        "step.</p>",
+    ]
+    for title, rows in _sections(definition):
+        head = "".join(f"<th>{heading}</th>" for heading in HEADINGS)
+        cells = "\n".join(
+            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row_) + "</tr>" for row_ in rows
+        )
+        body.append(f"<h2>{title}</h2>\n<table>\n<tr>{head}</tr>\n{cells}\n</table>")
+    style = "body{font-family:sans-serif}td,th{text-align:left;padding:0 1em 0 0}"
+    return (
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        f"<title>{escape(definition.name)}</title><style>{style}</style></head>\n<body>\n"
+        + "\n".join(body)
+        + "\n</body></html>\n"
+    )

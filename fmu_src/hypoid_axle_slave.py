@@ -1,0 +1,21 @@
+"""The script inside HypoidAxle.fmu. It holds no physics: it finds the installed gearlube.
+
+pythonfmu imports this file and then runs its source once more at each instantiation. A class
+statement here would make a new class each time, so the class is imported.
+"""
+
+import sys
+
+try:
+    from fmu_src.hypoid_axle import HypoidAxle
+    from fmu_src.wrapper import give_reference
+except ImportError as error:
+    raise ImportError(
+        "HypoidAxle.fmu needs the Python package gearlube where it runs, "
+        f"not found in {sys.prefix} (Python {sys.version.split()[0]}): {error}. "
+        "Install it there with `pip install gearlube`, or add its environment to PYTHONPATH."
+    ) from error
+
+__all__ = ["HypoidAxle"]
+
+give_reference(globals())

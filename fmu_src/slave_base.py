@@ -1,0 +1,250 @@
+"""Co-simulation slave of any `Definition`, on pythonfmu's FMI 2.0 wrapper.
+
+The wrapper knows two answers besides fmi2OK: fmi2Discard (`do_step` returns False) and fmi2Fatal
+(a method raises). So a bad value is logged when it is set and refuses the step or the
+initialisation that would use it; an impossible initialisation or call raises.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Sequence
+from enum import IntEnum
+from typing import Any, ClassVar
+
+import numpy as np
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from fmu_src.definition import Definition, Model, Value
+from fmu_src.identity import check_identity, guid_of
+from fmu_src.model_description import LOG_CATEGORIES
+from fmu_src.registration import register_variables
+from fmu_src.state_bytes import Snapshot
+from fmu_src.values import Values
+from fmu_src.warm_start import compile_ahead
+from fmu_src.wrapper import guarded
+from gearlube_core.errors import GearLubeError, ParameterError, StepError
+
+LONGEST_STEP = 0.1  # s
+
+_LOGGER = logging.getLogger(__name__)
+_LEVELS = {Fmi2Status.ok: logging.INFO, Fmi2Status.warning: logging.WARNING}
+
+
+class Phase(IntEnum):
+    """Place in the FMI state machine."""
+
+    INSTANTIATED = 0
+    INITIALISING = 1
+    STEPPING = 2
+    TERMINATED = 3
+
+
+def _explained(error: BaseException) -> str:
+    return str(error) if isinstance(error, GearLubeError) else f"{type(error).__name__}: {error}"
+
+
+class CoSimulationSlave(Fmi2Slave):
+    """FMI 2.0 co-simulation slave; a subclass names its `definition` and nothing else."""
+
+    definition: ClassVar[Definition]
+    log_categories = LOG_CATEGORIES
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.modelName = self.definition.name
+        self._values = Values(self.definition, lambda text: self.report(Fmi2Status.error, text))
+        self._model: Model | None = None
+        self._model_parameters: dict[str, Value] = {}
+        self._stale = True
+        self._broken = ""
+        self._time = 0.0
+        self._phase = Phase.INSTANTIATED
+        register_variables(self, self.definition.variables)
+        # Not logged yet: see the third habit in `fmu_src.wrapper`.
+        self._warnings = [
+            check_identity(self.definition, self.resources or ""),
+            compile_ahead(self.definition),
+        ]
+
+    def report(self, status: Fmi2Status, message: str) -> None:
+        """Send `message` to the host's logger, and to Python's, which a host cannot switch off."""
+        category = "logEvents" if status == Fmi2Status.ok else f"logStatus{status.name.title()}"
+        self.log(f"{self.instance_name}: {message}", status, category)
+        _LOGGER.log(_LEVELS.get(status, logging.ERROR), "%s: %s", self.instance_name, message)
+
+    def report_fatal(self, error: BaseException) -> None:
+        """Log what the wrapper turns into fmi2Fatal."""
+        self.report(Fmi2Status.fatal, _explained(error))
+
+    @guarded
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        """Note the start time [s]; the step size of the model follows from its frequencies."""
+        self._log_warnings()
+        if not math.isfinite(start_time):
+            raise ParameterError(f"The start time must be finite, got {start_time} s.")
+        self._time = start_time
+
+    @guarded
+    def enter_initialization_mode(self) -> None:
+        """Start the phase in which outputs may be asked for."""
+        self._log_warnings()
+        self._phase = Phase.INITIALISING
+
+    @guarded
+    def exit_initialization_mode(self) -> None:
+        """Compute the outputs at the start time; raise if that cannot be done."""
+        self._initialise_model()
+        self._enter(Phase.STEPPING)
+        settings = ", ".join(f"{name} = {value}" for name, value in self._model_parameters.items())
+        self.report(Fmi2Status.ok, f"initialised at t = {self._time:g} s with {settings}")
+
+    @guarded
+    def terminate(self) -> None:
+        """Take no further step; outputs can still be read."""
+        self._enter(Phase.TERMINATED)
+
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance the model; on any trouble log it, stay where it was and return False."""
+        try:
+            self._check_step(current_time, step_size)
+            self._model.step(step_size, *self._values.inputs())  # type: ignore[union-attr]
+            self._collect_outputs()
+        except BaseException as error:
+            refusal = f"step at t = {current_time} s refused. {_explained(error)}"
+            self.report(Fmi2Status.discard, refusal)
+            return False
+        self._time = current_time + step_size
+        return True
+
+    def _log_warnings(self) -> None:
+        while self._warnings:
+            warning = self._warnings.pop()
+            if warning:
+                self.report(Fmi2Status.warning, warning)
+
+    def _enter(self, phase: Phase) -> None:
+        self._phase = phase
+        self._values.allow_setting(*(("input",) if phase >= Phase.STEPPING else _EARLY))
+
+    def _check_step(self, t: float, h: float) -> None:
+        if self._phase != Phase.STEPPING:
+            raise StepError(f"The FMU must be in phase STEPPING, got {self._phase.name}.")
+        if self._values.refused:
+            raise StepError(" ".join(self._values.refused.values()))
+        if self._broken:
+            raise StepError(self._broken)
+        if not 0.0 < h <= LONGEST_STEP:
+            raise StepError(
+                f"communicationStepSize must be above 0 and at most {LONGEST_STEP} s, got {h} s. "
+                "Renew the torques at least that often."
+            )
+        if not abs(t - self._time) <= 1e-3 * h + 1e-9 * max(1.0, abs(self._time)):
+            raise StepError(
+                f"currentCommunicationPoint must be {self._time!r} s, where the last step ended, "
+                f"got {t!r} s. Restore an FMU state to repeat a step."
+            )
+
+    def _initialise_model(self) -> None:
+        if not self._stale:
+            return
+        if self._values.refused:
+            raise ParameterError(" ".join(self._values.refused.values()))
+        self._start_model(self._values.inputs())
+        self._collect_outputs()
+        self._stale = False
+
+    def _start_model(self, inputs: Sequence[float]) -> None:
+        parameters = self._values.parameters()
+        self._model = self.definition.start_model(parameters, inputs)
+        self._model_parameters = parameters
+
+    def _collect_outputs(self) -> None:
+        outputs = self._model.outputs  # type: ignore[union-attr]
+        if not math.isfinite(outputs.dot(outputs)):
+            names = zip(self.definition.output_names, outputs.tolist(), strict=True)
+            culprits = ", ".join(name for name, value in names if not math.isfinite(value))
+            self._broken = (
+                f"{culprits} must be finite and is not. "
+                "Reset the FMU or restore an earlier state, then use smaller torques."
+            )
+            raise StepError(self._broken)
+        self._values.store_outputs(outputs)
+
+    def _read(self, kind: str, vrs: Sequence[int]) -> Any:
+        index = self._values.index(kind, vrs)
+        if self._stale and self._phase < Phase.STEPPING and self._asks_for_output(vrs):
+            self._initialise_model()
+        return self._values.array[index]
+
+    def _asks_for_output(self, vrs: Sequence[int]) -> bool:
+        return any(self.definition.variables[vr].causality == "output" for vr in vrs)
+
+    @guarded
+    def get_real(self, vrs: Sequence[int]) -> list[float]:
+        """Return the values of Real variables."""
+        return self._read("Real", vrs).tolist()
+
+    @guarded
+    def get_integer(self, vrs: Sequence[int]) -> list[int]:
+        """Return the values of Integer and Enumeration variables."""
+        return [int(value) for value in self._read("Integer", vrs).tolist()]
+
+    @guarded
+    def get_boolean(self, vrs: Sequence[int]) -> list[bool]:
+        """Return the values of Boolean variables."""
+        return [value != 0.0 for value in self._read("Boolean", vrs).tolist()]
+
+    @guarded
+    def set_real(self, vrs: Sequence[int], values: Sequence[float]) -> None:
+        """Set Real inputs, and Real parameters before the end of initialisation."""
+        self._values.assign("Real", vrs, values)
+        self._stale = True
+
+    @guarded
+    def set_integer(self, vrs: Sequence[int], values: Sequence[int]) -> None:
+        """Set Integer and Enumeration parameters before the end of initialisation."""
+        self._values.assign("Integer", vrs, values)
+        self._stale = True
+
+    @guarded
+    def set_boolean(self, vrs: Sequence[int], values: Sequence[bool]) -> None:
+        """Set Boolean variables."""
+        self._values.assign("Boolean", vrs, values)
+        self._stale = True
+
+    @guarded
+    def _get_fmu_state(self) -> bytes:
+        return Snapshot(
+            phase=int(self._phase),
+            time=self._time,
+            values=self._values.array,
+            model=np.empty(0) if self._model is None else self._model.get_state(),
+        ).to_bytes(guid_of(self.definition))
+
+    @guarded
+    def _set_fmu_state(self, state: bytes) -> None:
+        snapshot = Snapshot.from_bytes(state, guid_of(self.definition))
+        self._enter(Phase(snapshot.phase))
+        self._values.restore(snapshot.values)
+        self._time, self._broken, self._stale = snapshot.time, "", True
+        if snapshot.phase >= Phase.STEPPING:
+            if self._model is None or self._model_parameters != self._values.parameters():
+                self._start_model(self._values.start_inputs())
+            self._model.set_state(snapshot.model)  # type: ignore[union-attr]
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: bytes) -> bytes:
+        return state
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> bytes:
+        # The wrapper does not survive an exception here; `_set_fmu_state` checks the content.
+        return state
+
+
+_EARLY = ("input", "parameter")

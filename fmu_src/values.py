@@ -1,0 +1,141 @@
+"""The values of all variables of one instance, and the rules for reading and setting them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_src.definition import Definition, Value
+from fmu_src.variable import Variable
+from gearlube_core.errors import ParameterError
+
+_REMEMBERED = 64  # lists of references whose index is kept; hosts repeat a few
+
+
+def _access(variable: Variable) -> str:
+    """Return the kind of FMI call for `variable`: FMI 2 reads an Enumeration as Integer."""
+    return "Integer" if variable.type == "Enumeration" else variable.type
+
+
+def _limits(variable: Variable) -> str:
+    if variable.literals:
+        return "one of " + ", ".join(
+            f"{value} ({literal})" for value, literal in enumerate(variable.literals, start=1)
+        )
+    low, high = variable.range
+    unit = "" if variable.unit in ("", "1") else f" {variable.unit}"
+    return f"within {low:g} to {high:g}{unit}"
+
+
+class Values:
+    """One float64 array, indexed by value reference.
+
+    Parameters
+    ----------
+    definition : Definition
+        The FMU; it gives types, ranges and start values.
+    on_refusal : callable
+        Told what is wrong with a value at the moment it is set.
+
+    Notes
+    -----
+    Integers, enumerations and Booleans are exact in a float64. A value outside its range is kept
+    and named in `refused` until a legal one replaces it.
+    """
+
+    def __init__(self, definition: Definition, on_refusal: Callable[[str], None]) -> None:
+        self._table = definition.variables
+        self._on_refusal = on_refusal
+        self._indices: dict[tuple[str, tuple[int, ...]], NDArray[np.intp]] = {}
+        self._settable: dict[str, dict[int, tuple[float, float]]] = {}
+        references = definition.references
+        self._inputs = np.array(definition.references_of("input"), dtype=np.intp)
+        self._outputs = np.array([references[n] for n in definition.output_names], dtype=np.intp)
+        self.array: NDArray[np.float64] = np.array([v.start or 0.0 for v in self._table])
+        self.refused: dict[int, str] = {}
+        self.allow_setting("input", "parameter")
+
+    def allow_setting(self, *causalities: str) -> None:
+        """From now on only variables of these causalities can be set."""
+        self._settable = {}
+        for reference, variable in enumerate(self._table):
+            if variable.causality in causalities:
+                self._settable.setdefault(_access(variable), {})[reference] = variable.range
+
+    def inputs(self) -> list[float]:
+        """Return the inputs in the order of the table."""
+        return self.array[self._inputs].tolist()
+
+    def start_inputs(self) -> list[float]:
+        """Return the start values of the inputs."""
+        return [v.start or 0.0 for v in self._table if v.causality == "input"]
+
+    def parameters(self) -> dict[str, Value]:
+        """Return the parameters by name, enumerations as literals."""
+        return {
+            variable.name: variable.decoded(value)
+            for variable, value in zip(self._table, self.array.tolist(), strict=True)
+            if variable.causality == "parameter"
+        }
+
+    def store_outputs(self, outputs: NDArray[np.float64]) -> None:
+        """Copy the outputs of the model."""
+        self.array[self._outputs] = outputs
+
+    def index(self, kind: str, vrs: Sequence[int]) -> NDArray[np.intp]:
+        """Return `vrs` as an index into `array`, checked once and remembered."""
+        key = (kind, tuple(vrs))
+        index = self._indices.get(key)
+        if index is None:
+            for vr in vrs:
+                self._check_kind(kind, vr)
+            if len(self._indices) >= _REMEMBERED:
+                self._indices.clear()
+            index = self._indices[key] = np.array(vrs, dtype=np.intp)
+        return index
+
+    def _check_kind(self, kind: str, vr: int) -> None:
+        last = len(self._table) - 1
+        if not 0 <= vr <= last:
+            raise ParameterError(f"The value reference must be within 0 to {last}, got {vr}.")
+        variable = self._table[vr]
+        if _access(variable) != kind:
+            raise ParameterError(
+                f"{variable.name} must be accessed as {_access(variable)}, got {kind}. "
+                f"Its type is {variable.type}."
+            )
+
+    def assign(self, kind: str, vrs: Sequence[int], values: Sequence[float]) -> None:
+        """Set variables; note those out of range in `refused`; raise if that is no legal call."""
+        settable = self._settable.get(kind, {})
+        for vr, value in zip(vrs, values, strict=True):
+            limits = settable.get(vr)
+            if limits is None:
+                self._check_kind(kind, vr)
+                variable = self._table[vr]
+                raise ParameterError(
+                    f"{variable.name} must not be set in this phase of the simulation, "
+                    f"it is a {variable.variability} {variable.causality}. "
+                    "Set parameters before the end of initialisation."
+                )
+            self.array[vr] = value
+            if not limits[0] <= value <= limits[1]:
+                self._refuse(vr, value)
+            elif self.refused:
+                self.refused.pop(vr, None)
+
+    def _refuse(self, vr: int, value: float) -> None:
+        variable = self._table[vr]
+        self.refused[vr] = f"{variable.name} must be {_limits(variable)}, got {value}."
+        self._on_refusal(f"{self.refused[vr]} No step is taken until a legal value replaces it.")
+
+    def restore(self, array: NDArray[np.float64]) -> None:
+        """Take over saved values, legal or not."""
+        self.array[:] = array
+        self.refused.clear()
+        for by_reference in self._settable.values():
+            for vr, (low, high) in by_reference.items():
+                if not low <= self.array[vr] <= high:
+                    self._refuse(vr, float(self.array[vr]))
