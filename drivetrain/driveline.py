@@ -11,7 +11,13 @@ from numpy.typing import NDArray
 from drivetrain.driveline_equations import INDEX, POWERS, STATES, driveline_equations
 from drivetrain.driveline_parameters import DrivelineParameters
 from drivetrain.driveline_steady_state import periodic_deviation, steady_state
-from drivetrain.driveline_stepper import LONGEST_INNER_STEP, MEMORY, SLOT, driveline_stepper
+from drivetrain.driveline_stepper import (
+    LONGEST_INNER_STEP,
+    MEMORY,
+    SLOT,
+    driveline_stepper,
+    interval_jacobian,
+)
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError, StepError
 
@@ -53,6 +59,7 @@ class Driveline:
         self.equations = driveline_equations(parameters, self.gear_ratio)
         self.steady = steady_state(parameters, self.gear_ratio, speed, axle_power_loss)
         self._steppers: dict[int, Any] = {}
+        self._jacobians: dict[int, Any] = {}
         self._alive: list[Any] = []
         self._inputs = np.array([speed, self.steady.engine_torque, 1.0])
         self._memory = np.zeros(len(MEMORY))
@@ -86,9 +93,10 @@ class Driveline:
 
         Notes
         -----
-        "pinion" leaves through the propshaft, "ring_gear" comes back through the half-shafts,
-        "interface" is what the corrections of the continued angles bring in: the numerical energy
-        of the co-simulation.
+        "pinion" leaves through the propshaft, "ring_gear" comes back through the half-shafts, each
+        as the mean torque times the angle that the axle has covered; the last interval counts with
+        the continued angle until the next step. "interface" is the numerical energy of the
+        co-simulation: what correcting the continued angles has brought in.
         """
         values = {name: float(self._memory[SLOT[name]]) for name in (*POWERS, "interface")}
         state = self._memory[: len(STATES)]
@@ -167,9 +175,27 @@ class Driveline:
         self._memory[:] = values[:size]
         self._inputs[:] = values[size:]
 
-    def interval_map(self, h: float) -> Any:
-        """Return the casadi Function behind `step` for intervals of `h` [s]."""
+    def interval_jacobian(self, h: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the linear map of one interval of `h` [s] at the smooth steady state.
+
+        Returns
+        -------
+        tuple of array
+            Derivatives of the states but the crank angle, shape (9, 11), and of the mean torques,
+            shape (2, 11), by these states, pinion speed and wheel speed.
+        """
         inner_steps = max(1, math.ceil(h / LONGEST_INNER_STEP))
+        function = self._jacobians.get(inner_steps)
+        if function is None:
+            function = interval_jacobian(self._interval(inner_steps))
+            self._jacobians[inner_steps] = function
+        steady, inputs = self.steady, self.inputs
+        inputs[2] = 0.0
+        point = np.concatenate([steady.state[1:], [steady.pinion_speed, steady.wheel_speed]])
+        states, torques = function(point, h, inputs)
+        return np.array(states), np.array(torques)
+
+    def _interval(self, inner_steps: int) -> Any:
         a = self.parameters
         return driveline_stepper(
             self.equations, inner_steps, a.propshaft_stiffness, a.half_shaft_stiffness
@@ -186,7 +212,7 @@ class Driveline:
                 f"h must be within 0 to {_LONGEST_STEP:g} s, got {h:g} s. "
                 "A communication step of 1e-4 s keeps a margin."
             )
-        function = self.interval_map(h)
+        function = self._interval(inner_steps)
         buffer, call = function.buffer()
         for position, array in enumerate((self._memory, self._motion, self._inputs)):
             buffer.set_arg(position, array.data)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,72 +10,11 @@ from scipy.linalg import expm
 
 from drivetrain.driveline import Driveline
 from drivetrain.driveline_equations import INDEX, STATES
-from drivetrain.driveline_steady_state import GEAR_INERTIA, PINION_INERTIA
-from drivetrain.driveline_stepper import SLOT
+from drivetrain.driveline_torsional_axle import TorsionalAxle
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ConvergenceError
 
 _Matrix = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TorsionalAxle:
-    """The axle as two inertias, rigidly geared or with an elastic mesh.
-
-    Parameters
-    ----------
-    pinion_inertia, gear_inertia : float
-        By default Mohammadpour et al. 2015 Table 1 [kg m2].
-    mesh_stiffness : float
-        Mesh stiffness about the pinion axis k R_p^2 [N m/rad]; infinite for a rigid mesh.
-    mesh_damping : float
-        c R_p^2 [N m s/rad].
-    """
-
-    pinion_inertia: float = PINION_INERTIA
-    gear_inertia: float = GEAR_INERTIA
-    mesh_stiffness: float = math.inf
-    mesh_damping: float = 0.0
-
-    @classmethod
-    def karagiannis_2012(cls) -> TorsionalAxle:
-        """Return the axle with an elastic mesh and a damping ratio of 0.03.
-
-        Notes
-        -----
-        Karagiannis et al. 2012 give c = 2278.1 N s/m and zeta = 0.03 for the same gear pair. With
-        the inertias and R_p = 21.1 mm of its pitch cones this is k = 4.55e8 N/m, 1.9 kHz.
-        """
-        arm = 21.1e-3**2
-        return cls(mesh_stiffness=4.55e8 * arm, mesh_damping=2278.1 * arm)
-
-    def matrices(self, ratio: float) -> tuple[_Matrix, _Matrix, _Matrix]:
-        """Return A, B of the axle and the rows that give (pinion speed, wheel speed).
-
-        Rigid: state w_p. Elastic: (a_p - i a_g, w_p, w_g). Inputs: T_p, T_w.
-        """
-        ip, ig, k, c = (
-            self.pinion_inertia,
-            self.gear_inertia,
-            self.mesh_stiffness,
-            self.mesh_damping,
-        )
-        if math.isinf(k):
-            inertia = ip + ig / ratio**2
-            return (
-                np.zeros((1, 1)),
-                np.array([[1.0, -1.0 / ratio]]) / inertia,
-                np.array([[1.0], [1.0 / ratio]]),
-            )
-        a = np.array(
-            [
-                [0.0, 1.0, -ratio],
-                [-k / ip, -c / ip, c * ratio / ip],
-                [k * ratio / ig, c * ratio / ig, -c * ratio**2 / ig],
-            ]
-        )
-        b = np.array([[0.0, 0.0], [1.0 / ip, 0.0], [0.0, -1.0 / ig]])
-        return a, b, np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -209,7 +147,7 @@ def largest_stable_step(
 def communication_map(driveline: Driveline, h: float, axle: TorsionalAxle) -> _Matrix:
     """Return the linear map of one interval on (driveline states but crank angle, axle states)."""
     check_within("h", h, 1e-7, 1e-2, "s", "A communication step of 1e-4 s keeps a margin.")
-    free, torque_rows = _interval_jacobian(driveline, h)
+    free, torque_rows = driveline.interval_jacobian(h)
     size = len(STATES) - 1
     a, b, speeds = axle.matrices(driveline.parameters.axle_ratio)
     n = len(a)
@@ -251,26 +189,3 @@ def coupled_jacobian(driveline: Driveline, axle: TorsionalAxle) -> _Matrix:
     motion = [steady.pinion_speed, steady.wheel_speed]
     point = np.concatenate([steady.state[1:], np.zeros(len(a) - len(motion[: len(a)])), motion])
     return np.array(function(point[: len(STATES) - 1 + len(a)]))
-
-
-def _interval_jacobian(driveline: Driveline, h: float) -> tuple[_Matrix, _Matrix]:
-    """Jacobians of the states and of the mean torques by (states, pinion and wheel speed)."""
-    import casadi as ca
-
-    steady = driveline.steady
-    interval = driveline.interval_map(h)
-    y = ca.MX.sym("y", len(STATES) - 1 + 2)
-    size = len(STATES) - 1
-    energies = len(SLOT) - len(STATES)
-    inputs = driveline.inputs
-    inputs[2] = 0.0
-    end, torques = interval(
-        ca.vertcat(0.0, y[:size], ca.DM.zeros(energies)),
-        ca.vertcat(h, 0.0, y[size], 0.0, y[size + 1]),
-        inputs,
-    )
-    states = end[1 : len(STATES)]
-    function = ca.Function("interval", [y], [ca.jacobian(states, y), ca.jacobian(torques[:2], y)])
-    point = np.concatenate([steady.state[1:], [steady.pinion_speed, steady.wheel_speed]])
-    first, second = function(point)
-    return np.array(first), np.array(second)

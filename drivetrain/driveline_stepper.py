@@ -10,9 +10,18 @@ from drivetrain.driveline_equations import INDEX, POWERS, STATES
 _CYCLE = 4.0 * math.pi  # rad, four strokes
 LONGEST_INNER_STEP = 2.5e-4  # s; modes stay below 350 Hz, RK4 then errs by 1e-5 at most
 
-# Memory behind the states: energies [J], the angles the axle was expected to reach [rad], and
-# whether these exist (0 before the first step, else 1).
-MEMORY = (*STATES, *POWERS, "interface", "pinion_angle", "wheel_angle", "started")
+# Memory behind the states: energies [J], the torques of the last interval [N m], the angles that
+# the axle was expected to reach [rad], and whether these exist (0 before the first step, else 1).
+MEMORY = (
+    *STATES,
+    *POWERS,
+    "interface",
+    "pinion_torque",
+    "wheel_torque",
+    "pinion_angle",
+    "wheel_angle",
+    "started",
+)
 SLOT = {name: index for index, name in enumerate(MEMORY)}
 
 
@@ -57,6 +66,9 @@ def driveline_stepper(
         propshaft_stiffness * (after[0] ** 2 - before[0] ** 2)
         + half_shaft_stiffness * (after[1] ** 2 - before[1] ** 2)
     )
+    # The axle has turned by that much more under the torques of the last interval.
+    to_pinion = z[SLOT["pinion_torque"]] * ahead
+    from_ring_gear = z[SLOT["wheel_torque"]] * ahead_wheel
     x = ca.vertcat(x[: INDEX["propshaft_twist"]], *after, x[INDEX["hub_speed"] :])
 
     count = len(POWERS) + 2
@@ -77,20 +89,44 @@ def driveline_stepper(
     x_end = y[: len(STATES)]
     x_end = ca.vertcat(ca.fmod(x_end[0], _CYCLE), x_end[1:])
     works = y[len(STATES) : len(STATES) + len(POWERS)]
-    energies = z[SLOT[POWERS[0]] : SLOT["interface"]] + works
+    at_axle = ca.vertcat(0.0, to_pinion, from_ring_gear, 0.0, 0.0)
+    energies = z[SLOT[POWERS[0]] : SLOT["interface"]] + works + at_axle
+    torques = y[len(STATES) + len(POWERS) :] / h
     z_end = ca.vertcat(
         x_end,
         energies,
-        z[SLOT["interface"]] + brought_in,
+        z[SLOT["interface"]] + brought_in + to_pinion - from_ring_gear,
+        torques,
         pinion_angle + h * pinion_speed,
         wheel_angle + h * wheel_speed,
         1.0,
     )
-    torques = y[len(STATES) + len(POWERS) :] / h
     return ca.Function(
         "driveline_interval",
         [z, m, p],
         [z_end, ca.vertcat(torques, ca.sum1(z_end))],
         ["z", "m", "p"],
         ["z_end", "torques"],
+    )
+
+
+def interval_jacobian(interval: Any) -> Any:
+    """Return the derivatives of a map from `driveline_stepper` as a casadi Function.
+
+    Returns
+    -------
+    casadi.Function
+        (y, h, p) -> (d states / d y, d mean torques / d y), with y the states but the crank angle,
+        pinion speed and wheel speed. The axle's angles are those that were expected.
+    """
+    import casadi as ca
+
+    size = len(STATES) - 1
+    y, h, p = ca.MX.sym("y", size + 2), ca.MX.sym("h"), ca.MX.sym("p", 3)
+    memory = ca.vertcat(0.0, y[:size], ca.DM.zeros(len(MEMORY) - len(STATES)))
+    end, torques = interval(memory, ca.vertcat(h, 0.0, y[size], 0.0, y[size + 1]), p)
+    return ca.Function(
+        "interval_jacobian",
+        [y, h, p],
+        [ca.jacobian(end[1 : len(STATES)], y), ca.jacobian(torques[:2], y)],
     )

@@ -1,0 +1,155 @@
+"""Stability of the exchange of torques, against runs of the real loop."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from drivetrain.driveline import COMMUNICATION_STEP, Driveline
+from drivetrain.driveline_equations import STATES
+from drivetrain.driveline_modes import driveline_modes
+from drivetrain.driveline_parameters import DrivelineParameters
+from drivetrain.driveline_stability import (
+    communication_map,
+    communication_stability,
+    largest_stable_step,
+)
+from drivetrain.driveline_torsional_axle import TorsionalAxle
+from drivetrain.engine import Engine
+from drivetrain.road_load import mohammadpour_2015_road_load
+from gearlube_core.errors import ConvergenceError
+
+RATIO = 36 / 13
+SMOOTH = DrivelineParameters(road_load=mohammadpour_2015_road_load(), engine=Engine(orders=()))
+RIGID, ELASTIC = TorsionalAxle(), TorsionalAxle.karagiannis_2012()
+
+
+class LinearAxle:
+    """A torsional axle that moves exactly under held torques; its own little code."""
+
+    def __init__(self, axle: TorsionalAxle, line: Driveline, h: float) -> None:
+        self.rigid = math.isinf(axle.mesh_stiffness)
+        ip, ig, c = axle.pinion_inertia, axle.gear_inertia, axle.mesh_damping
+        k = 0.0 if self.rigid else axle.mesh_stiffness
+        # State: pinion angle and speed, gear angle and speed.
+        a = np.zeros((6, 6))
+        a[0, 1] = a[2, 3] = 1.0
+        if self.rigid:
+            inertia = ip + ig / RATIO**2
+            a[1, 4], a[1, 5] = 1 / inertia, -1 / RATIO / inertia
+            a[3] = a[1] / RATIO
+        else:
+            a[1, :4] = np.array([-k, -c, k * RATIO, c * RATIO]) / ip
+            a[3, :4] = np.array([k, c, -k * RATIO, -c * RATIO]) * RATIO / ig
+            a[1, 4], a[3, 5] = 1 / ip, -1 / ig
+        self.map = expm(a * h)
+        steady = line.steady
+        wound = 0.0 if self.rigid else steady.pinion_torque / k
+        self.state = np.array([wound, steady.pinion_speed, 0.0, steady.wheel_speed])
+
+    def step(self, pinion: float, wheel: float) -> None:
+        self.state = (self.map @ np.append(self.state, [pinion, wheel]))[:4]
+
+
+def cosimulate(axle: TorsionalAxle, speed: float, h: float, steps: int, kick: float) -> np.ndarray:
+    """Deviations of (states but crank angle, pinion speed) from the steady state, per step."""
+    line = Driveline(SMOOTH, speed)
+    partner = LinearAxle(axle, line, h)
+    partner.state[1] += kick
+    if partner.rigid:
+        partner.state[3] += kick / RATIO
+    rows = np.empty((steps, len(STATES)))
+    for n in range(steps):
+        torques = line.step(h, *partner.state)
+        partner.step(*torques)
+        deviation = line.get_state()[1 : len(STATES)] - line.steady.state[1:]
+        rows[n] = np.append(deviation, partner.state[1] - line.steady.pinion_speed)
+    return rows
+
+
+@pytest.mark.parametrize("axle", [RIGID, ELASTIC], ids=["rigid", "elastic"])
+def test_an_unstable_exchange_grows_by_the_spectral_radius(axle: TorsionalAxle) -> None:
+    speed = 60 / 3.6
+    line = Driveline(SMOOTH, speed)
+    h = 1.003 * largest_stable_step(line, axle)
+    radius = communication_stability(line, h, axle).spectral_radius
+    assert 1.0 < radius < 1.2
+    # From 1e-6 rad/s, above the rounding of the steady state, up by a factor of 1e5.
+    steps = math.ceil(math.log(1e5) / math.log(radius))
+    size = np.abs(cosimulate(axle, speed, h, steps, kick=1e-6)[:, -1])
+    blocks = np.array_split(size, 10)
+    half = len(blocks) // 2
+    peaks = [np.argmax(block) + sum(map(len, blocks[:n])) for n, block in enumerate(blocks)]
+    growth = (size[peaks[-1]] / size[peaks[half]]) ** (1.0 / (peaks[-1] - peaks[half]))
+    # The logarithm over half the run is 5.8; a peak of an oscillation is met to some 3 % of it.
+    assert math.log(growth) == pytest.approx(math.log(radius), rel=0.03)
+
+
+@pytest.mark.parametrize("axle", [RIGID, ELASTIC], ids=["rigid", "elastic"])
+@pytest.mark.parametrize("h", [5e-5, 1e-4, 2e-4])
+def test_a_stable_exchange_follows_the_linear_map(axle: TorsionalAxle, h: float) -> None:
+    speed, kick, steps = 60 / 3.6, 1e-3, 300
+    line = Driveline(SMOOTH, speed)
+    step_map = communication_map(line, h, axle)
+    deviation = np.zeros(len(step_map))
+    # Axle state: (w_p) or (wind-up, w_p, w_g).
+    deviation[len(STATES) - 1 + (len(deviation) > len(STATES))] = kick
+    expected = np.empty(steps)
+    for n in range(steps):
+        deviation = step_map @ deviation
+        expected[n] = deviation[len(STATES) - 1 + (len(deviation) > len(STATES))]
+    found = cosimulate(axle, speed, h, steps, kick)[:, -1]
+    # Linearisation of drag and tyre, 1e-3 of the kick, and rounding of angles.
+    assert np.max(np.abs(found - expected)) < 2e-6 * kick + 1e-9
+
+
+@pytest.mark.parametrize("speed_kmh", [20.0, 60.0, 100.0])
+def test_the_default_step_leaves_a_margin(speed_kmh: float) -> None:
+    line = Driveline(SMOOTH, speed_kmh / 3.6)
+    # Documented beside COMMUNICATION_STEP: 1.06 ms and 0.23 ms.
+    assert largest_stable_step(line, RIGID) > 10 * COMMUNICATION_STEP
+    assert largest_stable_step(line, ELASTIC) > 2 * COMMUNICATION_STEP
+    rigid = communication_stability(line, COMMUNICATION_STEP, RIGID)
+    assert rigid.stable
+    # Numerical damping of the propshaft mode against its ratio of 0.031.
+    assert max(abs(mode.added_damping_ratio) for mode in rigid.modes) < 1e-4
+    elastic = communication_stability(line, COMMUNICATION_STEP, ELASTIC)
+    mesh, propshaft = elastic.modes[:2]
+    assert elastic.stable
+    assert mesh.frequency > 1800
+    assert abs(propshaft.added_damping_ratio) < 1e-3
+    assert -6e-3 < mesh.added_damping_ratio < 0.0
+
+
+def test_linear_continuation_costs_damping_with_the_third_power_of_the_step() -> None:
+    undamped = replace(SMOOTH, propshaft_damping=0.0, half_shaft_damping=0.0)
+    line = Driveline(undamped, 60 / 3.6)
+    added = [
+        communication_stability(line, h, ELASTIC).modes[0].added_damping_ratio for h in (8e-5, 4e-5)
+    ]
+    assert max(added) < 0.0
+    # Quadratic error of the angle, in quadrature to the angle in the next order: h^3.
+    assert math.log2(added[0] / added[1]) == pytest.approx(3.0, abs=0.2)
+
+
+def test_the_bisection_stops_at_a_spectral_radius_of_one() -> None:
+    line = Driveline(SMOOTH, 60 / 3.6)
+    limit = largest_stable_step(line, RIGID)
+    # Bisection to 1e-3.
+    assert communication_stability(line, limit, RIGID).spectral_radius < 1.0
+    assert communication_stability(line, 1.002 * limit, RIGID).spectral_radius > 1.0
+    with pytest.raises(ConvergenceError, match="try a shorter step"):
+        largest_stable_step(line, RIGID, shortest=2e-3)
+
+
+def test_short_steps_reproduce_the_modes_of_the_coupled_system() -> None:
+    line = Driveline(SMOOTH, 60 / 3.6)
+    found = communication_stability(line, 1e-5, RIGID)
+    exact = driveline_modes(line)
+    assert len(found.modes) == len(exact)
+    for mode, reference in zip(found.modes, exact, strict=True):
+        # Same Jacobian by two routes; the exchange adds 1e-5.
+        assert mode.frequency == pytest.approx(reference.frequency, rel=1e-9)
+        assert mode.cosimulated_damping_ratio == pytest.approx(reference.damping_ratio, abs=3e-5)
