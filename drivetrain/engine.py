@@ -78,7 +78,7 @@ class Engine:
     secondary_inertia: float = 0.06
     flywheel_stiffness: float = 400.0
     flywheel_damping: float = 0.85
-    idle_speed_rpm: float = 850.0
+    idle_speed_rpm: float = 800.0
     highest_speed_rpm: float = 6000.0
 
     def __post_init__(self) -> None:
