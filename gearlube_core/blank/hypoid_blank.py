@@ -169,7 +169,9 @@ class HypoidBlank:
     @property
     def mean_normal_module(self) -> float:
         """Normal module at mid-face of the gear [m]."""
-        return 2.0 * self.gear.mean_pitch_radius * math.cos(self.gear.spiral_angle) / self.gear.teeth
+        return (
+            2.0 * self.gear.mean_pitch_radius * math.cos(self.gear.spiral_angle) / self.gear.teeth
+        )
 
     @property
     def pinion_axis(self) -> Vector:
@@ -194,8 +196,8 @@ class HypoidBlank:
     def mean_point(self) -> Vector:
         """Return the mid-face point of the gear pitch cone where the pinion's cone touches it.
 
-        The common normal of two touching cones meets both axes: the gear's cone normal leaves the
-        gear axis at z_n = z + r tan(pitch angle) and must reach the pinion axis (y = offset, z = 0).
+        The common normal of two touching cones meets both axes: the gear cone normal leaves its
+        axis at z_n = z + r tan(pitch angle) and must reach the pinion axis (y = offset, z = 0).
 
         Returns
         -------

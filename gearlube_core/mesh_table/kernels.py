@@ -53,10 +53,10 @@ def load_bracket(torque: float, levels: NDArray[float64], n_levels: int) -> Load
 
 
 @kernel
-def blend_series(
+def blend_levels(
     packed: NDArray[float64], size: int, bracket: LoadBracket, out: NDArray[float64]
 ) -> None:
-    """Interpolate the packed coefficients of all series, shape (L * size,), into out (size,)."""
+    """Interpolate data packed level by level, shape (L * size,), into out, shape (size,)."""
     lower = bracket.lower * size
     upper = bracket.upper * size
     for i in range(size):
@@ -108,19 +108,19 @@ def mesh_series(
 
 @kernel
 def pair_channels(
-    windows: NDArray[float64],
+    window: NDArray[float64],
     n_nodes: int,
-    bracket: LoadBracket,
     z_p: float,
     phi: float,
     pair: int,
     n_channels: int,
     out: NDArray[float64],
 ) -> None:
-    """Interpolate the packed window channels of one tooth pair into out, shape (n_channels,).
+    """Interpolate the window channels of one tooth pair into out, shape (n_channels,).
 
-    `windows` has shape (L * (n_nodes + 1) * n_channels,), the first node repeated at the end.
-    Linear between nodes, so that shares that sum to 1 at the nodes do so everywhere.
+    `window` has shape ((n_nodes + 1) * n_channels,), the first node repeated at the end. Linear
+    between nodes, so that shares that sum to 1 at the nodes do so everywhere. The first channel is
+    the share; the others are left alone where it is zero.
     """
     periods = z_p * phi / (2.0 * math.pi) + pair
     position = periods / 3.0
@@ -129,10 +129,9 @@ def pair_channels(
     if node >= n_nodes:
         node = n_nodes - 1
     t = position - node
-    stride = (n_nodes + 1) * n_channels
-    a = bracket.lower * stride + node * n_channels
-    b = bracket.upper * stride + node * n_channels
-    for i in range(n_channels):
-        low = windows[a + i] + t * (windows[a + i + n_channels] - windows[a + i])
-        high = windows[b + i] + t * (windows[b + i + n_channels] - windows[b + i])
-        out[i] = low + bracket.weight * (high - low)
+    a = node * n_channels
+    b = a + n_channels
+    out[0] = window[a] + t * (window[b] - window[a])
+    if out[0] > 0.0:
+        for i in range(1, n_channels):
+            out[i] = window[a + i] + t * (window[b + i] - window[a + i])

@@ -25,7 +25,7 @@ from gearlube_core.dynamics.packed_mesh import (
 from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.jit import kernel
-from gearlube_core.mesh_table.kernels import LoadBracket, pair_channels
+from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.rheology.lubricant_state import LubricantState
 
@@ -45,26 +45,32 @@ class FlankSum(NamedTuple):
 
 
 @kernel
-def pair_friction(
-    s: NDArray[float64],
-    load: float,
-    channels: NDArray[float64],
-    oil: LubricantState,
-    p: AxleParameters,
-) -> tuple[FlankState, float]:
-    """Return the state of one flank under `load` [N] and its sliding speed [m/s].
+def sliding_speed(s: NDArray[float64], channels: NDArray[float64]) -> float:
+    """Return the sliding speed of the pinion over the gear flank [m/s].
 
     dU = w_p r_p - w_g r_g + xi.(v_p - v_g): the rate that the friction force does work on, so that
     its power is -f abs(dU) whatever the motion.
     """
-    sliding = (
+    return (
         channels[ARM_P] * s[W_P]
         - channels[ARM_G] * s[W_G]
         + channels[XI_X] * (s[V_P] - s[V_G])
         + channels[XI_Y] * (s[V_P + 1] - s[V_G + 1])
         + channels[XI_Z] * (s[V_P + 2] - s[V_G + 2])
     )
-    flank = flank_friction(
+
+
+@kernel
+def pair_friction(
+    s: NDArray[float64],
+    load: float,
+    sliding: float,
+    channels: NDArray[float64],
+    oil: LubricantState,
+    p: AxleParameters,
+) -> FlankState:
+    """Return the state of one flank under `load` [N] that slides at `sliding` [m/s]."""
+    return flank_friction(
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,
@@ -74,18 +80,18 @@ def pair_friction(
         p.solid,
         int(p.friction_form),
     )
-    return flank, sliding
 
 
 @kernel
 def flank_sum(
     s: NDArray[float64],
     force: float,
-    windows: NDArray[float64],
+    window: NDArray[float64],
     n_nodes: int,
-    bracket: LoadBracket,
     oil: LubricantState,
     p: AxleParameters,
+    refresh: bool,
+    friction: NDArray[float64],
     channels: NDArray[float64],
 ) -> FlankSum:
     """Return the friction of all pairs that share the mesh force `force` [N].
@@ -95,12 +101,16 @@ def flank_sum(
     s : ndarray of shape (N_STATE,)
     force : float
         Mesh force [N]; pair i carries abs(force) times its share.
-    windows : ndarray
-        Packed windows of the mesh table.
+    window : ndarray of shape ((n_nodes + 1) * N_CHANNELS,)
+        Pair data of the mesh table at the present load.
     n_nodes : int
-    bracket : LoadBracket
     oil : LubricantState
     p : AxleParameters
+    refresh : bool
+        Evaluate film and traction anew; else keep the coefficients in `friction`, with the loads,
+        arms and directions of this state.
+    friction : ndarray of shape (2 PAIRS,)
+        Viscous and boundary friction over load of each pair [-].
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
 
@@ -118,11 +128,17 @@ def flank_sum(
     boundary = 0.0
     if p.friction_form >= 0.0 and force != 0.0:
         for pair in range(_PAIRS):
-            pair_channels(windows, n_nodes, bracket, p.z_p, s[PHI_P], pair, N_CHANNELS, channels)
+            pair_channels(window, n_nodes, p.z_p, s[PHI_P], pair, N_CHANNELS, channels)
             load = abs(force) * channels[SHARE]
             if load > 0.0:
-                flank, sliding = pair_friction(s, load, channels, oil, p)
-                f = flank.viscous_friction + flank.boundary_friction
+                sliding = sliding_speed(s, channels)
+                if refresh:
+                    flank = pair_friction(s, load, sliding, channels, oil, p)
+                    friction[2 * pair] = flank.viscous_friction / load
+                    friction[2 * pair + 1] = flank.boundary_friction / load
+                f_v = friction[2 * pair] * load
+                f_b = friction[2 * pair + 1] * load
+                f = f_v + f_b
                 if sliding < 0.0:
                     f = -f
                 torque_p -= f * channels[ARM_P]
@@ -130,6 +146,9 @@ def flank_sum(
                 f_x -= f * channels[XI_X]
                 f_y -= f * channels[XI_Y]
                 f_z -= f * channels[XI_Z]
-                viscous += flank.viscous_friction * abs(sliding)
-                boundary += flank.boundary_friction * abs(sliding)
+                viscous += f_v * abs(sliding)
+                boundary += f_b * abs(sliding)
+            elif refresh:
+                friction[2 * pair] = 0.0
+                friction[2 * pair + 1] = 0.0
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary)

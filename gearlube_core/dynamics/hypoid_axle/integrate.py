@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
-from gearlube_core.dynamics.hypoid_axle.rhs import StepInputs, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     N_ODE,
@@ -24,8 +24,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.flat_tuples import tuple_from_array
 from gearlube_core.jit import kernel
-from gearlube_core.mesh_table.kernels import N_SERIES, blend_series, load_bracket
+from gearlube_core.mesh_table.kernels import K_M, N_SERIES, blend_levels, load_bracket
 from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
 
 OK = 0
@@ -72,42 +73,47 @@ def step_limit(
 def rk4_step(
     s: NDArray[float64],
     h: float,
+    first: bool,
     inputs: StepInputs,
     series: NDArray[float64],
     n_orders: int,
-    windows: NDArray[float64],
+    window: NDArray[float64],
     n_nodes: int,
     oil: LubricantState,
     p: AxleParameters,
-    levels: NDArray[float64],
-    n_levels: int,
-    work: NDArray[float64],
+    scratch: NDArray[float64],
+    stages: NDArray[float64],
 ) -> None:
     """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
 
-    `work` has shape (work_size(n_orders),): trial state, slope, sum of slopes, channels, blended
-    series.
+    Films and tractions are evaluated at the middle and at the end of the step. The second middle
+    stage and the first stage of the next step keep the coefficients of the stage before, which
+    lies within O(h^2) of theirs; loads, arms and directions are those of every stage. `first`
+    makes the first stage evaluate them too.
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+    scratch : ndarray of shape (SCRATCH,)
+    stages : ndarray of shape (N_STATE + 2 N_ODE,)
+        Work space. See `axle_rhs` for the others.
     """
-    trial = work[0:N_STATE]
-    slope = work[N_STATE : N_STATE + N_ODE]
-    total = work[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
-    channels = work[N_STATE + 2 * N_ODE : N_STATE + 2 * N_ODE + N_CHANNELS]
-    blended = work[N_STATE + 2 * N_ODE + N_CHANNELS :]
-    bracket = load_bracket(s[LOAD_TORQUE], levels, n_levels)
-    blend_series(series, N_SERIES * (2 * n_orders + 1), bracket, blended)
-    axle_rhs(s, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, slope)
+    trial = stages[0:N_STATE]
+    slope = stages[N_STATE : N_STATE + N_ODE]
+    total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
+    axle_rhs(s, inputs, series, n_orders, window, n_nodes, oil, p, first, scratch, slope)
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, True, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, False, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, True, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
@@ -115,9 +121,11 @@ def rk4_step(
     )
 
 
-def work_size(n_orders: int) -> int:
-    """Return the length of the integrator's work array."""
-    return N_STATE + 2 * N_ODE + N_CHANNELS + N_SERIES * (2 * n_orders + 1)
+def work_size(n_orders: int, n_nodes: int) -> int:
+    """Return the length of the work array of `advance` and `write_outputs`."""
+    return (
+        N_STATE + 2 * N_ODE + SCRATCH + N_SERIES * (2 * n_orders + 1) + (n_nodes + 1) * N_CHANNELS
+    )
 
 
 @kernel
@@ -132,9 +140,26 @@ def step_inputs(
     drag_p = 0.0
     drag_g = 0.0
     if p.drag != 0.0:
-        drag_p = 2.0 * drag_torque(s[W_P], p.preload, oil.nu)
-        drag_g = 2.0 * drag_torque(s[W_G], p.preload, oil.nu)
+        drag_p = 2.0 * drag_torque(s[W_P], p.preload, oil.nu, p.bearing_p)
+        drag_g = 2.0 * drag_torque(s[W_G], p.preload, oil.nu, p.bearing_g)
     return StepInputs(pinion_torque, wheel_torque, drag_p, drag_g)
+
+
+@kernel
+def blend_mesh(
+    load_torque: float,
+    levels: NDArray[float64],
+    series: NDArray[float64],
+    n_orders: int,
+    windows: NDArray[float64],
+    n_nodes: int,
+    series_out: NDArray[float64],
+    window_out: NDArray[float64],
+) -> None:
+    """Interpolate the packed mesh table to the load `load_torque` [N.m]."""
+    bracket = load_bracket(load_torque, levels, levels.size)
+    blend_levels(series, N_SERIES * (2 * n_orders + 1), bracket, series_out)
+    blend_levels(windows, (n_nodes + 1) * N_CHANNELS, bracket, window_out)
 
 
 @kernel
@@ -144,14 +169,13 @@ def advance(
     pinion_torque: float,
     wheel_torque: float,
     oil_temperature: float,
+    levels: NDArray[float64],
     series: NDArray[float64],
     n_orders: int,
     windows: NDArray[float64],
     n_nodes: int,
-    levels: NDArray[float64],
-    n_levels: int,
-    p: AxleParameters,
-    control: StepControl,
+    parameters: NDArray[float64],
+    control_values: NDArray[float64],
     work: NDArray[float64],
 ) -> int:
     """Advance the axle by `duration` [s] under constant inputs; return a status.
@@ -166,35 +190,44 @@ def advance(
         [N.m]
     oil_temperature : float
         [K]
-    series, n_orders, windows, n_nodes, levels, n_levels
-        Packed mesh table.
-    p : AxleParameters
-    control : StepControl
-    work : ndarray of shape (work_size(n_orders),)
+    levels, series, n_orders, windows, n_nodes
+        Packed mesh table, see `packed_mesh.PackedMesh`.
+    parameters, control_values : ndarray
+        Flattened AxleParameters and StepControl.
+    work : ndarray of shape (work_size(n_orders, n_nodes),)
 
     Returns
     -------
     int
         OK, NOT_FINITE or TOO_MANY_STEPS.
+
+    Notes
+    -----
+    The load level of the mesh table is that at the start of the communication step; it follows the
+    pinion torque with LOAD_FILTER_TIME.
     """
+    p = tuple_from_array(parameters, AxleParameters)
+    control = tuple_from_array(control_values, StepControl)
+    at_scratch = N_STATE + 2 * N_ODE
+    at_series = at_scratch + SCRATCH
+    at_window = at_series + N_SERIES * (2 * n_orders + 1)
+    stages = work[0:at_scratch]
+    scratch = work[at_scratch:at_series]
+    blended = work[at_series:at_window]
+    window = work[at_window:]
     oil = lubricant_state(p.oil, oil_temperature)
-    bracket = load_bracket(s[LOAD_TORQUE], levels, n_levels)
-    size = N_SERIES * (2 * n_orders + 1)
-    k_low = series[bracket.lower * size]
-    k_mean = k_low + bracket.weight * (series[bracket.upper * size] - k_low)
-    wanted = duration / step_limit(p, control, s[W_P], k_mean)
+    blend_mesh(s[LOAD_TORQUE], levels, series, n_orders, windows, n_nodes, blended, window)
+    wanted = duration / step_limit(p, control, s[W_P], blended[K_M])
     if not wanted < MAX_STEPS:
         return TOO_MANY_STEPS
-    steps = max(1, int(math.ceil(wanted)))
+    steps = max(1, math.ceil(wanted))
     h = duration / steps
     for i in range(7):
         s[WORK_MARK + i] = s[PINION_WORK + i]
     s[TIME_IN_STEP] = duration
-    for _ in range(steps):
+    for k in range(steps):
         inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
-        rk4_step(
-            s, h, inputs, series, n_orders, windows, n_nodes, oil, p, levels, n_levels, work
-        )
+        rk4_step(s, h, k == 0, inputs, blended, n_orders, window, n_nodes, oil, p, scratch, stages)
     total = 0.0
     for i in range(N_ODE):
         total += abs(s[i])

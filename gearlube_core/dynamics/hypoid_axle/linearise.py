@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlube_core.dynamics.hypoid_axle.rhs import StepInputs, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_ODE, U_G, U_P, V_G, V_P, W_G, W_P, X
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.mesh_table.kernels import LoadBracket
 from gearlube_core.rheology.lubricant_state import lubricant_state
 
 if TYPE_CHECKING:
@@ -87,7 +85,7 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     oil = lubricant_state(p.oil, oil_temperature)
     base = np.array(axle.state_view)
     inputs = StepInputs(0.0, 0.0, 0.0, 0.0)
-    channels = np.zeros(N_CHANNELS)
+    scratch = np.zeros(SCRATCH)
     slope = np.zeros(N_ODE)
     rows = np.r_[W_P, W_G, V_P : V_P + 3, V_G : V_G + 3]
 
@@ -99,10 +97,10 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
             mesh.orders,
             mesh.windows,
             mesh.nodes,
-            LoadBracket(0, 0, 0.0),
             oil,
             p,
-            channels,
+            True,
+            scratch,
             slope,
         )
         return masses * slope[rows]

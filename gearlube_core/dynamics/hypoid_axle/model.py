@@ -21,7 +21,7 @@ from gearlube_core.dynamics.hypoid_axle.linearise import linearise
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
-from gearlube_core.dynamics.hypoid_axle.rhs import StepInputs, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     MICRO,
@@ -35,9 +35,10 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     X,
 )
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
+from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.errors import ConvergenceError, StepError
-from gearlube_core.mesh_table.kernels import load_bracket
+from gearlube_core.flat_tuples import flatten
+from gearlube_core.materials.solid import contact_modulus
 from gearlube_core.rheology.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
@@ -76,15 +77,16 @@ class HypoidAxle:
     def __init__(self, parameters: HypoidAxleParameters) -> None:
         self.parameters = parameters
         self.packed: PackedMesh = pack_mesh(
-            parameters.mesh, _contact_modulus(parameters), parameters.radii
+            parameters.mesh, contact_modulus(parameters.solid, parameters.solid), parameters.radii
         )
-        self.kernel_parameters: AxleParameters = parameters.kernel_parameters(0.0)
+        self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
+        self._flat_parameters = flatten(self.kernel_parameters)
         self._state = np.zeros(N_STATE)
         self._trial = np.zeros(N_STATE)
         self._outputs = np.zeros(N_OUTPUTS)
-        self._work = np.zeros(work_size(self.packed.orders))
+        self._work = np.zeros(work_size(self.packed.orders, self.packed.nodes))
         self._rollers = np.zeros(ROLLERS_MAX)
-        self._control = StepControl(0.0, 0.0, 1.0, 1.0, 0.0)
+        self._control_values = flatten(StepControl(0.0, 0.0, 1.0, 1.0, 0.0))
         self._inputs = np.zeros(3)
         self.outputs: Array = self._outputs.view()
         self.outputs.flags.writeable = False
@@ -94,7 +96,12 @@ class HypoidAxle:
     @property
     def highest_frequency(self) -> float:
         """Highest natural frequency at the initial load [Hz]; 1 before `initialise`."""
-        return self._control.highest_frequency
+        return self.step_control.highest_frequency
+
+    @property
+    def step_control(self) -> StepControl:
+        """What the integrator step is tied to."""
+        return StepControl(*self._control_values.tolist())
 
     def initialise(
         self,
@@ -130,9 +137,8 @@ class HypoidAxle:
         s[W_G] = pinion_speed / self.parameters.mesh.ratio
         s[LOAD_TORQUE] = abs(pinion_torque)
         self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
-        self.kernel_parameters = self.parameters.kernel_parameters(pinion_torque)
         self._settle(pinion_torque, oil_temperature)
-        self._control = self._step_control(pinion_torque, oil_temperature)
+        self._control_values[:] = self._step_control(pinion_torque, oil_temperature)
         self._write_outputs()
 
     def step(
@@ -163,14 +169,13 @@ class HypoidAxle:
             pinion_torque,
             wheel_torque,
             oil_temperature,
+            mesh.levels,
             mesh.series,
             mesh.orders,
             mesh.windows,
             mesh.nodes,
-            mesh.levels,
-            mesh.levels.size,
-            self.kernel_parameters,
-            self._control,
+            self._flat_parameters,
+            self._control_values,
             self._work,
         )
         if status != OK:
@@ -181,8 +186,7 @@ class HypoidAxle:
 
     def get_state(self) -> Array:
         """Return everything that the future depends on, shape (N_STATE + 8,)."""
-        control = np.array(self._control)
-        return np.concatenate([self._state, self._inputs, control])
+        return np.concatenate([self._state, self._inputs, self._control_values])
 
     def set_state(self, state: Array) -> None:
         """Continue from what `get_state` returned; bit-exact.
@@ -201,8 +205,7 @@ class HypoidAxle:
             )
         self._state[:] = values[:N_STATE]
         self._inputs[:] = values[N_STATE : N_STATE + 3]
-        self._control = StepControl(*values[N_STATE + 3 :].tolist())
-        self.kernel_parameters = self.parameters.kernel_parameters(0.0)
+        self._control_values[:] = values[N_STATE + 3 :]
         self._write_outputs()
 
     def _check_inputs(self, pinion_torque: float, wheel_torque: float, oil: float) -> None:
@@ -219,9 +222,8 @@ class HypoidAxle:
         mesh = self.packed
         oil = lubricant_state(p.oil, oil_temperature)
         series = self._series_at(pinion_torque)
-        bracket = load_bracket(s[LOAD_TORQUE], mesh.levels, mesh.levels.size)
         slope = np.zeros(N_ODE)
-        channels = np.zeros(N_CHANNELS)
+        scratch = np.zeros(SCRATCH)
         inputs = StepInputs(pinion_torque, 0.0, 0.0, 0.0)
         deflection = pinion_torque / series[1] / series[0]
         s[X] = MICRO * (deflection if deflection >= 0.0 else deflection - p.backlash)
@@ -242,10 +244,10 @@ class HypoidAxle:
                 mesh.orders,
                 mesh.windows,
                 mesh.nodes,
-                bracket,
                 oil,
                 p,
-                channels,
+                True,
+                scratch,
                 slope,
             )
             return scale * slope[rows]
@@ -292,20 +294,13 @@ class HypoidAxle:
             torque_p,
             torque_g,
             oil_temperature,
+            mesh.levels,
             mesh.series,
             mesh.orders,
             mesh.windows,
             mesh.nodes,
-            mesh.levels,
-            mesh.levels.size,
-            self.kernel_parameters,
+            self._flat_parameters,
             self._work,
             self._rollers,
             self._outputs,
         )
-
-
-def _contact_modulus(parameters: HypoidAxleParameters) -> float:
-    from gearlube_core.materials.solid import contact_modulus
-
-    return contact_modulus(parameters.solid, parameters.solid)

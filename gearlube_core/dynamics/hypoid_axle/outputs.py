@@ -8,11 +8,11 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.bearings.parameters import BearingParameters
-from gearlube_core.bearings.one_bearing import roller_loads
+from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
 from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
-from gearlube_core.dynamics.hypoid_axle.flanks import pair_friction
-from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
+from gearlube_core.dynamics.hypoid_axle.flanks import pair_friction, sliding_speed
+from gearlube_core.dynamics.hypoid_axle.integrate import blend_mesh, step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     backlash_deflection,
@@ -30,7 +30,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     N_FLANKS,
     ROLLER_AT,
 )
-from gearlube_core.dynamics.hypoid_axle.rhs import axle_rhs
+from gearlube_core.dynamics.hypoid_axle.rhs import N_FRICTION, SCRATCH, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
     BEARING_DAMPING,
     BEARING_TORQUE,
@@ -41,7 +41,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     MESH_DAMPING,
     MICRO,
     N_ODE,
-    N_STATE,
     PHI_G,
     PHI_P,
     PINION_WORK,
@@ -58,14 +57,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, SHARE
+from gearlube_core.flat_tuples import tuple_from_array
 from gearlube_core.jit import kernel
-from gearlube_core.mesh_table.kernels import (
-    N_SERIES,
-    LoadBracket,
-    blend_series,
-    load_bracket,
-    pair_channels,
-)
+from gearlube_core.mesh_table.kernels import N_SERIES, pair_channels
 from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
 
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
@@ -111,9 +105,8 @@ def stored_energy(
 def write_flanks(
     s: NDArray[float64],
     force: float,
-    windows: NDArray[float64],
+    window: NDArray[float64],
     n_nodes: int,
-    bracket: LoadBracket,
     oil_temperature: float,
     oil: LubricantState,
     p: AxleParameters,
@@ -126,7 +119,7 @@ def write_flanks(
     """
     for pair in range(N_FLANKS):
         at = FLANKS_AT + pair * N_FLANK_QUANTITIES
-        pair_channels(windows, n_nodes, bracket, p.z_p, s[PHI_P], pair, N_CHANNELS, channels)
+        pair_channels(window, n_nodes, p.z_p, s[PHI_P], pair, N_CHANNELS, channels)
         load = abs(force) * channels[SHARE]
         out[at] = load
         out[at + 1] = 0.0
@@ -134,7 +127,7 @@ def write_flanks(
         out[at + 3] = 0.0
         out[at + 4] = oil_temperature
         if load > 0.0:
-            flank = pair_friction(s, load, channels, oil, p)[0]
+            flank = pair_friction(s, load, sliding_speed(s, channels), channels, oil, p)
             out[at + 1] = flank.film_thickness
             out[at + 2] = flank.film_ratio
             if p.friction_form >= 0.0:
@@ -162,7 +155,7 @@ def write_shaft(
     rollers: NDArray[float64],
     out: NDArray[float64],
 ) -> float:
-    """Write forces and extreme roller loads of a shaft's two bearings; return roller 1 of the first.
+    """Write forces and extreme roller loads of two bearings; return roller 1 of the first [N].
 
     `order_*` are the places (0, 1, 2) of the bearing's directions in x, y, z.
     """
@@ -242,7 +235,9 @@ def write_losses(
     viscous = (s[VISCOUS] - s[WORK_MARK + 2]) * scale if averaged else rates[VISCOUS]
     boundary = (s[BOUNDARY] - s[WORK_MARK + 3]) * scale if averaged else rates[BOUNDARY]
     mesh = (s[MESH_DAMPING] - s[WORK_MARK + 4]) * scale if averaged else rates[MESH_DAMPING]
-    rollers = (s[BEARING_DAMPING] - s[WORK_MARK + 5]) * scale if averaged else rates[BEARING_DAMPING]
+    rollers = (
+        (s[BEARING_DAMPING] - s[WORK_MARK + 5]) * scale if averaged else rates[BEARING_DAMPING]
+    )
     drag = (s[BEARING_TORQUE] - s[WORK_MARK + 6]) * scale if averaged else rates[BEARING_TORQUE]
     friction = viscous + boundary
     out[LOSSES_AT] = friction
@@ -264,13 +259,12 @@ def write_outputs(
     pinion_torque: float,
     wheel_torque: float,
     oil_temperature: float,
+    levels: NDArray[float64],
     series: NDArray[float64],
     n_orders: int,
     windows: NDArray[float64],
     n_nodes: int,
-    levels: NDArray[float64],
-    n_levels: int,
-    p: AxleParameters,
+    parameters: NDArray[float64],
     work: NDArray[float64],
     rollers: NDArray[float64],
     out: NDArray[float64],
@@ -279,14 +273,17 @@ def write_outputs(
 
     Arguments as in `integrate.advance`; `rollers` is work space of shape (ROLLERS_MAX,).
     """
-    oil = lubricant_state(p.oil, oil_temperature)
+    p = tuple_from_array(parameters, AxleParameters)
+    at_series = N_ODE + SCRATCH
+    at_window = at_series + N_SERIES * (2 * n_orders + 1)
     rates = work[0:N_ODE]
-    channels = work[N_STATE : N_STATE + N_CHANNELS]
-    blended = work[N_STATE + N_CHANNELS :]
-    bracket = load_bracket(s[LOAD_TORQUE], levels, n_levels)
-    blend_series(series, N_SERIES * (2 * n_orders + 1), bracket, blended)
+    scratch = work[N_ODE:at_series]
+    blended = work[at_series:at_window]
+    window = work[at_window:]
+    oil = lubricant_state(p.oil, oil_temperature)
+    blend_mesh(s[LOAD_TORQUE], levels, series, n_orders, windows, n_nodes, blended, window)
     inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
-    axle_rhs(s, inputs, blended, n_orders, windows, n_nodes, bracket, oil, p, channels, rates)
+    axle_rhs(s, inputs, blended, n_orders, window, n_nodes, oil, p, True, scratch, rates)
     mesh = mesh_force(s, blended, n_orders, p)
     x = s[X] / MICRO
     out[0] = s[PHI_P]
@@ -300,9 +297,8 @@ def write_outputs(
     out[8] = 1.0 if -p.backlash < x < 0.0 else 0.0
     out[9] = mesh.stiffness
     out[10] = p.z_p * s[W_P] / (2.0 * math.pi)
-    write_flanks(
-        s, mesh.force, windows, n_nodes, bracket, oil_temperature, oil, p, channels, out
-    )
+    channels = scratch[N_FRICTION:SCRATCH]
+    write_flanks(s, mesh.force, window, n_nodes, oil_temperature, oil, p, channels, out)
     write_losses(s, rates, p, out)
     for i in range(3):
         out[DISPLACEMENTS_AT + i] = s[U_P + i] / MICRO

@@ -23,6 +23,7 @@ TorqueLoss = Literal["none", "palmgren"]
 
 HYSTERETIC_LOSS = 0.009  # [-], Mohammadpour et al. 2015 eq. (4) and (25)
 FREQUENCY_FLOOR = 50.0  # Hz; eq. (4) diverges at rest; the sweep starts at 100 Hz
+REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 XI_BETA_SIGMA = 0.055  # [-], Mohammadpour et al. 2015, text below eq. (17)
 SIGMA_OVER_BETA = 0.001  # [-], ditto
 FRICTION_FORMS = {"consistent": 0.0, "as_printed": 1.0, "off": -1.0}
@@ -55,7 +56,7 @@ class HypoidAxleParameters:
         R_g = R_p z_g/z_p with all ratio error in e; both as in the table (counts the ratio error
         twice); both constant.
     mesh_damping : {"hysteretic", "modal"}
-        Eq. (4), or c = modal_loss_factor sqrt(k0 m_eq).
+        Eq. (4), or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
     friction : {"consistent", "as_printed", "off"}
@@ -104,9 +105,7 @@ class HypoidAxleParameters:
             ("gear_mass", "kg"),
         ):
             check_positive(name, getattr(self, name), unit)
-        check_within(
-            "roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m."
-        )
+        check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
         check_within("backlash", self.backlash, 0.0, 2e-3, "m", "150 um is 1.5e-4 m.")
         check_within("modal_loss_factor", self.modal_loss_factor, 0.0, 1.0)
         check_within(
@@ -129,15 +128,16 @@ class HypoidAxleParameters:
         R_g = R_p * self.mesh.ratio
         return 1.0 / (R_p**2 / self.pinion_inertia + R_g**2 / self.gear_inertia)
 
-    def modal_damping(self, torque: float) -> float:
-        """Return c of the modal option [N s/m] at pinion torque [N.m], zero for eq. (4)."""
+    @property
+    def modal_damping(self) -> float:
+        """Coefficient c of the modal option [N s/m], zero for eq. (4)."""
         if self.mesh_damping == "hysteretic":
             return 0.0
-        stiffness = self.mesh.mean("k_m", torque)
+        stiffness = self.mesh.mean("k_m", REFERENCE_TORQUE)
         return float(self.modal_loss_factor * (stiffness * self.equivalent_mass) ** 0.5)
 
-    def kernel_parameters(self, torque: float) -> AxleParameters:
-        """Return the floats for the kernels; `torque` [N.m] only sets the modal damping."""
+    def kernel_parameters(self) -> AxleParameters:
+        """Return the floats for the kernels."""
         bearing = self.bearing.parameters()
         as_printed = self.equations == "as_printed"
         return AxleParameters(
@@ -149,7 +149,7 @@ class HypoidAxleParameters:
             backlash=self.backlash,
             loss=HYSTERETIC_LOSS,
             frequency_floor=self.frequency_floor,
-            modal_damping=self.modal_damping(torque),
+            modal_damping=self.modal_damping,
             lateral_sign=-1.0 if as_printed else 1.0,
             consistent=0.0 if as_printed else 1.0,
             friction_form=FRICTION_FORMS[self.friction],

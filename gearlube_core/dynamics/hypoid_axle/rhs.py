@@ -32,9 +32,13 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WHEEL_WORK,
     X,
 )
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.jit import kernel
-from gearlube_core.mesh_table.kernels import LoadBracket
+from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.rheology.lubricant_state import LubricantState
+
+N_FRICTION = 2 * PAIRS
+SCRATCH = N_FRICTION + N_CHANNELS
 
 
 class StepInputs(NamedTuple):
@@ -52,12 +56,12 @@ def axle_rhs(
     inputs: StepInputs,
     series: NDArray[float64],
     n_orders: int,
-    windows: NDArray[float64],
+    window: NDArray[float64],
     n_nodes: int,
-    bracket: LoadBracket,
     oil: LubricantState,
     p: AxleParameters,
-    channels: NDArray[float64],
+    refresh: bool,
+    scratch: NDArray[float64],
     ds: NDArray[float64],
 ) -> float:
     """Write ds/dt of the N_ODE integrated states into `ds`; return the mesh force [N].
@@ -69,12 +73,14 @@ def axle_rhs(
     ----------
     s, ds : ndarray of shape (N_STATE,), (N_ODE,)
     inputs : StepInputs
-    series, n_orders, windows, n_nodes, bracket
+    series, n_orders, window, n_nodes
         The mesh table at the present load, see `mesh_table.kernels`.
     oil : LubricantState
     p : AxleParameters
-    channels : ndarray of shape (N_CHANNELS,)
-        Work space.
+    refresh : bool
+        Evaluate films and tractions anew, see `flank_sum`.
+    scratch : ndarray of shape (SCRATCH,)
+        Friction coefficients kept between calls, and work space.
 
     Notes
     -----
@@ -88,7 +94,17 @@ def axle_rhs(
     Mohammadpour et al. 2015, eq. (1), (2), (6), (24).
     """
     mesh = mesh_force(s, series, n_orders, p)
-    friction = flank_sum(s, mesh.force, windows, n_nodes, bracket, oil, p, channels)
+    friction = flank_sum(
+        s,
+        mesh.force,
+        window,
+        n_nodes,
+        oil,
+        p,
+        refresh,
+        scratch[0:N_FRICTION],
+        scratch[N_FRICTION:SCRATCH],
+    )
     w_p = s[W_P]
     w_g = s[W_G]
     f_ref = reference_frequency(p, w_p)
