@@ -47,8 +47,8 @@ CATALOGUE = (
     Entry(
         name="dte_map",
         caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
-        "figures 3 and 4). Dashed: mesh frequency and multiples, cage frequency; dotted: natural "
-        "frequencies.",
+        "figures 3 and 4). Dashed: mesh frequency and multiples; dotted: natural frequencies. With "
+        "the coupled vehicle, lines below 200 Hz that do not follow the speed are engine orders.",
         draw=_map(spectrum_map.DTE),
     ),
     Entry(
@@ -86,7 +86,8 @@ CATALOGUE = (
     ),
     Entry(
         name="roller_map_cage",
-        caption="The same near the cage frequency.",
+        caption="The same at low frequencies: cage frequency, pinion rotation and what the engine "
+        "orders of the coupled vehicle modulate.",
         draw=_map(spectrum_map.ROLLER, _CAGE_TOP),
     ),
     Entry(
@@ -108,8 +109,8 @@ CATALOGUE = (
     ),
     Entry(
         name="film",
-        caption="Load, central film thickness, film ratio and film temperature of the loaded "
-        "flanks, mean over the recorded mesh cycles.",
+        caption="Load, central film thickness, film ratio and film temperature of the tooth pairs "
+        "in mesh, from entry to exit, mean over the record.",
         draw=film_over_mesh_cycle,
     ),
 )

@@ -11,14 +11,13 @@ from drivetrain.figures.style import (
     BLUE,
     GREEN,
     HATCHES,
-    MARKERS,
     ORANGE,
     PURPLE,
-    SERIES,
     SKY,
     house_style,
     new_figure,
     preload_label,
+    series,
     speed_limits,
 )
 
@@ -47,7 +46,7 @@ def efficiency(dataset: xr.Dataset) -> Any:
 def _efficiencies(ax: Any, dataset: xr.Dataset) -> None:
     speed = dataset["speed_kmh"].values
     for row, preload in enumerate(dataset["preload"].values):
-        look = {"color": SERIES[row % len(SERIES)], "marker": MARKERS[row % len(MARKERS)]}
+        look = series(row)
         ax.plot(
             speed,
             100.0 * dataset["efficiency_mesh"].values[row],
@@ -90,7 +89,10 @@ def _losses(ax: Any, dataset: xr.Dataset) -> None:
                 lw=0.3,
             )
             bottom += loss
-    handles = [Patch(color=colour, label=name) for name, colour in _SOURCES.values()]
+    handles = [
+        Patch(color=colour, label=f"{name}, up to {_largest(dataset, source)} W")
+        for source, (name, colour) in _SOURCES.items()
+    ]
     handles += [
         Patch(
             facecolor="#808080",
@@ -102,3 +104,9 @@ def _losses(ax: Any, dataset: xr.Dataset) -> None:
     ]
     ax.legend(handles=handles, loc="upper left")
     ax.set_ylabel("power lost [W]")
+
+
+def _largest(dataset: xr.Dataset, source: str) -> str:
+    """Return the largest loss of a source to three digits; some are too small to see as bars."""
+    values = dataset["loss"].sel(source=source).values
+    return f"{np.nanmax(values):.3g}" if np.any(np.isfinite(values)) else "-"

@@ -10,14 +10,13 @@ import xarray as xr
 
 from drivetrain.figures.style import (
     GREY,
-    MARKERS,
     ORANGE,
-    SERIES,
     VERMILLION,
     cell_edges,
     house_style,
     new_figure,
     preload_label,
+    series,
     speed_limits,
 )
 
@@ -74,14 +73,15 @@ def extremes_against_speed(dataset: xr.Dataset, channel: ExtremesChannel) -> Any
         else:
             ax, below = figure.subplots(), None
         for row, preload in enumerate(dataset["preload"].values):
-            colour, marker = SERIES[row % len(SERIES)], MARKERS[row % len(MARKERS)]
+            look = series(row)
+            colour = look["color"]
             low, mean, high = (
                 dataset[f"{channel.name}_{part}"].values[row] * channel.scale
                 for part in ("min", "mean", "max")
             )
             ax.fill_between(speed, low, high, color=colour, alpha=0.13, lw=0)
-            ax.plot(speed, high, color=colour, marker=marker, label=preload_label(preload))
-            ax.plot(speed, low, color=colour, marker=marker, mfc="white")
+            ax.plot(speed, high, label=preload_label(preload), **look)
+            ax.plot(speed, low, mfc="white", **look)
             ax.plot(speed, mean, color=colour, lw=1.0, ls=(0, (4, 3)))
         _zero_line(ax, channel)
         _line_key(ax)

@@ -20,14 +20,13 @@ _STYLES = ("-", (0, (5, 2)), (0, (1, 1.2)))
 
 
 def film_over_mesh_cycle(dataset: xr.Dataset, preload: int = 0) -> Any:
-    """Return load, film thickness, film ratio and temperature of the flanks over two mesh cycles.
+    """Return load, film thickness, film ratio and temperature while tooth pairs pass the mesh.
 
     Columns are a low, a medium and a high speed of the sweep. `preload` is a position.
-    Only flanks that carry load are drawn.
+    Each flank is drawn while it carries load.
     """
     columns = typical_speeds(dataset)
     phase = dataset["mesh_phase"].values
-    twice = np.concatenate([phase, phase + 1.0])
     with house_style():
         figure = new_figure(9.6, 8.0)
         axes = figure.subplots(
@@ -41,11 +40,11 @@ def film_over_mesh_cycle(dataset: xr.Dataset, preload: int = 0) -> Any:
                 for flank, style in enumerate(_STYLES):
                     values = np.where(loaded[flank], scaled(point[name].values[flank]), np.nan)
                     ax.plot(
-                        twice,
-                        np.tile(values, 2),
+                        phase,
+                        values,
                         color=SERIES[flank],
                         ls=style,
-                        label=f"flank {flank + 1}",
+                        label=f"tooth pair {flank + 1}",
                     )
                 if at == 0:
                     ax.set_ylabel(label)
@@ -56,5 +55,7 @@ def film_over_mesh_cycle(dataset: xr.Dataset, preload: int = 0) -> Any:
         handles, labels = axes[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, ncols=3, loc="outside lower center", handlelength=3.0)
         force = float(dataset["preload"][preload])
-        figure.suptitle(f"Flank films over the mesh cycle, preload {force:g} N", fontsize=11.5)
+        figure.suptitle(
+            f"Flank films while tooth pairs pass the mesh, preload {force:g} N", fontsize=11.5
+        )
     return figure

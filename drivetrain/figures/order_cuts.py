@@ -9,11 +9,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from drivetrain.figures.style import (
-    MARKERS,
-    SERIES,
     house_style,
     new_figure,
     preload_label,
+    series,
     speed_limits,
 )
 
@@ -31,9 +30,8 @@ def order_cuts(dataset: xr.Dataset) -> Any:
                 ax.semilogy(
                     speed,
                     harmonic_amplitude(dataset.isel(preload=row), harmonic) * 1e9,
-                    color=SERIES[row % len(SERIES)],
-                    marker=MARKERS[row % len(MARKERS)],
                     label=preload_label(preload),
+                    **series(row),
                 )
             name = "$f_m$" if harmonic == 1 else f"${harmonic}f_m$"
             ax.set_title(f"mesh order H{harmonic} at {name}")

@@ -21,6 +21,9 @@ BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK = (
     "#000000",
 )
 SERIES = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
+# Earlier series are drawn wider, so that they show behind later ones that coincide.
+WIDTHS = (3.0, 1.5, 1.2, 1.0, 0.9, 0.8)
+SIZES = (7.5, 4.2, 3.6, 3.2, 3.0, 2.8)
 MARKERS = ("o", "s", "^", "D", "v", "P")
 HATCHES = ("", "////", "....", "xxxx", "\\\\\\\\", "++++")
 GREY = "#B0B0B0"
@@ -63,6 +66,16 @@ def new_figure(width: float = 8.0, height: float = 4.8) -> Any:
 def preload_label(preload: float) -> str:
     """Return "preload 2500 N"."""
     return f"preload {preload:g} N"
+
+
+def series(row: int) -> dict[str, Any]:
+    """Return colour, marker and widths of the lines of preload number `row`."""
+    return {
+        "color": SERIES[row % len(SERIES)],
+        "marker": MARKERS[row % len(MARKERS)],
+        "lw": WIDTHS[row % len(WIDTHS)],
+        "ms": SIZES[row % len(SIZES)],
+    }
 
 
 def speed_limits(dataset: xr.Dataset) -> tuple[float, float]:

@@ -31,7 +31,7 @@ def waveforms(dataset: xr.Dataset) -> Any:
                     turns,
                     wave,
                     color=SERIES[row % len(SERIES)],
-                    lw=1.1,
+                    lw=(2.6, 1.1)[row % 2],
                     label=preload_label(preload),
                 )
             ax.set_title(f"{float(dataset['speed_kmh'][column]):g} km/h", loc="left", fontsize=9.5)
@@ -70,11 +70,12 @@ def roller_zone(dataset: xr.Dataset) -> Any:
                 ax.fill_between(closed, low, high, color=colour, alpha=0.2, lw=0)
                 ax.plot(closed, mean, color=colour, label=preload_label(preload))
             ax.set_ylim(0.0, 1.05 * top)
-            ax.yaxis.set_major_locator(MaxNLocator(4))
-            ax.set_rlabel_position(112.5)
+            ticks = [t for t in MaxNLocator(4).tick_values(0.0, top) if 0.0 < t <= top]
+            ax.set_yticks(ticks, [])
+            for tick in ticks:
+                text = ax.text(np.pi / 8, tick, f"{tick:g}", fontsize=8, ha="center", va="center")
+                outlined(text, "white", 3.0)
             ax.tick_params(labelsize=8)
-            for text in ax.get_yticklabels():
-                outlined(text, "white", 2.5)
             ax.set_title(f"{float(dataset['speed_kmh'][column]):g} km/h", pad=14)
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, ncols=len(handles), loc="outside lower center")

@@ -66,12 +66,18 @@ def waves(recording: Recording, window: AngleWindow) -> Variables:
 
 
 def mesh_cycle(recording: Recording) -> Variables:
-    """Return the flank quantities over one mesh cycle, averaged over all cycles of the record."""
+    """Return the flank quantities while a tooth pair passes the mesh, mean over all passages.
+
+    Each of the flanks carries one tooth pair after another. Its quantities repeat with as many
+    mesh periods as there are flanks, counted from pinion angle zero.
+    """
     angle = recording["pinion.angle"]
+    cycles = len(FLANKS)
     pitch = 2.0 * math.pi / recording.teeth
-    first, last = math.ceil(angle[0] / pitch), math.floor(angle[-1] / pitch)
-    phase = np.arange(MESH_PHASES) / MESH_PHASES
-    at = pitch * (np.arange(first, last)[:, None] + phase[None, :])
+    passage = cycles * pitch
+    first, last = math.ceil(angle[0] / passage), math.floor(angle[-1] / passage)
+    phase = np.arange(cycles * MESH_PHASES) / MESH_PHASES
+    at = passage * np.arange(first, last)[:, None] + pitch * phase[None, :]
     result: Variables = {"mesh_phase": ("mesh_phase", phase)}
     for quantity in FLANK_QUANTITIES:
         means = [

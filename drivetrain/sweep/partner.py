@@ -21,13 +21,10 @@ class Operation:
         Partner of the axle.
     pinion_speed : float
         Speed of the pinion at the start [rad/s].
-    tyre_radius : float
-        Dynamic radius of the tyres [m].
     """
 
     driver: Driver
     pinion_speed: float
-    tyre_radius: float
 
 
 def operation(settings: SweepSettings, speed_kmh: float) -> Operation:
@@ -41,8 +38,4 @@ def operation(settings: SweepSettings, speed_kmh: float) -> Operation:
         driver = CoupledVehicle(DrivelineParameters(road_load=road), speed)
     else:
         driver = SpeedHold(road, speed)
-    return Operation(
-        driver=driver,
-        pinion_speed=driver.initial_pinion_speed,
-        tyre_radius=road.tyre.rolling_radius,
-    )
+    return Operation(driver=driver, pinion_speed=driver.initial_pinion_speed)

@@ -11,7 +11,7 @@ import xarray as xr
 from drivetrain.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from drivetrain.sweep.curves import mesh_cycle, roller_zone, spectra, waves
 from drivetrain.sweep.fmu_axle import FmuAxle
-from drivetrain.sweep.partner import Operation, operation
+from drivetrain.sweep.partner import operation
 from drivetrain.sweep.quantities import described
 from drivetrain.sweep.recording import Recording, record
 from drivetrain.sweep.scalars import scalars
@@ -50,8 +50,8 @@ def run_point(
     """
     try:
         with unpacked(Path(fmu)) as directory:
-            recording, where = _simulate(directory, speed_kmh, preload, settings)
-        return summarise(recording, where, speed_kmh, preload, settings)
+            recording = _simulate(directory, speed_kmh, preload, settings)
+        return summarise(recording, speed_kmh, preload, settings)
     except GearLubeError as error:
         logger.warning("%g km/h, %g N failed: %s", speed_kmh, preload, error)
         return failed_point(speed_kmh, preload, str(error))
@@ -59,20 +59,16 @@ def run_point(
 
 def _simulate(
     directory: Path, speed_kmh: float, preload: float, settings: SweepSettings
-) -> tuple[Recording, Operation]:
+) -> Recording:
     where = operation(settings, speed_kmh)
     with FmuAxle(directory, CHANNELS) as axle:
         axle.set_parameters(settings.fmu_parameters)
         axle.set_parameters({"bearing.preload": preload, "pinion.speed_start": where.pinion_speed})
-        return record(axle, where.driver, settings, CHANNELS), where
+        return record(axle, where.driver, settings, CHANNELS)
 
 
 def summarise(
-    recording: Recording,
-    where: Operation,
-    speed_kmh: float,
-    preload: float,
-    settings: SweepSettings,
+    recording: Recording, speed_kmh: float, preload: float, settings: SweepSettings
 ) -> xr.Dataset:
     """Turn a recording into the dataset of its point."""
     window = angle_window(
@@ -81,7 +77,7 @@ def summarise(
         revolutions=recording.revolutions,
         samples_per_revolution=recording.teeth * recording.steps_per_mesh_period,
     )
-    numbers = scalars(recording, window, backlash=settings.backlash, tyre_radius=where.tyre_radius)
+    numbers = scalars(recording, window, backlash=settings.backlash)
     dataset = xr.Dataset(
         {
             "status": FINISHED,

@@ -72,7 +72,7 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "pinion_y_wave": ("m", "displacement of the pinion along y over one revolution"),
     "pinion_z_wave": ("m", "displacement of the pinion along z over one revolution"),
     "roller_load_wave": ("N", "load of roller 1 of pinion bearing 1 over one revolution"),
-    "mesh_phase": ("1", "mesh cycles since the pinion angle was a multiple of the pitch"),
+    "mesh_phase": ("1", "mesh cycles since the first flank took over a tooth pair"),
     "flank_load": ("N", "load on the flank, mean over the cycles"),
     "flank_film_thickness": ("m", "central film thickness, mean over the cycles"),
     "flank_film_ratio": ("1", "film ratio, mean over the cycles"),

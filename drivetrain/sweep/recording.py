@@ -36,6 +36,10 @@ class SteppedAxle(Protocol):
 class Driver(Protocol):
     """Torques that act on the two shafts of the axle."""
 
+    @property
+    def vehicle_speed(self) -> float:
+        """Speed of the vehicle [m/s]."""
+
     def initial_torques(self) -> tuple[float, float]:
         """Return the steady torques on pinion and wheel [N.m]."""
 
@@ -72,6 +76,8 @@ class Recording:
         Teeth of the pinion [-].
     revolutions : int
         Whole pinion revolutions to analyse, at the end of the record [-].
+    vehicle_speed : float
+        Mean of the vehicle speeds at the start and at the end of the record [m/s].
     """
 
     time: NDArray[np.float64]
@@ -82,6 +88,7 @@ class Recording:
     steps_per_mesh_period: int
     teeth: int
     revolutions: int
+    vehicle_speed: float
 
     def __getitem__(self, channel: str) -> NDArray[np.float64]:
         """Return the samples of one channel, shape (n,)."""
@@ -142,6 +149,7 @@ def record(
     values = np.empty((capacity, len(columns)))
     applied = np.empty((capacity, 2))
     size, beyond = 0, 0
+    vehicle_speed = driver.vehicle_speed
     while beyond < _MARGIN:
         if size == capacity:
             raise StepError(
@@ -165,6 +173,7 @@ def record(
         steps_per_mesh_period=steps_per_period,
         teeth=teeth,
         revolutions=revolutions,
+        vehicle_speed=0.5 * (vehicle_speed + driver.vehicle_speed),
     )
 
 

@@ -14,7 +14,9 @@ import xarray as xr
 
 from drivetrain.sweep.executors import Crew, PointFunction, crew_for, default_jobs
 from drivetrain.sweep.merge import merge, save
+from drivetrain.sweep.natural_frequencies import natural_frequencies
 from drivetrain.sweep.point import FINISHED, failed_point, run_point
+from drivetrain.sweep.quantities import described
 from drivetrain.sweep.settings import SweepSettings
 from drivetrain.sweep.store import PointStore
 from drivetrain.sweep.unpack import fmu_guid, unpacked
@@ -47,6 +49,7 @@ class Progress:
 
 
 Observer = Callable[[Progress], None]
+ModesFunction = Callable[[Sequence[float], float, SweepSettings], xr.DataArray]
 
 
 def run_sweep(
@@ -61,6 +64,7 @@ def run_sweep(
     observer: Observer | None = None,
     command_line: str = "",
     point: PointFunction = run_point,
+    modes: ModesFunction | None = natural_frequencies,
 ) -> xr.Dataset:
     """Run the axle FMU over a grid of vehicle speeds and bearing preloads.
 
@@ -85,6 +89,8 @@ def run_sweep(
         Noted in the file.
     point : callable
         Computes one point; importable by the workers.
+    modes : callable
+        Gives the natural frequencies that the figures mark, at the middle speed; None for none.
 
     Returns
     -------
@@ -134,6 +140,9 @@ def run_sweep(
             **{f"setting_{name}": value for name, value in settings.as_dict().items()},
         }
     )
+    if modes is not None:
+        sweep["mode_frequency"] = modes(loads, speeds[len(speeds) // 2], settings)
+    described(sweep)
     save(sweep, out)
     return sweep
 

@@ -29,12 +29,10 @@ def radial_displacement(recording: Recording) -> NDArray[np.float64]:
     return np.hypot(y, z)
 
 
-def scalars(
-    recording: Recording, window: AngleWindow, *, backlash: float, tyre_radius: float
-) -> Variables:
+def scalars(recording: Recording, window: AngleWindow, *, backlash: float) -> Variables:
     """Return the scalar results of a point as xarray variables."""
     return {
-        **_operation(recording, window, tyre_radius),
+        **_operation(recording, window),
         **_mesh(recording, backlash),
         **_displacements(recording),
         **_bearings(recording),
@@ -49,11 +47,11 @@ def _slope(recording: Recording, channel: str) -> float:
     return float((values[-1] - values[0]) / (recording.time[-1] - recording.time[0]))
 
 
-def _operation(recording: Recording, window: AngleWindow, tyre_radius: float) -> Variables:
+def _operation(recording: Recording, window: AngleWindow) -> Variables:
     per_turn = 1.0 / (2.0 * math.pi)
     pinion, wheel = _slope(recording, "pinion.angle"), _slope(recording, "wheel.angle")
     return {
-        "vehicle_speed": wheel * tyre_radius,
+        "vehicle_speed": recording.vehicle_speed,
         "pinion_speed": pinion,
         "pinion_torque": float(np.mean(recording.torques[:, 0])),
         "wheel_torque": float(np.mean(recording.torques[:, 1])),

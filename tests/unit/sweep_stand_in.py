@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.sweep.channels import CHANNELS, LOSSES
-from drivetrain.sweep.partner import Operation
 from drivetrain.sweep.point import failed_point, summarise
 from drivetrain.sweep.recording import record
 from gearlube_core.errors import GearLubeError
@@ -59,7 +58,7 @@ class AnalyticAxle:
             "bearing[1].cage.angle": cage,
             "bearing[3].cage.angle": cage * TEETH / WHEEL_TEETH,
             "flank[1].load": 1000.0,
-            "flank[1].film_thickness": 0.5e-6 * (1.1 + math.cos(mesh) * 0.1),
+            "flank[1].film_thickness": 0.5e-6 * (1.1 + math.cos(mesh / 3.0) * 0.1),
             "flank[1].film_ratio": 1.1 + math.cos(mesh) * 0.1,
             "flank[1].temperature": 370.0,
             "energy.pinion_work": INPUT_POWER * t,
@@ -70,6 +69,8 @@ class AnalyticAxle:
 
 
 class SteadyDriver:
+    vehicle_speed = 16.7
+
     def initial_torques(self):
         return 30.0, 80.0
 
@@ -84,10 +85,7 @@ def recorded(speed_kmh, settings):
 def point(fmu, speed_kmh, preload, settings):
     """Same signature as `run_point`; the motion depends on speed only."""
     recording = recorded(speed_kmh, settings)
-    where = Operation(
-        driver=SteadyDriver(), pinion_speed=pinion_speed_at(speed_kmh), tyre_radius=RADIUS
-    )
-    return summarise(recording, where, speed_kmh, preload, settings)
+    return summarise(recording, speed_kmh, preload, settings)
 
 
 def small_point(fmu, speed_kmh, preload, settings):

@@ -22,7 +22,13 @@ def sweep(fmu, out, point, **options):
     seen = []
     arguments = {"speeds_kmh": SPEEDS, "preloads": (2500.0, 6000.0), "jobs": 1} | options
     dataset = run_sweep(
-        fmu, settings=SETTINGS, out=out, observer=seen.append, point=point, **arguments
+        fmu,
+        settings=SETTINGS,
+        out=out,
+        observer=seen.append,
+        point=point,
+        modes=None,
+        **arguments,
     )
     return dataset, seen
 
