@@ -16,6 +16,7 @@ _ROWS = (
     ("flank_film_ratio", "film ratio λ [-]", lambda x: x),
     ("flank_temperature", "film temperature [°C]", kelvin_to_celsius),
 )
+_LOADED = 0.01  # share of the largest load above which a flank is drawn
 _STYLES = ("-", (0, (5, 2)), (0, (1, 1.2)))
 
 
@@ -35,7 +36,7 @@ def film_over_mesh_cycle(dataset: xr.Dataset, preload: int = 0) -> Any:
         for at, speed in enumerate(columns):
             point = dataset.isel(preload=preload, speed=speed)
             load = point["flank_load"].values
-            loaded = load > 1e-3 * np.nanmax(load)
+            loaded = load > _LOADED * np.nanmax(load)
             for ax, (name, label, scaled) in zip(axes[:, at], _ROWS, strict=True):
                 for flank, style in enumerate(_STYLES):
                     values = np.where(loaded[flank], scaled(point[name].values[flank]), np.nan)

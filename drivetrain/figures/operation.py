@@ -74,4 +74,6 @@ def _modes(ax: Any, dataset: xr.Dataset) -> None:
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
         ax.axhspan(low, high * 1.002, color="#404040", alpha=0.35, lw=0)
         middles[str(name)] = (low * high) ** 0.5
-    name_levels(ax, middles)
+    if middles:
+        ax.set_ylim(top=max(ax.get_ylim()[1], 1.5 * max(middles.values())))
+    name_levels(ax, middles, size=7.5)

@@ -22,8 +22,8 @@ BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK = (
 )
 SERIES = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 # Earlier series are drawn wider, so that they show behind later ones that coincide.
-WIDTHS = (3.0, 1.5, 1.2, 1.0, 0.9, 0.8)
-SIZES = (7.5, 4.2, 3.6, 3.2, 3.0, 2.8)
+WIDTHS = (2.4, 1.3, 1.2, 1.0, 0.9, 0.8)
+SIZES = (6.5, 3.8, 3.6, 3.2, 3.0, 2.8)
 MARKERS = ("o", "s", "^", "D", "v", "P")
 HATCHES = ("", "////", "....", "xxxx", "\\\\\\\\", "++++")
 GREY = "#B0B0B0"
@@ -117,13 +117,13 @@ def name_levels(ax: Any, levels: dict[str, float], size: float = 8.0) -> None:
     }
     box = ax.get_position()
     line = 1.35 * size / 72.0 / (0.8 * ax.figure.get_figheight() * max(box.height, 0.1))
-    above = -np.inf
-    for name, height in sorted(heights.items(), key=lambda item: item[1]):
-        above = max(height, above + line)
+    names = sorted(heights, key=heights.__getitem__)
+    places = _spread_out([heights[name] for name in names], line)
+    for name, place in zip(names, places, strict=True):
         ax.annotate(
             name,
-            (1.0, height),
-            xytext=(1.035, above),
+            (1.0, heights[name]),
+            xytext=(1.035, place),
             xycoords="axes fraction",
             textcoords="axes fraction",
             va="center",
@@ -131,6 +131,18 @@ def name_levels(ax: Any, levels: dict[str, float], size: float = 8.0) -> None:
             annotation_clip=False,
             arrowprops={"arrowstyle": "-", "lw": 0.5, "color": "#606060", "shrinkA": 0.5},
         )
+
+
+def _spread_out(heights: list[float], gap: float) -> list[float]:
+    """Return ascending places at least `gap` apart, near `heights` and not above the axes."""
+    places: list[float] = []
+    for height in heights:
+        places.append(max(height, places[-1] + gap) if places else height)
+    ceiling = 1.0
+    for i in reversed(range(len(places))):
+        places[i] = min(places[i], ceiling)
+        ceiling = places[i] - gap
+    return places
 
 
 def outlined(text: Any, colour: str = "black", width: float = 2.0) -> Any:

@@ -8,6 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from drivetrain.driveline import Driveline
+from drivetrain.driveline_modes import driveline_modes
+from drivetrain.driveline_parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from drivetrain.sweep.settings import FMU_PARAMETERS, SweepSettings
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes, mohammadpour_2015_axle
@@ -16,6 +19,8 @@ from gearlube_core.units import kmh_to_ms
 
 logger = logging.getLogger(__name__)
 
+_LOWEST_DRIVELINE_MODE = 100.0  # Hz, lower ones lie below the mesh frequencies of a sweep
+
 
 def natural_frequencies(
     preloads: Sequence[float], speed_kmh: float, settings: SweepSettings
@@ -23,18 +28,32 @@ def natural_frequencies(
     """Return undamped natural frequencies [Hz] over (preload, mode).
 
     The axle is linearised about its static state under the road load at `speed_kmh`, with the
-    mean mesh stiffness. Modes are named after the coordinate with most of the kinetic energy; a
-    name that a preload lacks is NaN there.
+    mean mesh stiffness; its modes are named after the coordinate with most of the kinetic energy.
+    With the coupled vehicle, the driveline's modes above 100 Hz (rigid axle) follow.
+
+    Notes
+    -----
+    Modes are matched between preloads by their order, since two modes that share their energy may
+    swap names; all take the names that they have at the first preload.
     """
     found = [_modes(preload, speed_kmh, settings) for preload in preloads]
-    names = sorted({name for row in found for name in row})
-    values = [[row.get(name, np.nan) for name in names] for row in found]
-    order = np.argsort([min(row.get(name, np.inf) for row in found) for name in names])
-    return xr.DataArray(
-        np.array(values).reshape(len(found), len(names))[:, order],
-        dims=("preload", "mode"),
-        coords={"mode": [names[i] for i in order]},
-    )
+    first = next((row for row in found if row), {})
+    driveline = _driveline_modes(speed_kmh, settings)
+    names = [*first, *driveline]
+    values = np.full((len(found), len(names)), np.nan)
+    for row, frequencies in zip(values, found, strict=True):
+        if len(frequencies) == len(first):
+            row[: len(first)] = sorted(frequencies.values())
+        row[len(first) :] = list(driveline.values())
+    return xr.DataArray(values, dims=("preload", "mode"), coords={"mode": names})
+
+
+def _driveline_modes(speed_kmh: float, settings: SweepSettings) -> dict[str, float]:
+    if settings.driver != "vehicle":
+        return {}
+    parameters = DrivelineParameters(road_load=mohammadpour_2015_road_load())
+    found = driveline_modes(Driveline(parameters, kmh_to_ms(speed_kmh)))
+    return {m.name: m.frequency for m in found if m.frequency > _LOWEST_DRIVELINE_MODE}
 
 
 def _modes(preload: float, speed_kmh: float, settings: SweepSettings) -> dict[str, float]:
@@ -50,7 +69,8 @@ def _modes(preload: float, speed_kmh: float, settings: SweepSettings) -> dict[st
             wheel_torque=road.ring_gear_torque(speed),
             oil_temperature=settings.oil_temperature,
         )
-        return modes(axle, settings.oil_temperature, torque)
+        found = modes(axle, settings.oil_temperature, torque)
     except GearLubeError as error:
         logger.warning("No natural frequencies at %g N: %s", preload, error)
         return {}
+    return dict(sorted(found.items(), key=lambda item: item[1]))
