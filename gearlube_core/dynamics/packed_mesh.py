@@ -45,6 +45,11 @@ class PackedMesh:
         """Number of series coefficients at one load level."""
         return N_SERIES * (2 * self.orders + 1)
 
+    @property
+    def window_size(self) -> int:
+        """Number of window values at one load level."""
+        return (self.nodes + 1) * N_CHANNELS
+
 
 def pack_mesh(table: MeshTable, contact_modulus: float, radii: str) -> PackedMesh:
     """Return the flat arrays of `table`.

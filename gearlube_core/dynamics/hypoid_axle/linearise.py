@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_ODE, U_G, U_P, V_G, V_P, W_G, W_P, X
 from gearlube_core.rheology.lubricant_state import lubricant_state
@@ -17,23 +18,28 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+ANGLE_STEP = 1e-8  # rad, of the central differences
+LENGTH_STEP = 1e-9  # m
+SPEED_STEP = 1e-5  # rad/s or m/s
 # generalised coordinates: pinion and gear rotation, then their displacements
 COORDINATES = ("phi_p", "phi_g", "x_p", "y_p", "z_p", "x_g", "y_g", "z_g")
 
 
 @dataclass(frozen=True, slots=True)
 class LinearAxle:
-    """Linearised axle M q'' + C q' + K q = 0 in the coordinates COORDINATES.
+    """Linearised axle M q'' + C q' + (K + N) q = 0 in the coordinates COORDINATES.
 
     Parameters
     ----------
-    mass, damping, stiffness : ndarray of shape (8, 8)
-        SI: kg m2 or kg; N m s/rad, N s/m; N m/rad, N/m.
+    mass, damping, stiffness, circulatory : ndarray of shape (8, 8)
+        SI: kg m2 or kg; N m s/rad, N s/m; N m/rad, N/m. `circulatory` is what the hysteresis of
+        orbiting rollers adds to the stiffness: damping in a rotating frame.
     """
 
     mass: Array
     damping: Array
     stiffness: Array
+    circulatory: Array
 
     def modes(self) -> tuple[Array, Array, Array]:
         """Return undamped frequencies [Hz], damping ratios [-] and shapes (8, m), rigid mode out.
@@ -54,7 +60,8 @@ class LinearAxle:
         n = self.mass.shape[0]
         inverse = np.linalg.inv(self.mass)
         upper = np.hstack([np.zeros((n, n)), np.eye(n)])
-        lower = np.hstack([-inverse @ self.stiffness, -inverse @ self.damping])
+        stiffness = self.stiffness + self.circulatory
+        lower = np.hstack([-inverse @ stiffness, -inverse @ self.damping])
         return np.linalg.eigvals(np.vstack([upper, lower]))
 
 
@@ -73,6 +80,11 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
         Pinion torque at which the mesh table is read [N.m].
     """
     p = axle.kernel_parameters._replace(friction_form=-1.0)
+    elastic = p._replace(
+        loss=0.0,
+        bearing_p=p.bearing_p._replace(loss=0.0),
+        bearing_g=p.bearing_g._replace(loss=0.0),
+    )
     masses = np.array([p.I_p, p.I_g] + 3 * [p.m_p] + 3 * [p.m_g])
     mesh = axle.packed
     levels = np.array([axle.parameters.mesh.mean(key, torque) for key in ("k_m", "R_p")])
@@ -89,7 +101,7 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     slope = np.zeros(N_ODE)
     rows = np.r_[W_P, W_G, V_P : V_P + 3, V_G : V_G + 3]
 
-    def generalised_force(state: Array) -> Array:
+    def generalised_force(state: Array, p: AxleParameters) -> Array:
         axle_rhs(
             state,
             inputs,
@@ -109,26 +121,24 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     # change of the scaled transmission error per unit of each coordinate
     to_x = MICRO * np.concatenate([[series[1], -series[2]], normal, -normal])
     places = [None, None, *range(U_P, U_P + 3), *range(U_G, U_G + 3)]
-    angle_step, length_step, speed_step = 1e-8, 1e-9, 1e-5
     stiffness = np.zeros((8, 8))
+    with_losses = np.zeros((8, 8))
     damping = np.zeros((8, 8))
     for j in range(8):
-        step = angle_step if j < 2 else length_step
-        forces = []
-        for sign in (1.0, -1.0):
-            state = base.copy()
-            state[X] += sign * step * to_x[j]
-            if places[j] is not None:
-                state[places[j]] += sign * step * MICRO
-            forces.append(generalised_force(state))
-        stiffness[:, j] = -(forces[0] - forces[1]) / (2.0 * step)
-        forces = []
-        for sign in (1.0, -1.0):
-            state = base.copy()
-            state[rows[j]] += sign * speed_step
-            forces.append(generalised_force(state))
-        damping[:, j] = -(forces[0] - forces[1]) / (2.0 * speed_step)
-    return LinearAxle(np.diag(masses), damping, stiffness)
+        shift = np.zeros_like(base)
+        step = ANGLE_STEP if j < 2 else LENGTH_STEP
+        shift[X] = step * to_x[j]
+        if places[j] is not None:
+            shift[places[j]] = step * MICRO
+        for matrix, constants in ((stiffness, elastic), (with_losses, p)):
+            change = generalised_force(base + shift, constants)
+            change -= generalised_force(base - shift, constants)
+            matrix[:, j] = -change / (2.0 * step)
+        shift = np.zeros_like(base)
+        shift[rows[j]] = SPEED_STEP
+        change = generalised_force(base + shift, p) - generalised_force(base - shift, p)
+        damping[:, j] = -change / (2.0 * SPEED_STEP)
+    return LinearAxle(np.diag(masses), damping, stiffness, with_losses - stiffness)
 
 
 def modes(axle: HypoidAxle, oil_temperature: float, torque: float) -> dict[str, float]:

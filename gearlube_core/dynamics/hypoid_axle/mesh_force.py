@@ -23,6 +23,8 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series
 
+DAMPING_BUILD_UP = 0.5e-6  # m, small against the 2 to 8 um of a loaded mesh
+
 
 class MeshForce(NamedTuple):
     """Mesh force and what it does."""
@@ -78,9 +80,10 @@ def mesh_force(
 
     Notes
     -----
-    Consistent form: no force within the backlash, no adhesion, and the pinion carries the torque
-    -F dx/dphi_p - k_m' f^2/2, so that the mesh exchanges no energy with nothing. The printed form
-    lets c_m x' act within the backlash and the pinion carry -R_p F.
+    Consistent form: no force within the backlash, damping that builds up over the first
+    DAMPING_BUILD_UP of deflection (so that the force is continuous), no adhesion, and the pinion
+    carries the torque -F dx/dphi_p - k_m' f^2/2, so that the mesh exchanges no energy with
+    nothing. The printed form lets c_m x' act within the backlash and the pinion carry -R_p F.
 
     References
     ----------
@@ -108,12 +111,8 @@ def mesh_force(
     force = elastic + c * x_rate
     torque_p = -m.R_p * force
     if p.consistent != 0.0:
-        if f == 0.0:
-            force = 0.0
-        elif f > 0.0:
-            force = max(force, 0.0)
-        else:
-            force = min(force, 0.0)
+        force = elastic + min(1.0, abs(f) / DAMPING_BUILD_UP) * c * x_rate
+        force = max(force, 0.0) if f >= 0.0 else min(force, 0.0)
         torque_p = -arm_p * force - 0.5 * m.dk_m * f * f
     return MeshForce(
         force,

@@ -14,6 +14,8 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
     TOO_MANY_STEPS,
     StepControl,
     advance,
+    blend_mesh,
+    step_inputs,
     work_size,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
@@ -183,6 +185,42 @@ class HypoidAxle:
         self._state[:] = trial
         self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
         self._write_outputs()
+
+    def derivative(self, state: Array) -> Array:
+        """Return d/dt of the N_ODE integrated states, for any other integrator.
+
+        The inputs and the load level of the mesh table are those of the last step.
+
+        Parameters
+        ----------
+        state : ndarray of shape (N_ODE,)
+            In the units of `state`.
+        """
+        mesh = self.packed
+        p = self.kernel_parameters
+        full = self._state.copy()
+        full[:N_ODE] = state
+        torque_p, torque_g, oil_temperature = self._inputs.tolist()
+        oil = lubricant_state(p.oil, oil_temperature)
+        series = np.zeros(mesh.series_size)
+        window = np.zeros(mesh.window_size)
+        blend_mesh(
+            full[LOAD_TORQUE],
+            mesh.levels,
+            mesh.series,
+            mesh.orders,
+            mesh.windows,
+            mesh.nodes,
+            series,
+            window,
+        )
+        slope = np.zeros(N_ODE)
+        inputs = step_inputs(full, torque_p, torque_g, oil, p)
+        scratch = np.zeros(SCRATCH)
+        axle_rhs(
+            full, inputs, series, mesh.orders, window, mesh.nodes, oil, p, True, scratch, slope
+        )
+        return slope
 
     def get_state(self) -> Array:
         """Return everything that the future depends on, shape (N_STATE + 8,)."""

@@ -66,6 +66,8 @@ class HypoidAxleParameters:
         Integrator steps per mesh period and per period of the highest mode.
     frequency_floor : float
         Lower clamp of the frequency in eq. (4) and (25) [Hz].
+    hysteretic_loss : float
+        Coefficient of eq. (4) [-].
 
     References
     ----------
@@ -91,6 +93,7 @@ class HypoidAxleParameters:
     steps_per_mesh_period: int
     steps_per_highest_period: int
     frequency_floor: float = FREQUENCY_FLOOR
+    hysteretic_loss: float = HYSTERETIC_LOSS
 
     def __post_init__(self) -> None:
         check_option("equations", self.equations, get_args(Equations))
@@ -114,6 +117,7 @@ class HypoidAxleParameters:
         check_within(
             "steps_per_highest_period", self.steps_per_highest_period, 8, 4096, "", "Default 22."
         )
+        check_within("hysteretic_loss", self.hysteretic_loss, 0.0, 0.5, "", "Default 0.009.")
         check_within("frequency_floor", self.frequency_floor, 1.0, 1e4, "Hz")
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
             raise ParameterError(
@@ -147,7 +151,7 @@ class HypoidAxleParameters:
             m_g=self.gear_mass,
             z_p=float(self.mesh.pinion_teeth),
             backlash=self.backlash,
-            loss=HYSTERETIC_LOSS,
+            loss=self.hysteretic_loss,
             frequency_floor=self.frequency_floor,
             modal_damping=self.modal_damping,
             lateral_sign=-1.0 if as_printed else 1.0,

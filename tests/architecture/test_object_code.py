@@ -1,0 +1,109 @@
+"""The complete axle step is native code that needs nothing but libm."""
+
+import io
+
+from elftools.elf.elffile import ELFFile
+from numba import types
+
+from fmu_src.object_code import array_at, lower_to_object
+from gearlube_core.bearings.parameters import ROLLERS_MAX
+from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, advance, work_size
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.flat_tuples import count_floats
+from gearlube_core.mesh_table.kernels import N_SERIES
+
+N_PARAMETERS = count_floats(AxleParameters)
+N_CONTROL = count_floats(StepControl)
+ORDERS, NODES, LEVELS = 5, 192, 7
+SERIES = LEVELS * N_SERIES * (2 * ORDERS + 1)
+WINDOWS = LEVELS * (NODES + 1) * N_CHANNELS
+WORK = work_size(ORDERS, NODES)
+
+LIBM = {
+    "exp",
+    "expm1",
+    "log",
+    "pow",
+    "sin",
+    "cos",
+    "sqrt",
+    "asinh",
+    "tanh",
+    "erfc",
+    "ceil",
+    "floor",
+}
+LIBM |= {"floor", "hypot", "log1p", "cosh", "sinh", "fmod", "exp2", "sincos"}
+# plain memory primitives that any C library and any compiler run-time provides
+FREESTANDING = {"memcpy", "memset", "memmove"}
+POINTER = types.CPointer(types.float64)
+
+
+def axle_step(
+    s, h, torque_p, torque_g, oil, levels, series, windows, parameters, control, work, out
+):
+    state = array_at(s, N_STATE)
+    status = advance(
+        state,
+        h,
+        torque_p,
+        torque_g,
+        oil,
+        array_at(levels, LEVELS),
+        array_at(series, SERIES),
+        ORDERS,
+        array_at(windows, WINDOWS),
+        NODES,
+        array_at(parameters, N_PARAMETERS),
+        array_at(control, N_CONTROL),
+        array_at(work, WORK),
+    )
+    write_outputs(
+        state,
+        torque_p,
+        torque_g,
+        oil,
+        array_at(levels, LEVELS),
+        array_at(series, SERIES),
+        ORDERS,
+        array_at(windows, WINDOWS),
+        NODES,
+        array_at(parameters, N_PARAMETERS),
+        array_at(work, WORK),
+        array_at(out, ROLLERS_MAX),
+        array_at(out, N_OUTPUTS),
+    )
+    return status
+
+
+def allocating_step(s):
+    state = array_at(s, N_STATE)
+    return state.copy()[0]
+
+
+def undefined_in_object(code: bytes) -> set[str]:
+    table = ELFFile(io.BytesIO(code)).get_section_by_name(".symtab")
+    return {
+        symbol.name
+        for symbol in table.iter_symbols()
+        if symbol["st_shndx"] == "SHN_UNDEF" and symbol.name
+    } - {"_GLOBAL_OFFSET_TABLE_"}
+
+
+def test_axle_step_needs_nothing_but_libm():
+    signature = types.int64(*[POINTER], *4 * [types.float64], *7 * [POINTER])
+    code, declared = lower_to_object(axle_step, signature, "gearlube_axle_step")
+    wanted = undefined_in_object(code)
+    assert wanted <= LIBM | FREESTANDING
+    assert declared >= wanted - FREESTANDING - LIBM
+    symbols = ELFFile(io.BytesIO(code)).get_section_by_name(".symtab").iter_symbols()
+    assert "gearlube_axle_step" in {symbol.name for symbol in symbols}
+
+
+def test_an_allocation_would_be_seen():
+    code, _ = lower_to_object(allocating_step, types.float64(POINTER), "allocates")
+    assert undefined_in_object(code) - LIBM - FREESTANDING

@@ -1,0 +1,63 @@
+"""Operating points and stripped-down axles that several tests share."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
+
+OIL = 368.15  # K, the temperature at which Table A4 is taken to hold
+TYRE_RADIUS = 0.320  # m
+RATIO = 36 / 13
+# Ring gear torque of the paper's road load, N.m
+WHEEL_TORQUE = {20: 72.0, 40: 85.0, 60: 106.0, 80: 137.0, 100: 176.0}
+
+
+def operating_point(speed_kmh, efficiency=0.96):
+    """Pinion speed [rad/s], pinion torque and wheel torque [N.m] at a vehicle speed."""
+    wheel_torque = WHEEL_TORQUE[speed_kmh]
+    return (
+        speed_kmh / 3.6 / TYRE_RADIUS * RATIO,
+        wheel_torque / RATIO / efficiency,
+        wheel_torque,
+    )
+
+
+def running_axle(speed_kmh, parameters=None, efficiency=0.96):
+    """An initialised axle and its constant torques."""
+    axle = HypoidAxle(parameters or mohammadpour_2015_axle())
+    speed, pinion_torque, wheel_torque = operating_point(speed_kmh, efficiency)
+    axle.initialise(
+        pinion_speed=speed,
+        pinion_torque=pinion_torque,
+        wheel_torque=wheel_torque,
+        oil_temperature=OIL,
+    )
+    return axle, pinion_torque, wheel_torque
+
+
+def conservative(parameters, **changes):
+    """The same axle without damping, friction, drag and roller films."""
+    bearing = replace(parameters.bearing, loss=0.0, film="off")
+    stripped = replace(
+        parameters,
+        bearing=bearing,
+        hysteretic_loss=0.0,
+        friction="off",
+        bearing_torque_loss="none",
+    )
+    return replace(stripped, **changes)
+
+
+def output(axle, name):
+    return float(axle.outputs[OUTPUT_INDEX[name]])
+
+
+def record(axle, torques, names, duration, h=1e-4):
+    """Outputs by name against time, shape (len(names), steps)."""
+    columns = [OUTPUT_INDEX[name] for name in names]
+    rows = []
+    for _ in range(round(duration / h)):
+        axle.step(h, *torques, OIL)
+        rows.append(axle.outputs[columns])
+    return np.array(rows).T
