@@ -13,6 +13,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
 from gearlube_core.contact.greenwood_tripp_as_printed import f_2_as_printed, f_5_2_as_printed
 from gearlube_core.film.chittenden_1985 import central_film_thickness
 from gearlube_core.friction.evans_johnson_1986 import (
+    solid_resistance,
     surface_heating_number,
     viscous_friction_coefficient,
 )
@@ -26,30 +27,37 @@ LOAD_FLOOR = 1.0e-3  # N
 SPEED_FLOOR = 1.0e-6  # m/s
 BOUNDARY_SPEED = 1.0e-3  # m/s, boundary friction builds up over this sliding speed
 _SATURATION = 20.0  # tanh is 1 in double precision above
+_FLASH_FACTOR = 8.0 * math.sqrt(2.0) / (3.0 * math.pi)
+_STILL_FACTOR = 16.0 / (9.0 * math.pi**3)  # s^2 Ks^2/A
 
 
 @kernel
 def contact_temperature_rise(
     heat_flux: float,
     film_thickness: float,
-    R_e: float,
-    mean_pressure: float,
-    speed: float,
-    reduced_modulus: float,
+    area: float,
+    resistance: float,
     conductivity: float,
-    solid_effusivity_squared: float,
+    solid_conductivity: float,
 ) -> float:
     """Return the mean temperature of the film over that of the oil.
 
-    dT = (4/3) (q/2) [2 b/(pi Ks rho cs U)]^(1/2) + q h/(12 K),  b = (16/pi) p R_e/E'
+    dT = q (1/m^2 + 1/s^2)^(-1/2) + q h/(12 K)
+    m = (4/3) (1/2) [2 b/(pi Ks rho cs U)]^(1/2),  b = (16/pi) p R_e/E'
+    s = (1/2) (8/3 pi) (A/pi)^(1/2)/Ks
 
     Parameters
     ----------
     heat_flux
         Friction power per contact area q [W/m2].
-    film_thickness, R_e, mean_pressure, speed, reduced_modulus, conductivity, \
-solid_effusivity_squared
-        As in `surface_heating_number`.
+    film_thickness
+        h [m].
+    area
+        Contact area A [m2].
+    resistance
+        r of `solid_resistance` [m2 K/W]; m = 8 sqrt(2)/(3 pi) r.
+    conductivity, solid_conductivity
+        K of the lubricant and Ks of the solids [W/(m K)].
 
     Returns
     -------
@@ -58,16 +66,19 @@ solid_effusivity_squared
 
     Notes
     -----
-    The first term is the mean flash temperature of a uniform band source of half width b moving
-    over a half-space, half of the heat to each surface; the second is the mean over a film heated
-    uniformly across its thickness. b is the half width of a line contact with mean pressure p;
-    that of an ellipse under the same mean pressure is 7 % smaller (circle) to 18 % larger
-    (slender), 4 to 9 % in the first term. Peclet number above about 5.
-    Source: Jaeger 1942; Johnson 1985 sec. 4.2.
+    m is the mean flash temperature of a uniform band source of half width b moving over a
+    half-space, half of the heat to each surface. b is the half width of a line contact with
+    mean pressure p; that of an ellipse under the same mean pressure is 7 % smaller (circle) to
+    18 % larger (slender), 4 to 9 % in m. s is the stationary limit, a uniform round source of
+    the same area, and only matters below a Peclet number of about 5. The last term is the mean
+    over a film heated uniformly across its thickness.
+    Source: Jaeger 1942 for m, Carslaw and Jaeger 1959 sec. 8.2 for s, joined as by Tian and
+    Kennedy 1994.
     """
-    half_width = 16.0 / math.pi * mean_pressure * R_e / reduced_modulus
-    root = math.sqrt(2.0 * half_width / (math.pi * solid_effusivity_squared * speed))
-    return heat_flux * (2.0 / 3.0 * root + film_thickness / (12.0 * conductivity))
+    m = _FLASH_FACTOR * resistance
+    m_over_s_squared = m * m * solid_conductivity * solid_conductivity / (_STILL_FACTOR * area)
+    surface = m / math.sqrt(1.0 + m_over_s_squared)
+    return heat_flux * (surface + film_thickness / (12.0 * conductivity))
 
 
 @kernel
@@ -148,9 +159,8 @@ def flank_friction(
         W_a = min(W_a, F)
         F_viscous = F - W_a
 
-    zeta = surface_heating_number(
-        h, R_e, p, speed, reduced_modulus, lubricant.conductivity, effusivity_squared
-    )
+    resistance = solid_resistance(R_e, p, speed, reduced_modulus, effusivity_squared)
+    zeta = surface_heating_number(h, lubricant.conductivity, resistance)
     mu = viscous_friction_coefficient(
         h,
         p,
@@ -164,6 +174,7 @@ def flank_friction(
     )
     f_v = mu * F_viscous
     f_b = lubricant.tau_l0 * A_a + lubricant.gamma * W_a
+    f_b = max(f_b, 0.0)  # the printed area integral is negative from a film ratio of 2 on
     build_up = slip / BOUNDARY_SPEED
     if build_up < _SATURATION:
         f_b *= math.tanh(build_up)
@@ -171,11 +182,9 @@ def flank_friction(
     dT = contact_temperature_rise(
         friction * slip * p / F_film,
         h,
-        R_e,
-        p,
-        speed,
-        reduced_modulus,
+        F_film / p,
+        resistance,
         lubricant.conductivity,
-        effusivity_squared,
+        solid.conductivity,
     )
     return FlankState(h, film_ratio, f_v, f_b, friction / F_film, dT, p)

@@ -1,0 +1,53 @@
+"""The lubricant tables of the two hypoid papers are what the package computes with."""
+
+import pytest
+
+from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
+from gearlube_core.rheology.lubricant_state import lubricant_state
+
+
+@pytest.mark.parametrize(
+    ("temperature", "viscosity", "kinematic", "conductivity"),
+    [(313.15, 0.09483, 109.1e-6, 0.1121), (373.15, 0.0145, 16.7e-6, 0.1077)],
+)
+def test_karagiannis_oil_has_the_properties_of_table_2(
+    temperature: float, viscosity: float, kinematic: float, conductivity: float
+) -> None:
+    state = lubricant_state(Lubricant.named("karagiannis_2012").parameters(), temperature)
+    assert state.nu == pytest.approx(kinematic, rel=1e-12)
+    # printed 0.09483 is 0.1 % below density times kinematic viscosity; 0.0145 has three digits
+    assert state.eta0 == pytest.approx(viscosity, rel=2.5e-3)
+    assert state.conductivity == pytest.approx(conductivity, rel=1e-12)
+
+
+def test_karagiannis_oil_loses_a_quarter_of_its_pressure_coefficient_by_100_degc() -> None:
+    parameters = Lubricant.named("karagiannis_2012").parameters()
+    assert lubricant_state(parameters, 313.15).alpha == pytest.approx(1.44e-8, rel=1e-12)
+    # Z = 14.4e-9/[5.1e-9 (ln 0.0949 + 9.67)] = 0.386; 5.1e-9 * 0.386 (ln 0.01453 + 9.67) = 1.07e-8
+    assert parameters.roelands_z == pytest.approx(0.386, abs=5e-4)
+    assert lubricant_state(parameters, 373.15).alpha == pytest.approx(1.07e-8, abs=0.005e-8)
+
+
+def test_mohammadpour_oil_has_the_properties_of_table_a4() -> None:
+    state = lubricant_state(Lubricant.named("mohammadpour_2015").parameters(), 368.15)
+    assert state.eta0 == pytest.approx(0.0171, rel=1e-12)
+    assert state.alpha == pytest.approx(2.383e-8, rel=1e-12)
+    assert (state.tau0, state.tau_l0, state.gamma) == (2e6, 2e6, 0.17)
+    # the table prints 0.14 as heat capacity and 2000 as conductivity
+    assert state.conductivity == 0.14
+    assert Lubricant.named("mohammadpour_2015").heat_capacity == 2000.0
+
+
+def test_both_oils_share_the_slope_of_viscosity_with_temperature() -> None:
+    names = ("karagiannis_2012", "mohammadpour_2015")
+    slopes = [Lubricant.named(name).walther_b for name in names]
+    assert slopes[0] == slopes[1]
+    # 0.0171 Pa s belongs to the oil of Karagiannis et al. at about 93 degC: close to the 95 taken
+    assert Lubricant.named(names[0]).dynamic_viscosity(366.35) == pytest.approx(0.0171, rel=0.01)
+
+
+def test_gear_steel_of_table_a4_has_115_gpa_contact_modulus() -> None:
+    steel = STEEL_MOHAMMADPOUR_2015
+    # 210 GPa/(2 (1 - 0.09))
+    assert contact_modulus(steel, steel) == pytest.approx(115.4e9, rel=5e-4)

@@ -1,0 +1,98 @@
+"""Every kernel of rheology, contact, film and friction runs the same compiled and in Python."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearlube_core.contact import (
+    elliptic_integrals,
+    elliptical_hertz,
+    greenwood_tripp_1971,
+    greenwood_tripp_as_printed,
+)
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.film import chittenden_1985
+from gearlube_core.friction import evans_johnson_1986, flank, flank_data
+from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
+from gearlube_core.rheology import eyring_1936, roelands_1966, walther_1931
+from gearlube_core.rheology.lubricant_state import lubricant_state
+
+OIL = Lubricant.named("mohammadpour_2015").parameters()
+STATE = lubricant_state(OIL, 363.15)
+SURFACE = SurfaceParameters(0.5e-6, 0.055, 0.001)
+SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
+GEOMETRY = flank_data.contact_geometry(0.011, 0.6, 0.4, SOLID.contact_modulus)
+FILM = (0.011, 0.99, 0.02, 2e-8, 3.0, 1000.0, 2.3e11)
+
+CASES: list[tuple[Any, tuple[Any, ...]]] = [
+    (walther_1931.walther_viscosity, (7.4, 2.84, 350.0)),
+    (roelands_1966.pressure_viscosity_coefficient, (0.02, 0.6)),
+    (roelands_1966.roelands_viscosity, (0.02, 0.6, 5e8)),
+    (eyring_1936.eyring_stress_ratio, (0.3, 2.0)),
+    (eyring_1936.eyring_stress_ratio, (0.3, 700.0)),
+    (eyring_1936.eyring_stress_ratio, (0.0, 2.0)),
+    (lubricant_state, (OIL, 350.0)),
+    (elliptic_integrals.complete_elliptic_k_d, (0.3,)),
+    (elliptical_hertz.log_curvature_ratio, (1.2,)),
+    (elliptical_hertz.ellipticity, (7.0,)),
+    (elliptical_hertz.hertz_coefficients, (0.01, 0.4, 1.15e11)),
+    (elliptical_hertz.hertz_coefficients, (0.4, 0.01, 1.15e11)),
+    (elliptical_hertz.hertz_ellipse, (0.01, 0.4, 1.15e11, 900.0)),
+    (greenwood_tripp_1971.asperity_integrals, (1.234,)),
+    (greenwood_tripp_1971.asperity_integrals, (-1.0,)),
+    (greenwood_tripp_1971.asperity_integrals, (6.0,)),
+    (greenwood_tripp_1971.f_5_2, (0.7,)),
+    (greenwood_tripp_1971.f_2, (0.7,)),
+    (greenwood_tripp_1971.asperity_load_factor, (SURFACE,)),
+    (greenwood_tripp_1971.asperity_area_factor, (SURFACE,)),
+    (greenwood_tripp_1971.asperity_load, (0.7, 1e-6, 1.15e11, SURFACE)),
+    (greenwood_tripp_1971.asperity_area, (0.7, 1e-6, SURFACE)),
+    (greenwood_tripp_as_printed.f_5_2_as_printed, (2.5,)),
+    (greenwood_tripp_as_printed.f_2_as_printed, (2.5,)),
+    (chittenden_1985.film_geometry, (0.011, 0.6, 0.4)),
+    (chittenden_1985.minimum_film_geometry, (0.011, 0.6, 0.4)),
+    (chittenden_1985.central_film_thickness, FILM),
+    (chittenden_1985.minimum_film_thickness, FILM),
+    (evans_johnson_1986.solid_resistance, (0.011, 7e8, 3.0, 2.3e11, 1.7e8)),
+    (evans_johnson_1986.surface_heating_number, (4e-7, 0.14, 4.6e-7)),
+    (evans_johnson_1986.plateau_stress_ratio, (4e-7, 7e8, 0.02, 2e-8, 0.03, 2e6, 0.14, 0.1)),
+    (evans_johnson_1986.limited_stress_ratio, (9.0, 0.05, 14.0)),
+    (evans_johnson_1986.limited_stress_ratio, (9.0, 1e-6, 14.0)),
+    (
+        evans_johnson_1986.viscous_friction_coefficient,
+        (4e-7, 7e8, 2.0, 0.02, 2e-8, 0.03, 2e6, 0.14, 0.1),
+    ),
+    (flank_data.contact_geometry, (0.011, 0.6, 0.4, 1.15e11)),
+    (flank.contact_temperature_rise, (1e8, 4e-7, 1.7e-6, 4.6e-7, 0.14, 46.0)),
+]
+for _form in (flank_data.CONSISTENT, flank_data.AS_PRINTED):
+    for _operation in (
+        (1000.0, 3.0, 2.0),
+        (1000.0, -3.0, -1e-4),
+        (0.0, 0.0, 0.0),
+        (-1.0, 2.0, 1.0),
+    ):
+        CASES.append((flank.flank_friction, (*_operation, GEOMETRY, STATE, SURFACE, SOLID, _form)))
+
+
+@pytest.mark.parametrize(
+    ("function", "arguments"),
+    CASES,
+    ids=[f"{case[0].__name__}-{i}" for i, case in enumerate(CASES)],
+)
+def test_compiled_kernel_equals_its_python_function(
+    function: Any, arguments: tuple[Any, ...]
+) -> None:
+    compiled, python = function(*arguments), function.py_func(*arguments)
+    # a few roundings: the compiler may order products differently
+    np.testing.assert_allclose(compiled, python, rtol=5e-15, atol=0.0)
+
+
+def test_a_non_number_in_the_motion_is_not_hidden() -> None:
+    for i in range(3):
+        operation = [1000.0, 3.0, 2.0]
+        operation[i] = float("nan")
+        state = flank.flank_friction(*operation, GEOMETRY, STATE, SURFACE, SOLID, 0)
+        assert np.isnan(state.viscous_friction)
