@@ -75,7 +75,7 @@ def test_rk4_agrees_with_dop853_on_the_same_right_hand_side(speed_kmh):
     assert np.max(np.abs(rk4 - reference)) <= 1e-4 * np.ptp(reference)
 
 
-def test_teeth_that_separate_are_integrated_to_the_same_accuracy():
+def test_separating_teeth_converge_at_the_order_of_a_kink():
     """At light load the transmission error lifts the flanks off: the force stays continuous."""
     load = (2.0, 2.0 * 36 / 13)
 
@@ -93,11 +93,15 @@ def test_teeth_that_separate_are_integrated_to_the_same_accuracy():
         return record(axle, load, ["mesh.dte", "mesh.separated"], 0.05)
 
     default, separated = run(22)
-    reference = run(320)[0]
+    fine = run(88)[0]
+    reference = run(400)[0]
     assert 0.0 < separated.mean() < 1.0
-    # a slope that jumps inside a step costs an order: of h^2 (1/22 of a period) with the share of
-    # steps that meet a jump, 4 in 100
-    assert np.max(np.abs(default - reference)) < 1e-3 * np.ptp(reference)
+    scale = np.ptp(reference)
+    # the slope of the force jumps by k_m inside a step: (k_m/m_eq) x' h^3/6 = 0.6 nm a crossing at
+    # x' = 5 mm/s and h = 17 us; forty crossings add like a random walk to 2.5e-3 of 1.6 um; twice
+    assert np.max(np.abs(default - reference)) < 5e-3 * scale
+    # and it falls with the step
+    assert np.max(np.abs(fine - reference)) < 0.5 * np.max(np.abs(default - reference))
 
 
 def test_state_continues_bit_exactly():
@@ -118,4 +122,4 @@ def test_outputs_are_finite_before_the_first_step():
     axle, *_ = running_axle(60)
     assert np.all(np.isfinite(axle.outputs))
     assert output(axle, "pinion.speed") > 0.0
-    assert OIL == pytest.approx(output(axle, "flank[3].temperature"), abs=100.0)
+    assert pytest.approx(output(axle, "flank[3].temperature"), abs=100.0) == OIL
