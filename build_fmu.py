@@ -1,4 +1,4 @@
-"""Build HypoidAxle.fmu: `python build_fmu.py --out DIR [--check]`."""
+"""Build HypoidAxle.fmu: `python build_fmu.py --out DIR [--check] [--page docs/fmu.md]`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from pathlib import Path
 
 from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
+from fmu_src.documentation import update_page
+from fmu_src.hypoid_axle import DEFINITION
 from gearlube_core.errors import GearLubeError
 
 _LOGGER = logging.getLogger("build_fmu")
@@ -19,11 +21,16 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="Build HypoidAxle.fmu (FMI 2.0 co-simulation).")
     parser.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="where to put it")
     parser.add_argument("--check", action="store_true", help="validate with fmpy and fmutool")
+    parser.add_argument(
+        "--page", type=Path, metavar="FILE", help="refresh the tables in docs/fmu.md"
+    )
     options = parser.parse_args(arguments)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stderr)
     try:
         path = build_hypoid_axle(options.out)
         _LOGGER.info("built %s (%d kB)", path, path.stat().st_size // 1024)
+        if options.page:
+            update_page(options.page, DEFINITION)
         found = problems(path) if options.check else []
     except GearLubeError as error:
         _LOGGER.error("%s", error)

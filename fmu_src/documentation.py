@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from html import escape
+from pathlib import Path
 
 from fmu_src.definition import Definition
 from fmu_src.units import UNITS
 from fmu_src.variable import Variable
+from gearlube_core.errors import ParameterError
 
 HEADINGS = ("Name", "Unit", "Shown in", "Start", "Range", "Description")
+_BEGIN, _END = "<!-- variables: begin -->", "<!-- variables: end -->"
 _TITLES = {"input": "Inputs", "parameter": "Parameters", "output": "Outputs"}
 
 
@@ -78,3 +81,13 @@ def index_html(definition: Definition) -> str:
         + "\n".join(body)
         + "\n</body></html>\n"
     )
+
+
+def update_page(path: Path, definition: Definition) -> None:
+    """Rewrite the tables between the two markers of the Markdown page at `path`."""
+    head, marker, rest = path.read_text(encoding="utf-8").partition(_BEGIN)
+    _, end, tail = rest.partition(_END)
+    if not (marker and end):
+        raise ParameterError(f"{path} must hold the lines {_BEGIN} and {_END}. Add them.")
+    page = f"{head}{_BEGIN}\n\n{variables_markdown(definition).strip()}\n\n{_END}{tail}"
+    path.write_text(page, encoding="utf-8")

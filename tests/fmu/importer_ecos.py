@@ -1,0 +1,26 @@
+"""Run by test_fmu_importers: one FMU in Ecos; writes the Real values asked for as JSON."""
+
+import json
+import sys
+
+from ecospy import EcosSimulation, EcosSimulationStructure
+from ecospy.EcosParameterSet import EcosParameterSet
+
+
+def main(job: dict) -> list[float]:
+    structure = EcosSimulationStructure()
+    structure.add_model("axle", job["fmu"])
+    parameters = EcosParameterSet()
+    for name, value in job["named_reals"].items():
+        parameters.add_real(f"axle::{name}", value)
+    for name, value in job["named_integers"].items():
+        parameters.add_int(f"axle::{name}", value)
+    structure.add_parameter_set("start", parameters)
+    with EcosSimulation(structure=structure, step_size=job["step_size"]) as simulation:
+        simulation.init(parameter_set="start")
+        simulation.step(job["steps"])
+        return [simulation.get_real(f"axle::{name}") for name in job["names"]]
+
+
+if __name__ == "__main__":
+    sys.stdout.write("\n" + json.dumps(main(json.load(sys.stdin))) + "\n")

@@ -1,0 +1,161 @@
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from fmu_host import DISCARD, FATAL, OK, Host
+
+NAN, INF = float("nan"), float("inf")
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "limit"),
+    [
+        ("pinion__torque", NAN, "pinion.torque must be within -10000 to 10000 N.m, got nan"),
+        ("pinion__torque", INF, "got inf"),
+        ("wheel__torque", -INF, "wheel.torque must be within -30000 to 30000 N.m, got -inf"),
+        ("pinion__torque", 1e9, "got 1000000000.0"),
+        ("oil__temperature", 20.0, "oil.temperature must be within 273.15 to 423.15 K, got 20.0"),
+        ("oil__temperature", NAN, "got nan"),
+    ],
+)
+def test_an_impossible_input_is_logged_and_the_step_discarded(
+    host: Host, name: str, value: float, limit: str
+) -> None:
+    host.start()
+    host.step(count=2)
+    before, good = host.outputs(), host.get(name.replace("__", "."))[0]
+    host.set(**{name: value})
+    assert limit in host.messages("logStatusError")
+    assert host.step() == DISCARD
+    assert limit in host.messages("logStatusDiscard")
+    assert host.outputs() == before
+    host.set(**{name: good})
+    assert host.step() == OK
+
+
+@pytest.mark.parametrize("h", [0.0, -1e-3, 0.2, NAN, INF, -INF])
+def test_an_impossible_step_is_discarded_and_nothing_moves(host: Host, h: float) -> None:
+    host.start()
+    before = host.outputs()
+    assert host.step(h) == DISCARD
+    assert "communicationStepSize must be above 0 and at most 0.1 s" in host.messages(
+        "logStatusDiscard"
+    )
+    assert host.outputs() == before
+    assert host.step() == OK
+
+
+@pytest.mark.parametrize("time", [0.5, -1.0, NAN])
+def test_a_step_from_another_time_is_discarded(host: Host, time: float) -> None:
+    host.start()
+    host.step()
+    end, host.time = host.time, time
+    assert host.step() == DISCARD
+    assert "currentCommunicationPoint must be" in host.messages("logStatusDiscard")
+    host.time = end
+    assert host.step() == OK
+
+
+def test_a_step_before_initialisation_is_discarded(host: Host) -> None:
+    assert host.step() == DISCARD
+    assert "must be in phase STEPPING, got INSTANTIATED" in host.messages("logStatusDiscard")
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "limit"),
+    [
+        ("bearing__preload", -1.0, "bearing.preload must be within 0 to 100000 N, got -1.0"),
+        ("bearing__preload", NAN, "got nan"),
+        ("flank__roughness_rms", 0.0, "flank.roughness_rms must be within 1e-09 to 2e-05 m"),
+        ("flank__roughness_rms", 0.5, "got 0.5"),
+        ("mesh__backlash", -1e-4, "mesh.backlash must be within 0 to 0.002 m"),
+        ("pinion__speed_start", INF, "pinion.speed_start must be within -5000 to 5000 rad/s"),
+        ("mesh__modal_loss_factor", 2.0, "mesh.modal_loss_factor must be within 0 to 1, got 2.0"),
+        ("oil__name", 3, "must be one of 1 (mohammadpour_2015), 2 (karagiannis_2012), got 3"),
+        ("oil__name", 0, "got 0"),
+        ("model__radii", -1, "1 (consistent), 2 (paper), 3 (mean), got -1"),
+        ("solver__steps_per_mesh_period", 1, "must be within 16 to 4096, got 1"),
+        ("pinion__torque", NAN, "pinion.torque must be within"),
+    ],
+)
+def test_an_impossible_parameter_stops_the_initialisation(
+    new_host: Callable[[], Host], name: str, value: float, limit: str
+) -> None:
+    host = new_host()
+    assert host.start(**{name: value}) == FATAL
+    assert limit in host.messages("logStatusError")
+    assert limit in host.messages("logStatusFatal")
+    assert host.step() == DISCARD
+
+
+def test_a_parameter_can_be_corrected_before_initialisation_ends(host: Host) -> None:
+    host.set(bearing__preload=-1.0)
+    assert host.start(bearing__preload=1000.0) == OK
+    assert host.step() == OK
+
+
+def test_contradicting_parameters_stop_the_initialisation(host: Host) -> None:
+    assert host.start(mesh__damping=2, mesh__modal_loss_factor=0.0) == FATAL
+    assert "modal_loss_factor must be above 0" in host.messages("logStatusFatal")
+
+
+def test_no_output_can_be_read_after_a_failed_initialisation(host: Host) -> None:
+    assert host.start(bearing__preload=-1.0) == FATAL
+    assert host.status("getReal", [host.variables["mesh.force"].valueReference]) == FATAL
+
+
+@pytest.mark.parametrize(
+    ("call", "arguments", "reason"),
+    [
+        ("getReal", ([100000],), "value reference must be within 0 to"),
+        ("getReal", ([14],), "oil.name must be accessed as Integer, got Real"),
+        ("getInteger", ([0],), "pinion.torque must be accessed as Real, got Integer"),
+        ("getBoolean", ([0],), "pinion.torque must be accessed as Real, got Boolean"),
+        ("setReal", ([17], [0.0]), "pinion.angle must not be set"),
+        ("setReal", ([3], [1000.0]), "bearing.preload must not be set in this phase"),
+        ("setInteger", ([14], [2]), "oil.name must not be set in this phase"),
+        ("setBoolean", ([0], [True]), "pinion.torque must be accessed as Real, got Boolean"),
+    ],
+)
+def test_a_call_that_makes_no_sense_is_fatal_but_never_a_crash(
+    host: Host, call: str, arguments: tuple, reason: str
+) -> None:
+    host.start()
+    for _ in range(20):
+        assert host.status(call, *arguments) == FATAL
+    assert reason in host.messages("logStatusFatal")
+    # after fmi2Fatal a host should stop; one that goes on must not be hurt
+    assert host.step() == OK
+
+
+def test_a_start_time_that_is_no_number_is_fatal(host: Host) -> None:
+    assert host.status("setupExperiment", startTime=NAN) == FATAL
+    assert "start time must be finite" in host.messages("logStatusFatal")
+
+
+def test_every_output_is_finite_after_a_wild_ride(host: Host) -> None:
+    host.start()
+    for torque in (1e4, -1e4, 0.0, 1e4):
+        host.set(pinion__torque=torque, wheel__torque=-3.0 * torque)
+        if host.step(0.05) != OK:
+            break
+        assert all(math.isfinite(value) for value in host.outputs())
+    assert all(math.isfinite(value) for value in host.outputs())
+
+
+def test_freeing_an_instance_that_was_only_made_is_safe(fmu_folder: Path) -> None:
+    for _ in range(20):
+        Host(fmu_folder).close()
+
+
+def test_errors_reach_python_logging_when_the_host_logs_nothing(
+    fmu_folder: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    host = Host(fmu_folder, logging_on=False)
+    host.set(pinion__torque=NAN)
+    assert host.log == []
+    assert "pinion.torque must be within" in caplog.text
+    host.close()

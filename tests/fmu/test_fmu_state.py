@@ -1,0 +1,112 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from fmu_host import FATAL, OK, Host
+
+from fmu_src.hypoid_axle import DEFINITION
+from fmu_src.identity import guid_of
+
+SETTINGS = {"bearing__preload": 4000.0, "oil__name": 2, "pinion__speed_start": 150.0}
+MODAL = SETTINGS | {"mesh__damping": 2}
+
+
+@pytest.mark.parametrize("settings", [SETTINGS, MODAL])
+def test_a_restored_state_continues_bit_for_bit(host: Host, settings: dict[str, float]) -> None:
+    host.start(**settings)
+    host.step(count=5)
+    state, time, outputs = host.save(), host.time, host.outputs()
+    host.set(pinion__torque=90.0)
+    host.step(count=5)
+    expected = host.outputs()
+    assert host.restore(state, time) == OK
+    assert host.outputs() == outputs
+    assert host.get("pinion.torque") == [60.0]
+    host.set(pinion__torque=90.0)
+    host.step(count=5)
+    assert host.outputs() == expected
+    host.slave.freeFMUstate(state)
+
+
+@pytest.mark.parametrize("settings", [SETTINGS, MODAL])
+def test_a_state_saved_in_one_process_continues_in_another(
+    host: Host, fmu_folder: Path, tmp_path: Path, settings: dict[str, float]
+) -> None:
+    host.start(start_time=2.0, **settings)
+    host.step(count=5)
+    (tmp_path / "state").write_bytes(host.slave.serializeFMUstate(host.save()))
+    code = (
+        f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r});"
+        "from fmu_host import Host; from pathlib import Path;"
+        f"host = Host({str(fmu_folder)!r});"
+        f"state = host.slave.deSerializeFMUstate(Path({str(tmp_path / 'state')!r}).read_bytes());"
+        f"assert host.restore(state, {host.time!r}) == 0, host.log;"
+        "assert host.step(count=5) == 0, host.log;"
+        "print(*map(repr, host.outputs()))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert host.step(count=5) == OK
+    assert done.stdout.split() == [repr(value) for value in host.outputs()]
+
+
+def test_a_state_moves_to_an_instance_with_other_parameters(new_host: Callable[[], Host]) -> None:
+    first, second = new_host(), new_host()
+    first.start(**SETTINGS)
+    first.step(count=3)
+    second.start(bearing__preload=1000.0)
+    state = second.slave.deSerializeFMUstate(first.slave.serializeFMUstate(first.save()))
+    assert second.restore(state, first.time) == OK
+    assert second.get("bearing.preload", "oil.name") == [4000.0, 2]
+    first.step(count=3)
+    second.step(count=3)
+    assert second.outputs() == first.outputs()
+
+
+def test_a_state_saved_before_initialisation_can_still_be_initialised(host: Host) -> None:
+    host.set(bearing__preload=4000.0)
+    state = host.save()
+    host.start()
+    host.step(count=2)
+    expected = host.outputs()
+    assert host.restore(state, 0.0) == OK
+    assert host.start() == OK
+    host.step(count=2)
+    assert host.outputs() == expected
+
+
+def _damaged(content: bytes) -> bytes:
+    return content[:-1] + bytes([content[-1] ^ 1])
+
+
+def _of_another_fmu(content: bytes) -> bytes:
+    guid = guid_of(DEFINITION).bytes
+    assert guid in content
+    return content.replace(guid, bytes(16))
+
+
+@pytest.mark.parametrize(
+    ("spoil", "reason"),
+    [
+        (_damaged, "damaged"),
+        (_of_another_fmu, "must come from the FMU with GUID"),
+        (lambda content: content[:20], "not written by a gearlube FMU"),
+        (lambda content: b"x" + content, "not written by a gearlube FMU"),
+        (lambda content: content[:8] + b"\x63" + content[9:], "must have format 1, got 99"),
+    ],
+)
+def test_a_spoilt_state_is_refused_and_nothing_changes(
+    host: Host, spoil: Callable[[bytes], bytes], reason: str
+) -> None:
+    host.start(**SETTINGS)
+    host.step(count=2)
+    before = host.outputs()
+    content = spoil(host.slave.serializeFMUstate(host.save()))
+    assert host.restore(host.slave.deSerializeFMUstate(content), host.time) == FATAL
+    assert reason in host.messages("logStatusFatal")
+    assert host.outputs() == before
+    assert host.step() == OK
