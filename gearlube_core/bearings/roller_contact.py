@@ -36,12 +36,18 @@ from gearlube_core.jit import kernel
 
 N_LINE = 10.0 / 9.0  # 1, exponent of a line contact, Mohammadpour et al. 2015 eq. (25)
 _M_LINE = -LOAD_EXPONENT * N_LINE  # 0.05: the film goes with d^-0.05
+# Coefficients of the reversed Taylor series of x - g - H(x), and of the slope of H.
+_HALF = 0.5 * (1.0 + _M_LINE)
+_SECOND = 0.5 * (1.0 + _M_LINE) * (2.0 + _M_LINE)
+_THIRD = _SECOND / 3.0
+_RATIO = 3.0 * (1.0 + _M_LINE) / (2.0 + _M_LINE)
 _Y_MAX = FILM_RANGE ** (1.0 / 9.0)
 _FACTOR_MIN = FILM_RANGE**-_M_LINE
 # y^-0.45 = x^-0.05 for 1 <= y <= 2^(8/9) in powers of y - 1.4, relative error 1.6e-8
 _C0, _C1, _C2 = 8.5949307304674676e-01, -2.7626541955432316e-01, 1.4306731966889319e-01
 _C3, _C4, _C5 = -8.3471653477310503e-02, 5.1380959307017110e-02, -3.2342442232490484e-02
 _C6, _C7, _C8 = 2.1439964607431590e-02, -1.6579160463181739e-02, 9.5607876228063268e-03
+_SPEED_MIN = 1e-9  # m/s; the film is below 1e-12 m there
 # 132 v/u at which the squeeze factor reaches its lower clip, and where its Pade form turns
 _T_MAX = math.log((1.0 - SQUEEZE_FACTOR_MIN) / SQUEEZE_SHARE)
 _T_MIN = -math.sqrt(12.0)
@@ -70,7 +76,7 @@ def film_amplitude(
         A [FILM_FLOOR_APPROACH]; t [s], zero without squeeze.
     """
     u = p.film_speed_radius * abs(shaft_speed)
-    if p.film_constant == 0.0 or u == 0.0:
+    if p.film_constant == 0.0 or u < _SPEED_MIN:
         return 0.0, 0.0
     shape = math.exp(SPEED_EXPONENT * math.log(eta0 * u) + MATERIAL_EXPONENT * math.log(alpha))
     scale = SQUEEZE_RATE * FILM_FLOOR_APPROACH / u * p.squeeze
@@ -116,8 +122,17 @@ def roller_load_line(
 
     Notes
     -----
-    The film equation is solved by one Chebyshev step from x0 = g + A, x by one more Halley step:
-    relative error of x below 1e-9 for A < x/10, of K x^n given x below 1e-15.
+    The film equation is solved by a reversed Taylor series of third order about x0 = g + A. The
+    load has a relative error below 1e-8 for A < 0.8 (films up to 0.4 um), 5e-8 for A = 2, and
+    1e-13 without film; approaches from 0.04 nm to 90 mm.
+
+    The squeeze is tiny: with v = dH/dt from the load alone, a shaft 5 um off centre at 145 rad/s
+    changes H by 1.2e-4 of it, and the extra load is a damper 0.3 % as strong as the hysteresis.
+    It enters to first order in its share of the approach.
+
+    References
+    ----------
+    Mohammadpour et al. 2015 eq. (25)-(27).
     """
     raw = g + film
     touching = 0.0 if raw <= 0.0 else 1.0
@@ -140,16 +155,19 @@ def roller_load_line(
     slope = 0.0 if x0 > FILM_RANGE else slope
     q = 1.0 / (1.0 + slope)
     step = film * (1.0 - factor) * q
-    change = -step * (1.0 - 0.5 * (1.0 + _M_LINE) * step * slope * q * inverse)
+    curvature = slope * q * step * inverse
+    third = _THIRD * curvature * (1.0 - _RATIO * slope * q) * step * inverse
+    change = step * (_HALF * curvature - 1.0 + third)
     x = raw + change
     y = y0 + y0 * ninth_root_change(change * inverse)
-    correction = -(1.0 + _M_LINE) * slope * change * inverse
+    part = change * inverse
+    correction = -slope * part * (2.0 * _HALF - _SECOND * part)
     x_rate = g_rate * q * (1.0 - correction * q)
     squeezed = (x - g) * _squeezed_excess(-squeeze_scale * (slope + correction) * x_rate)
     stiffness = touching * K * y
     steady = stiffness * x
     w = steady + N_LINE * stiffness * (c * x_rate + squeezed)
-    return w_min if w < w_min else w, steady
+    return w_min if w <= w_min else w, steady
 
 
 @kernel
@@ -201,4 +219,4 @@ def roller_load_general(
     stiffness = K * x ** (n - 1.0)
     steady = stiffness * x
     w = steady + n * stiffness * (c * x_rate + squeezed)
-    return w_min if w < w_min else w, steady
+    return w_min if w <= w_min else w, steady

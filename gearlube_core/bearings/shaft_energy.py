@@ -37,6 +37,31 @@ def roller_energy(g: float, film: float, n: float) -> float:
 
 
 @kernel
+def bearing_energy(
+    r1: float,
+    r2: float,
+    xa: float,
+    cage_angle: float,
+    shaft_speed: float,
+    eta0: float,
+    alpha: float,
+    p: BearingParameters,
+    side: float,
+) -> float:
+    """Return the elastic energy of one bearing [J]; see `shaft_bearing_energy`."""
+    film, _ = film_amplitude(shaft_speed, eta0, alpha, p)
+    g0, g1, g2, ga, _, _, _ = approach_terms(
+        r1, r2, xa, 0.0, 0.0, 0.0, math.cos(cage_angle), math.sin(cage_angle), 0.0, p
+    )
+    count = int(p.n_rollers)
+    total = 0.0
+    for i in range(count):
+        g = g0 + side * ga + g1 * COS_TABLE[count, i] + g2 * SIN_TABLE[count, i]
+        total += roller_energy(g, film, p.n)
+    return total * p.kn * FILM_FLOOR_APPROACH ** (p.n + 1.0) / p.approach_factor
+
+
+@kernel
 def shaft_bearing_energy(
     r1: float,
     r2: float,
@@ -71,13 +96,6 @@ def shaft_bearing_energy(
     ----------
     Mohammadpour et al. 2015 eq. (24)-(27), integrated.
     """
-    film, _ = film_amplitude(shaft_speed, eta0, alpha, p)
-    g0, g1, g2, ga, _, _, _ = approach_terms(
-        r1, r2, xa, 0.0, 0.0, 0.0, math.cos(cage_angle), math.sin(cage_angle), 0.0, p
-    )
-    count = int(p.n_rollers)
-    total = 0.0
-    for i in range(count):
-        gap = g0 + g1 * COS_TABLE[count, i] + g2 * SIN_TABLE[count, i]
-        total += roller_energy(gap + ga, film, p.n) + roller_energy(gap - ga, film, p.n)
-    return total * p.kn * FILM_FLOOR_APPROACH ** (p.n + 1.0) / p.approach_factor
+    return bearing_energy(
+        r1, r2, xa, cage_angle, shaft_speed, eta0, alpha, p, 1.0
+    ) + bearing_energy(r1, r2, xa, cage_angle, shaft_speed, eta0, alpha, p, -1.0)

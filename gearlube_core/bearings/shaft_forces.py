@@ -24,6 +24,8 @@ from gearlube_core.bearings.roller_contact import (
 )
 from gearlube_core.jit import kernel
 
+_FLOOR_LINE = FILM_FLOOR_APPROACH**N_LINE
+
 
 @summing
 def _sums_line(
@@ -217,7 +219,7 @@ def shaft_bearing_forces(
     g0, g1, g2, ga, v1, v2, va = approach_terms(
         r1, r2, xa, vr1, vr2, vxa, cos_c, sin_c, p.cage_ratio * shaft_speed, p
     )
-    K = p.kn * FILM_FLOOR_APPROACH**p.n
+    K = p.kn * (_FLOOR_LINE if p.n == N_LINE else FILM_FLOOR_APPROACH**p.n)
     c = p.loss / f_ref
     w_min = 0.0 if p.clip != 0.0 else -math.inf
     if p.n == N_LINE:

@@ -126,10 +126,11 @@ def central_film(
 
     Notes
     -----
-    The source leaves open whether u is the mean or the sum of the surface speeds. The mean is
-    used: for the bearing of Mohammadpour et al. 2015, Table A2, H then lies 8 to 27 % below the
-    central film of Dowson and Toyoda (1979), as a film with end leakage should, whereas the sum
-    puts it 14 to 44 % above. The squeeze factor is clipped, see `squeeze_factor`.
+    The source leaves open whether u in the speed group is the mean or the sum of the surface
+    speeds. The mean is used, as in the line and point contact films it is compared with. For the
+    bearing of Mohammadpour et al. 2015, Table A2, at 500 N and 50 to 700 rad/s, H is then 24 to
+    32 % below the central film of Dowson and Toyoda (1979), which knows no end leakage; the sum
+    would put it 6 to 19 % above. The squeeze factor is clipped, see `squeeze_factor`.
 
     References
     ----------
