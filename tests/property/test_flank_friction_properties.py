@@ -8,15 +8,16 @@ from hypothesis import strategies as st
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.friction.flank import flank_friction
-from gearlube_core.friction.flank_data import contact_geometry
+from gearlube_core.friction.flank_data import ContactGeometry, contact_geometry
 from gearlube_core.materials.lubricant import Lubricant, lubricant_names
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, SolidParameters, solid_parameters
 from gearlube_core.rheology.eyring_1936 import eyring_stress_ratio
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 PARAMETERS = {name: Lubricant.named(name).parameters() for name in lubricant_names()}
 
+Contact = tuple[ContactGeometry, LubricantState, SurfaceParameters, SolidParameters]
 loads = st.floats(1e-2, 2e4)
 speeds = st.floats(1e-3, 40.0)
 signed_speeds = st.one_of(st.floats(-40.0, 40.0), st.floats(-1e-4, 1e-4), st.just(0.0))
@@ -24,7 +25,7 @@ forms = st.sampled_from([0, 1])
 
 
 @st.composite
-def flanks(draw: st.DrawFn) -> tuple:
+def flanks(draw: st.DrawFn) -> Contact:
     """Draw geometry, oil and surface of a flank contact."""
     R_x = draw(st.floats(2e-3, 0.1))
     ratio = draw(st.floats(1.0, 200.0))
@@ -42,7 +43,7 @@ def flanks(draw: st.DrawFn) -> tuple:
 
 @given(flanks(), loads, speeds, signed_speeds, st.floats(1.01, 10.0))
 def test_film_falls_with_load_and_grows_with_speed(
-    contact: tuple, load: float, speed: float, slip: float, factor: float
+    contact: Contact, load: float, speed: float, slip: float, factor: float
 ) -> None:
     base = flank_friction(load, speed, slip, *contact, 0).film_thickness
     assert flank_friction(factor * load, speed, slip, *contact, 0).film_thickness < base
@@ -51,7 +52,7 @@ def test_film_falls_with_load_and_grows_with_speed(
 
 @given(flanks(), st.floats(0.0, 2e4), signed_speeds, signed_speeds, forms)
 def test_every_state_is_finite_and_friction_never_drives(
-    contact: tuple, load: float, speed: float, slip: float, form: int
+    contact: Contact, load: float, speed: float, slip: float, form: int
 ) -> None:
     state = flank_friction(load, speed, slip, *contact, form)
     assert all(math.isfinite(value) and value >= 0.0 for value in state)
@@ -61,7 +62,7 @@ def test_every_state_is_finite_and_friction_never_drives(
 
 @given(flanks(), loads, speeds, signed_speeds, forms)
 def test_viscous_friction_stays_below_the_isothermal_eyring_film(
-    contact: tuple, load: float, speed: float, slip: float, form: int
+    contact: Contact, load: float, speed: float, slip: float, form: int
 ) -> None:
     oil = contact[1]
     state = flank_friction(load, speed, slip, *contact, form)
@@ -73,7 +74,7 @@ def test_viscous_friction_stays_below_the_isothermal_eyring_film(
 
 @given(flanks(), loads, speeds, signed_speeds)
 def test_boundary_friction_stays_below_that_of_bare_asperities(
-    contact: tuple, load: float, speed: float, slip: float
+    contact: Contact, load: float, speed: float, slip: float
 ) -> None:
     oil = contact[1]
     state = flank_friction(load, speed, slip, *contact, 0)
@@ -83,7 +84,7 @@ def test_boundary_friction_stays_below_that_of_bare_asperities(
 
 @given(flanks(), loads, speeds, st.floats(1e-6, 30.0), st.floats(1.001, 3.0))
 def test_friction_never_falls_with_sliding_speed(
-    contact: tuple, load: float, speed: float, slip: float, factor: float
+    contact: Contact, load: float, speed: float, slip: float, factor: float
 ) -> None:
     slow = flank_friction(load, speed, slip, *contact, 0)
     fast = flank_friction(load, speed, factor * slip, *contact, 0)
@@ -94,7 +95,7 @@ def test_friction_never_falls_with_sliding_speed(
 
 @given(flanks(), loads, speeds, st.floats(0.01, 30.0))
 def test_rougher_flanks_have_more_boundary_friction(
-    contact: tuple, load: float, speed: float, slip: float
+    contact: Contact, load: float, speed: float, slip: float
 ) -> None:
     geometry, oil, surface, solid = contact
     smooth = flank_friction(load, speed, slip, *contact, 0)
@@ -106,7 +107,7 @@ def test_rougher_flanks_have_more_boundary_friction(
 
 @given(flanks(), loads, speeds, signed_speeds, forms)
 def test_friction_coefficient_is_total_friction_over_load(
-    contact: tuple, load: float, speed: float, slip: float, form: int
+    contact: Contact, load: float, speed: float, slip: float, form: int
 ) -> None:
     state = flank_friction(load, speed, slip, *contact, form)
     total = state.viscous_friction + state.boundary_friction

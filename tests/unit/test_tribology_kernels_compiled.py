@@ -90,9 +90,10 @@ def test_compiled_kernel_equals_its_python_function(
     np.testing.assert_allclose(compiled, python, rtol=5e-15, atol=0.0)
 
 
-def test_a_non_number_in_the_motion_is_not_hidden() -> None:
-    for i in range(3):
-        operation = [1000.0, 3.0, 2.0]
-        operation[i] = float("nan")
-        state = flank.flank_friction(*operation, GEOMETRY, STATE, SURFACE, SOLID, 0)
-        assert np.isnan(state.viscous_friction)
+@pytest.mark.parametrize("position", [0, 1, 2])
+def test_a_non_number_in_the_motion_is_not_hidden(position: int) -> None:
+    load, rolling, sliding = (
+        float("nan") if i == position else value for i, value in enumerate((1000.0, 3.0, 2.0))
+    )
+    state = flank.flank_friction(load, rolling, sliding, GEOMETRY, STATE, SURFACE, SOLID, 0)
+    assert np.isnan(state.viscous_friction)
