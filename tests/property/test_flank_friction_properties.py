@@ -68,8 +68,9 @@ def test_viscous_friction_stays_below_the_isothermal_eyring_film(
     state = flank_friction(load, speed, slip, *contact, form)
     ratio = oil.eta0 * abs(slip) / (state.film_thickness * oil.tau0)
     limit = eyring_stress_ratio(ratio, oil.alpha * state.mean_pressure)
-    # rounding
-    assert state.viscous_friction <= limit * oil.tau0 * load / state.mean_pressure * (1 + 1e-12)
+    largest = limit * oil.tau0 * load / state.mean_pressure
+    # rounding; sliding of 1e-300 m/s and less leaves subnormal numbers with few digits
+    assert state.viscous_friction <= largest * (1.0 + 1e-12) + 1e-290
 
 
 @given(flanks(), loads, speeds, signed_speeds)
