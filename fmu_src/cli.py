@@ -55,8 +55,6 @@ def _common(
     ] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log details.")] = False,
 ) -> None:
-    handler = RichHandler(console=console, show_path=False, show_time=False, markup=False)
-    logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler], force=True)
     logger.setLevel(logging.INFO)
     logging.getLogger("drivetrain").setLevel(logging.INFO)
     if verbose:
@@ -142,6 +140,7 @@ def sweep(
             out=out,
             jobs=jobs,
             scheduler=scheduler,
+            quick=quick,
             command_line=shlex.join(["gearlube", *sys.argv[1:]]),
         )
     except SweepInterruptedError as error:
@@ -176,4 +175,6 @@ def build_fmu(
 
 def main() -> None:
     """Entry point of the command `gearlube`."""
+    handler = RichHandler(console=console, show_path=False, show_time=False, markup=False)
+    logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler])
     app()

@@ -18,18 +18,16 @@ def spread(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
     ['--preload', '2500', '--preload', '6000', '--out', 'x']
     """
     result: list[str] = []
-    flag, taken = "", 0
+    flag, values = "", 0
     for argument in arguments:
         if argument in flags:
-            flag, taken = argument, 0
-        elif flag and taken and _VALUE.match(argument):
-            result.append(flag)
-        elif flag and taken:
+            flag, values = argument, 0
+        elif not _VALUE.match(argument):
             flag = ""
-        else:
-            taken += bool(flag)
-            result.append(argument)
-            continue
+        elif flag:
+            if values:
+                result.append(flag)
+            values += 1
         result.append(argument)
     return result
 

@@ -15,6 +15,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from drivetrain.figures import CATALOGUE, ESSENTIAL
 from drivetrain.report import write_report
 from drivetrain.sweep import Progress as PointProgress
 from drivetrain.sweep import SweepSettings, run_sweep
@@ -22,8 +23,6 @@ from drivetrain.sweep.warm_up import warm_up
 from fmu_src.fmu_cache import cached_hypoid_axle
 
 logger = logging.getLogger("gearlube")
-
-_NOTABLE = 5.0  # s, a warm-up that was a compilation
 
 
 def console_sweep(
@@ -36,16 +35,15 @@ def console_sweep(
     out: Path,
     jobs: int | None,
     scheduler: str | None,
+    quick: bool,
     command_line: str,
 ) -> int:
     """Run a sweep, write its report, and return the number of failed points."""
+    logger.info("Preparing the axle; the first time this compiles it, about 20 s.")
     if fmu is None:
         fmu = cached_hypoid_axle()
     if scheduler is None:
-        logger.info("Preparing the axle; the first time this compiles it, about 20 s.")
-        seconds = warm_up(fmu, settings)
-        if seconds > _NOTABLE:
-            logger.info("Compiled in %.0f s; the machine code is kept for later runs.", seconds)
+        warm_up(fmu, settings)
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -70,9 +68,10 @@ def console_sweep(
             scheduler=scheduler,
             observer=observe,
             command_line=command_line,
+            prepare=None,
         )
         bar.update(task, description="report")
-        report = write_report(dataset, out)
+        report = write_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
     failures = int((dataset["status"] == 0).sum())
     if failures:
         logger.warning("%d points failed; the report says why.", failures)

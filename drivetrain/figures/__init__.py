@@ -1,6 +1,6 @@
 """Figures of a speed sweep: functions from the merged dataset to a matplotlib Figure."""
 
-from drivetrain.figures.catalogue import CATALOGUE, Entry, save_figures
+from drivetrain.figures.catalogue import CATALOGUE, ESSENTIAL, Entry, save_figures
 from drivetrain.figures.efficiency import efficiency
 from drivetrain.figures.extremes import extremes_against_speed
 from drivetrain.figures.film import film_over_mesh_cycle
@@ -11,6 +11,7 @@ from drivetrain.figures.waveforms import roller_zone, waveforms
 
 __all__ = [
     "CATALOGUE",
+    "ESSENTIAL",
     "Entry",
     "efficiency",
     "extremes_against_speed",

@@ -20,11 +20,12 @@ from drivetrain.figures.waveforms import roller_zone, waveforms
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """A figure, its file name and what to look for in it."""
+    """A figure, its file name and what to look for in it; `essential` for a first look."""
 
     name: str
     caption: str
     draw: Callable[[xr.Dataset], Any]
+    essential: bool = False
 
 
 def _map(channel: spectrum_map.MapChannel, top: float | None = None) -> Callable[..., Any]:
@@ -40,12 +41,14 @@ _CAGE_TOP = 80.0  # Hz, shows the cage frequency, its multiples and the pinion r
 CATALOGUE = (
     Entry(
         name="operating_points",
+        essential=True,
         caption="Mean torques that the road load asks for, and the mesh, rotation and cage "
         "frequencies against the natural frequencies. Grey bars span the preloads.",
         draw=operating_points,
     ),
     Entry(
         name="dte_map",
+        essential=True,
         caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
         "figures 3 and 4). Dashed: mesh frequency and multiples; dotted: natural frequencies. With "
         "the coupled vehicle, lines below 200 Hz that do not follow the speed are engine orders.",
@@ -58,6 +61,7 @@ CATALOGUE = (
     ),
     Entry(
         name="dte_extremes",
+        essential=True,
         caption="Extremes of the dynamic transmission error (compare figure 5). Below zero the "
         "drive flanks separate; the strip names the kind of separation.",
         draw=_band(extremes.DTE),
@@ -75,6 +79,7 @@ CATALOGUE = (
     ),
     Entry(
         name="radial_extremes",
+        essential=True,
         caption="Extremes of the radial displacement of the pinion, sqrt(y2 + z2) from the "
         "preloaded rest position (compare figure 8).",
         draw=_band(extremes.RADIAL),
@@ -92,6 +97,7 @@ CATALOGUE = (
     ),
     Entry(
         name="roller_extremes",
+        essential=True,
         caption="Extremes of the load of one roller (compare figure 11). A roller that reaches "
         "zero has left its races: the preload is too low.",
         draw=_band(extremes.ROLLER),
@@ -103,17 +109,20 @@ CATALOGUE = (
     ),
     Entry(
         name="efficiency",
+        essential=True,
         caption="Efficiency of the gear mesh (flank friction only, compare figure 12) and of the "
         "axle with all modelled losses, above the losses themselves.",
         draw=efficiency,
     ),
     Entry(
         name="film",
+        essential=True,
         caption="Load, central film thickness, film ratio and film temperature of the tooth pairs "
         "in mesh, from entry to exit, mean over the record.",
         draw=film_over_mesh_cycle,
     ),
 )
+ESSENTIAL = tuple(entry for entry in CATALOGUE if entry.essential)
 
 
 def save_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:

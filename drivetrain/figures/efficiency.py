@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from drivetrain.figures.style import (
     BLUE,
@@ -18,7 +19,6 @@ from drivetrain.figures.style import (
     new_figure,
     preload_label,
     series,
-    speed_limits,
 )
 
 _SOURCES = {
@@ -36,9 +36,8 @@ def efficiency(dataset: xr.Dataset) -> Any:
         figure = new_figure(8.4, 7.0)
         ax, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.0, 1.0])
         _efficiencies(ax, dataset)
-        _losses(below, dataset)
+        _losses(below, dataset, _bar_group(dataset["speed_kmh"].values))
         below.set_xlabel("vehicle speed [km/h]")
-        below.set_xlim(*speed_limits(dataset))
         figure.suptitle("Transmission efficiency and losses", fontsize=11.5)
     return figure
 
@@ -65,13 +64,20 @@ def _efficiencies(ax: Any, dataset: xr.Dataset) -> None:
     ax.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0), handlelength=2.6)
 
 
-def _losses(ax: Any, dataset: xr.Dataset) -> None:
+def _bar_group(speed: NDArray[np.float64]) -> float:
+    """Return the width of the bars at one speed [km/h], not wider than 8 % of the axis."""
+    if speed.size == 1:
+        return 4.0
+    return 0.8 * min(float(np.min(np.diff(speed))), 0.1 * float(speed[-1] - speed[0]))
+
+
+def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
     from matplotlib.patches import Patch
 
     speed = dataset["speed_kmh"].values
     preloads = dataset["preload"].values
-    spacing = float(np.min(np.diff(speed))) if speed.size > 1 else 4.0
-    width = 0.8 * spacing / preloads.size
+    width = group / preloads.size
+    ax.set_xlim(speed[0] - 0.8 * group, speed[-1] + 0.8 * group)
     ax.grid(visible=False, axis="x")
     for row in range(preloads.size):
         shift = (row - 0.5 * (preloads.size - 1)) * width

@@ -40,7 +40,7 @@ DTE = ExtremesChannel(
     label="dynamic transmission error [µm]",
     title="Extremes of the dynamic transmission error",
     scale=1e6,
-    zero="loss of contact below 0",
+    zero="loss of\ncontact\nbelow 0",
 )
 RADIAL = ExtremesChannel(
     name="radial",
@@ -53,7 +53,7 @@ ROLLER = ExtremesChannel(
     label="load of one roller [N]",
     title="Extremes of the load of one roller, pinion bearing 1",
     scale=1.0,
-    zero="roller unloaded at 0",
+    zero="unloaded\nat 0",
 )
 
 
@@ -102,12 +102,13 @@ def _zero_line(ax: Any, channel: ExtremesChannel) -> None:
     ax.axhline(0.0, color="black", lw=0.9)
     ax.annotate(
         channel.zero,
-        (0.005, 0.0),
+        (1.0, 0.0),
         xycoords=("axes fraction", "data"),
-        xytext=(0, 3),
+        xytext=(4, 0),
         textcoords="offset points",
+        va="center",
         fontsize=8,
-        color="#404040",
+        annotation_clip=False,
     )
 
 

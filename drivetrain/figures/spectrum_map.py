@@ -94,6 +94,7 @@ def spectrum_map(
     ]
     peak = max((float(np.nanmax(x)) for x in levels if np.any(np.isfinite(x))), default=0.0)
     peak = 5.0 * np.ceil(peak / 5.0)
+    cells = _columns(speeds)
     with house_style():
         count = len(levels)
         figure = new_figure(max(4.4 * count + 1.2, 6.0), 5.0)
@@ -101,15 +102,17 @@ def spectrum_map(
         for row, (ax, level) in enumerate(zip(axes, levels, strict=True)):
             ax.set_facecolor("#9A9A9A")
             ax.grid(visible=False)
-            mesh = ax.pcolormesh(
-                cell_edges(speeds),
-                edges,
-                level,
-                cmap="magma",
-                vmin=peak - _DYNAMIC_RANGE,
-                vmax=peak,
-                rasterized=True,
-            )
+            for column, (left, right) in enumerate(cells):
+                mesh = ax.pcolormesh(
+                    [left, right],
+                    edges,
+                    level[:, column : column + 1],
+                    cmap="magma",
+                    vmin=peak - _DYNAMIC_RANGE,
+                    vmax=peak,
+                    rasterized=True,
+                )
+            ax.set_xlim(cells[0][0], cells[-1][1])
             _mesh_lines(ax, dataset.isel(preload=row), top)
             ax.set_ylim(0.0, top)
             _mode_lines(ax, dataset.isel(preload=row), top, named=row == count - 1)
@@ -120,6 +123,16 @@ def spectrum_map(
         bar.set_label(f"amplitude [dB re {channel.reference_text}]")
         figure.suptitle(f"{channel.title}: spectra during the speed sweep", fontsize=11.5)
     return figure
+
+
+def _columns(speeds: NDArray[np.float64]) -> list[tuple[float, float]]:
+    """Return the edges of the column of every speed; columns touch unless speeds are far apart."""
+    edges = cell_edges(speeds)
+    widest = max(0.07 * float(speeds[-1] - speeds[0]), 2.0)
+    return [
+        (max(left, speed - 0.5 * widest), min(right, speed + 0.5 * widest))
+        for left, speed, right in zip(edges[:-1], speeds, edges[1:], strict=True)
+    ]
 
 
 def default_top(dataset: xr.Dataset) -> float:

@@ -6,6 +6,7 @@ import base64
 import io
 import logging
 import platform
+from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -46,16 +47,20 @@ _COLUMNS = (
 )
 
 
-def write_report(dataset: xr.Dataset, directory: Path | str) -> Path:
+def write_report(
+    dataset: xr.Dataset, directory: Path | str, entries: Sequence[Entry] = CATALOGUE
+) -> Path:
     """Write report.html and figures/*.png into `directory`; return the path of the report."""
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
     path = directory / "report.html"
-    path.write_text(report_html(dataset, directory / "figures"), encoding="utf-8")
+    path.write_text(report_html(dataset, directory / "figures", entries), encoding="utf-8")
     return path
 
 
-def report_html(dataset: xr.Dataset, figures: Path | None = None) -> str:
+def report_html(
+    dataset: xr.Dataset, figures: Path | None = None, entries: Sequence[Entry] = CATALOGUE
+) -> str:
     """Return the report of a merged sweep as HTML with all pictures inside.
 
     Parameters
@@ -64,6 +69,8 @@ def report_html(dataset: xr.Dataset, figures: Path | None = None) -> str:
         Merged sweep.
     figures : path
         Folder that gets the pictures as files too.
+    entries : sequence of Entry
+        Figures to draw.
     """
     from jinja2 import Environment, PackageLoader, select_autoescape
 
@@ -88,7 +95,7 @@ def report_html(dataset: xr.Dataset, figures: Path | None = None) -> str:
             for p in points
             if int(p["status"]) != FINISHED
         ],
-        figures=_pictures(dataset, figures) if finished else [],
+        figures=_pictures(dataset, figures, entries) if finished else [],
     )
 
 
@@ -158,9 +165,11 @@ def _modes(dataset: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def _pictures(dataset: xr.Dataset, directory: Path | None) -> list[tuple[str, str, str]]:
+def _pictures(
+    dataset: xr.Dataset, directory: Path | None, entries: Sequence[Entry]
+) -> list[tuple[str, str, str]]:
     pictures = []
-    for entry in CATALOGUE:
+    for entry in entries:
         png = _png(dataset, entry)
         if directory is not None:
             directory.mkdir(parents=True, exist_ok=True)

@@ -13,7 +13,6 @@ from drivetrain.driveline_modes import driveline_modes
 from drivetrain.driveline_parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from drivetrain.sweep.settings import FMU_PARAMETERS, SweepSettings
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes, mohammadpour_2015_axle
 from gearlube_core.errors import GearLubeError
 from gearlube_core.units import kmh_to_ms
 
@@ -57,6 +56,9 @@ def _driveline_modes(speed_kmh: float, settings: SweepSettings) -> dict[str, flo
 
 
 def _modes(preload: float, speed_kmh: float, settings: SweepSettings) -> dict[str, float]:
+    # Imported here because it compiles kernels when the machine has none yet.
+    from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes, mohammadpour_2015_axle
+
     road = mohammadpour_2015_road_load()
     speed = kmh_to_ms(speed_kmh)
     options = {name: getattr(settings, name) for name in FMU_PARAMETERS}

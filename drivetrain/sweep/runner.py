@@ -20,6 +20,7 @@ from drivetrain.sweep.quantities import described
 from drivetrain.sweep.settings import SweepSettings
 from drivetrain.sweep.store import PointStore
 from drivetrain.sweep.unpack import fmu_guid, unpacked
+from drivetrain.sweep.warm_up import warm_up
 from gearlube_core import __version__
 from gearlube_core.checks import check_within
 from gearlube_core.errors import GearLubeError, ParameterError
@@ -49,6 +50,7 @@ class Progress:
 
 
 Observer = Callable[[Progress], None]
+PrepareFunction = Callable[[Path, SweepSettings], None]
 ModesFunction = Callable[[Sequence[float], float, SweepSettings], xr.DataArray]
 
 
@@ -64,6 +66,7 @@ def run_sweep(
     observer: Observer | None = None,
     command_line: str = "",
     point: PointFunction = run_point,
+    prepare: PrepareFunction | None = warm_up,
     modes: ModesFunction | None = natural_frequencies,
 ) -> xr.Dataset:
     """Run the axle FMU over a grid of vehicle speeds and bearing preloads.
@@ -89,6 +92,8 @@ def run_sweep(
         Noted in the file.
     point : callable
         Computes one point; importable by the workers.
+    prepare : callable
+        Compiles the axle before local processes start, so that they do not all do it.
     modes : callable
         Gives the natural frequencies that the figures mark, at the middle speed; None for none.
 
@@ -122,6 +127,8 @@ def run_sweep(
     book = _Book(keys, store, observer)
     book.reuse()
     try:
+        if prepare is not None and scheduler is None and book.due:
+            prepare(fmu, settings)
         _compute(book, fmu, settings, jobs=jobs, scheduler=scheduler, point=point)
     except KeyboardInterrupt:
         raise SweepInterruptedError(

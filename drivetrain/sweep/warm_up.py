@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 from drivetrain.sweep.channels import CHANNELS
@@ -14,12 +13,11 @@ from drivetrain.sweep.unpack import unpacked
 _SPEED_KMH = 50.0
 
 
-def warm_up(fmu: Path, settings: SweepSettings) -> float:
-    """Initialise the FMU and take two steps; return the wall time this took [s].
+def warm_up(fmu: Path, settings: SweepSettings) -> None:
+    """Initialise the FMU and take two steps.
 
     The machine code stays in numba's cache on disk, from where the workers load it.
     """
-    began = time.monotonic()
     where = operation(settings, _SPEED_KMH)
     with unpacked(fmu) as directory, FmuAxle(directory, CHANNELS) as axle:
         axle.set_parameters(settings.fmu_parameters)
@@ -29,4 +27,3 @@ def warm_up(fmu: Path, settings: SweepSettings) -> float:
         for _ in range(2):
             axle.step(settings.communication_step, *torques)
             axle.read()
-    return time.monotonic() - began

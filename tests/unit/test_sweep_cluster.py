@@ -78,6 +78,7 @@ def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(
     grid = {
         "speeds_kmh": [20.0, 30.0, 40.0, 50.0, 60.0, 70.0],
         "preloads": [2500.0, 6000.0],
+        "prepare": None,
         "modes": None,
     }
     killed = threading.Event()

@@ -27,6 +27,7 @@ def sweep(fmu, out, point, **options):
         out=out,
         observer=seen.append,
         point=point,
+        prepare=None,
         modes=None,
         **arguments,
     )

@@ -1,0 +1,129 @@
+"""The command `gearlube`: what people type, and what they are told when it is wrong."""
+
+import pytest
+from typer.testing import CliRunner
+
+from fmu_src import cli, sweep_console
+from fmu_src.arguments import speeds_from
+from fmu_src.spread_values import spread
+from gearlube_core import __version__
+from gearlube_core.errors import ParameterError
+
+FLAGS = {"--preload", "--speeds"}
+
+
+@pytest.fixture
+def calls(monkeypatch):
+    """Arguments of the sweeps that the command would run."""
+    seen = []
+
+    def console_sweep(console, **options):
+        seen.append(options)
+        return 0
+
+    monkeypatch.setattr(sweep_console, "console_sweep", console_sweep)
+    return seen
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, list(arguments))
+
+
+def test_preloads_may_follow_one_flag_or_one_flag_each(calls):
+    assert run("sweep", "--preload", "2500", "6000").exit_code == 0
+    assert run("sweep", "--preload", "2500", "--preload", "6000").exit_code == 0
+    assert run("sweep", "--preload=2500", "--preload=6000").exit_code == 0
+    assert [call["preloads"] for call in calls] == [[2500.0, 6000.0]] * 3
+
+
+def test_values_are_spread_only_over_the_flags_that_take_several():
+    assert spread(["--preload", "1", "2", "--out", "3", "4"], FLAGS) == [
+        *("--preload", "1", "--preload", "2", "--out", "3", "4")
+    ]
+    assert spread(["--preload", "1", "x", "2"], FLAGS) == ["--preload", "1", "x", "2"]
+    assert spread(["--preload", "--out", "2"], FLAGS) == ["--preload", "--out", "2"]
+    assert spread(["--speeds", "20:40:10", "55"], FLAGS) == [
+        *("--speeds", "20:40:10", "--speeds", "55")
+    ]
+
+
+def test_default_is_the_sweep_of_the_paper(calls):
+    assert run("sweep").exit_code == 0
+    (call,) = calls
+    assert call["speeds_kmh"] == [20.0 + 5.0 * i for i in range(17)]
+    assert call["preloads"] == [2500.0, 6000.0]
+    assert call["settings"].equations == "consistent"
+    assert call["settings"].driver == "vehicle"
+    assert str(call["out"]) == "gearlube_sweep"
+
+
+def test_options_reach_the_settings_in_si_units(calls):
+    result = run(
+        *("sweep", "--speeds", "30", "--oil-temperature", "60", "--roughness-um", "0.3"),
+        *("--equations", "as_printed", "--driver", "hold", "--jobs", "2"),
+    )
+    assert result.exit_code == 0
+    (call,) = calls
+    assert call["speeds_kmh"] == [30.0]
+    assert call["settings"].oil_temperature == pytest.approx(333.15)
+    assert call["settings"].roughness_rms == pytest.approx(0.3e-6)
+    assert call["settings"].equations == "as_printed"
+    assert call["settings"].driver == "hold"
+    assert call["jobs"] == 2
+
+
+def test_quick_run_is_short(calls):
+    assert run("sweep", "--quick").exit_code == 0
+    (call,) = calls
+    assert call["speeds_kmh"] == [20.0, 60.0, 100.0]
+    assert call["settings"].record_time < 0.2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "parts"),
+    [
+        (["--speeds", "20:10:5"], ["at least the first, 20 km/h", "got 10 km/h", "20:100:5"]),
+        (["--speeds", "2000"], ["1 to 300 km/h", "got 2000 km/h"]),
+        (["--speeds", "20:100"], ["three numbers", "'20:100'", "first:last:step"]),
+        (["--speeds", "20:100:0"], ["above 0 km/h", "got 0 km/h"]),
+        (["--speeds", "20:100:0.001"], ["at most 500 values", "got 80001", "larger step"]),
+        (["--driver", "horse"], ["vehicle, hold", "'horse'"]),
+        (["--oil-temperature", "400"], ["-20 to 160 degC", "got 400 degC"]),
+        (["--roughness-um", "500"], ["got 0.0005 m", "0.5 um"]),
+    ],
+)
+def test_bad_argument_is_explained_with_what_got_limit_and_cure(calls, caplog, arguments, parts):
+    result = run("sweep", *arguments)
+    assert result.exit_code == 2
+    assert not calls
+    for part in parts:
+        assert part in caplog.text
+
+
+def test_unknown_option_is_refused():
+    assert run("sweep", "--sped", "20").exit_code == 2
+
+
+def test_failed_points_show_in_the_exit_code(monkeypatch):
+    monkeypatch.setattr(sweep_console, "console_sweep", lambda console, **options: 3)
+    assert run("sweep").exit_code == 1
+
+
+def test_version_is_that_of_the_package():
+    result = run("--version")
+    assert result.exit_code == 0
+    assert __version__ in result.output
+
+
+def test_speeds_are_sorted_without_repeats():
+    assert speeds_from(["60", "20:60:20", "30,40"]) == [20.0, 30.0, 40.0, 60.0]
+
+
+def test_last_speed_is_reached_although_the_step_is_no_binary_fraction():
+    assert speeds_from(["20:21:0.1"])[-1] == pytest.approx(21.0)
+    assert len(speeds_from(["20:21:0.1"])) == 11
+
+
+def test_words_are_no_speeds():
+    with pytest.raises(ParameterError, match="must be a number in km/h, got 'fast'"):
+        speeds_from(["fast"])

@@ -1,0 +1,105 @@
+"""Figures of a sweep: drawn from any merged dataset, without pyplot, with everything named."""
+
+import math
+import sys
+
+import numpy as np
+import pytest
+import sweep_stand_in as stand_in
+import xarray as xr
+
+from drivetrain.figures import CATALOGUE, spectrum_map
+from drivetrain.figures.order_cuts import harmonic_amplitude
+from drivetrain.figures.spectrum_map import DTE, default_top
+from drivetrain.figures.style import cell_edges
+from drivetrain.report import report_html, write_report
+from drivetrain.sweep import SweepSettings, quick_settings
+from drivetrain.sweep.merge import merge
+from drivetrain.sweep.point import failed_point
+
+SPEEDS, PRELOADS = [20.0, 60.0, 100.0], [2500.0, 6000.0]
+MESSAGE = "The axle FMU refused the step <at> t = 0.1 s"
+
+
+@pytest.fixture(scope="module")
+def sweep():
+    settings = quick_settings(SweepSettings())
+    points = {(v, p): stand_in.point(None, v, p, settings) for v in SPEEDS for p in PRELOADS}
+    points[60.0, 6000.0] = failed_point(60.0, 6000.0, MESSAGE)
+    dataset = merge(PRELOADS, SPEEDS, points)
+    dataset["mode_frequency"] = (("preload", "mode"), np.array([[346.0, 2325.0], [361.0, np.nan]]))
+    return dataset.assign_coords(mode=["gear axial", "mesh"]).assign_attrs(
+        title="Speed sweep", gearlube_version="1.2.3", setting_oil="mohammadpour_2015"
+    )
+
+
+@pytest.mark.parametrize("entry", CATALOGUE, ids=lambda entry: entry.name)
+def test_figure_is_drawn_with_labelled_axes_although_a_point_failed(sweep, entry, tmp_path):
+    figure = entry.draw(sweep)
+    figure.savefig(tmp_path / "figure.png", dpi=50)
+    assert (tmp_path / "figure.png").stat().st_size > 3000
+    labels = [ax.get_xlabel() + ax.get_ylabel() for ax in figure.axes]
+    assert any(labels) or entry.name == "roller_zone"  # polar axes are named in the title
+    assert figure.get_suptitle()
+
+
+@pytest.mark.parametrize("entry", CATALOGUE, ids=lambda entry: entry.name)
+def test_figure_is_drawn_for_a_single_point(sweep, entry, tmp_path):
+    entry.draw(sweep.isel(preload=[0], speed=[0])).savefig(tmp_path / "figure.png", dpi=50)
+
+
+def test_figures_leave_pyplot_alone(sweep):
+    sys.modules.pop("matplotlib.pyplot", None)
+    for entry in CATALOGUE:
+        entry.draw(sweep)
+    assert "matplotlib.pyplot" not in sys.modules
+
+
+def test_map_shows_the_mesh_line_at_its_level_and_leaves_failed_speeds_empty(sweep):
+    figure = spectrum_map(sweep, DTE)
+    columns = [
+        mesh.get_array() for mesh in figure.axes[0].collections if mesh.get_array() is not None
+    ]
+    # 1 um over the reference of 1 nm is 60 dB; resampling loses less than 1e-3 dB.
+    assert max(float(np.ma.max(c)) for c in columns) == pytest.approx(60.0, abs=1e-2)
+    failed = [mesh.get_array() for mesh in figure.axes[1].collections][1]
+    assert np.all(np.ma.getmaskarray(np.ma.masked_invalid(failed)))
+
+
+def test_frequency_axis_ends_above_the_highest_mode_and_within_the_spectra(sweep):
+    assert default_top(sweep) == pytest.approx(2700.0)  # 1.15 * 2325, rounded up to 100 Hz
+    assert default_top(sweep.drop_vars("mode_frequency")) == 2500.0
+
+
+def test_order_cut_reads_the_amplitudes_that_were_put_in(sweep):
+    row = sweep.isel(preload=0)
+    # 20 steps a mesh cycle at 100 km/h, 10 for the second order: spline error 1/9^4 = 1.5e-4.
+    np.testing.assert_allclose(harmonic_amplitude(row, 1), stand_in.MESH_DTE, rtol=1e-4)
+    np.testing.assert_allclose(harmonic_amplitude(row, 2), stand_in.SECOND_DTE, rtol=1e-3)
+    assert math.isnan(harmonic_amplitude(sweep.isel(preload=1), 1)[1])
+
+
+def test_cells_touch_half_way_between_speeds():
+    np.testing.assert_allclose(cell_edges(np.array([20.0, 30.0, 50.0])), [15.0, 25.0, 40.0, 60.0])
+
+
+def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_path):
+    path = write_report(sweep, tmp_path)
+    html = path.read_text(encoding="utf-8")
+    assert html.count("data:image/png;base64,") == len(CATALOGUE)
+    assert 'src="http' not in html
+    assert "href=" not in html
+    assert "mohammadpour_2015" in html
+    assert "1.2.3" in html
+    assert "refused the step &lt;at&gt; t = 0.1 s" in html
+    assert html.count("single-sided") + html.count("<td>none</td>") >= 5
+    assert len(list((tmp_path / "figures").glob("*.png"))) == len(CATALOGUE)
+
+
+def test_report_of_a_sweep_in_which_everything_failed_names_the_failures():
+    point = failed_point(20.0, 2500.0, "out of range")
+    dataset = merge([2500.0], [20.0], {(20.0, 2500.0): point}).assign_attrs(title="Speed sweep")
+    assert isinstance(dataset, xr.Dataset)
+    html = report_html(dataset)
+    assert "out of range" in html
+    assert "<img" not in html
