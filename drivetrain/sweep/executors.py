@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import os
 import signal
@@ -39,8 +40,10 @@ def default_jobs() -> int:
     return os.cpu_count() or 1
 
 
-def _leave_interrupts_to_the_parent() -> None:
+def _be_quiet_worker() -> None:
+    """Leave Ctrl-C to the parent, and messages too: they come back with the failed points."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    logging.getLogger("fmu_src").addHandler(logging.NullHandler())
 
 
 @contextmanager
@@ -51,7 +54,7 @@ def local_crew(fmu: Path, jobs: int | None, point: PointFunction) -> Iterator[Cr
         executor = ProcessPoolExecutor(
             max_workers=workers,
             mp_context=multiprocessing.get_context("spawn"),
-            initializer=_leave_interrupts_to_the_parent,
+            initializer=_be_quiet_worker,
         )
         try:
             yield Crew(executor, point, (directory,))

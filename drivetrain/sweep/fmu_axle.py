@@ -15,6 +15,9 @@ from gearlube_core.errors import ParameterError, StepError
 
 INPUTS = ("pinion.torque", "wheel.torque", "oil.temperature")
 
+_INSTANCE = "axle"
+_LOADER_NOTE = "Fatal py exception"  # added by pythonfmu's loader, without information
+
 
 class FmuAxle:
     """One instance of the axle FMU.
@@ -54,9 +57,9 @@ class FmuAxle:
             guid=description.guid,
             unzipDirectory=str(directory),
             modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="axle",
+            instanceName=_INSTANCE,
         )
-        self._slave.instantiate(callbacks=self._callbacks)
+        self._slave.instantiate(callbacks=self._callbacks, loggingOn=True)
         self._input_references = self._references(INPUTS)
         self._inputs = (ctypes.c_double * len(INPUTS))()
         self._output_references = self._references(channels)
@@ -94,7 +97,15 @@ class FmuAxle:
         return callbacks
 
     def _refusal(self, what: str) -> str:
-        return f"{what}: {' '.join(self.messages) or 'the FMU gave no reason.'}"
+        """Return `what` with what the FMU said about it, without the loader's stack notes."""
+        said = [text.removeprefix(f"{_INSTANCE}: ") for text in self.messages]
+        reasons = [text for text in dict.fromkeys(said) if not text.startswith(_LOADER_NOTE)]
+        told = [
+            text
+            for i, text in enumerate(reasons)
+            if not any(text in other for j, other in enumerate(reasons) if j != i)
+        ]
+        return f"{what}: {' '.join(told) or 'the FMU gave no reason.'}"
 
     def set_parameters(self, values: Mapping[str, str | float | int]) -> None:
         """Set FMU parameters by name; enumerations take the name of their item."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from pathlib import Path
 
 import numpy as np
@@ -20,8 +19,6 @@ from drivetrain.sweep.unpack import unpacked
 from gearlube_core.errors import GearLubeError
 from gearlube_core.spectra import angle_window
 from gearlube_core.units import kmh_to_ms
-
-logger = logging.getLogger(__name__)
 
 FINISHED, FAILED = 1, 0
 
@@ -53,7 +50,6 @@ def run_point(
             recording = _simulate(directory, speed_kmh, preload, settings)
         return summarise(recording, speed_kmh, preload, settings)
     except GearLubeError as error:
-        logger.warning("%g km/h, %g N failed: %s", speed_kmh, preload, error)
         return failed_point(speed_kmh, preload, str(error))
 
 

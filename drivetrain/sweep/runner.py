@@ -184,6 +184,8 @@ class _Book:
     def add(self, at: Place, dataset: xr.Dataset) -> None:
         if int(dataset["status"]) == FINISHED:
             self._store.save(self.keys[at], dataset)
+        else:
+            logger.warning("%g km/h, %g N failed: %s", *at, str(dataset["message"].values))
         self._enter(at, dataset, reused=False)
 
     def _enter(self, at: Place, dataset: xr.Dataset, *, reused: bool) -> None:
@@ -247,7 +249,7 @@ def _result(future: Future[xr.Dataset], at: Place) -> xr.Dataset:
         raise
     except Exception as error:
         # The boundary of the sweep: whatever went wrong in one point becomes a row.
-        logger.warning("%g km/h, %g N failed", *at, exc_info=error)
+        logger.debug("%g km/h, %g N", *at, exc_info=error)
         return failed_point(*at, f"{type(error).__name__}: {error}")
 
 
