@@ -18,4 +18,4 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 def kernel(function: _Function) -> _Function:
     """Compile `function` with numba on first call and keep the machine code on disk."""
-    return njit(cache=True, error_model="numpy")(function)  # type: ignore[no-any-return]
+    return njit(cache=True, error_model="numpy")(function)  # type: ignore[return-value, no-any-return]

@@ -95,10 +95,10 @@ def _squeezed_excess(t: float) -> float:
 
 
 @inlined
-def roller_load_line(
+def roller_response_line(
     g: float, g_rate: float, film: float, squeeze_scale: float, K: float, c: float, w_min: float
-) -> tuple[float, float]:
-    """Return the load of a roller with n = 10/9, without branches or library calls.
+) -> tuple[float, float, float, float]:
+    """Return the load of a roller with n = 10/9 and its slopes, without branches or library calls.
 
     w = K x^n + n K x^(n-1) (c x' + x_squeeze),  x = g + A x^-0.05.
 
@@ -118,7 +118,8 @@ def roller_load_line(
     Returns
     -------
     tuple of float
-        Load and its quasi-steady part K x^n [N].
+        Load and its quasi-steady part K x^n [N]; slopes of the load against g [N] and against
+        g_rate [N s], both without the squeeze, zero where the load is clipped.
 
     Notes
     -----
@@ -167,7 +168,18 @@ def roller_load_line(
     stiffness = touching * K * y
     steady = stiffness * x
     w = steady + N_LINE * stiffness * (c * x_rate + squeezed)
-    return w_min if w <= w_min else w, steady
+    bearing = 0.0 if w <= w_min else N_LINE * stiffness * q * (1.0 - correction * q)
+    w_g = bearing * (1.0 + (N_LINE - 1.0) * c * x_rate * inverse)
+    return w_min if w <= w_min else w, steady, w_g, bearing * c
+
+
+@inlined
+def roller_load_line(
+    g: float, g_rate: float, film: float, squeeze_scale: float, K: float, c: float, w_min: float
+) -> tuple[float, float]:
+    """Return load and quasi-steady part: the first two numbers of `roller_response_line`."""
+    w, steady, _, _ = roller_response_line(g, g_rate, film, squeeze_scale, K, c, w_min)
+    return w, steady
 
 
 @kernel
@@ -199,6 +211,34 @@ def approach_with_film(g: float, film: float, n: float) -> float:
 
 
 @kernel
+def roller_response_general(
+    g: float,
+    g_rate: float,
+    film: float,
+    squeeze_scale: float,
+    K: float,
+    c: float,
+    w_min: float,
+    n: float,
+) -> tuple[float, float, float, float]:
+    """Return load and slopes of a roller for any exponent n, as `roller_response_line`."""
+    x = approach_with_film(g, film, n)
+    if x <= 0.0:
+        return max(w_min, 0.0), 0.0, 0.0, 0.0
+    h, slope = film_and_slope(x, film, n)
+    x_rate = g_rate / (1.0 + slope)
+    squeezed = h * _squeezed_excess(-squeeze_scale * slope * x_rate)
+    stiffness = K * x ** (n - 1.0)
+    steady = stiffness * x
+    w = steady + n * stiffness * (c * x_rate + squeezed)
+    if w <= w_min:
+        return w_min, steady, 0.0, 0.0
+    bearing = n * stiffness / (1.0 + slope)
+    w_g = bearing * (1.0 + (n - 1.0) * c * x_rate / x)
+    return w, steady, w_g, bearing * c
+
+
+@kernel
 def roller_load_general(
     g: float,
     g_rate: float,
@@ -209,14 +249,6 @@ def roller_load_general(
     w_min: float,
     n: float,
 ) -> tuple[float, float]:
-    """Return the load of a roller for any exponent n; otherwise as `roller_load_line`."""
-    x = approach_with_film(g, film, n)
-    if x <= 0.0:
-        return max(w_min, 0.0), 0.0
-    h, slope = film_and_slope(x, film, n)
-    x_rate = g_rate / (1.0 + slope)
-    squeezed = h * _squeezed_excess(-squeeze_scale * slope * x_rate)
-    stiffness = K * x ** (n - 1.0)
-    steady = stiffness * x
-    w = steady + n * stiffness * (c * x_rate + squeezed)
-    return w_min if w <= w_min else w, steady
+    """Return load and quasi-steady part: the first two numbers of `roller_response_general`."""
+    w, steady, _, _ = roller_response_general(g, g_rate, film, squeeze_scale, K, c, w_min, n)
+    return w, steady

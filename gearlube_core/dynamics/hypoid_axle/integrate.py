@@ -86,10 +86,10 @@ def rk4_step(
 ) -> None:
     """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
 
-    Films and tractions are evaluated at the middle and at the end of the step. The second middle
-    stage and the first stage of the next step keep the coefficients of the stage before, which
-    lies within O(h^2) of theirs; loads, arms and directions are those of every stage. `first`
-    makes the first stage evaluate them too.
+    The bearing forces are expanded at the first middle stage, which serves the other stages within
+    half a step of it, the first of the next step included. Tractions are evaluated at the first
+    middle and the last stage; the stages after these keep them, which lie within O(h^2) of them.
+    Everything else is evaluated at every stage. `first` refreshes the first stage too.
 
     Parameters
     ----------
@@ -101,19 +101,19 @@ def rk4_step(
     trial = stages[0:N_STATE]
     slope = stages[N_STATE : N_STATE + N_ODE]
     total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
-    axle_rhs(s, inputs, series, n_orders, window, n_nodes, oil, p, first, scratch, slope)
+    axle_rhs(s, inputs, series, n_orders, window, n_nodes, oil, p, first, first, scratch, slope)
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, True, scratch, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, True, True, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, False, scratch, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, False, False, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, True, scratch, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, True, False, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (

@@ -112,6 +112,7 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
             oil,
             p,
             True,
+            True,
             scratch,
             slope,
         )

@@ -218,7 +218,18 @@ class HypoidAxle:
         inputs = step_inputs(full, torque_p, torque_g, oil, p)
         scratch = np.zeros(SCRATCH)
         axle_rhs(
-            full, inputs, series, mesh.orders, window, mesh.nodes, oil, p, True, scratch, slope
+            full,
+            inputs,
+            series,
+            mesh.orders,
+            window,
+            mesh.nodes,
+            oil,
+            p,
+            True,
+            True,
+            scratch,
+            slope,
         )
         return slope
 
@@ -284,6 +295,7 @@ class HypoidAxle:
                 mesh.nodes,
                 oil,
                 p,
+                True,
                 True,
                 scratch,
                 slope,

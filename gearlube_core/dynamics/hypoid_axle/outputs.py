@@ -30,7 +30,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     N_FLANKS,
     ROLLER_AT,
 )
-from gearlube_core.dynamics.hypoid_axle.rhs import N_FRICTION, SCRATCH, axle_rhs
+from gearlube_core.dynamics.hypoid_axle.rhs import AT_EXPANSION, N_FRICTION, SCRATCH, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
     BEARING_DAMPING,
     BEARING_TORQUE,
@@ -283,7 +283,7 @@ def write_outputs(
     oil = lubricant_state(p.oil, oil_temperature)
     blend_mesh(s[LOAD_TORQUE], levels, series, n_orders, windows, n_nodes, blended, window)
     inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
-    axle_rhs(s, inputs, blended, n_orders, window, n_nodes, oil, p, True, scratch, rates)
+    axle_rhs(s, inputs, blended, n_orders, window, n_nodes, oil, p, True, True, scratch, rates)
     mesh = mesh_force(s, blended, n_orders, p)
     x = s[X] / MICRO
     out[0] = s[PHI_P]
@@ -297,7 +297,7 @@ def write_outputs(
     out[8] = 1.0 if -p.backlash < x < 0.0 else 0.0
     out[9] = mesh.stiffness
     out[10] = p.z_p * s[W_P] / (2.0 * math.pi)
-    channels = scratch[N_FRICTION:SCRATCH]
+    channels = scratch[N_FRICTION:AT_EXPANSION]
     write_flanks(s, mesh.force, window, n_nodes, oil_temperature, oil, p, channels, out)
     write_losses(s, rates, p, out)
     for i in range(3):

@@ -7,7 +7,12 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
+from gearlube_core.bearings.shaft_expansion import (
+    N_EXPANSION,
+    expand_shaft_bearings,
+    expanded_shaft_forces,
+)
+from gearlube_core.bearings.shaft_forces import cage_torque
 from gearlube_core.dynamics.hypoid_axle.flanks import flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force, reference_frequency
@@ -38,7 +43,8 @@ from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.rheology.lubricant_state import LubricantState
 
 N_FRICTION = 2 * PAIRS
-SCRATCH = N_FRICTION + N_CHANNELS
+AT_EXPANSION = N_FRICTION + N_CHANNELS
+SCRATCH = AT_EXPANSION + 2 * N_EXPANSION
 
 
 class StepInputs(NamedTuple):
@@ -51,6 +57,58 @@ class StepInputs(NamedTuple):
 
 
 @kernel
+def expand_pinion_bearings(
+    s: NDArray[float64],
+    f_ref: float,
+    oil: LubricantState,
+    p: AxleParameters,
+    expansion: NDArray[float64],
+) -> None:
+    """Write the expansion of the pinion's bearing forces about state `s`."""
+    expand_shaft_bearings(
+        s[U_P + 2] / MICRO,
+        s[U_P + 1] / MICRO,
+        s[U_P] / MICRO,
+        s[V_P + 2],
+        s[V_P + 1],
+        s[V_P],
+        s[CAGE_P],
+        s[W_P],
+        f_ref,
+        oil.eta0,
+        oil.alpha,
+        p.bearing_p,
+        expansion,
+    )
+
+
+@kernel
+def expand_gear_bearings(
+    s: NDArray[float64],
+    f_ref: float,
+    oil: LubricantState,
+    p: AxleParameters,
+    expansion: NDArray[float64],
+) -> None:
+    """Write the expansion of the gear's bearing forces about state `s`."""
+    expand_shaft_bearings(
+        s[U_G] / MICRO,
+        s[U_G + 1] / MICRO,
+        s[U_G + 2] / MICRO,
+        s[V_G],
+        s[V_G + 1],
+        s[V_G + 2],
+        s[CAGE_G],
+        s[W_G],
+        f_ref,
+        oil.eta0,
+        oil.alpha,
+        p.bearing_g,
+        expansion,
+    )
+
+
+@kernel
 def axle_rhs(
     s: NDArray[float64],
     inputs: StepInputs,
@@ -60,7 +118,8 @@ def axle_rhs(
     n_nodes: int,
     oil: LubricantState,
     p: AxleParameters,
-    refresh: bool,
+    tractions: bool,
+    bearings: bool,
     scratch: NDArray[float64],
     ds: NDArray[float64],
 ) -> float:
@@ -77,10 +136,12 @@ def axle_rhs(
         The mesh table at the present load, see `mesh_table.kernels`.
     oil : LubricantState
     p : AxleParameters
-    refresh : bool
-        Evaluate films and tractions anew, see `flank_sum`.
+    tractions, bearings : bool
+        Evaluate films and tractions, expand the bearing forces about this state: with both, the
+        right-hand side is exact. Otherwise friction coefficients are kept from the last time, and
+        bearing forces are linear about the state of then.
     scratch : ndarray of shape (SCRATCH,)
-        Friction coefficients kept between calls, and work space.
+        What is kept between calls, and work space.
 
     Notes
     -----
@@ -101,16 +162,21 @@ def axle_rhs(
         n_nodes,
         oil,
         p,
-        refresh,
+        tractions,
         scratch[0:N_FRICTION],
-        scratch[N_FRICTION:SCRATCH],
+        scratch[N_FRICTION:AT_EXPANSION],
     )
     w_p = s[W_P]
     w_g = s[W_G]
     f_ref = reference_frequency(p, w_p)
 
+    expansion_p = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
+    expansion_g = scratch[AT_EXPANSION + N_EXPANSION : SCRATCH]
+    if bearings:
+        expand_pinion_bearings(s, f_ref, oil, p, expansion_p)
+        expand_gear_bearings(s, f_ref, oil, p, expansion_g)
     # pinion shaft along x: r1 = z, r2 = y turns with the pinion, which drives about -x
-    p1z, p1y, p1x, p2z, p2y, p2x, lost_p = shaft_bearing_forces(
+    p_z, p_y, p_x, lost_p = expanded_shaft_forces(
         s[U_P + 2] / MICRO,
         s[U_P + 1] / MICRO,
         s[U_P] / MICRO,
@@ -119,12 +185,10 @@ def axle_rhs(
         s[V_P],
         s[CAGE_P],
         w_p,
-        f_ref,
-        oil.eta0,
-        oil.alpha,
         p.bearing_p,
+        expansion_p,
     )
-    g1x, g1y, g1z, g2x, g2y, g2z, lost_g = shaft_bearing_forces(
+    g_x, g_y, g_z, lost_g = expanded_shaft_forces(
         s[U_G] / MICRO,
         s[U_G + 1] / MICRO,
         s[U_G + 2] / MICRO,
@@ -133,14 +197,12 @@ def axle_rhs(
         s[V_G + 2],
         s[CAGE_G],
         w_g,
-        f_ref,
-        oil.eta0,
-        oil.alpha,
         p.bearing_g,
+        expansion_g,
     )
-    cage_p = ((p1z + p2z) * s[U_P + 1] - (p1y + p2y) * s[U_P + 2]) / MICRO
-    cage_g = ((g1x + g2x) * s[U_G + 1] - (g1y + g2y) * s[U_G]) / MICRO
     shared = p.consistent
+    cage_p = cage_torque(s[U_P + 2] / MICRO, s[U_P + 1] / MICRO, p_z, p_y)
+    cage_g = cage_torque(s[U_G] / MICRO, s[U_G + 1] / MICRO, g_x, g_y)
     on_shaft_p = shared * p.bearing_p.cage_ratio * cage_p - inputs.drag_p
     on_shaft_g = shared * p.bearing_g.cage_ratio * cage_g - inputs.drag_g
 
@@ -150,12 +212,12 @@ def axle_rhs(
     ds[PHI_P] = w_p
     ds[PHI_G] = w_g
     lateral = p.lateral_sign * mesh.force
-    ds[V_P] = (-mesh.n_x * lateral + shared * friction.f_x + p1x + p2x) / p.m_p
-    ds[V_P + 1] = (-mesh.n_y * lateral + shared * friction.f_y + p1y + p2y) / p.m_p
-    ds[V_P + 2] = (-mesh.n_z * lateral + shared * friction.f_z + p1z + p2z) / p.m_p
-    ds[V_G] = (mesh.n_x * lateral - shared * friction.f_x + g1x + g2x) / p.m_g
-    ds[V_G + 1] = (mesh.n_y * lateral - shared * friction.f_y + g1y + g2y) / p.m_g
-    ds[V_G + 2] = (mesh.n_z * lateral - shared * friction.f_z + g1z + g2z) / p.m_g
+    ds[V_P] = (-mesh.n_x * lateral + shared * friction.f_x + p_x) / p.m_p
+    ds[V_P + 1] = (-mesh.n_y * lateral + shared * friction.f_y + p_y) / p.m_p
+    ds[V_P + 2] = (-mesh.n_z * lateral + shared * friction.f_z + p_z) / p.m_p
+    ds[V_G] = (mesh.n_x * lateral - shared * friction.f_x + g_x) / p.m_g
+    ds[V_G + 1] = (mesh.n_y * lateral - shared * friction.f_y + g_y) / p.m_g
+    ds[V_G + 2] = (mesh.n_z * lateral - shared * friction.f_z + g_z) / p.m_g
     for i in range(3):
         ds[U_P + i] = s[V_P + i] * MICRO
         ds[U_G + i] = s[V_G + i] * MICRO
