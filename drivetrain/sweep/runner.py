@@ -16,12 +16,12 @@ from drivetrain.sweep.executors import Crew, PointFunction, crew_for, default_jo
 from drivetrain.sweep.merge import merge, save
 from drivetrain.sweep.natural_frequencies import natural_frequencies
 from drivetrain.sweep.point import FINISHED, failed_point, run_point
+from drivetrain.sweep.provenance import code_version
 from drivetrain.sweep.quantities import described
 from drivetrain.sweep.settings import SweepSettings
 from drivetrain.sweep.store import PointStore
 from drivetrain.sweep.unpack import fmu_guid, unpacked
 from drivetrain.sweep.warm_up import warm_up
-from gearlube_core import __version__
 from gearlube_core.checks import check_within
 from gearlube_core.errors import GearLubeError, ParameterError
 
@@ -118,7 +118,7 @@ def run_sweep(
     with unpacked(fmu) as directory:
         guid = fmu_guid(directory)
     keys = {
-        (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=__version__)
+        (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=code_version())
         for p in loads
         for v in speeds
     }
@@ -138,7 +138,7 @@ def run_sweep(
     sweep = merge(loads, speeds, book.points).assign_attrs(
         {
             "title": "Speed sweep of a lubricated hypoid axle",
-            "gearlube_version": __version__,
+            "gearlube_version": code_version(),
             "fmu_guid": guid,
             "command_line": command_line,
             "scheduler": scheduler or "local processes",
