@@ -95,45 +95,28 @@ def _squeezed_excess(t: float) -> float:
 
 
 @inlined
-def roller_response_line(
-    g: float, g_rate: float, film: float, squeeze_scale: float, K: float, c: float, w_min: float
-) -> tuple[float, float, float, float]:
-    """Return the load of a roller with n = 10/9 and its slopes, without branches or library calls.
+def roller_approach_line(g: float, film: float) -> tuple[float, float, float, float]:
+    """Return approach and film of a roller with n = 10/9, without branches or library calls.
 
-    w = K x^n + n K x^(n-1) (c x' + x_squeeze),  x = g + A x^-0.05.
+    x = g + A x^-0.05
 
     Parameters
     ----------
-    g, g_rate : float
-        Geometric approach [d_f] and its rate [d_f/s].
-    film, squeeze_scale : float
-        From `film_amplitude`.
-    K : float
-        kn d_f^n [N].
-    c : float
-        Hysteresis time, loss/f_ref [s].
-    w_min : float
-        Lower limit of the load: 0, or -inf to allow tension [N].
+    g : float
+        Geometric approach [d_f].
+    film : float
+        A from `film_amplitude` [d_f].
 
     Returns
     -------
     tuple of float
-        Load and its quasi-steady part K x^n [N]; slopes of the load against g [N] and against
-        g_rate [N s], both without the squeeze, zero where the load is clipped.
+        x [d_f]; x^(1/9), zero where the races do not touch; dx/dg; -dH/dx.
 
     Notes
     -----
-    The film equation is solved by a reversed Taylor series of third order about x0 = g + A. The
-    load has a relative error below 1e-8 for A < 0.8 (films up to 0.4 um), 5e-8 for A = 2, and
-    1e-13 without film; approaches from 0.04 nm to 90 mm.
-
-    The squeeze is tiny: with v = dH/dt from the load alone, a shaft 5 um off centre at 145 rad/s
-    changes H by 1.2e-4 of it, and the extra load is a damper 0.3 % as strong as the hysteresis.
-    It enters to first order in its share of the approach.
-
-    References
-    ----------
-    Mohammadpour et al. 2015 eq. (25)-(27).
+    Solved by a reversed Taylor series of third order about x0 = g + A. x^n has a relative error
+    below 1e-8 for A < 0.8 (films up to 0.4 um), 5e-8 for A = 2, and 1e-13 without film;
+    approaches from 0.04 nm to 90 mm.
     """
     raw = g + film
     touching = 0.0 if raw <= 0.0 else 1.0
@@ -163,14 +146,57 @@ def roller_response_line(
     y = y0 + y0 * ninth_root_change(change * inverse)
     part = change * inverse
     correction = -slope * part * (2.0 * _HALF - _SECOND * part)
-    x_rate = g_rate * q * (1.0 - correction * q)
-    squeezed = (x - g) * _squeezed_excess(-squeeze_scale * (slope + correction) * x_rate)
-    stiffness = touching * K * y
+    return x, touching * y, q * (1.0 - correction * q), slope + correction
+
+
+@inlined
+def roller_response_line(
+    g: float, g_rate: float, film: float, squeeze_scale: float, K: float, c: float, w_min: float
+) -> tuple[float, float, float, float]:
+    """Return the load of a roller with n = 10/9 and its slopes, without branches or library calls.
+
+    w = K x^n + n K x^(n-1) (c x' + x_squeeze),  x = g + A x^-0.05.
+
+    Parameters
+    ----------
+    g, g_rate : float
+        Geometric approach [d_f] and its rate [d_f/s].
+    film, squeeze_scale : float
+        From `film_amplitude`.
+    K : float
+        kn d_f^n [N].
+    c : float
+        Hysteresis time, loss/f_ref [s].
+    w_min : float
+        Lower limit of the load: 0, or -inf to allow tension [N].
+
+    Returns
+    -------
+    tuple of float
+        Load and its quasi-steady part K x^n [N]; slopes of the load against g [N] and against
+        g_rate [N s], both without the squeeze, zero where the load is clipped.
+
+    Notes
+    -----
+    Accuracy as in `roller_approach_line`.
+
+    The squeeze is tiny: with v = dH/dt from the load alone, a shaft 5 um off centre at 145 rad/s
+    changes H by 1.2e-4 of it, and the extra load is a damper 0.3 % as strong as the hysteresis.
+    It enters to first order in its share of the approach.
+
+    References
+    ----------
+    Mohammadpour et al. 2015 eq. (25)-(27).
+    """
+    x, y, x_g, slope = roller_approach_line(g, film)
+    x_rate = g_rate * x_g
+    squeezed = (x - g) * _squeezed_excess(-squeeze_scale * slope * x_rate)
+    stiffness = K * y
     steady = stiffness * x
     w = steady + N_LINE * stiffness * (c * x_rate + squeezed)
-    bearing = 0.0 if w <= w_min else N_LINE * stiffness * q * (1.0 - correction * q)
-    w_g = bearing * (1.0 + (N_LINE - 1.0) * c * x_rate * inverse)
-    return w_min if w <= w_min else w, steady, w_g, bearing * c
+    tangent = 0.0 if w <= w_min else N_LINE * stiffness * x_g
+    w_g = tangent * (1.0 + (N_LINE - 1.0) * c * x_rate / max(x, ROOT_MIN))
+    return w_min if w <= w_min else w, steady, w_g, tangent * c
 
 
 @inlined

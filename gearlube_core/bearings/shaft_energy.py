@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gearlube_core.bearings.inlining import summing
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
     FILM_FLOOR_APPROACH,
@@ -11,7 +12,12 @@ from gearlube_core.bearings.parameters import (
     SIN_TABLE,
     BearingParameters,
 )
-from gearlube_core.bearings.roller_contact import approach_with_film, film_amplitude
+from gearlube_core.bearings.roller_contact import (
+    N_LINE,
+    approach_with_film,
+    film_amplitude,
+    roller_approach_line,
+)
 from gearlube_core.bearings.shaft_forces import approach_terms
 from gearlube_core.film.mostofi_gohar_1983 import LOAD_EXPONENT
 from gearlube_core.jit import kernel
@@ -36,6 +42,25 @@ def roller_energy(g: float, film: float, n: float) -> float:
     return energy
 
 
+@summing
+def _sum_line(count: int, g: float, g1: float, g2: float, film: float) -> float:
+    """Return the sum of `roller_energy` over the rollers of a line contact bearing.
+
+    With y = x^(1/9) and the film H = x - g: x^(n+1) = x^2 y, A x^(n-m) = x y H for 1 < x < R.
+    """
+    n = N_LINE
+    m = -LOAD_EXPONENT * n
+    limit = FILM_RANGE ** (n - m)
+    total = 0.0
+    for i in range(count):
+        gap = g + g1 * COS_TABLE[count, i] + g2 * SIN_TABLE[count, i]
+        x, y, _, _ = roller_approach_line(gap, film)
+        given = x * y * (x - gap) if x < FILM_RANGE else film * limit
+        given = given - film if x > 1.0 else 0.0
+        total += x * x * y / (n + 1.0) + m * given / (n - m)
+    return total
+
+
 @kernel
 def bearing_energy(
     r1: float,
@@ -54,10 +79,13 @@ def bearing_energy(
         r1, r2, xa, 0.0, 0.0, 0.0, math.cos(cage_angle), math.sin(cage_angle), 0.0, p
     )
     count = int(p.n_rollers)
-    total = 0.0
-    for i in range(count):
-        g = g0 + side * ga + g1 * COS_TABLE[count, i] + g2 * SIN_TABLE[count, i]
-        total += roller_energy(g, film, p.n)
+    if p.n == N_LINE:
+        total = _sum_line(count, g0 + side * ga, g1, g2, film)
+    else:
+        total = 0.0
+        for i in range(count):
+            g = g0 + side * ga + g1 * COS_TABLE[count, i] + g2 * SIN_TABLE[count, i]
+            total += roller_energy(g, film, p.n)
     return total * p.kn * FILM_FLOOR_APPROACH ** (p.n + 1.0) / p.approach_factor
 
 
