@@ -93,7 +93,7 @@ CATALOGUE = (
         name="roller_map_cage",
         caption="The same at low frequencies: cage frequency, pinion rotation and what the engine "
         "orders of the coupled vehicle modulate.",
-        draw=_map(spectrum_map.ROLLER, _CAGE_TOP),
+        draw=_map(spectrum_map.ROLLER_LOW, _CAGE_TOP),
     ),
     Entry(
         name="roller_extremes",

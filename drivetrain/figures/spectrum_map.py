@@ -57,6 +57,12 @@ RADIAL = MapChannel(
     reference=1e-9,
     reference_text="1 nm",
 )
+ROLLER_LOW = MapChannel(
+    variable="roller_load_spectrum",
+    title="Load of one roller, pinion bearing 1, low frequencies",
+    reference=1.0,
+    reference_text="1 N",
+)
 ROLLER = MapChannel(
     variable="roller_load_spectrum",
     title="Load of one roller, pinion bearing 1",

@@ -7,15 +7,15 @@ import logging
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, Future, as_completed
-from dataclasses import dataclass
 from pathlib import Path
 
 import xarray as xr
 
+from drivetrain.sweep.bookkeeping import Book, Observer, Place
 from drivetrain.sweep.executors import Crew, PointFunction, crew_for, default_jobs
 from drivetrain.sweep.merge import merge, save
 from drivetrain.sweep.natural_frequencies import natural_frequencies
-from drivetrain.sweep.point import FINISHED, failed_point, run_point
+from drivetrain.sweep.point import failed_point, run_point
 from drivetrain.sweep.provenance import code_version
 from drivetrain.sweep.quantities import described
 from drivetrain.sweep.settings import SweepSettings
@@ -30,26 +30,11 @@ logger = logging.getLogger(__name__)
 _MOST_JOBS = 1024
 _ATTEMPTS = 3  # local pools, should processes die
 
-Place = tuple[float, float]  # speed [km/h], preload [N]
-
 
 class SweepInterruptedError(GearLubeError):
     """The sweep was stopped from the keyboard; its finished points are on disk."""
 
 
-@dataclass(frozen=True, slots=True)
-class Progress:
-    """What an observer is told after every point."""
-
-    done: int
-    total: int
-    speed_kmh: float
-    preload: float
-    finished: bool
-    reused: bool
-
-
-Observer = Callable[[Progress], None]
 PrepareFunction = Callable[[Path, SweepSettings], None]
 ModesFunction = Callable[[Sequence[float], float, SweepSettings], xr.DataArray]
 
@@ -124,7 +109,7 @@ def run_sweep(
     }
     store = PointStore(out / "points")
     began = time.monotonic()
-    book = _Book(keys, store, observer)
+    book = Book(keys, store, observer)
     book.reuse()
     try:
         if prepare is not None and scheduler is None and book.due:
@@ -154,57 +139,8 @@ def run_sweep(
     return sweep
 
 
-class _Book:
-    """Which points are there and which are due."""
-
-    def __init__(
-        self, keys: dict[Place, str], store: PointStore, observer: Observer | None
-    ) -> None:
-        self.keys = keys
-        self.points: dict[Place, xr.Dataset] = {}
-        self.reused = 0
-        self._store = store
-        self._observer = observer
-
-    @property
-    def finished(self) -> list[Place]:
-        return [at for at, dataset in self.points.items() if int(dataset["status"]) == FINISHED]
-
-    @property
-    def due(self) -> list[Place]:
-        return [at for at in self.keys if at not in self.points]
-
-    def reuse(self) -> None:
-        for at, key in self.keys.items():
-            dataset = self._store.load(key)
-            if dataset is not None:
-                self.reused += 1
-                self._enter(at, dataset, reused=True)
-
-    def add(self, at: Place, dataset: xr.Dataset) -> None:
-        if int(dataset["status"]) == FINISHED:
-            self._store.save(self.keys[at], dataset)
-        else:
-            logger.warning("%g km/h, %g N failed: %s", *at, str(dataset["message"].values))
-        self._enter(at, dataset, reused=False)
-
-    def _enter(self, at: Place, dataset: xr.Dataset, *, reused: bool) -> None:
-        self.points[at] = dataset
-        if self._observer is not None:
-            self._observer(
-                Progress(
-                    done=len(self.points),
-                    total=len(self.keys),
-                    speed_kmh=at[0],
-                    preload=at[1],
-                    finished=int(dataset["status"]) == FINISHED,
-                    reused=reused,
-                )
-            )
-
-
 def _compute(
-    book: _Book,
+    book: Book,
     fmu: Path,
     settings: SweepSettings,
     *,
@@ -229,7 +165,7 @@ def _compute(
         book.add((speed_kmh, preload), failed_point(speed_kmh, preload, message))
 
 
-def _collect(book: _Book, crew: Crew, settings: SweepSettings) -> None:
+def _collect(book: Book, crew: Crew, settings: SweepSettings) -> None:
     """Submit what is due and enter results as they come; the same loop for every executor."""
     futures: dict[Future[xr.Dataset], Place] = {
         crew.executor.submit(crew.run, *crew.leading, *at, settings): at for at in book.due
@@ -253,7 +189,7 @@ def _result(future: Future[xr.Dataset], at: Place) -> xr.Dataset:
         return failed_point(*at, f"{type(error).__name__}: {error}")
 
 
-def _keep_what_is_running(book: _Book, futures: dict[Future[xr.Dataset], Place]) -> None:
+def _keep_what_is_running(book: Book, futures: dict[Future[xr.Dataset], Place]) -> None:
     """Cancel what has not begun, wait for the points under way and keep them."""
     logger.info("Stopping; the points under way will be kept (Ctrl-C again to drop them).")
     for future in futures:
