@@ -27,15 +27,20 @@ class Operation:
     pinion_speed: float
 
 
-def operation(settings: SweepSettings, speed_kmh: float) -> Operation:
-    """Return the driver and the start of the point at `speed_kmh` [km/h]."""
+def operation(settings: SweepSettings, speed_kmh: float, axle_power_loss: float = 0.0) -> Operation:
+    """Return the driver and the start of the point at `speed_kmh` [km/h].
+
+    The drivers start in the steady state with an axle that loses `axle_power_loss` [W].
+    """
     from drivetrain.drivers import CoupledVehicle, SpeedHold
 
     speed = kmh_to_ms(speed_kmh)
     road = mohammadpour_2015_road_load()
     driver: CoupledVehicle | SpeedHold
     if settings.driver == "vehicle":
-        driver = CoupledVehicle(DrivelineParameters(road_load=road), speed)
+        driver = CoupledVehicle(
+            DrivelineParameters(road_load=road), speed, axle_power_loss=axle_power_loss
+        )
     else:
-        driver = SpeedHold(road, speed)
+        driver = SpeedHold(road, speed, axle_power_loss=axle_power_loss)
     return Operation(driver=driver, pinion_speed=driver.initial_pinion_speed)

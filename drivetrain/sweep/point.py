@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
+from drivetrain.sweep.axle_loss import LOSS_CHANNELS, measured_loss
 from drivetrain.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from drivetrain.sweep.curves import mesh_cycle, roller_zone, spectra, waves
 from drivetrain.sweep.fmu_axle import FmuAxle
@@ -56,10 +58,14 @@ def run_point(
 def _simulate(
     directory: Path, speed_kmh: float, preload: float, settings: SweepSettings
 ) -> Recording:
-    where = operation(settings, speed_kmh)
+    parameters = {**settings.fmu_parameters, "bearing.preload": preload}
+    held = operation(replace(settings, driver="hold"), speed_kmh)
+    with FmuAxle(directory, LOSS_CHANNELS) as axle:
+        axle.set_parameters({**parameters, "pinion.speed_start": held.pinion_speed})
+        loss = measured_loss(axle, held.driver, settings)
+    where = operation(settings, speed_kmh, loss)
     with FmuAxle(directory, CHANNELS) as axle:
-        axle.set_parameters(settings.fmu_parameters)
-        axle.set_parameters({"bearing.preload": preload, "pinion.speed_start": where.pinion_speed})
+        axle.set_parameters({**parameters, "pinion.speed_start": where.pinion_speed})
         return record(axle, where.driver, settings, CHANNELS)
 
 

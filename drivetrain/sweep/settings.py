@@ -73,7 +73,7 @@ class SweepSettings:
     steps_per_mesh_period: int = 64
     steps_per_highest_period: int = 22
     communication_step: float = 1e-4
-    settling_time: float = 0.4
+    settling_time: float = 0.3
     record_time: float = 0.5
     cage_turns: float = 2.0
 

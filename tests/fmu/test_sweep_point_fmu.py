@@ -21,8 +21,17 @@ def point(request, fmu_folder):
 
 def test_point_finishes_at_the_speed_asked_for(point):
     assert int(point["status"]) == 1, str(point["message"].values)
-    # The speed controllers are slow on purpose; within 1 % after 0.15 s of settling.
-    assert float(point["vehicle_speed"]) == pytest.approx(60.0 / 3.6, rel=1e-2)
+    # The drivers start with the losses of the axle, measured to a few per cent in a short run;
+    # what is left of 4 % of the power moves the speed by less than 0.1 % in 0.3 s.
+    assert float(point["vehicle_speed"]) == pytest.approx(60.0 / 3.6, rel=1e-3)
+
+
+def test_engine_torque_covers_road_load_and_axle_losses_from_the_start(point):
+    torque_for_losses = float(point["loss"].sum()) / float(point["pinion_speed"])
+    expected = float(point["wheel_torque"]) * 13.0 / 36.0 + torque_for_losses
+    # Power balance at constant speed; engine orders and the kinetic energy of a drifting speed
+    # leave 0.5 % in a record of 0.15 s.
+    assert float(point["pinion_torque"]) == pytest.approx(expected, rel=5e-3)
 
 
 def test_energy_that_enters_the_pinion_is_found_again(point):
