@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlube_core.checks import check_positive, check_within
+from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 
 Vector = NDArray[np.float64]
+_METRES = "Give metres, not millimetres."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,7 +45,10 @@ class MemberBlank:
 
     def __post_init__(self) -> None:
         check_within("teeth", self.teeth, 3, 400)
-        check_positive("face_width", self.face_width, "m", "Give metres, not millimetres.")
+        for name, limit in (("face_width", 1.0), ("outer_cone_distance", 2.0)):
+            check_within(name, getattr(self, name), 1e-4, limit, "m", _METRES)
+        for name in ("pitch_apex", "face_apex"):
+            check_within(name, getattr(self, name), -1.0, 1.0, "m", _METRES)
         check_within("pitch_angle", self.pitch_angle, 0.01, 1.56, "rad", "Give radians.")
         check_within("spiral_angle", self.spiral_angle, -1.2, 1.2, "rad", "Give radians.")
         if not self.outer_cone_distance > self.face_width:
@@ -103,8 +107,8 @@ class HypoidBlank:
     source: str
 
     def __post_init__(self) -> None:
-        check_within("offset", self.offset, 0.0, 0.5, "m", "Give metres, not millimetres.")
-        check_positive("gear_cutter_radius", self.gear_cutter_radius, "m")
+        check_within("offset", self.offset, 0.0, 0.5, "m", _METRES)
+        check_within("gear_cutter_radius", self.gear_cutter_radius, 1e-3, 2.0, "m", _METRES)
 
     @classmethod
     def named(cls, name: str) -> HypoidBlank:
