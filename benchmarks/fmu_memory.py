@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import gc
 import logging
+import statistics
 import sys
 import tempfile
+from itertools import pairwise
 
 import psutil
 from bench_fmu import instantiated
@@ -17,8 +19,10 @@ from fmpy import extract
 
 from fmu_src.build import build_hypoid_axle
 
+_LOGGER = logging.getLogger("fmu_memory")
 ALLOWED = 2000.0  # bytes per instance
-WARM_UP = 200
+WARM_UP = 500
+BATCH = 100
 
 
 def _used() -> int:
@@ -37,20 +41,23 @@ def _run(folder: str) -> None:
 
 
 def growth(count: int) -> float:
-    """Return the bytes by which the process grows per instance."""
+    """Return the bytes by which the process grows per instance: the median over batches."""
     with tempfile.TemporaryDirectory() as name:
         folder = extract(str(build_hypoid_axle(name)), name + "/extracted")
         for _ in range(WARM_UP):
             _run(folder)
-        before = _used()
-        for _ in range(count):
-            _run(folder)
-        return (_used() - before) / count
+        used = [_used()]
+        for _ in range(0, count, BATCH):
+            for _ in range(BATCH):
+                _run(folder)
+            used.append(_used())
+        return statistics.median(after - before for before, after in pairwise(used)) / BATCH
 
 
 if __name__ == "__main__":
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    logging.basicConfig(level=logging.WARNING, format="%(message)s")
+    _LOGGER.setLevel(logging.INFO)
     instances = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
     leak = growth(instances)
-    logging.info("%d instances: %.0f bytes each", instances, leak)
+    _LOGGER.info("%d instances: %.0f bytes each", instances, leak)
     sys.exit(leak > ALLOWED)

@@ -17,7 +17,7 @@ from gearlube_core.errors import ParameterError
 IDENTITY_FILE = "gearlube_identity.txt"
 # Modules that run inside the FMU; the rest of this package builds it or is the command line.
 RUNTIME = (
-    "definition", "hypoid_axle", "hypoid_axle_slave", "identity", "model_description",
+    "definition", "hypoid_axle", "hypoid_axle_slave", "identity", "model_description", "phase",
     "registration", "slave_base", "state_bytes", "units", "values", "variable", "variables",
     "warm_start", "wrapper",
 )  # fmt: skip

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import logging
 import math
+import sys
 from collections.abc import Sequence
-from enum import IntEnum
 from typing import Any, ClassVar
 
 import numpy as np
@@ -20,6 +20,7 @@ from pythonfmu.enums import Fmi2Status
 from fmu_src.definition import Definition, Model, Value
 from fmu_src.identity import check_identity, guid_of
 from fmu_src.model_description import LOG_CATEGORIES
+from fmu_src.phase import Phase
 from fmu_src.registration import register_variables
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
@@ -31,15 +32,6 @@ LONGEST_STEP = 0.1  # s
 
 _LOGGER = logging.getLogger(__name__)
 _LEVELS = {Fmi2Status.ok: logging.INFO, Fmi2Status.warning: logging.WARNING}
-
-
-class Phase(IntEnum):
-    """Place in the FMI state machine."""
-
-    INSTANTIATED = 0
-    INITIALISING = 1
-    STEPPING = 2
-    TERMINATED = 3
 
 
 def _explained(error: BaseException) -> str:
@@ -72,7 +64,8 @@ class CoSimulationSlave(Fmi2Slave):
     def report(self, status: Fmi2Status, message: str) -> None:
         """Send `message` to the host's logger, and to Python's, which a host cannot switch off."""
         category = "logEvents" if status == Fmi2Status.ok else f"logStatus{status.name.title()}"
-        self.log(f"{self.instance_name}: {message}", status, category)
+        # The wrapper leaks a reference to each text it passes on: equal texts share one object.
+        self.log(sys.intern(f"{self.instance_name}: {message}"), status, category)
         _LOGGER.log(_LEVELS.get(status, logging.ERROR), "%s: %s", self.instance_name, message)
 
     def report_fatal(self, error: BaseException) -> None:
@@ -93,11 +86,13 @@ class CoSimulationSlave(Fmi2Slave):
     def enter_initialization_mode(self) -> None:
         """Start the phase in which outputs may be asked for."""
         self._log_warnings()
+        self._expect(Phase.INSTANTIATED)
         self._phase = Phase.INITIALISING
 
     @guarded
     def exit_initialization_mode(self) -> None:
         """Compute the outputs at the start time; raise if that cannot be done."""
+        self._expect(Phase.INITIALISING)
         self._initialise_model()
         self._enter(Phase.STEPPING)
         settings = ", ".join(f"{name} = {value}" for name, value in self._model_parameters.items())
@@ -129,11 +124,14 @@ class CoSimulationSlave(Fmi2Slave):
 
     def _enter(self, phase: Phase) -> None:
         self._phase = phase
-        self._values.allow_setting(*(("input",) if phase >= Phase.STEPPING else _EARLY))
+        self._values.allow_setting(*phase.settable)
+
+    def _expect(self, phase: Phase) -> None:
+        if self._phase != phase:
+            raise StepError(f"The FMU must be in phase {phase.name}, is in {self._phase.name}.")
 
     def _check_step(self, t: float, h: float) -> None:
-        if self._phase != Phase.STEPPING:
-            raise StepError(f"The FMU must be in phase STEPPING, got {self._phase.name}.")
+        self._expect(Phase.STEPPING)
         if self._values.refused:
             raise StepError(" ".join(self._values.refused.values()))
         if self._broken:
@@ -245,6 +243,3 @@ class CoSimulationSlave(Fmi2Slave):
     def _fmu_state_from_bytes(state: bytes) -> bytes:
         # The wrapper does not survive an exception here; `_set_fmu_state` checks the content.
         return state
-
-
-_EARLY = ("input", "parameter")

@@ -61,7 +61,7 @@ def test_a_step_from_another_time_is_discarded(host: Host, time: float) -> None:
 
 def test_a_step_before_initialisation_is_discarded(host: Host) -> None:
     assert host.step() == DISCARD
-    assert "must be in phase STEPPING, got INSTANTIATED" in host.messages("logStatusDiscard")
+    assert "must be in phase STEPPING, is in INSTANTIATED" in host.messages("logStatusDiscard")
 
 
 @pytest.mark.parametrize(
@@ -128,6 +128,14 @@ def test_a_call_that_makes_no_sense_is_fatal_but_never_a_crash(
         assert host.status(call, *arguments) == FATAL
     assert reason in host.messages("logStatusFatal")
     # after fmi2Fatal a host should stop; one that goes on must not be hurt
+    assert host.step() == OK
+
+
+def test_initialising_twice_is_fatal_and_the_axle_stays_ready(host: Host) -> None:
+    assert host.status("exitInitializationMode") == FATAL
+    host.start()
+    assert host.status("enterInitializationMode") == FATAL
+    assert "must be in phase INSTANTIATED, is in STEPPING" in host.messages("logStatusFatal")
     assert host.step() == OK
 
 

@@ -1,0 +1,19 @@
+"""The states of an FMI 2.0 co-simulation slave that gearlube tells apart."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Phase(IntEnum):
+    """Place in the FMI state machine."""
+
+    INSTANTIATED = 0
+    INITIALISING = 1
+    STEPPING = 2
+    TERMINATED = 3
+
+    @property
+    def settable(self) -> tuple[str, ...]:
+        """Causalities that can be set: parameters are fixed once initialised."""
+        return ("input",) if self >= Phase.STEPPING else ("input", "parameter")
