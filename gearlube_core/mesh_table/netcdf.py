@@ -19,6 +19,7 @@ from gearlube_core.mesh_table.table import (
 )
 
 FORMAT = 1
+_ATTRIBUTES = ("name", "pinion_teeth", "gear_teeth", "contact_ratio")
 
 
 def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
@@ -63,7 +64,8 @@ def read_mesh_table(path: str | Path) -> MeshTable:
         raise TableError(f"{path} is not a readable NetCDF file: {reason}") from None
     if dataset.attrs.get("gearlube_mesh_table") != FORMAT:
         raise TableError(f"{path} is not a gearlube mesh table of format {FORMAT}.")
-    missing = [key for key in (*SERIES_UNITS, *WINDOW_UNITS) if key not in dataset]
+    missing = [key for key in ("torque", *SERIES_UNITS, *WINDOW_UNITS) if key not in dataset]
+    missing += [key for key in _ATTRIBUTES if key not in dataset.attrs]
     if missing:
         raise TableError(f"{path} lacks {', '.join(missing)}.")
     return MeshTable(
@@ -76,8 +78,8 @@ def read_mesh_table(path: str | Path) -> MeshTable:
         windows={key: np.ascontiguousarray(dataset[key].values) for key in WINDOW_UNITS},
         provenance={
             key: Provenance(
-                cast(Kind, str(dataset[key].attrs["provenance"])),
-                str(dataset[key].attrs["derivation"]),
+                cast(Kind, str(dataset[key].attrs.get("provenance", ""))),
+                str(dataset[key].attrs.get("derivation", "")),
             )
             for key in (*SERIES_UNITS, *WINDOW_UNITS)
         },

@@ -102,7 +102,8 @@ class MeshTable:
 
     def __post_init__(self) -> None:
         levels = self.torque.size
-        if self.torque.ndim != 1 or levels < 1 or np.any(np.diff(self.torque) <= 0.0):
+        rising = self.torque.ndim == 1 and levels > 0 and bool(np.all(np.diff(self.torque) > 0.0))
+        if not rising or not np.all(np.isfinite(self.torque)):
             raise TableError(f"{self.name}: torque must be a rising list [N.m], got {self.torque}.")
         if not 1.0 <= self.contact_ratio <= PAIRS:
             raise TableError(
