@@ -1,18 +1,18 @@
 """Memory of a process that makes, runs and frees HypoidAxle.fmu again and again.
 
-`python benchmarks/fmu_memory.py [COUNT]` logs the growth per instance and fails above 2 kB; what
-remains are the strings that PythonFMU's wrapper leaks while it looks for the slave class.
+`python benchmarks/fmu_memory.py [COUNT]` logs the growth per instance and fails above 10 kB, less
+than one axle that is not freed. About 1 kB is leaked by PythonFMU's wrapper while it looks for the
+slave class; memory grows in lumps, so that a thousand instances resolve it to a few kB only.
 """
 
 from __future__ import annotations
 
 import gc
 import logging
-import statistics
 import sys
 import tempfile
-from itertools import pairwise
 
+import numpy as np
 import psutil
 from bench_fmu import instantiated
 from fmpy import extract
@@ -20,7 +20,7 @@ from fmpy import extract
 from fmu_src.build import build_hypoid_axle
 
 _LOGGER = logging.getLogger("fmu_memory")
-ALLOWED = 2000.0  # bytes per instance
+ALLOWED = 1e4  # bytes per instance
 WARM_UP = 500
 BATCH = 100
 
@@ -41,7 +41,7 @@ def _run(folder: str) -> None:
 
 
 def growth(count: int) -> float:
-    """Return the bytes by which the process grows per instance: the median over batches."""
+    """Return the bytes by which the process grows per instance: slope of the resident size."""
     with tempfile.TemporaryDirectory() as name:
         folder = extract(str(build_hypoid_axle(name)), name + "/extracted")
         for _ in range(WARM_UP):
@@ -51,7 +51,7 @@ def growth(count: int) -> float:
             for _ in range(BATCH):
                 _run(folder)
             used.append(_used())
-        return statistics.median(after - before for before, after in pairwise(used)) / BATCH
+        return float(np.polyfit(BATCH * np.arange(len(used)), used, 1)[0])
 
 
 if __name__ == "__main__":
