@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
 import logging
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import BrokenExecutor, Future, as_completed
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from pathlib import Path
 
 import xarray as xr
 
 from drivetrain.sweep.bookkeeping import Book, Observer, Place
 from drivetrain.sweep.executors import Crew, PointFunction, crew_for, default_jobs
+from drivetrain.sweep.interrupts import deferred_interrupts
 from drivetrain.sweep.merge import merge, save
 from drivetrain.sweep.natural_frequencies import natural_frequencies
 from drivetrain.sweep.point import failed_point, run_point
@@ -28,6 +28,7 @@ from gearlube_core.errors import GearLubeError, ParameterError
 logger = logging.getLogger(__name__)
 
 _MOST_JOBS = 1024
+_POLL = 0.25  # s, time after which Ctrl-C is noticed
 _ATTEMPTS = 3  # local pools, should processes die
 
 
@@ -167,15 +168,22 @@ def _compute(
 
 def _collect(book: Book, crew: Crew, settings: SweepSettings) -> None:
     """Submit what is due and enter results as they come; the same loop for every executor."""
-    futures: dict[Future[xr.Dataset], Place] = {
-        crew.executor.submit(crew.run, *crew.leading, *at, settings): at for at in book.due
-    }
-    try:
-        for future in as_completed(futures):
-            book.add(futures[future], _result(future, futures[future]))
-    except KeyboardInterrupt:
-        _keep_what_is_running(book, futures)
-        raise
+    with deferred_interrupts() as interrupt:
+        waiting: dict[Future[xr.Dataset], Place] = {
+            crew.executor.submit(crew.run, *crew.leading, *at, settings): at for at in book.due
+        }
+        stopping = False
+        while waiting:
+            if interrupt.requested and not stopping:
+                stopping = True
+                logger.info("Stopping; points under way will be kept (Ctrl-C again drops them).")
+                waiting = {f: at for f, at in waiting.items() if not f.cancel()}
+            done, _ = wait(waiting, timeout=_POLL, return_when=FIRST_COMPLETED)
+            for future in done:
+                at = waiting.pop(future)
+                book.add(at, _result(future, at))
+        if stopping:
+            raise KeyboardInterrupt
 
 
 def _result(future: Future[xr.Dataset], at: Place) -> xr.Dataset:
@@ -187,14 +195,3 @@ def _result(future: Future[xr.Dataset], at: Place) -> xr.Dataset:
         # The boundary of the sweep: whatever went wrong in one point becomes a row.
         logger.debug("%g km/h, %g N", *at, exc_info=error)
         return failed_point(*at, f"{type(error).__name__}: {error}")
-
-
-def _keep_what_is_running(book: Book, futures: dict[Future[xr.Dataset], Place]) -> None:
-    """Cancel what has not begun, wait for the points under way and keep them."""
-    logger.info("Stopping; the points under way will be kept (Ctrl-C again to drop them).")
-    for future in futures:
-        future.cancel()
-    for future, at in futures.items():
-        if at not in book.points and not future.cancelled():
-            with contextlib.suppress(BrokenExecutor):
-                book.add(at, _result(future, at))

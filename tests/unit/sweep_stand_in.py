@@ -132,7 +132,7 @@ def interrupting_point(fmu, speed_kmh, preload, settings):
 
     if speed_kmh == 60.0:
         os.kill(os.getppid(), signal.SIGINT)
-        time.sleep(0.5)
+        time.sleep(1.0)
     return small_point(fmu, speed_kmh, preload, settings)
 
 

@@ -1,16 +1,21 @@
 """Bookkeeping of a sweep: nothing computed twice, nothing lost, failures are rows."""
 
+import signal
+import threading
+
 import numpy as np
 import pytest
 import sweep_stand_in as stand_in
 import xarray as xr
 
 from drivetrain.sweep import SweepInterruptedError, SweepSettings, load_sweep, run_sweep
+from drivetrain.sweep.interrupts import deferred_interrupts
 from drivetrain.sweep.merge import merge
 from gearlube_core.errors import GearLubeError, ParameterError
 
 SETTINGS = SweepSettings()
 SPEEDS = (20.0, 40.0, 60.0)
+MANY = (20.0, 40.0, 60.0, 61.0, 62.0, 63.0, 64.0, 65.0, 66.0)
 
 
 @pytest.fixture
@@ -97,11 +102,38 @@ def test_a_point_whose_process_died_is_computed_by_another_process(fmu, tmp_path
 
 def test_ctrl_c_keeps_finished_points_and_says_how_to_go_on(fmu, tmp_path):
     with pytest.raises(SweepInterruptedError, match="Run the same command again"):
-        sweep(fmu, tmp_path / "out", stand_in.interrupting_point, preloads=(2500.0,))
+        sweep(
+            fmu, tmp_path / "out", stand_in.interrupting_point, speeds_kmh=MANY, preloads=[2500.0]
+        )
     kept = len(list((tmp_path / "out" / "points").iterdir()))
-    assert kept == 3  # two were finished, the third was under way and is waited for
-    _, seen = sweep(fmu, tmp_path / "out", stand_in.small_point, preloads=(2500.0,))
-    assert all(progress.reused for progress in seen)
+    # Two were finished; the third was under way and the queue of the process holds one or two
+    # more: they are waited for. The others are cancelled.
+    assert 3 <= kept < len(MANY)
+    _, seen = sweep(fmu, tmp_path / "out", stand_in.small_point, speeds_kmh=MANY, preloads=[2500.0])
+    assert sum(progress.reused for progress in seen) == kept
+
+
+def test_ctrl_c_becomes_a_flag_first_and_an_exception_when_it_is_repeated():
+    with deferred_interrupts() as interrupt:
+        assert not interrupt.requested
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.requested
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_interrupts_are_left_alone_outside_the_main_thread():
+    found = []
+
+    def enter():
+        with deferred_interrupts() as interrupt:
+            found.append(interrupt.requested)
+
+    thread = threading.Thread(target=enter)
+    thread.start()
+    thread.join()
+    assert found == [False]
 
 
 def test_missing_points_stay_nan_in_the_merged_dataset(fmu, tmp_path):
