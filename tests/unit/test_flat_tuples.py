@@ -1,0 +1,97 @@
+"""Nested NamedTuples as flat arrays and back."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from numba import njit
+
+from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.flat_tuples import count_floats, flatten, tuple_from_array
+
+
+class Inner(NamedTuple):
+    a: float
+    b: float
+
+
+class Middle(NamedTuple):
+    first: Inner
+    c: float
+    second: Inner
+
+
+class Outer(NamedTuple):
+    d: float
+    middle: Middle
+    inner: Inner
+    e: float
+
+
+NESTED = Outer(1.0, Middle(Inner(2.0, 3.0), 4.0, Inner(5.0, 6.0)), Inner(7.0, 8.0), 9.0)
+
+
+@njit
+def restore_outer(array):
+    return tuple_from_array(array, Outer)
+
+
+@njit
+def restore_axle(array):
+    return tuple_from_array(array, AxleParameters)
+
+
+@njit
+def restore_control(array):
+    return tuple_from_array(array, StepControl)
+
+
+@njit
+def named_fields(array):
+    outer = tuple_from_array(array, Outer)
+    return outer.middle.second.b, outer.inner.a, outer.e
+
+
+def test_floats_lie_in_the_order_of_the_fields():
+    np.testing.assert_array_equal(flatten(NESTED), np.arange(1.0, 10.0))
+    assert flatten(NESTED).dtype == np.float64
+
+
+@pytest.mark.parametrize(("kind", "count"), [(Inner, 2), (Middle, 5), (Outer, 9)])
+def test_floats_are_counted_through_all_levels(kind, count):
+    assert count_floats(kind) == count
+
+
+def test_a_nested_tuple_comes_back_whole():
+    assert restore_outer(flatten(NESTED)) == NESTED
+
+
+def test_fields_keep_their_names_inside_a_kernel():
+    assert named_fields(flatten(NESTED)) == (6.0, 7.0, 9.0)
+
+
+def test_floats_beyond_the_tuple_are_left_alone():
+    longer = np.append(flatten(NESTED), np.nan)
+    assert restore_outer(longer) == NESTED
+
+
+def test_the_parameters_of_the_axle_come_back_to_the_bit():
+    parameters = mohammadpour_2015_axle().kernel_parameters()
+    array = flatten(parameters)
+    assert array.size == count_floats(AxleParameters)
+    assert restore_axle(array) == parameters
+
+
+def test_infinities_and_signed_zeros_come_back_to_the_bit():
+    control = StepControl(np.inf, -np.inf, -0.0, 5e-324, 1.0)
+    back = restore_control(flatten(control))
+    np.testing.assert_array_equal(np.array(back).view(np.int64), np.array(control).view(np.int64))
+
+
+def test_the_result_is_a_copy():
+    array = flatten(NESTED)
+    restored = restore_outer(array)
+    array[:] = 0.0
+    assert restored == NESTED
