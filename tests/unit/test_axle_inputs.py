@@ -1,0 +1,229 @@
+"""What the axle refuses, in words, and that a refusal leaves it as it was."""
+
+import math
+
+import numpy as np
+import pytest
+from axle_cases import OIL, running_axle
+
+from gearlube_core.dynamics.hypoid_axle import (
+    OUTPUT_INDEX,
+    OUTPUT_NAMES,
+    HypoidAxle,
+    mohammadpour_2015_axle,
+)
+from gearlube_core.errors import GearLubeError, ParameterError, StepError
+
+START = {
+    "pinion_speed": 145.0,
+    "pinion_torque": 40.0,
+    "wheel_torque": 106.0,
+    "oil_temperature": OIL,
+}
+
+
+@pytest.fixture(scope="module")
+def shared():
+    return running_axle(60)
+
+
+@pytest.fixture
+def axle(shared):
+    return shared[0]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"bearing_preload": -1.0}, r"bearing_preload must be .* got -1 N\. Preload cannot pull"),
+        ({"bearing_preload": 2e5}, r"bearing_preload must be within 0 to 100000 N, got 200000 N"),
+        ({"bearing_preload": math.nan}, "bearing_preload must be finite, got nan N"),
+        ({"roughness_rms": 0.5}, r"roughness_rms must be .* got 0\.5 m\. 0\.5 um is 5e-7 m"),
+        ({"roughness_rms": 0.0}, "roughness_rms must be within 1e-09 to 2e-05 m, got 0 m"),
+        ({"backlash": 150.0}, r"backlash must be .* got 150 m\. 150 um is 1\.5e-4 m"),
+        ({"backlash": -1e-6}, "backlash must be within 0 to 0.002 m, got -1e-06 m"),
+        ({"modal_loss_factor": 1.5}, r"modal_loss_factor must be within 0 to 1, got 1\.5"),
+        (
+            {"mesh_damping": "modal", "modal_loss_factor": 0.0},
+            r"modal_loss_factor must be above 0 .* Give about 0\.06",
+        ),
+        ({"steps_per_mesh_period": 4}, r"steps_per_mesh_period must be .* got 4\. Default 64"),
+        ({"steps_per_highest_period": 7}, r"steps_per_highest_period .* got 7\. Default 22"),
+        ({"steps_per_highest_period": math.inf}, "steps_per_highest_period must be finite"),
+        ({"backlash": "wide"}, "backlash must be a number in m, got 'wide'"),
+    ],
+)
+def test_a_parameter_out_of_range_says_what_limit_and_cure(change, message):
+    with pytest.raises(ParameterError, match=message):
+        mohammadpour_2015_axle(**change)
+
+
+@pytest.mark.parametrize(
+    ("option", "choices"),
+    [
+        ("equations", "consistent, as_printed"),
+        ("radii", "consistent, paper, mean"),
+        ("mesh_damping", "hysteretic, modal"),
+        ("friction", "consistent, as_printed, off"),
+        ("bearing_approach", "full, as_printed"),
+        ("bearing_torque_loss", "none, palmgren"),
+    ],
+)
+def test_an_unknown_option_is_refused_with_the_choices(option, choices):
+    with pytest.raises(ParameterError, match=f"{option} must be one of {choices}; got 'magic'"):
+        mohammadpour_2015_axle(**{option: "magic"})
+
+
+def test_an_unknown_oil_is_refused_with_the_oils_there_are():
+    with pytest.raises(ParameterError, match="of karagiannis_2012, mohammadpour_2015; got 'salad'"):
+        mohammadpour_2015_axle(oil="salad")
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"pinion_torque": math.nan}, r"pinion\.torque must be finite, got nan N\.m"),
+        ({"wheel_torque": math.inf}, r"wheel\.torque must be finite, got inf N\.m"),
+        ({"pinion_torque": 2e4}, r"pinion\.torque must be within -10000 to 10000 N\.m, got 20000"),
+        ({"wheel_torque": -4e4}, r"wheel\.torque must be within -30000 to 30000 N\.m, got -40000"),
+        ({"oil_temperature": 500.0}, r"oil\.temperature must be within .* K, got 500 K.*363\.15 K"),
+        ({"oil_temperature": 90.0}, r"oil\.temperature must be .* got 90 K.*90 degC is 363\.15 K"),
+        ({"oil_temperature": math.nan}, r"oil\.temperature must be finite, got nan K"),
+    ],
+)
+def test_a_bad_input_is_refused_by_name_at_the_start_and_in_a_step(axle, change, message):
+    before, shown = axle.get_state(), axle.outputs.copy()
+    with pytest.raises(ParameterError, match=message):
+        axle.initialise(**{**START, **change})
+    inputs = {key: value for key, value in START.items() if key != "pinion_speed"}
+    with pytest.raises(ParameterError, match=message):
+        axle.step(1e-4, **{**inputs, **change})
+    np.testing.assert_array_equal(axle.get_state(), before)
+    np.testing.assert_array_equal(axle.outputs, shown)
+
+
+@pytest.mark.parametrize("speed", [math.nan, 6e3, -6e3])
+def test_a_pinion_speed_beyond_any_car_is_refused(axle, speed):
+    before = axle.get_state()
+    with pytest.raises(ParameterError, match="pinion_speed must be"):
+        axle.initialise(**{**START, "pinion_speed": speed})
+    np.testing.assert_array_equal(axle.get_state(), before)
+
+
+@pytest.mark.parametrize(
+    ("h", "message"),
+    [
+        (0.0, "step size must be above 0 and at most 0.1 s, got 0 s"),
+        (-1e-4, "step size must be above 0"),
+        (0.2, r"at most 0\.1 s, got 0\.2 s\. A communication step of about 1e-4 s"),
+        (1e9, "at most 0.1 s"),
+    ],
+)
+def test_an_absurd_step_is_refused_and_the_axle_stays_as_it_was(axle, h, message):
+    before, shown = axle.get_state(), axle.outputs.copy()
+    with pytest.raises(StepError, match=message):
+        axle.step(h, 40.0, 106.0, OIL)
+    np.testing.assert_array_equal(axle.get_state(), before)
+    np.testing.assert_array_equal(axle.outputs, shown)
+
+
+@pytest.mark.parametrize("h", [math.nan, math.inf])
+def test_a_step_that_is_no_number_is_refused(axle, h):
+    before = axle.get_state()
+    with pytest.raises(GearLubeError, match="step size must be finite"):
+        axle.step(h, 40.0, 106.0, OIL)
+    np.testing.assert_array_equal(axle.get_state(), before)
+
+
+def spoiled(axle, index, value):
+    state = axle.get_state()
+    state[index] = value
+    return state
+
+
+@pytest.mark.parametrize("longer", [-1, 1])
+def test_a_state_of_the_wrong_length_is_refused(axle, longer):
+    before = axle.get_state()
+    wrong = np.resize(before, before.size + longer)
+    with pytest.raises(
+        StepError, match=rf"has {before.size} finite numbers, got shape \({wrong.size},\)"
+    ):
+        axle.set_state(wrong)
+    np.testing.assert_array_equal(axle.get_state(), before)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_a_state_that_is_not_finite_is_refused(axle, value):
+    before = axle.get_state()
+    with pytest.raises(StepError, match="finite numbers"):
+        axle.set_state(spoiled(axle, 3, value))
+    np.testing.assert_array_equal(axle.get_state(), before)
+
+
+def test_a_step_that_blows_up_is_refused_and_can_be_retried():
+    """Teeth 0.2 m apart are no axle: the step is refused, the same state goes on with a cure."""
+    axle, *torques = running_axle(60)
+    good = axle.get_state()
+    axle.set_state(spoiled(axle, 0, 2e5))
+    broken, shown = axle.get_state(), axle.outputs.copy()
+    with pytest.raises(StepError, match=r"step of 0\.0001 s refused: .* Reduce the torques"):
+        axle.step(1e-4, *torques, OIL)
+    np.testing.assert_array_equal(axle.get_state(), broken)
+    np.testing.assert_array_equal(axle.outputs, shown)
+    axle.set_state(good)
+    axle.step(1e-4, *torques, OIL)
+    assert np.all(np.isfinite(axle.outputs))
+
+
+def test_a_speed_that_needs_a_million_steps_is_refused():
+    axle, *torques = running_axle(60)
+    # 13 x 1e7/2 pi Hz x 64 steps a period x 0.1 s = 1.3e8 steps
+    axle.set_state(spoiled(axle, 1, 1e7))
+    broken = axle.get_state()
+    with pytest.raises(StepError, match=r"more than 1000000 integrator steps\. Shorten"):
+        axle.step(0.1, *torques, OIL)
+    np.testing.assert_array_equal(axle.get_state(), broken)
+
+
+def test_after_a_refused_step_the_motion_goes_on_as_if_it_had_not_been_asked():
+    refused, *torques = running_axle(60)
+    smooth, *_ = running_axle(60)
+    for _ in range(5):
+        with pytest.raises(GearLubeError):
+            refused.step(1e-4, math.nan, torques[1], OIL)
+        with pytest.raises(GearLubeError):
+            refused.step(5.0, *torques, OIL)
+        refused.step(1e-4, *torques, OIL)
+        smooth.step(1e-4, *torques, OIL)
+    np.testing.assert_array_equal(refused.get_state(), smooth.get_state())
+    np.testing.assert_array_equal(refused.outputs, smooth.outputs)
+
+
+def test_outputs_have_one_name_each():
+    assert len(set(OUTPUT_NAMES)) == len(OUTPUT_NAMES)
+    assert [OUTPUT_INDEX[name] for name in OUTPUT_NAMES] == list(range(len(OUTPUT_NAMES)))
+
+
+def test_outputs_and_state_view_cannot_be_written(axle):
+    assert axle.outputs.shape == (len(OUTPUT_NAMES),)
+    for array in (axle.outputs, axle.state_view):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+
+
+def test_a_state_is_a_copy_that_the_axle_does_not_follow(axle):
+    state = axle.get_state()
+    kept = state.copy()
+    state[:] = 0.0
+    np.testing.assert_array_equal(axle.get_state(), kept)
+
+
+def test_two_axles_of_one_parameter_set_share_nothing():
+    parameters = mohammadpour_2015_axle()
+    one, two = HypoidAxle(parameters), HypoidAxle(parameters)
+    for axle in (one, two):
+        axle.initialise(**START)
+    before, shown = two.get_state(), two.outputs.copy()
+    one.step(1e-3, 60.0, 106.0, OIL)
+    np.testing.assert_array_equal(two.get_state(), before)
+    np.testing.assert_array_equal(two.outputs, shown)

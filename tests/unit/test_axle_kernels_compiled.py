@@ -1,0 +1,263 @@
+"""Every kernel of the axle, its mesh table and its bearing expansion, compiled and in Python."""
+
+import importlib
+import pickle
+import pkgutil
+import subprocess
+import sys
+from os import environ
+from typing import get_type_hints
+
+import numpy as np
+import pytest
+from axle_cases import OIL, running_axle
+from numba.core.dispatcher import Dispatcher
+
+from gearlube_core.bearings import shaft_expansion
+from gearlube_core.bearings.parameters import ROLLERS_MAX
+from gearlube_core.dynamics import hypoid_axle
+from gearlube_core.dynamics.hypoid_axle import (
+    HypoidAxle,
+    flanks,
+    integrate,
+    mesh_force,
+    mohammadpour_2015_axle,
+    outputs,
+    rhs,
+)
+from gearlube_core.dynamics.hypoid_axle.output_names import BEARINGS_AT, N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, PHI_P, X
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.flat_tuples import flatten
+from gearlube_core.mesh_table import kernels
+from gearlube_core.rheology.lubricant_state import lubricant_state
+
+AXLE, TORQUE_P, TORQUE_G = running_axle(60)
+for _ in range(20):
+    AXLE.step(1e-4, TORQUE_P, TORQUE_G, OIL)
+STATE = AXLE.get_state()[:N_STATE]
+MESH = AXLE.packed
+P = AXLE.kernel_parameters
+PRINTED = HypoidAxle(
+    mohammadpour_2015_axle(
+        equations="as_printed", friction="as_printed", mesh_damping="modal", radii="paper"
+    )
+).kernel_parameters
+STATE_OF_OIL = lubricant_state(P.oil, OIL)
+INPUTS = integrate.step_inputs(STATE, TORQUE_P, TORQUE_G, STATE_OF_OIL, P)
+SERIES, WINDOW = np.zeros(MESH.series_size), np.zeros(MESH.window_size)
+integrate.blend_mesh(
+    STATE[LOAD_TORQUE],
+    MESH.levels,
+    MESH.series,
+    MESH.orders,
+    MESH.windows,
+    MESH.nodes,
+    SERIES,
+    WINDOW,
+)
+TABLE = (MESH.levels, MESH.series, MESH.orders, MESH.windows, MESH.nodes)
+AT_LOAD = (SERIES, MESH.orders, WINDOW, MESH.nodes, STATE_OF_OIL)
+FORCE = mesh_force.mesh_force(STATE, SERIES, MESH.orders, P).force
+CHANNELS, FRICTION = np.zeros(N_CHANNELS), np.zeros(rhs.N_FRICTION)
+kernels.pair_channels(WINDOW, MESH.nodes, P.z_p, STATE[PHI_P], 0, N_CHANNELS, CHANNELS)
+CONTROL = AXLE.step_control
+SCRATCH = np.zeros(rhs.SCRATCH)
+SLOPE = np.zeros(N_ODE)
+rhs.axle_rhs(STATE, INPUTS, *AT_LOAD, P, True, True, SCRATCH, SLOPE)
+SHAFT = (3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
+LOOP = (12, 10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0, 0.7, 3e-5, 40.0, 3e-5, 0.0)
+EXPANSION = np.zeros(shaft_expansion.N_EXPANSION)
+shaft_expansion.expand_shaft_bearings(*SHAFT, 300.0, 0.0171, 2.4e-8, P.bearing_p, EXPANSION)
+SEPARATED = STATE.copy()
+SEPARATED[X] = -3.0
+COASTING = STATE.copy()
+COASTING[X] = -155.0
+
+
+def zeros(size):
+    return np.zeros(size)
+
+
+BRACKET = kernels.load_bracket(33.0, MESH.levels, MESH.levels.size)
+WRITE_SHAFT = (*SHAFT, 300.0, STATE_OF_OIL, P.bearing_p, BEARINGS_AT, 2, 1, 0)
+CASES = [
+    (kernels.load_bracket, (33.0, MESH.levels, 7)),
+    (kernels.load_bracket, (1e3, MESH.levels, 7)),
+    (kernels.blend_levels, (MESH.series, MESH.series_size, BRACKET, zeros(MESH.series_size))),
+    (kernels.mesh_series, (SERIES, MESH.orders, 13.0, 0.3)),
+    (kernels.pair_channels, (WINDOW, MESH.nodes, 13.0, 0.3, 1, N_CHANNELS, zeros(N_CHANNELS))),
+    (shaft_expansion._sums_line, LOOP),
+    (shaft_expansion._sums_general, (*LOOP, 1.3, zeros(shaft_expansion.N_EXPANSION))),
+    (
+        shaft_expansion.expand_shaft_bearings,
+        (*SHAFT, 300.0, 0.0171, 2.4e-8, P.bearing_p, zeros(shaft_expansion.N_EXPANSION)),
+    ),
+    (
+        shaft_expansion.expand_shaft_bearings,
+        (
+            *SHAFT,
+            300.0,
+            0.0171,
+            2.4e-8,
+            P.bearing_p._replace(n=1.2),
+            zeros(shaft_expansion.N_EXPANSION),
+        ),
+    ),
+    (
+        shaft_expansion.expanded_shaft_forces,
+        (3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0, P.bearing_p, EXPANSION),
+    ),
+    (mesh_force.backlash_deflection, (3e-6, 150e-6)),
+    (mesh_force.backlash_deflection, (-3e-6, 150e-6)),
+    (mesh_force.backlash_deflection, (-153e-6, 150e-6)),
+    (mesh_force.reference_frequency, (P, 145.0)),
+    (mesh_force.reference_frequency, (P, -1.0)),
+    *(
+        (mesh_force.mesh_force, (state, SERIES, MESH.orders, parameters))
+        for state in (STATE, SEPARATED, COASTING)
+        for parameters in (P, PRINTED)
+    ),
+    (flanks.sliding_speed, (STATE, CHANNELS)),
+    (flanks.pair_friction, (STATE, 900.0, 0.7, CHANNELS, STATE_OF_OIL, P)),
+    *(
+        (
+            flanks.flank_sum,
+            (STATE, FORCE, WINDOW, MESH.nodes, STATE_OF_OIL, P, refresh, FRICTION, CHANNELS),
+        )
+        for refresh in (True, False)
+    ),
+    (rhs.expand_pinion_bearings, (STATE, 300.0, STATE_OF_OIL, P, EXPANSION)),
+    (rhs.expand_gear_bearings, (STATE, 300.0, STATE_OF_OIL, P, EXPANSION)),
+    *(
+        (rhs.axle_rhs, (state, INPUTS, *AT_LOAD, parameters, fresh, fresh, SCRATCH, SLOPE))
+        for state in (STATE, SEPARATED, COASTING)
+        for parameters in (P, PRINTED)
+        for fresh in (True, False)
+    ),
+    (integrate.step_limit, (P, CONTROL, 145.0, 5e8)),
+    (integrate.step_limit, (PRINTED, CONTROL, 145.0, 5e8)),
+    *(
+        (
+            integrate.rk4_step,
+            (STATE, 2e-5, first, INPUTS, *AT_LOAD, P, SCRATCH, zeros(N_STATE + 2 * N_ODE)),
+        )
+        for first in (True, False)
+    ),
+    (integrate.step_inputs, (STATE, 60.0, 100.0, STATE_OF_OIL, P)),
+    (integrate.step_inputs, (STATE, 60.0, 100.0, STATE_OF_OIL, P._replace(drag=0.0))),
+    (integrate.blend_mesh, (33.0, *TABLE, zeros(MESH.series_size), zeros(MESH.window_size))),
+    (outputs.stored_energy, (STATE, 5e8, STATE_OF_OIL, P)),
+    (
+        outputs.write_flanks,
+        (STATE, FORCE, WINDOW, MESH.nodes, OIL, STATE_OF_OIL, P, CHANNELS, zeros(N_OUTPUTS)),
+    ),
+    (outputs.write_shaft, (*WRITE_SHAFT, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
+    (outputs.write_losses, (STATE, SLOPE, P, zeros(N_OUTPUTS))),
+]
+FLAT = (flatten(P), flatten(CONTROL), zeros(integrate.work_size(MESH.orders, MESH.nodes)))
+CASES_OF_FLAT_TUPLES = [
+    (integrate.advance, (STATE, 1e-4, TORQUE_P, TORQUE_G, OIL, *TABLE, *FLAT)),
+    (integrate.advance, (STATE, 1e9, TORQUE_P, TORQUE_G, OIL, *TABLE, *FLAT)),
+    (
+        outputs.write_outputs,
+        (
+            STATE, TORQUE_P, TORQUE_G, OIL, *TABLE, FLAT[0], FLAT[2], zeros(ROLLERS_MAX),
+            zeros(N_OUTPUTS),
+        ),
+    ),
+]  # fmt: skip
+
+
+def numbers(value):
+    return np.ravel(flatten(value) if isinstance(value, tuple) else value)
+
+
+def everything(function, args):
+    """What a function returns or writes, as arrays."""
+    own = tuple(a.copy() if isinstance(a, np.ndarray) else a for a in args)
+    returned = function(*own)
+    written = [a for a in own if isinstance(a, np.ndarray)]
+    return written if returned is None else [*written, numbers(returned)]
+
+
+def identifiers(cases):
+    return [f"{kernel.__name__}-{i}" for i, (kernel, _) in enumerate(cases)]
+
+
+# sums over 24 rollers that may be taken in any order: 1e-12 of the largest
+SUMMING = {"_sums_line", "_sums_general", "expand_shaft_bearings"}
+SUMMING |= {"expand_pinion_bearings", "expand_gear_bearings", "expanded_shaft_forces"}
+# the same sums, 24 rollers of 1 kN that cancel to a few 1e-16 each, over a pinion of 12 kg
+ACCELERATING = {"axle_rhs", "rk4_step", "advance", "write_outputs"}
+
+
+def same(kernel, compiled, source):
+    for one, two in zip(compiled, source, strict=True):
+        limit = 0.0
+        if kernel.__name__ in SUMMING:
+            limit = 1e-12 * np.abs(two).max()
+        elif kernel.__name__ in ACCELERATING:
+            limit = 2e-11
+        # rounding: a few operations in another order
+        np.testing.assert_allclose(one, two, rtol=1e-12, atol=limit)
+
+
+@pytest.mark.parametrize(("kernel", "args"), CASES, ids=identifiers(CASES))
+def test_compiled_kernel_equals_its_source(kernel, args):
+    same(kernel, everything(kernel, args), everything(kernel.py_func, args))
+
+
+def as_tuple(array, tuple_class):
+    """Do what `tuple_from_array` does inside a kernel."""
+    floats = iter(array.tolist())
+
+    def build(kind):
+        hints = get_type_hints(kind).values()
+        return kind(*(next(floats) if hint is float else build(hint) for hint in hints))
+
+    return build(tuple_class)
+
+
+@pytest.mark.parametrize(
+    ("kernel", "args"), CASES_OF_FLAT_TUPLES, ids=identifiers(CASES_OF_FLAT_TUPLES)
+)
+def test_compiled_step_and_outputs_equal_their_source(monkeypatch, kernel, args):
+    """The one intrinsic exists in compiled code only; its Python twin stands in."""
+    compiled = everything(kernel, args)
+    for module in (integrate, outputs):
+        monkeypatch.setattr(module, "tuple_from_array", as_tuple)
+    same(kernel, compiled, everything(kernel.py_func, args))
+
+
+def test_no_kernel_of_these_modules_is_left_out():
+    names = [f"{hypoid_axle.__name__}.{m.name}" for m in pkgutil.iter_modules(hypoid_axle.__path__)]
+    names += [kernels.__name__, shaft_expansion.__name__]
+    found = {
+        value
+        for name in names
+        for value in vars(importlib.import_module(name)).values()
+        if isinstance(value, Dispatcher) and value.py_func.__module__ == name
+    }
+    assert found == {kernel for kernel, _ in CASES + CASES_OF_FLAT_TUPLES}
+
+
+def test_the_whole_right_hand_side_is_the_same_interpreted(tmp_path):
+    """Everything interpreted, so that no compiled callee hides a difference."""
+    args = (STATE, INPUTS, *AT_LOAD, P, True, True, zeros(rhs.SCRATCH), zeros(N_ODE))
+    (tmp_path / "args").write_bytes(pickle.dumps(args))
+    code = (
+        "import pickle, sys\n"
+        "from pathlib import Path\n"
+        "from gearlube_core.dynamics.hypoid_axle.rhs import axle_rhs\n"
+        "folder = Path(sys.argv[1])\n"
+        "args = pickle.loads((folder / 'args').read_bytes())\n"
+        "axle_rhs(*args)\n"
+        "(folder / 'slope').write_bytes(args[-1].tobytes())\n"
+    )
+    command = [sys.executable, "-c", code, str(tmp_path)]
+    subprocess.run(command, env=dict(environ, NUMBA_DISABLE_JIT="1"), check=True, timeout=60)
+    interpreted = np.frombuffer((tmp_path / "slope").read_bytes())
+    rhs.axle_rhs(*args)
+    # as for the kernels one by one
+    np.testing.assert_allclose(args[-1], interpreted, rtol=1e-12, atol=2e-11)
