@@ -60,7 +60,7 @@ def lower_to_object(entry: Callable[..., Any], signature: Any, name: str) -> tup
     tuple of (bytes, set of str)
         ELF object for x86-64 Linux; undefined symbols, libm's included.
     """
-    compiled = cfunc(signature, error_model="numpy")(entry)
+    compiled: Any = cfunc(signature, error_model="numpy")(entry)
     module = llvm.parse_assembly(str(compiled._library._final_module))
     for function in module.functions:
         if function.is_declaration:

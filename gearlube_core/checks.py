@@ -20,7 +20,9 @@ def check_finite(name: str, value: float, unit: str = "", cure: str = "") -> flo
         message = f"{name} must be a number in {unit or '1'}, got {value!r}."
         raise ParameterError(f"{message} {cure}".strip()) from None
     if not math.isfinite(number):
-        raise ParameterError(f"{name} must be finite, got {_quantity(number, unit)}. {cure}".strip())
+        raise ParameterError(
+            f"{name} must be finite, got {_quantity(number, unit)}. {cure}".strip()
+        )
     return number
 
 

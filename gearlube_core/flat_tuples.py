@@ -45,8 +45,7 @@ def _tuple_type(tuple_class: type) -> Type:
     return types.BaseTuple.from_types(parts, tuple_class)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def tuple_from_array(typingctx: Any, array: Type, tuple_class: Type) -> Any:
+def _tuple_from_array(typingctx: Any, array: Any, tuple_class: Any) -> Any:
     """Return the NamedTuple `tuple_class` built from the first floats of a contiguous array."""
     result = _tuple_type(tuple_class.instance_class)
 
@@ -54,7 +53,7 @@ def tuple_from_array(typingctx: Any, array: Type, tuple_class: Type) -> Any:
         data = arrayobj.make_array(array)(context, builder, arguments[0]).data
         position = 0
 
-        def build(part: Type) -> Any:
+        def build(part: Any) -> Any:
             nonlocal position
             values = []
             for kind in part.types:
@@ -68,3 +67,6 @@ def tuple_from_array(typingctx: Any, array: Type, tuple_class: Type) -> Any:
         return build(result)
 
     return result(array, tuple_class), generate
+
+
+tuple_from_array: Any = intrinsic(_tuple_from_array)

@@ -90,7 +90,7 @@ def flank_sum(
     n_nodes: int,
     oil: LubricantState,
     p: AxleParameters,
-    refresh: bool,
+    refresh: float,
     friction: NDArray[float64],
     channels: NDArray[float64],
 ) -> FlankSum:
@@ -106,9 +106,9 @@ def flank_sum(
     n_nodes : int
     oil : LubricantState
     p : AxleParameters
-    refresh : bool
-        Evaluate film and traction anew; else keep the coefficients in `friction`, with the loads,
-        arms and directions of this state.
+    refresh : float
+        Not 0: evaluate film and traction anew; else keep the coefficients in `friction`, with
+        the loads, arms and directions of this state.
     friction : ndarray of shape (2 PAIRS,)
         Viscous and boundary friction over load of each pair [-].
     channels : ndarray of shape (N_CHANNELS,)
@@ -132,7 +132,7 @@ def flank_sum(
             load = abs(force) * channels[SHARE]
             if load > 0.0:
                 sliding = sliding_speed(s, channels)
-                if refresh:
+                if refresh != 0.0:
                     flank = pair_friction(s, load, sliding, channels, oil, p)
                     friction[2 * pair] = flank.viscous_friction / load
                     friction[2 * pair + 1] = flank.boundary_friction / load
@@ -148,7 +148,7 @@ def flank_sum(
                 f_z -= f * channels[XI_Z]
                 viscous += f_v * abs(sliding)
                 boundary += f_b * abs(sliding)
-            elif refresh:
+            elif refresh != 0.0:
                 friction[2 * pair] = 0.0
                 friction[2 * pair + 1] = 0.0
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary)

@@ -73,7 +73,7 @@ def step_limit(
 def rk4_step(
     s: NDArray[float64],
     h: float,
-    first: bool,
+    first: float,
     inputs: StepInputs,
     series: NDArray[float64],
     n_orders: int,
@@ -105,15 +105,15 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, True, True, scratch, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, 1.0, 1.0, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, False, False, scratch, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, 0.0, 0.0, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, True, False, scratch, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, 1.0, 0.0, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
@@ -206,8 +206,8 @@ def advance(
     The load level of the mesh table is that at the start of the communication step; it follows the
     pinion torque with LOAD_FILTER_TIME.
     """
-    p = tuple_from_array(parameters, AxleParameters)
-    control = tuple_from_array(control_values, StepControl)
+    p: AxleParameters = tuple_from_array(parameters, AxleParameters)
+    control: StepControl = tuple_from_array(control_values, StepControl)
     at_scratch = N_STATE + 2 * N_ODE
     at_series = at_scratch + SCRATCH
     at_window = at_series + N_SERIES * (2 * n_orders + 1)
@@ -227,7 +227,20 @@ def advance(
     s[TIME_IN_STEP] = duration
     for k in range(steps):
         inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
-        rk4_step(s, h, k == 0, inputs, blended, n_orders, window, n_nodes, oil, p, scratch, stages)
+        rk4_step(
+            s,
+            h,
+            1.0 if k == 0 else 0.0,
+            inputs,
+            blended,
+            n_orders,
+            window,
+            n_nodes,
+            oil,
+            p,
+            scratch,
+            stages,
+        )
     total = 0.0
     for i in range(N_ODE):
         total += abs(s[i])

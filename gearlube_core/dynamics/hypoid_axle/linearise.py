@@ -62,7 +62,7 @@ class LinearAxle:
         upper = np.hstack([np.zeros((n, n)), np.eye(n)])
         stiffness = self.stiffness + self.circulatory
         lower = np.hstack([-inverse @ stiffness, -inverse @ self.damping])
-        return np.linalg.eigvals(np.vstack([upper, lower]))
+        return np.linalg.eigvals(np.vstack([upper, lower])).astype(np.complex128)
 
 
 def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> LinearAxle:
@@ -111,8 +111,8 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
             mesh.nodes,
             oil,
             p,
-            True,
-            True,
+            1.0,
+            1.0,
             scratch,
             slope,
         )

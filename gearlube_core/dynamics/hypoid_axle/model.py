@@ -226,8 +226,8 @@ class HypoidAxle:
             mesh.nodes,
             oil,
             p,
-            True,
-            True,
+            1.0,
+            1.0,
             scratch,
             slope,
         )
@@ -295,8 +295,8 @@ class HypoidAxle:
                 mesh.nodes,
                 oil,
                 p,
-                True,
-                True,
+                1.0,
+                1.0,
                 scratch,
                 slope,
             )

@@ -273,7 +273,7 @@ def write_outputs(
 
     Arguments as in `integrate.advance`; `rollers` is work space of shape (ROLLERS_MAX,).
     """
-    p = tuple_from_array(parameters, AxleParameters)
+    p: AxleParameters = tuple_from_array(parameters, AxleParameters)
     at_series = N_ODE + SCRATCH
     at_window = at_series + N_SERIES * (2 * n_orders + 1)
     rates = work[0:N_ODE]
@@ -283,7 +283,7 @@ def write_outputs(
     oil = lubricant_state(p.oil, oil_temperature)
     blend_mesh(s[LOAD_TORQUE], levels, series, n_orders, windows, n_nodes, blended, window)
     inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
-    axle_rhs(s, inputs, blended, n_orders, window, n_nodes, oil, p, True, True, scratch, rates)
+    axle_rhs(s, inputs, blended, n_orders, window, n_nodes, oil, p, 1.0, 1.0, scratch, rates)
     mesh = mesh_force(s, blended, n_orders, p)
     x = s[X] / MICRO
     out[0] = s[PHI_P]

@@ -118,8 +118,8 @@ def axle_rhs(
     n_nodes: int,
     oil: LubricantState,
     p: AxleParameters,
-    tractions: bool,
-    bearings: bool,
+    tractions: float,
+    bearings: float,
     scratch: NDArray[float64],
     ds: NDArray[float64],
 ) -> float:
@@ -136,10 +136,11 @@ def axle_rhs(
         The mesh table at the present load, see `mesh_table.kernels`.
     oil : LubricantState
     p : AxleParameters
-    tractions, bearings : bool
-        Evaluate films and tractions, expand the bearing forces about this state: with both, the
-        right-hand side is exact. Otherwise friction coefficients are kept from the last time, and
-        bearing forces are linear about the state of then.
+    tractions, bearings : float
+        Not 0: evaluate films and tractions, expand the bearing forces about this state; with both,
+        the right-hand side is exact. At 0 friction coefficients are kept from the last time, and
+        bearing forces are linear about the state of then. (Floats, because numba would compile
+        the kernel anew for each literal integer.)
     scratch : ndarray of shape (SCRATCH,)
         What is kept between calls, and work space.
 
@@ -172,7 +173,7 @@ def axle_rhs(
 
     expansion_p = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
     expansion_g = scratch[AT_EXPANSION + N_EXPANSION : SCRATCH]
-    if bearings:
+    if bearings != 0.0:
         expand_pinion_bearings(s, f_ref, oil, p, expansion_p)
         expand_gear_bearings(s, f_ref, oil, p, expansion_g)
     # pinion shaft along x: r1 = z, r2 = y turns with the pinion, which drives about -x
