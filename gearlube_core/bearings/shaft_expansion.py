@@ -30,8 +30,11 @@ from gearlube_core.jit import kernel
 
 # layout of an expansion: base approaches and rates (g1, g2, ga, v1, v2, va), sums of the load
 # (w cos b, w sin b, +-w), lost power, symmetric 3 x 3 slopes against approach and against rate
-BASE, SUMS, LOST, STIFFNESS, DAMPING = 0, 6, 9, 10, 16
-N_EXPANSION = 22
+# and cage angle with its cosine and sine
+BASE, SUMS, LOST, STIFFNESS, DAMPING, CAGE = 0, 6, 9, 10, 16, 22
+N_EXPANSION = 25
+
+_1_6, _1_24, _1_120 = 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0
 
 _Sums = tuple[
     float, float, float, float,
@@ -119,7 +122,7 @@ def _sums_general(
     e: NDArray[float64],
 ) -> None:
     """Write the sums of `_sums_line` for any exponent n into the expansion `e`."""
-    for i in range(SUMS, N_EXPANSION):
+    for i in range(SUMS, CAGE):
         e[i] = 0.0
     for i in range(count):
         cos_b = COS_TABLE[count, i]
@@ -170,18 +173,14 @@ def expand_shaft_bearings(
     """
     count = int(p.n_rollers)
     film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)
+    cos_c = math.cos(cage_angle)
+    sin_c = math.sin(cage_angle)
     g0, g1, g2, ga, v1, v2, va = approach_terms(
-        r1,
-        r2,
-        xa,
-        vr1,
-        vr2,
-        vxa,
-        math.cos(cage_angle),
-        math.sin(cage_angle),
-        p.cage_ratio * shaft_speed,
-        p,
+        r1, r2, xa, vr1, vr2, vxa, cos_c, sin_c, p.cage_ratio * shaft_speed, p
     )
+    e[CAGE] = cage_angle
+    e[CAGE + 1] = cos_c
+    e[CAGE + 2] = sin_c
     e[0] = g1
     e[1] = g2
     e[2] = ga
@@ -193,7 +192,7 @@ def expand_shaft_bearings(
     w_min = 0.0 if p.clip != 0.0 else -math.inf
     if p.n == N_LINE:
         sums = _sums_line(count, g0, g1, g2, ga, v1, v2, va, film, squeeze_scale, K, c, w_min)
-        for i in range(N_EXPANSION - SUMS):
+        for i in range(CAGE - SUMS):
             e[SUMS + i] = sums[i]
     else:
         _sums_general(count, g0, g1, g2, ga, v1, v2, va, film, squeeze_scale, K, c, w_min, p.n, e)
@@ -227,15 +226,19 @@ def expanded_shaft_forces(
     Returns
     -------
     tuple of float
-        F_r1, F_r2, F_a [N]; power lost in the rollers, to first order [W].
+        F_r1, F_r2, F_a [N]; power lost in the rollers at the damping of the expansion [W].
 
     Notes
     -----
-    The turning of the cage is followed exactly; the film of the expansion is kept. The error is
-    (n - 1)/2 (change of approach / approach)^2 of a roller's load, 6e-6 for one per cent.
+    The turning of the cage is followed to 1e-12 within 0.02 rad, by series; the film of the
+    expansion is kept. The error is (n - 1)/2 (change of approach / approach)^2 of a roller's load,
+    6e-6 for one per cent, and n - 1 times that change of the lost power.
     """
-    cos_c = math.cos(cage_angle)
-    sin_c = math.sin(cage_angle)
+    turn = cage_angle - e[CAGE]
+    cos_t = 1.0 - turn * turn * (0.5 - turn * turn * _1_24)
+    sin_t = turn * (1.0 - turn * turn * (_1_6 - turn * turn * _1_120))
+    cos_c = e[CAGE + 1] * cos_t - e[CAGE + 2] * sin_t
+    sin_c = e[CAGE + 2] * cos_t + e[CAGE + 1] * sin_t
     _, g1, g2, ga, v1, v2, va = approach_terms(
         r1, r2, xa, vr1, vr2, vxa, cos_c, sin_c, p.cage_ratio * shaft_speed, p
     )

@@ -121,7 +121,11 @@ class HypoidBlank:
     @classmethod
     def from_toml(cls, path: str | Path) -> HypoidBlank:
         """Read a blank from a TOML file with the fields of blank/mohammadpour_2015.toml."""
-        return cls._from_dict(tomllib.loads(Path(path).read_text(encoding="utf-8")))
+        try:
+            data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        except (OSError, tomllib.TOMLDecodeError) as reason:
+            raise ParameterError(f"{path} is not a readable TOML file: {reason}.") from None
+        return cls._from_dict(data)
 
     @classmethod
     def _from_dict(cls, data: dict[str, Any]) -> HypoidBlank:
@@ -149,6 +153,8 @@ class HypoidBlank:
                 name=data["name"],
                 source=data["source"],
             )
+        except TypeError as reason:
+            raise ParameterError(f"The blank file has a text for a number: {reason}.") from None
         except KeyError as missing:
             raise ParameterError(
                 f"The blank file lacks the field {missing}. "

@@ -14,6 +14,9 @@ from gearlube_core.jit import kernel
 K_M, R_P, R_G, N_X, N_Y, N_Z, E = range(7)
 N_SERIES = 7
 
+_THIRD = 1.0 / 3.0
+_WINDOWS_PER_RADIAN = _THIRD / (2.0 * math.pi)
+
 
 class LoadBracket(NamedTuple):
     """Two neighbouring load levels and the weight of the upper one."""
@@ -122,8 +125,7 @@ def pair_channels(
     between nodes, so that shares that sum to 1 at the nodes do so everywhere. The first channel is
     the share; the others are left alone where it is zero.
     """
-    periods = z_p * phi / (2.0 * math.pi) + pair
-    position = periods / 3.0
+    position = z_p * phi * _WINDOWS_PER_RADIAN + pair * _THIRD
     position = (position - math.floor(position)) * n_nodes
     node = int(position)
     if node >= n_nodes:

@@ -18,6 +18,7 @@ from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.dynamics import hypoid_axle
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
+    communication,
     flanks,
     integrate,
     mesh_force,
@@ -64,7 +65,7 @@ kernels.pair_channels(WINDOW, MESH.nodes, P.z_p, STATE[PHI_P], 0, N_CHANNELS, CH
 CONTROL = AXLE.step_control
 SCRATCH = np.zeros(rhs.SCRATCH)
 SLOPE = np.zeros(N_ODE)
-rhs.axle_rhs(STATE, INPUTS, *AT_LOAD, P, True, True, SCRATCH, SLOPE)
+rhs.axle_rhs(STATE, INPUTS, *AT_LOAD, P, 1.0, 1.0, SCRATCH, SLOPE)
 SHAFT = (3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
 LOOP = (12, 10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0, 0.7, 3e-5, 40.0, 3e-5, 0.0)
 EXPANSION = np.zeros(shaft_expansion.N_EXPANSION)
@@ -125,7 +126,7 @@ CASES = [
             flanks.flank_sum,
             (STATE, FORCE, WINDOW, MESH.nodes, STATE_OF_OIL, P, refresh, FRICTION, CHANNELS),
         )
-        for refresh in (True, False)
+        for refresh in (1.0, 0.0)
     ),
     (rhs.expand_pinion_bearings, (STATE, 300.0, STATE_OF_OIL, P, EXPANSION)),
     (rhs.expand_gear_bearings, (STATE, 300.0, STATE_OF_OIL, P, EXPANSION)),
@@ -133,16 +134,17 @@ CASES = [
         (rhs.axle_rhs, (state, INPUTS, *AT_LOAD, parameters, fresh, fresh, SCRATCH, SLOPE))
         for state in (STATE, SEPARATED, COASTING)
         for parameters in (P, PRINTED)
-        for fresh in (True, False)
+        for fresh in (1.0, 0.0)
     ),
     (integrate.step_limit, (P, CONTROL, 145.0, 5e8)),
     (integrate.step_limit, (PRINTED, CONTROL, 145.0, 5e8)),
     *(
         (
             integrate.rk4_step,
-            (STATE, 2e-5, first, INPUTS, *AT_LOAD, P, SCRATCH, zeros(N_STATE + 2 * N_ODE)),
+            (STATE, 2e-5, first, expand, INPUTS, *AT_LOAD, P, SCRATCH, zeros(N_STATE + 2 * N_ODE)),
         )
-        for first in (True, False)
+        for first in (1.0, 0.0)
+        for expand in (1.0, 0.0)
     ),
     (integrate.step_inputs, (STATE, 60.0, 100.0, STATE_OF_OIL, P)),
     (integrate.step_inputs, (STATE, 60.0, 100.0, STATE_OF_OIL, P._replace(drag=0.0))),
@@ -159,6 +161,13 @@ FLAT = (flatten(P), flatten(CONTROL), zeros(integrate.work_size(MESH.orders, MES
 CASES_OF_FLAT_TUPLES = [
     (integrate.advance, (STATE, 1e-4, TORQUE_P, TORQUE_G, OIL, *TABLE, *FLAT)),
     (integrate.advance, (STATE, 1e9, TORQUE_P, TORQUE_G, OIL, *TABLE, *FLAT)),
+    (
+        communication.communication_step,
+        (
+            STATE, zeros(N_STATE), 1e-4, TORQUE_P, TORQUE_G, OIL, *TABLE, *FLAT, zeros(ROLLERS_MAX),
+            zeros(N_OUTPUTS),
+        ),
+    ),
     (
         outputs.write_outputs,
         (
@@ -190,6 +199,7 @@ SUMMING = {"_sums_line", "_sums_general", "expand_shaft_bearings"}
 SUMMING |= {"expand_pinion_bearings", "expand_gear_bearings", "expanded_shaft_forces"}
 # the same sums, 24 rollers of 1 kN that cancel to a few 1e-16 each, over a pinion of 12 kg
 ACCELERATING = {"axle_rhs", "rk4_step", "advance", "write_outputs"}
+ACCELERATING |= {"communication_step"}
 
 
 def same(kernel, compiled, source):
@@ -244,7 +254,7 @@ def test_no_kernel_of_these_modules_is_left_out():
 
 def test_the_whole_right_hand_side_is_the_same_interpreted(tmp_path):
     """Everything interpreted, so that no compiled callee hides a difference."""
-    args = (STATE, INPUTS, *AT_LOAD, P, True, True, zeros(rhs.SCRATCH), zeros(N_ODE))
+    args = (STATE, INPUTS, *AT_LOAD, P, 1.0, 1.0, zeros(rhs.SCRATCH), zeros(N_ODE))
     (tmp_path / "args").write_bytes(pickle.dumps(args))
     code = (
         "import pickle, sys\n"

@@ -34,6 +34,7 @@ NOT_FINITE = 1
 TOO_MANY_STEPS = 2
 
 MAX_STEPS = 1_000_000  # in one communication interval
+STEPS_PER_EXPANSION = 2  # integrator steps that share an expansion of the bearing forces
 LOAD_FILTER_TIME = 0.02  # s, load level follows the torque below the driveline's shuffle
 REAL_AXIS_LIMIT = 2.0  # RK4 is stable to 2.78 on the negative real axis
 DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
@@ -74,6 +75,7 @@ def rk4_step(
     s: NDArray[float64],
     h: float,
     first: float,
+    expand: float,
     inputs: StepInputs,
     series: NDArray[float64],
     n_orders: int,
@@ -86,8 +88,8 @@ def rk4_step(
 ) -> None:
     """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
 
-    The bearing forces are expanded at the first middle stage, which serves the other stages within
-    half a step of it, the first of the next step included. Tractions are evaluated at the first
+    With `expand`, the bearing forces are expanded at the first middle stage, which serves the
+    stages until the next such step. Tractions are evaluated at the first
     middle and the last stage; the stages after these keep them, which lie within O(h^2) of them.
     Everything else is evaluated at every stage. `first` refreshes the first stage too.
 
@@ -105,7 +107,7 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, 1.0, 1.0, scratch, slope)
+    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, 1.0, expand, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
@@ -231,6 +233,7 @@ def advance(
             s,
             h,
             1.0 if k == 0 else 0.0,
+            1.0 if k % STEPS_PER_EXPANSION == 0 else 0.0,
             inputs,
             blended,
             n_orders,

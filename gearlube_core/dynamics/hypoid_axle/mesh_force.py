@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import (
-    MICRO,
     PHI_P,
     U_G,
     U_P,
+    UM,
     V_G,
     V_P,
     W_G,
@@ -92,9 +92,9 @@ def mesh_force(
     """
     m: MeshSeries = mesh_series(series, n_orders, p.z_p, s[PHI_P])
     w_p = s[W_P]
-    d_x = (s[U_P] - s[U_G]) / MICRO
-    d_y = (s[U_P + 1] - s[U_G + 1]) / MICRO
-    d_z = (s[U_P + 2] - s[U_G + 2]) / MICRO
+    d_x = (s[U_P] - s[U_G]) * UM
+    d_y = (s[U_P + 1] - s[U_G + 1]) * UM
+    d_z = (s[U_P + 2] - s[U_G + 2]) * UM
     turning = m.dn_x * d_x + m.dn_y * d_y + m.dn_z * d_z
     arm_p = m.R_p - m.de + turning
     approach = (
@@ -103,7 +103,7 @@ def mesh_force(
         + m.n_z * (s[V_P + 2] - s[V_G + 2])
     )
     x_rate = arm_p * w_p - m.R_g * s[W_G] + approach
-    f = backlash_deflection(s[X] / MICRO, p.backlash)
+    f = backlash_deflection(s[X] * UM, p.backlash)
     elastic = m.k_m * f
     c = p.modal_damping
     if c == 0.0:

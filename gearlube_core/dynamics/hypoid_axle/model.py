@@ -8,12 +8,12 @@ from scipy.optimize import root
 
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.checks import check_finite, check_within
+from gearlube_core.dynamics.hypoid_axle.communication import communication_step
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     NOT_FINITE,
     OK,
     TOO_MANY_STEPS,
     StepControl,
-    advance,
     blend_mesh,
     step_inputs,
     work_size,
@@ -45,7 +45,8 @@ from gearlube_core.rheology.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
 
-MAX_TORQUE = 1e4  # N.m, pinion; wheel three times that: far beyond any car axle
+MAX_TORQUE = 1e4  # N.m at the pinion: far beyond any car axle
+MAX_WHEEL_TORQUE = 3e4  # N.m
 MAX_SPEED = 5e3  # rad/s
 MAX_STEP = 0.1  # s, communication step
 _MESSAGES = {
@@ -82,6 +83,9 @@ class HypoidAxle:
             parameters.mesh, contact_modulus(parameters.solid, parameters.solid), parameters.radii
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
+        self._oil_range = parameters.oil.temperature_low, parameters.oil.temperature_high
+        mesh = self.packed
+        self._mesh_arrays = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
         self._flat_parameters = flatten(self.kernel_parameters)
         self._state = np.zeros(N_STATE)
         self._trial = np.zeros(N_STATE)
@@ -133,13 +137,18 @@ class HypoidAxle:
         """
         check_within("pinion_speed", pinion_speed, -MAX_SPEED, MAX_SPEED, "rad/s")
         self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
+        before = self.get_state()
         s = self._state
         s[:] = 0.0
         s[W_P] = pinion_speed
         s[W_G] = pinion_speed / self.parameters.mesh.ratio
         s[LOAD_TORQUE] = abs(pinion_torque)
         self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
-        self._settle(pinion_torque, oil_temperature)
+        try:
+            self._settle(pinion_torque, oil_temperature)
+        except ConvergenceError:
+            self._take(before)
+            raise
         self._control_values[:] = self._step_control(pinion_torque, oil_temperature)
         self._write_outputs()
 
@@ -155,36 +164,33 @@ class HypoidAxle:
         StepError
             When the step cannot be made; the axle is then as before the step.
         """
-        check_finite("step size", h, "s")
         if not 0.0 < h <= MAX_STEP:
+            check_finite("step size", h, "s")
             raise StepError(
                 f"step size must be above 0 and at most {MAX_STEP:g} s, got {h:g} s. "
                 "A communication step of about 1e-4 s resolves the bearing modes."
             )
         self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
-        mesh = self.packed
-        trial = self._trial
-        trial[:] = self._state
-        status = advance(
-            trial,
+        status = communication_step(
+            self._state,
+            self._trial,
             h,
             pinion_torque,
             wheel_torque,
             oil_temperature,
-            mesh.levels,
-            mesh.series,
-            mesh.orders,
-            mesh.windows,
-            mesh.nodes,
+            *self._mesh_arrays,
             self._flat_parameters,
             self._control_values,
             self._work,
+            self._rollers,
+            self._outputs,
         )
         if status != OK:
             raise StepError(f"step of {h:g} s refused: {_MESSAGES[status]}.")
-        self._state[:] = trial
-        self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
-        self._write_outputs()
+        inputs = self._inputs
+        inputs[0] = pinion_torque
+        inputs[1] = wheel_torque
+        inputs[2] = oil_temperature
 
     def derivative(self, state: Array) -> Array:
         """Return d/dt of the N_ODE integrated states, for any other integrator.
@@ -252,15 +258,31 @@ class HypoidAxle:
                 f"an axle state has {size} finite numbers, got shape {values.shape}. "
                 "Use an array from get_state of the same release."
             )
+        control = StepControl(*values[N_STATE + 3 :].tolist())
+        if min(control[:4]) <= 0.0:
+            raise StepError(
+                f"an axle state must have step control values above 0, got {control}. "
+                "Use an array from get_state after initialise."
+            )
+        self._take(values)
+        self._write_outputs()
+
+    def _take(self, values: Array) -> None:
         self._state[:] = values[:N_STATE]
         self._inputs[:] = values[N_STATE : N_STATE + 3]
         self._control_values[:] = values[N_STATE + 3 :]
-        self._write_outputs()
 
     def _check_inputs(self, pinion_torque: float, wheel_torque: float, oil: float) -> None:
+        low, high = self._oil_range
+        if (
+            abs(pinion_torque) <= MAX_TORQUE
+            and abs(wheel_torque) <= MAX_WHEEL_TORQUE
+            and low <= oil <= high
+        ):
+            return  # the usual case, thousands of times a second
         limit = MAX_TORQUE
         check_within("pinion.torque", pinion_torque, -limit, limit, "N.m", "Check the unit.")
-        limit *= 3.0
+        limit = MAX_WHEEL_TORQUE
         check_within("wheel.torque", wheel_torque, -limit, limit, "N.m", "Check the unit.")
         self.parameters.oil.check_temperature(oil, "oil.temperature")
 
@@ -337,18 +359,13 @@ class HypoidAxle:
         )
 
     def _write_outputs(self) -> None:
-        mesh = self.packed
-        torque_p, torque_g, oil_temperature = self._inputs
+        pinion_torque, wheel_torque, oil_temperature = self._inputs.tolist()
         write_outputs(
             self._state,
-            torque_p,
-            torque_g,
+            pinion_torque,
+            wheel_torque,
             oil_temperature,
-            mesh.levels,
-            mesh.series,
-            mesh.orders,
-            mesh.windows,
-            mesh.nodes,
+            *self._mesh_arrays,
             self._flat_parameters,
             self._work,
             self._rollers,

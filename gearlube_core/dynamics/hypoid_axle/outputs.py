@@ -39,7 +39,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     CAGE_P,
     LOAD_TORQUE,
     MESH_DAMPING,
-    MICRO,
     N_ODE,
     PHI_G,
     PHI_P,
@@ -47,6 +46,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     TIME_IN_STEP,
     U_G,
     U_P,
+    UM,
     V_G,
     V_P,
     VISCOUS,
@@ -76,12 +76,12 @@ def stored_energy(
     kinetic = p.I_p * s[W_P] * s[W_P] + p.I_g * s[W_G] * s[W_G]
     for i in range(3):
         kinetic += p.m_p * s[V_P + i] * s[V_P + i] + p.m_g * s[V_G + i] * s[V_G + i]
-    f = backlash_deflection(s[X] / MICRO, p.backlash)
+    f = backlash_deflection(s[X] * UM, p.backlash)
     elastic = 0.5 * mesh_stiffness * f * f
     elastic += shaft_bearing_energy(
-        s[U_P + 2] / MICRO,
-        s[U_P + 1] / MICRO,
-        s[U_P] / MICRO,
+        s[U_P + 2] * UM,
+        s[U_P + 1] * UM,
+        s[U_P] * UM,
         s[CAGE_P],
         s[W_P],
         oil.eta0,
@@ -89,9 +89,9 @@ def stored_energy(
         p.bearing_p,
     )
     elastic += shaft_bearing_energy(
-        s[U_G] / MICRO,
-        s[U_G + 1] / MICRO,
-        s[U_G + 2] / MICRO,
+        s[U_G] * UM,
+        s[U_G + 1] * UM,
+        s[U_G + 2] * UM,
         s[CAGE_G],
         s[W_G],
         oil.eta0,
@@ -285,7 +285,7 @@ def write_outputs(
     inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
     axle_rhs(s, inputs, blended, n_orders, window, n_nodes, oil, p, 1.0, 1.0, scratch, rates)
     mesh = mesh_force(s, blended, n_orders, p)
-    x = s[X] / MICRO
+    x = s[X] * UM
     out[0] = s[PHI_P]
     out[1] = s[PHI_G]
     out[2] = s[W_P]
@@ -301,13 +301,13 @@ def write_outputs(
     write_flanks(s, mesh.force, window, n_nodes, oil_temperature, oil, p, channels, out)
     write_losses(s, rates, p, out)
     for i in range(3):
-        out[DISPLACEMENTS_AT + i] = s[U_P + i] / MICRO
-        out[DISPLACEMENTS_AT + 3 + i] = s[U_G + i] / MICRO
+        out[DISPLACEMENTS_AT + i] = s[U_P + i] * UM
+        out[DISPLACEMENTS_AT + 3 + i] = s[U_G + i] * UM
     f_ref = reference_frequency(p, s[W_P])
     out[ROLLER_AT] = write_shaft(
-        s[U_P + 2] / MICRO,
-        s[U_P + 1] / MICRO,
-        s[U_P] / MICRO,
+        s[U_P + 2] * UM,
+        s[U_P + 1] * UM,
+        s[U_P] * UM,
         s[V_P + 2],
         s[V_P + 1],
         s[V_P],
@@ -324,9 +324,9 @@ def write_outputs(
         out,
     )
     write_shaft(
-        s[U_G] / MICRO,
-        s[U_G + 1] / MICRO,
-        s[U_G + 2] / MICRO,
+        s[U_G] * UM,
+        s[U_G + 1] * UM,
+        s[U_G + 2] * UM,
         s[V_G],
         s[V_G + 1],
         s[V_G + 2],

@@ -29,6 +29,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PINION_WORK,
     U_G,
     U_P,
+    UM,
     V_G,
     V_P,
     VISCOUS,
@@ -66,9 +67,9 @@ def expand_pinion_bearings(
 ) -> None:
     """Write the expansion of the pinion's bearing forces about state `s`."""
     expand_shaft_bearings(
-        s[U_P + 2] / MICRO,
-        s[U_P + 1] / MICRO,
-        s[U_P] / MICRO,
+        s[U_P + 2] * UM,
+        s[U_P + 1] * UM,
+        s[U_P] * UM,
         s[V_P + 2],
         s[V_P + 1],
         s[V_P],
@@ -92,9 +93,9 @@ def expand_gear_bearings(
 ) -> None:
     """Write the expansion of the gear's bearing forces about state `s`."""
     expand_shaft_bearings(
-        s[U_G] / MICRO,
-        s[U_G + 1] / MICRO,
-        s[U_G + 2] / MICRO,
+        s[U_G] * UM,
+        s[U_G + 1] * UM,
+        s[U_G + 2] * UM,
         s[V_G],
         s[V_G + 1],
         s[V_G + 2],
@@ -178,9 +179,9 @@ def axle_rhs(
         expand_gear_bearings(s, f_ref, oil, p, expansion_g)
     # pinion shaft along x: r1 = z, r2 = y turns with the pinion, which drives about -x
     p_z, p_y, p_x, lost_p = expanded_shaft_forces(
-        s[U_P + 2] / MICRO,
-        s[U_P + 1] / MICRO,
-        s[U_P] / MICRO,
+        s[U_P + 2] * UM,
+        s[U_P + 1] * UM,
+        s[U_P] * UM,
         s[V_P + 2],
         s[V_P + 1],
         s[V_P],
@@ -190,9 +191,9 @@ def axle_rhs(
         expansion_p,
     )
     g_x, g_y, g_z, lost_g = expanded_shaft_forces(
-        s[U_G] / MICRO,
-        s[U_G + 1] / MICRO,
-        s[U_G + 2] / MICRO,
+        s[U_G] * UM,
+        s[U_G + 1] * UM,
+        s[U_G + 2] * UM,
         s[V_G],
         s[V_G + 1],
         s[V_G + 2],
@@ -202,8 +203,8 @@ def axle_rhs(
         expansion_g,
     )
     shared = p.consistent
-    cage_p = cage_torque(s[U_P + 2] / MICRO, s[U_P + 1] / MICRO, p_z, p_y)
-    cage_g = cage_torque(s[U_G] / MICRO, s[U_G + 1] / MICRO, g_x, g_y)
+    cage_p = cage_torque(s[U_P + 2] * UM, s[U_P + 1] * UM, p_z, p_y)
+    cage_g = cage_torque(s[U_G] * UM, s[U_G + 1] * UM, g_x, g_y)
     on_shaft_p = shared * p.bearing_p.cage_ratio * cage_p - inputs.drag_p
     on_shaft_g = shared * p.bearing_g.cage_ratio * cage_g - inputs.drag_g
 

@@ -7,6 +7,7 @@ size then stands beside the speeds, which relative tolerances of an adaptive int
 from __future__ import annotations
 
 MICRO = 1.0e6  # um per m
+UM = 1.0e-6  # m per um; multiplied with, since a kernel divides dearly
 
 X = 0  # dynamic transmission error [um]
 W_P, W_G = 1, 2  # speeds of pinion and gear [rad/s]
