@@ -1,0 +1,1 @@
+"""Elastohydrodynamic lubrication: dimensionless groups that films, maps and solvers share."""
