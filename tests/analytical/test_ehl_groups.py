@@ -29,7 +29,7 @@ def test_groups_printed_with_er_and_the_sum_of_speeds_are_the_same_numbers():
     U = math.pi * CASE["viscosity"] * total / (4.0 * E_r * R)
     G = 2.0 / math.pi * E_r * CASE["pressure_viscosity"]
     # the same numbers up to roundings
-    assert (groups.U, groups.G, groups.W) == pytest.approx((U, G, W), rel=1e-14)
+    assert pytest.approx((U, G, W), rel=1e-14) == (groups.U, groups.G, groups.W)
 
 
 def test_film_kernel_is_the_power_law_in_these_groups():
