@@ -1,7 +1,12 @@
-"""Mesh tables on disk: NetCDF with a unit and a provenance on every datum."""
+"""Mesh tables on disk: NetCDF with a unit and a provenance on every datum.
+
+Written as NetCDF 3, which is read in Python alone: the HDF5 library under NetCDF 4 must not be
+entered by two threads, and a co-simulation host may start two axles at once.
+"""
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 from typing import cast
@@ -50,7 +55,7 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
     partial = target.with_suffix(".part")
-    dataset.to_netcdf(partial, engine="netcdf4")
+    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
     os.replace(partial, target)
     return target
 
@@ -58,10 +63,14 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
 def read_mesh_table(path: str | Path) -> MeshTable:
     """Read a table written by `write_mesh_table`; raise TableError when it is none."""
     try:
-        with xr.open_dataset(path, engine="netcdf4") as opened:
-            dataset = opened.load()
-    except (OSError, ValueError) as reason:
-        raise TableError(f"{path} is not a readable NetCDF file: {reason}") from None
+        with Path(path).open("rb") as file:
+            dataset = xr.load_dataset(io.BytesIO(file.read()), engine="scipy")
+    except (OSError, ValueError, TypeError) as reason:
+        why = str(reason).strip().splitlines()[0]
+        raise TableError(
+            f"{path} is not a readable NetCDF 3 file: {why}. Write it with write_mesh_table, or "
+            "from xarray with to_netcdf(path, engine='scipy')."
+        ) from None
     if dataset.attrs.get("gearlube_mesh_table") != FORMAT:
         raise TableError(f"{path} is not a gearlube mesh table of format {FORMAT}.")
     missing = [key for key in ("torque", *SERIES_UNITS, *WINDOW_UNITS) if key not in dataset]
