@@ -98,3 +98,33 @@ def test_save_and_restore_state(benchmark: BenchmarkFixture, slave: Any) -> None
         slave.freeFMUstate(state)
 
     benchmark(there_and_back)
+
+
+@pytest.mark.parametrize("h", [1e-4, 1e-3, 1e-2])
+def test_simulated_time_at_100_km_per_hour(
+    benchmark: BenchmarkFixture, folder: Path, h: float
+) -> None:
+    """Torques in, step, five outputs back: a real loop over 0.1 s; extra_info has the factor."""
+    names = {v.name: v.valueReference for v in read_model_description(str(folder)).modelVariables}
+    slave = instantiated(folder)
+    torques = [names["pinion.torque"], names["wheel.torque"]]
+    motion = [names[n] for n in ("mesh.dte", "pinion.speed", "wheel.speed", "pinion.angle")]
+    values = [66.2, 177.2]  # N.m, road load with all losses
+    slave.setReal([names["pinion.speed_start"], *torques], [240.0, *values])
+    slave.setupExperiment()
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    time = 0.0
+
+    def tenth_of_a_second() -> None:
+        nonlocal time
+        for _ in range(round(0.1 / h)):
+            slave.setReal(torques, values)
+            slave.doStep(time, h)
+            slave.getReal(motion)
+            time += h
+
+    benchmark(tenth_of_a_second)
+    benchmark.extra_info["simulated seconds per second"] = 0.1 / benchmark.stats["median"]
+    slave.terminate()
+    slave.freeInstance()

@@ -183,7 +183,7 @@ def radial_amplitude(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"p-p {range_text(change, '{:+.0f}', 100.0)} %, median {100 * np.median(change):+.0f} %",
         HOLDS if share == 1.0 else (PARTLY if share > 0.5 else FAILS),
-        f"smaller at {100 * share:.0f} % of the speeds; larger next to crossings",
+        f"smaller at {100 * share:.0f} % of the speeds",
     )
 
 
