@@ -30,6 +30,7 @@ logger = logging.getLogger(__name__)
 _MOST_JOBS = 1024
 _POLL = 0.25  # s, time after which Ctrl-C is noticed
 _ATTEMPTS = 3  # local pools, should processes die
+_PRELOAD_CURE = "A preload cannot pull; the paper has 2500 and 6000 N."
 
 
 class SweepInterruptedError(GearLubeError):
@@ -96,7 +97,7 @@ def run_sweep(
     fmu, out = Path(fmu), Path(out)
     settings = settings or SweepSettings()
     speeds = sorted({check_within("speed", v, 1.0, 400.0, "km/h") for v in speeds_kmh})
-    loads = sorted({check_within("preload", p, 1.0, 1e5, "N") for p in preloads})
+    loads = sorted({check_within("preload", p, 1.0, 1e5, "N", _PRELOAD_CURE) for p in preloads})
     if not speeds or not loads:
         raise ParameterError("A sweep needs at least one speed and one preload, got none.")
     if jobs is not None:
