@@ -1,4 +1,4 @@
-"""Forces and roller loads of a single bearing; the axle uses the faster `shaft_forces`."""
+"""Forces and roller loads of a single bearing, exact; time steps use `shaft_expansion`."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from gearlube_core.bearings.cage_frame import approach_terms
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
     FILM_FLOOR_APPROACH,
@@ -18,7 +19,6 @@ from gearlube_core.bearings.roller_contact import (
     roller_load_general,
     roller_load_line,
 )
-from gearlube_core.bearings.shaft_forces import approach_terms
 from gearlube_core.jit import kernel
 
 

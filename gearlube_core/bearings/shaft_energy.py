@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gearlube_core.bearings.cage_frame import approach_terms
 from gearlube_core.bearings.inlining import summing
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
@@ -18,7 +19,6 @@ from gearlube_core.bearings.roller_contact import (
     film_amplitude,
     roller_approach_line,
 )
-from gearlube_core.bearings.shaft_forces import approach_terms
 from gearlube_core.film.mostofi_gohar_1983 import LOAD_EXPONENT
 from gearlube_core.jit import kernel
 

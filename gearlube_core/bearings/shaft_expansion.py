@@ -12,6 +12,7 @@ import math
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.bearings.cage_frame import approach_terms
 from gearlube_core.bearings.inlining import summing
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
@@ -25,7 +26,6 @@ from gearlube_core.bearings.roller_contact import (
     roller_response_general,
     roller_response_line,
 )
-from gearlube_core.bearings.shaft_forces import approach_terms
 from gearlube_core.jit import kernel
 
 # layout of an expansion: base approaches and rates (g1, g2, ga, v1, v2, va), sums of the load

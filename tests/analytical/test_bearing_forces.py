@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from gearlube_core.bearings.cage_frame import cage_torque
 from gearlube_core.bearings.ninth_root import (
     ROOT_MAX,
     ROOT_MIN,
@@ -24,7 +25,7 @@ from gearlube_core.bearings.roller_contact import (
 )
 from gearlube_core.bearings.roller_loads import bearing_forces, roller_loads
 from gearlube_core.bearings.shaft_energy import roller_energy, shaft_bearing_energy
-from gearlube_core.bearings.shaft_forces import cage_torque, shaft_bearing_forces
+from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.film.mostofi_gohar_1983 import central_film
 

@@ -7,12 +7,12 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.bearings.cage_frame import cage_torque
 from gearlube_core.bearings.shaft_expansion import (
     N_EXPANSION,
     expand_shaft_bearings,
     expanded_shaft_forces,
 )
-from gearlube_core.bearings.shaft_forces import cage_torque
 from gearlube_core.dynamics.hypoid_axle.flanks import flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force, reference_frequency

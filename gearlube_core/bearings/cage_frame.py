@@ -1,0 +1,65 @@
+"""Motion of a shaft seen by its rollers, and the moment that the rollers exert on their cage.
+
+Coordinates: (r1, r2, a) right-handed, a along the shaft; u = (r1, r2, xa). Roller i stands at the
+angle cage_angle + 2 pi i/N from r1 towards r2. Positive shaft speed turns r1 towards r2. The
+bearing with side s = +1 is loaded by positive axial displacement, the one with s = -1 unloaded.
+"""
+
+from __future__ import annotations
+
+from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, BearingParameters
+from gearlube_core.jit import kernel
+
+
+@kernel
+def approach_terms(
+    r1: float,
+    r2: float,
+    xa: float,
+    vr1: float,
+    vr2: float,
+    vxa: float,
+    cos_c: float,
+    sin_c: float,
+    cage_speed: float,
+    p: BearingParameters,
+) -> tuple[float, float, float, float, float, float, float]:
+    """Return the approach and its rate as sums over the roller angle b from the cage frame.
+
+    g_i = g0 + s ga + g1 cos b + g2 sin b,  g_i' = s va + v1 cos b + v2 sin b, with b = 2 pi i/N,
+    in units of FILM_FLOOR_APPROACH. The rates contain the turning of the cage.
+    """
+    scale = p.approach_factor / FILM_FLOOR_APPROACH
+    radial = scale * p.cos_contact
+    g1 = radial * (r1 * cos_c + r2 * sin_c)
+    g2 = radial * (r2 * cos_c - r1 * sin_c)
+    v1 = radial * (vr1 * cos_c + vr2 * sin_c) + cage_speed * g2
+    v2 = radial * (vr2 * cos_c - vr1 * sin_c) - cage_speed * g1
+    axial = scale * p.sin_contact
+    return p.interference / FILM_FLOOR_APPROACH, g1, g2, axial * xa, v1, v2, axial * vxa
+
+
+@kernel
+def cage_torque(r1: float, r2: float, F_r1: float, F_r2: float) -> float:
+    """Return the torque that the rollers of a bearing exert on the cage.
+
+    T_c = r1 (-F_r2) - r2 (-F_r1) = -dV/d(cage angle) without hysteresis.
+
+    Parameters
+    ----------
+    r1, r2 : float
+        Radial displacement of the shaft [m].
+    F_r1, F_r2 : float
+        Force of the bearing on the shaft, or the sum over the bearings of a shaft [N].
+
+    Returns
+    -------
+    float
+        T_c [N m], positive in the direction of growing cage angle.
+
+    Notes
+    -----
+    Mohammadpour et al. 2015 turn the cage without a torque. Where the cage angle follows the
+    shaft, adding cage_ratio T_c to the torque on the shaft closes the energy balance exactly.
+    """
+    return r2 * F_r1 - r1 * F_r2
