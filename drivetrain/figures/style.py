@@ -11,14 +11,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 # Okabe and Ito (2008), colours that people with colour vision deficiency tell apart.
-BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK = (
+BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY = (
     "#0072B2",
     "#D55E00",
     "#009E73",
     "#E69F00",
     "#CC79A7",
     "#56B4E9",
-    "#000000",
 )
 SERIES = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 # Earlier series are drawn wider, so that they show behind later ones that coincide.

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from drivetrain.drivers import Driver
 from drivetrain.sweep.channels import LOSSES
-from drivetrain.sweep.recording import Driver, SteppedAxle
+from drivetrain.sweep.recording import SteppedAxle
 from drivetrain.sweep.settings import SweepSettings
 
 LOSS_CHANNELS = (

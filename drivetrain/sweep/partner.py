@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from drivetrain.driveline_parameters import DrivelineParameters
+from drivetrain.drivers import CoupledVehicle, Driver, SpeedHold
 from drivetrain.road_load import mohammadpour_2015_road_load
-from drivetrain.sweep.recording import Driver
 from drivetrain.sweep.settings import SweepSettings
 from gearlube_core.units import kmh_to_ms
 
@@ -32,8 +32,6 @@ def operation(settings: SweepSettings, speed_kmh: float, axle_power_loss: float 
 
     The drivers start in the steady state with an axle that loses `axle_power_loss` [W].
     """
-    from drivetrain.drivers import CoupledVehicle, SpeedHold
-
     speed = kmh_to_ms(speed_kmh)
     road = mohammadpour_2015_road_load()
     driver: CoupledVehicle | SpeedHold

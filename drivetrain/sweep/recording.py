@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from drivetrain.drivers import Driver
 from drivetrain.sweep.settings import SweepSettings
 from gearlube_core.checks import check_positive
 from gearlube_core.errors import StepError
@@ -31,27 +32,6 @@ class SteppedAxle(Protocol):
 
     def read(self) -> NDArray[np.float64]:
         """Return the current channels."""
-
-
-class Driver(Protocol):
-    """Torques that act on the two shafts of the axle."""
-
-    @property
-    def vehicle_speed(self) -> float:
-        """Speed of the vehicle [m/s]."""
-
-    def initial_torques(self) -> tuple[float, float]:
-        """Return the steady torques on pinion and wheel [N.m]."""
-
-    def step(
-        self,
-        h: float,
-        pinion_angle: float,
-        pinion_speed: float,
-        wheel_angle: float,
-        wheel_speed: float,
-    ) -> tuple[float, float]:
-        """Return the torques on pinion and wheel [N.m] for the next step of `h` [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

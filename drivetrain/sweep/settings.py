@@ -6,6 +6,7 @@ import hashlib
 import json
 from dataclasses import asdict, dataclass, fields
 
+from drivetrain.driveline import COMMUNICATION_STEP
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.units import celsius_to_kelvin
 
@@ -72,7 +73,7 @@ class SweepSettings:
     bearing_torque_loss: str = "palmgren"
     steps_per_mesh_period: int = 64
     steps_per_highest_period: int = 22
-    communication_step: float = 1e-4
+    communication_step: float = COMMUNICATION_STEP
     settling_time: float = 0.3
     record_time: float = 0.5
     cage_turns: float = 2.0

@@ -7,10 +7,10 @@ from numba import types
 
 from fmu_src.object_code import array_at, lower_to_object
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, advance, work_size
+from gearlube_core.dynamics.hypoid_axle.communication import communication_step
+from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.flat_tuples import count_floats
@@ -44,11 +44,11 @@ POINTER = types.CPointer(types.float64)
 
 
 def axle_step(
-    s, h, torque_p, torque_g, oil, levels, series, windows, parameters, control, work, out
+    s, trial, h, torque_p, torque_g, oil, levels, series, windows, parameters, control, work, out
 ):
-    state = array_at(s, N_STATE)
-    status = advance(
-        state,
+    return communication_step(
+        array_at(s, N_STATE),
+        array_at(trial, N_STATE),
         h,
         torque_p,
         torque_g,
@@ -61,23 +61,9 @@ def axle_step(
         array_at(parameters, N_PARAMETERS),
         array_at(control, N_CONTROL),
         array_at(work, WORK),
-    )
-    write_outputs(
-        state,
-        torque_p,
-        torque_g,
-        oil,
-        array_at(levels, LEVELS),
-        array_at(series, SERIES),
-        ORDERS,
-        array_at(windows, WINDOWS),
-        NODES,
-        array_at(parameters, N_PARAMETERS),
-        array_at(work, WORK),
         array_at(out, ROLLERS_MAX),
         array_at(out, N_OUTPUTS),
     )
-    return status
 
 
 def allocating_step(s):
@@ -95,7 +81,7 @@ def undefined_in_object(code: bytes) -> set[str]:
 
 
 def test_axle_step_needs_nothing_but_libm():
-    signature = types.int64(*[POINTER], *4 * [types.float64], *7 * [POINTER])
+    signature = types.int64(*2 * [POINTER], *4 * [types.float64], *7 * [POINTER])
     code, declared = lower_to_object(axle_step, signature, "gearlube_axle_step")
     wanted = undefined_in_object(code)
     assert wanted <= LIBM | FREESTANDING
