@@ -91,6 +91,8 @@ class HypoidBlank:
         Gear blade angles [rad].
     name, source : str
         Where the data come from.
+    clearance : float, optional
+        Bottom clearance [m]; neither table prints it. Without it `root_clearance` completes it.
 
     References
     ----------
@@ -105,10 +107,13 @@ class HypoidBlank:
     gear_blade_angle_concave: float
     name: str
     source: str
+    clearance: float | None = None
 
     def __post_init__(self) -> None:
         check_within("offset", self.offset, 0.0, 0.5, "m", _METRES)
         check_within("gear_cutter_radius", self.gear_cutter_radius, 1e-3, 2.0, "m", _METRES)
+        if self.clearance is not None:
+            check_within("clearance", self.clearance, 0.0, self.working_depth, "m", _METRES)
 
     @classmethod
     def named(cls, name: str) -> HypoidBlank:
@@ -143,6 +148,7 @@ class HypoidBlank:
 
         try:
             cutter = data["gear_cutter"]
+            clearance = data["pair"].get("clearance_mm")
             return cls(
                 pinion=member("pinion"),
                 gear=member("gear"),
@@ -152,6 +158,7 @@ class HypoidBlank:
                 gear_blade_angle_concave=math.radians(cutter["concave_blade_angle_deg"]),
                 name=data["name"],
                 source=data["source"],
+                clearance=None if clearance is None else clearance * 1e-3,
             )
         except TypeError as reason:
             raise ParameterError(f"The blank file has a text for a number: {reason}.") from None
@@ -175,6 +182,29 @@ class HypoidBlank:
     def working_depth(self) -> float:
         """Sum of the addenda of a uniform-depth blank [m]."""
         return self.pinion.addendum + self.gear.addendum
+
+    @property
+    def root_clearance(self) -> float:
+        """Bottom clearance [m]: as given, else completed as 0.125 of the working depth.
+
+        0.125 is the clearance factor k_c of ISO 23509:2016, annex C (its samples F.2 to F.4).
+        """
+        return 0.125 * self.working_depth if self.clearance is None else self.clearance
+
+    @property
+    def whole_depth(self) -> float:
+        """Working depth and clearance [m]; the same for both members of a uniform-depth pair."""
+        return self.working_depth + self.root_clearance
+
+    @property
+    def pinion_dedendum(self) -> float:
+        """Dedendum of the pinion [m]: the gear's addendum and the clearance."""
+        return self.gear.addendum + self.root_clearance
+
+    @property
+    def gear_dedendum(self) -> float:
+        """Dedendum of the gear [m]: the pinion's addendum and the clearance."""
+        return self.pinion.addendum + self.root_clearance
 
     @property
     def mean_normal_module(self) -> float:
