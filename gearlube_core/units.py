@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 
 ZERO_CELSIUS = 273.15  # K
+MILLIMETRE = 1e-3  # m
+DEGREE = math.pi / 180.0  # rad
 
 
 def celsius_to_kelvin(temperature_degc: float) -> float:

@@ -1,0 +1,1 @@
+"""Flank surfaces of hypoid gears as their machine settings cut them."""

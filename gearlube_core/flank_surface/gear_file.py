@@ -1,0 +1,237 @@
+"""The gear file: blank, cutters and machine settings of a hypoid pair, in workshop units.
+
+Every field states its unit in its name, its meaning and its range here, once; the reference page
+of the docs and the error messages come from these models.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from importlib.resources import files
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from gearlube_core.blank.hypoid_blank import HypoidBlank, MemberBlank
+from gearlube_core.errors import ParameterError
+from gearlube_core.units import DEGREE, MILLIMETRE
+
+Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
+ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False)]
+SpiralAngle = Annotated[float, Field(ge=-65.0, le=65.0, allow_inf_nan=False)]
+BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False)]
+Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False)]
+Text = Annotated[str, Field(min_length=1)]
+Origin = Literal["table", "inferred", "completed"]
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=False)
+
+
+class Cutter(_Section):
+    """Blades of one member's cutter head; angles are named after the flank that they cut."""
+
+    point_radius_mm: Length = Field(
+        description="Radius of both blade edges at the reference plane, the mid-working-depth plane"
+    )
+    convex_flank_blade_angle_deg: BladeAngle = Field(
+        description="Blade angle that cuts the convex flank (inside blades)"
+    )
+    concave_flank_blade_angle_deg: BladeAngle = Field(
+        description="Blade angle that cuts the concave flank (outside blades)"
+    )
+    convex_flank_angle_correction_deg: Correction = Field(
+        0.0, description="Added to the blade angle of the convex flank"
+    )
+    concave_flank_angle_correction_deg: Correction = Field(
+        0.0, description="Added to the blade angle of the concave flank"
+    )
+    blade_groups: int = Field(
+        ge=0,
+        le=60,
+        description="Blade groups that pass while the work turns by one tooth per group; "
+        "0 for single indexing (face milling)",
+    )
+    blade_edge_radius_mm: Length | None = Field(
+        None, description="Radius of a curved blade edge, concave in the blade; absent: straight"
+    )
+    blade_offset_angle_deg: Angle | None = Field(
+        None,
+        description="Angle of the blade face from the cutter radius; absent: normal to the cutting "
+        "velocity at the reference point",
+    )
+
+
+class FormateMachine(_Section):
+    """Machine settings of a form-cut (not generated) gear."""
+
+    machine_root_angle_deg: ConeAngle
+    machine_center_to_back_mm: Millimetres = Field(
+        description="Crossing point to the apex of the reference plane, along the gear axis"
+    )
+    horizontal_setting_mm: Millimetres = Field(
+        description="Cutter centre from the machine centre along the root line"
+    )
+    vertical_setting_mm: Millimetres = Field(
+        description="Cutter centre from the machine centre, parallel to the offset"
+    )
+
+
+class GeneratorMachine(_Section):
+    """Machine settings of a pinion generated with cutter tilt."""
+
+    machine_root_angle_deg: Angle
+    machine_center_to_back_mm: Millimetres
+    sliding_base_mm: Millimetres
+    blank_offset_mm: Millimetres
+    radial_setting_mm: Length = Field(description="Cutter centre from the cradle axis")
+    basic_cradle_angle_deg: Angle
+    basic_swivel_angle_deg: Angle
+    tilt_angle_deg: Annotated[float, Field(ge=0.0, le=80.0)] = Field(
+        description="Of the cutter axis from the cradle axis"
+    )
+    ratio_of_roll: float = Field(
+        ge=0.1, le=50.0, description="Rotation of the work per rotation of the cradle"
+    )
+
+
+class Member(_Section):
+    """Blank of one member; apexes count positive beyond the crossing point of the axes."""
+
+    teeth: int = Field(ge=3, le=400)
+    face_width_mm: Length = Field(description="Along the pitch cone")
+    outer_cone_distance_mm: Length = Field(description="Pitch apex to heel, along the pitch cone")
+    pitch_angle_deg: ConeAngle
+    spiral_angle_deg: SpiralAngle = Field(description="Mean spiral angle, without sign")
+    pitch_apex_mm: Millimetres
+    face_apex_mm: Millimetres
+    cutter: Cutter
+
+
+class Pinion(Member):
+    """Blank, cutter and machine of the pinion."""
+
+    machine: GeneratorMachine
+
+
+class Gear(Member):
+    """Blank, cutter and machine of the gear."""
+
+    machine: FormateMachine
+
+
+class Pair(_Section):
+    """How the members stand to each other; axes at 90 degrees."""
+
+    offset_mm: Millimetres = Field(ge=0.0, description="Distance of the axes (pinion offset)")
+    clearance_mm: Annotated[float, Field(ge=0.0, le=20.0)] | None = Field(
+        None,
+        description="Between the top of one member and the root of the other; absent: an eighth of "
+        "the working depth",
+    )
+
+
+class HypoidGearFile(_Section):
+    """A hypoid gear pair as a workshop describes it.
+
+    References
+    ----------
+    Karagiannis et al. 2012, Table 1, for the names of the settings.
+    """
+
+    name: Text
+    source: Text
+    pair: Pair
+    pinion: Pinion
+    gear: Gear
+    inferred: tuple[str, ...] = Field((), description="Fields not printed in the source: inferred")
+    completed: tuple[str, ...] = Field((), description="Fields missing in the source: completed")
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> HypoidGearFile:
+        """Read a gear file; raise ParameterError that names every field that is wrong."""
+        try:
+            data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
+            raise ParameterError(f"{path} is not a readable TOML file: {reason}.") from None
+        return cls.from_data(data, str(path))
+
+    @classmethod
+    def named(cls, name: str) -> HypoidGearFile:
+        """Return a gear file that ships with the package, e.g. "mohammadpour_2015"."""
+        resource = files("gearlube_core.flank_surface") / "data" / f"{name}.toml"
+        if not resource.is_file():
+            raise ParameterError(f"No gear file is called {name!r}. Shipped: mohammadpour_2015.")
+        return cls.from_data(tomllib.loads(resource.read_text(encoding="utf-8")), name)
+
+    @classmethod
+    def from_data(cls, data: dict[str, Any], where: str) -> HypoidGearFile:
+        """Return the gear file of parsed TOML `data`; `where` names it in errors."""
+        try:
+            return cls.model_validate(data)
+        except ValidationError as reason:
+            lines = [_sentence(error) for error in reason.errors()]
+            raise ParameterError(
+                f"{where} has {len(lines)} wrong field(s). " + " ".join(lines)
+            ) from None
+
+    def origin(self, field: str) -> Origin:
+        """Return where the value of a dotted field, e.g. "gear.cutter.blade_groups", is from."""
+        if field in self.completed:
+            return "completed"
+        return "inferred" if field in self.inferred else "table"
+
+    def varied(self, changes: dict[str, Any]) -> HypoidGearFile:
+        """Return a copy with dotted fields changed, checked as a file is."""
+        data = self.model_dump(exclude_none=True)
+        for field, value in changes.items():
+            *sections, key = field.split(".")
+            section = data
+            for part in sections:
+                section = section[part]
+            section[key] = value
+            if value is None:
+                del section[key]
+        return self.from_data(data, f"{self.name} varied")
+
+    def blank(self) -> HypoidBlank:
+        """Return the blank of the pair, in SI units."""
+        clearance = self.pair.clearance_mm
+        return HypoidBlank(
+            pinion=_member_blank(self.pinion),
+            gear=_member_blank(self.gear),
+            offset=self.pair.offset_mm * MILLIMETRE,
+            gear_cutter_radius=self.gear.cutter.point_radius_mm * MILLIMETRE,
+            gear_blade_angle_convex=self.gear.cutter.convex_flank_blade_angle_deg * DEGREE,
+            gear_blade_angle_concave=self.gear.cutter.concave_flank_blade_angle_deg * DEGREE,
+            clearance=None if clearance is None else clearance * MILLIMETRE,
+            name=self.name,
+            source=self.source,
+        )
+
+
+def _member_blank(member: Member) -> MemberBlank:
+    return MemberBlank(
+        teeth=member.teeth,
+        face_width=member.face_width_mm * MILLIMETRE,
+        outer_cone_distance=member.outer_cone_distance_mm * MILLIMETRE,
+        pitch_angle=member.pitch_angle_deg * DEGREE,
+        spiral_angle=member.spiral_angle_deg * DEGREE,
+        pitch_apex=member.pitch_apex_mm * MILLIMETRE,
+        face_apex=member.face_apex_mm * MILLIMETRE,
+    )
+
+
+def _sentence(error: Any) -> str:
+    """Return one of pydantic's findings as: which field, what is wrong, what was given."""
+    field = ".".join(str(part) for part in error["loc"]) or "the file"
+    kind = error["type"]
+    if kind == "missing":
+        return f"{field} is missing."
+    if kind == "extra_forbidden":
+        return f"{field} is not a field of a gear file; check the spelling."
+    return f"{field}: {error['msg'][0].lower()}{error['msg'][1:]}, got {error['input']!r}."

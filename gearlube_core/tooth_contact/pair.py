@@ -1,0 +1,138 @@
+"""Two flanks that mesh: one pinion flank and one gear flank, and where the members stand."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.flank_surface.cutting_motion import cut_state
+from gearlube_core.flank_surface.flank import Flank, Side
+from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.flank_surface.machine_frames import reference_point
+from gearlube_core.flank_surface.vectors import Vector
+from gearlube_core.tooth_contact.placement import (
+    ALIGNED,
+    Misalignment,
+    Placement,
+    gear_placement,
+    pinion_placement,
+    turned,
+)
+from gearlube_core.tooth_contact.rays import HIT, hit_by_turning
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FlankPair:
+    """A pinion flank and a gear flank in mesh.
+
+    Angles of both members count in the drive direction: the gear about +z, the pinion about -x.
+    At gear angle zero the reference point of the gear flank stands at the mean point of the blank.
+    Pinion angle zero is where the pinion passes through that point, aligned.
+
+    Parameters
+    ----------
+    pinion, gear : Flank
+        Of the same side.
+    misalignment : Misalignment
+    mean_point : ndarray of shape (3,)
+        Reference point of the blank [m].
+    """
+
+    pinion: Flank
+    gear: Flank
+    misalignment: Misalignment
+    mean_point: Array
+
+    @classmethod
+    def from_file(
+        cls, file: HypoidGearFile, side: Side, misalignment: Misalignment = ALIGNED
+    ) -> FlankPair:
+        """Return the pair of drive or coast flanks of a gear file."""
+        return cls(
+            Flank.from_file(file, "pinion", side),
+            Flank.from_file(file, "gear", side),
+            misalignment,
+            reference_point(file.blank()),
+        )
+
+    def misaligned(self, misalignment: Misalignment) -> FlankPair:
+        """Return the same flanks, displaced; the zero of the angles stays."""
+        return replace(self, misalignment=misalignment)
+
+    @property
+    def side(self) -> Side:
+        """Which flanks these are."""
+        return self.pinion.side
+
+    @property
+    def ratio(self) -> float:
+        """Teeth ratio gear / pinion [-]."""
+        return self.gear.teeth / self.pinion.teeth
+
+    @property
+    def gear_pitch(self) -> float:
+        """Angle of the gear over a mesh period [rad]."""
+        return 2.0 * math.pi / self.gear.teeth
+
+    @property
+    def pinion_pitch(self) -> float:
+        """Angle of the pinion over a mesh period [rad]."""
+        return 2.0 * math.pi / self.pinion.teeth
+
+    @property
+    def touching_sign(self) -> float:
+        """+1 if the pinion closes the gap by turning in the drive direction, -1 for coast."""
+        return 1.0 if self.side == "drive" else -1.0
+
+    def gear_placed(self, angle: float) -> Placement:
+        """Return the placement of the gear at `angle` [rad]."""
+        return turned(
+            gear_placement(self.gear.motion, self.misalignment), self._gear_turn + angle
+        )
+
+    def pinion_placed(self, angle: float) -> Placement:
+        """Return the placement of the pinion at `angle` [rad]; zero as at gear angle zero."""
+        return turned(self.pinion_base, self.pinion_turn(angle))
+
+    @property
+    def pinion_base(self) -> Placement:
+        """Placement of the pinion with its work at rotation zero."""
+        return pinion_placement(self.pinion.motion, self.misalignment)
+
+    def pinion_turn(self, angle: float) -> float:
+        """Return the rotation about the work axis [rad] of the pinion angle `angle` [rad]."""
+        return self._pinion_turn_zero - angle
+
+    def pinion_angle(self, turn: float) -> float:
+        """Return the pinion angle [rad] of a rotation about the work axis [rad]."""
+        return self._pinion_turn_zero - turn
+
+    @cached_property
+    def _gear_turn(self) -> float:
+        """Rotation about z that brings the gear's reference point to the mean point [rad]."""
+        r = np.array(cut_state(self.gear.motion, *self.gear.start).r)
+        m = self.mean_point
+        return math.atan2(m[1], m[0]) - math.atan2(r[1], r[0])
+
+    @cached_property
+    def _pinion_turn_zero(self) -> float:
+        """Rotation about the work axis at which the aligned pinion passes through the mean point."""
+        state = cut_state(self.pinion.motion, *self.pinion.start)
+        r, m = np.array(state.r) - self.pinion.axis_point, self.mean_point - self.pinion.axis_point
+        guess = math.atan2(m[2], m[1]) - math.atan2(r[2], r[1])
+        parameters = np.array([*self.pinion.start, guess])
+        base = pinion_placement(self.pinion.motion, ALIGNED)
+        target = Vector(*(float(x) for x in self.mean_point))
+        if hit_by_turning(self.pinion.motion, base, target, parameters) != HIT:
+            raise ParameterError(
+                "The pinion's flank never passes through the mean point of the blank. Check the "
+                "pinion's machine settings (reference_plane_distance) and the blank."
+            )
+        return float(parameters[3])
