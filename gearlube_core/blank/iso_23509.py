@@ -21,6 +21,7 @@ from gearlube_core.errors import ConvergenceError, ParameterError
 _METRES = "Give metres, not millimetres."
 _SEARCH_STEP = math.radians(0.5)
 _SEARCH_REACH = 50
+_CLOSED = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -242,10 +243,15 @@ def _closed(
         low, high = start - step * _SEARCH_STEP, start + step * _SEARCH_STEP
         next_below, next_above = residual(low - _SEARCH_STEP), residual(high + _SEARCH_STEP)
         # nan fails both comparisons, so an angle without touching cones never makes a bracket
-        if below * next_below <= 0.0:
-            return cones(brentq(residual, low - _SEARCH_STEP, low, xtol=1e-14))
-        if above * next_above <= 0.0:
-            return cones(brentq(residual, high, high + _SEARCH_STEP, xtol=1e-14))
+        for change, left in (
+            (below * next_below, low - _SEARCH_STEP),
+            (above * next_above, high),
+        ):
+            if change <= 0.0:
+                angle = brentq(residual, left, left + _SEARCH_STEP, xtol=1e-14)
+                # a pole changes sign too
+                if abs(residual(angle)) < _CLOSED:
+                    return cones(angle)
         below, above = next_below, next_above
     raise ConvergenceError(
         f"No gear pitch angle within {math.degrees(_SEARCH_REACH * _SEARCH_STEP):g} deg of "

@@ -135,3 +135,18 @@ def test_at_the_calculation_point_spiral_angles_and_ratio_close():
 
 def test_teeth_ratio_is_the_final_drive_ratio():
     assert pytest.approx(36 / 13, rel=1e-15) == BLANK.ratio
+
+
+def test_pinion_machine_is_the_image_of_the_gear():
+    """The cradle stands in for the gear: its axis, its offset and its speed are nearly the gear's.
+
+    Karagiannis et al. 2012, Table 1: ratio of roll 2.762, blank offset 23.908 mm, machine root
+    angle 0.202 deg, tilt 31.736 deg. What is left is the lengthwise and profile crowning.
+    """
+    # crowning took 0.26 % of the roll and 0.4 % of the offset
+    assert pytest.approx(2.762, rel=3e-3) == BLANK.ratio
+    assert 1e3 * BLANK.offset == pytest.approx(23.908, rel=4e-3)
+    # the cradle axis at right angles to the pinion's, as the gear axis is
+    assert math.sin(math.radians(0.202)) < 4e-3
+    # the tilted cutter's plane along the gear's pitch cone, within 1.4 deg of crowning
+    assert math.degrees(0.5 * math.pi - BLANK.gear.pitch_angle) == pytest.approx(31.736, abs=1.4)
