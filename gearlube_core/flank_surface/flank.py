@@ -18,6 +18,7 @@ from gearlube_core.flank_surface.cutting_motion import CuttingMotion, cut_state
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.flank_surface.grid import march, sample_surface
 from gearlube_core.flank_surface.machine_frames import Curve, gear_cut, pinion_cut
+from gearlube_core.flank_surface.surface_point import regularity
 
 Array = NDArray[np.float64]
 Role = Literal["pinion", "gear"]
@@ -181,6 +182,7 @@ class Flank:
         """Return points, normals and curvatures at cutting parameters of shape (..., 3)."""
         shape = parameters.shape[:-1]
         out = sample_surface(self.motion, self.outward, parameters.reshape(-1, 3))
+        out[:, 15] *= self._sound
         curvature = out[:, [12, 13, 13, 14]].reshape(*shape, 2, 2)
         r, normal, tangent_1, tangent_2 = (
             out[:, 3 * k : 3 * k + 3].reshape(*shape, 3) for k in range(4)
@@ -194,6 +196,11 @@ class Flank:
     def turned(self, angle: float) -> Rotation:
         """Return the rotation of the member by `angle` [rad] about its axis."""
         return Rotation.from_rotvec(angle * self.axis)
+
+    @cached_property
+    def _sound(self) -> float:
+        """Sign of the regularity where the flank is sound: at its reference point."""
+        return math.copysign(1.0, regularity(cut_state(self.motion, *self.start)))
 
     @cached_property
     def _start_grid(self) -> Array:

@@ -88,9 +88,7 @@ def pinion_cut(file: HypoidGearFile, curve: Curve) -> ReferenceCut:
     tilt = machine.tilt_angle_deg * DEGREE
     azimuth = cradle - machine.basic_swivel_angle_deg * DEGREE - 0.5 * math.pi
     centre = (
-        machine.radial_setting_mm
-        * MILLIMETRE
-        * np.array([math.cos(cradle), math.sin(cradle), 0.0])
+        machine.radial_setting_mm * MILLIMETRE * np.array([math.cos(cradle), math.sin(cradle), 0.0])
     )
     axis = np.array(
         [
@@ -212,7 +210,9 @@ def _gear_cutter_angle(motion: CuttingMotion, blank: HypoidBlank) -> float:
         r, tangent = np.array(state.r), np.array(state.r_th)
         radial = np.array([r[0], r[1], 0.0]) / math.hypot(r[0], r[1])
         along = sine * radial + cosine * _Z
-        return math.atan(float(tangent @ np.cross(along, radial * cosine - sine * _Z)) / float(tangent @ along))
+        return math.atan(
+            float(tangent @ np.cross(along, radial * cosine - sine * _Z)) / float(tangent @ along)
+        )
 
     candidates = _roots(excess, -math.pi, math.pi)
     if not candidates:

@@ -51,10 +51,11 @@ def _combine3(a: float, x: Vector, b: float, y: Vector, c: float, z: Vector) -> 
 
 @kernel
 def regularity(state: CutState) -> float:
-    """Return a number that is zero where the envelope is singular, scaled to be of order one.
+    """Return a number of order one that changes sign where the envelope folds.
 
     With r_ph = alpha r_u + beta r_th on the envelope, the surface's area element is proportional
-    to alpha f_u + beta f_th - f_ph. One for a form-cut flank.
+    to alpha f_u + beta f_th - f_ph; its sign on a sound flank depends on the motion. One for a
+    form-cut flank.
 
     References
     ----------
@@ -111,9 +112,7 @@ def surface_point(
 
 
 @kernel
-def locate(
-    motion: CuttingMotion, radius: float, axial: float, parameters: NDArray[float64]
-) -> int:
+def locate(motion: CuttingMotion, radius: float, axial: float, parameters: NDArray[float64]) -> int:
     """Find the flank point at `radius` [m] from and `axial` [m] along the work axis.
 
     Parameters
@@ -140,7 +139,9 @@ def locate(
         f2 = z - axial
         row1 = Vector(dot(s.r_u, radial), dot(s.r_th, radial), dot(s.r_ph, radial))
         row2 = Vector(
-            dot(s.r_u, motion.work_axis), dot(s.r_th, motion.work_axis), dot(s.r_ph, motion.work_axis)
+            dot(s.r_u, motion.work_axis),
+            dot(s.r_th, motion.work_axis),
+            dot(s.r_ph, motion.work_axis),
         )
         row3 = Vector(s.meshing_u, s.meshing_th, s.meshing_ph)
         c23 = cross(row2, row3)

@@ -9,12 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlube_core.errors import ParameterError
 from gearlube_core.flank_surface.cutting_motion import cut_state
 from gearlube_core.flank_surface.flank import Flank, Side
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.flank_surface.machine_frames import reference_point
-from gearlube_core.flank_surface.vectors import Vector
 from gearlube_core.tooth_contact.placement import (
     ALIGNED,
     Misalignment,
@@ -23,7 +21,6 @@ from gearlube_core.tooth_contact.placement import (
     pinion_placement,
     turned,
 )
-from gearlube_core.tooth_contact.rays import HIT, hit_by_turning
 
 Array = NDArray[np.float64]
 
@@ -33,8 +30,9 @@ class FlankPair:
     """A pinion flank and a gear flank in mesh.
 
     Angles of both members count in the drive direction: the gear about +z, the pinion about -x.
-    At gear angle zero the reference point of the gear flank stands at the mean point of the blank.
-    Pinion angle zero is where the pinion passes through that point, aligned.
+    At gear angle zero the reference point of the gear's cutter path stands at the mean point of the
+    blank, at pinion angle zero the pinion's; both are common to the drive and the coast flanks, so
+    the two pairs share their angles and backlash is the difference of their touching angles.
 
     Parameters
     ----------
@@ -93,9 +91,7 @@ class FlankPair:
 
     def gear_placed(self, angle: float) -> Placement:
         """Return the placement of the gear at `angle` [rad]."""
-        return turned(
-            gear_placement(self.gear.motion, self.misalignment), self._gear_turn + angle
-        )
+        return turned(gear_placement(self.gear.motion, self.misalignment), self._gear_turn + angle)
 
     def pinion_placed(self, angle: float) -> Placement:
         """Return the placement of the pinion at `angle` [rad]; zero as at gear angle zero."""
@@ -123,16 +119,7 @@ class FlankPair:
 
     @cached_property
     def _pinion_turn_zero(self) -> float:
-        """Rotation about the work axis at which the aligned pinion passes through the mean point."""
-        state = cut_state(self.pinion.motion, *self.pinion.start)
-        r, m = np.array(state.r) - self.pinion.axis_point, self.mean_point - self.pinion.axis_point
-        guess = math.atan2(m[2], m[1]) - math.atan2(r[2], r[1])
-        parameters = np.array([*self.pinion.start, guess])
-        base = pinion_placement(self.pinion.motion, ALIGNED)
-        target = Vector(*(float(x) for x in self.mean_point))
-        if hit_by_turning(self.pinion.motion, base, target, parameters) != HIT:
-            raise ParameterError(
-                "The pinion's flank never passes through the mean point of the blank. Check the "
-                "pinion's machine settings (reference_plane_distance) and the blank."
-            )
-        return float(parameters[3])
+        """Rotation about the work axis that brings the pinion's reference point there [rad]."""
+        r = np.array(cut_state(self.pinion.motion, *self.pinion.start).r) - self.pinion.axis_point
+        m = self.mean_point - self.pinion.axis_point
+        return math.atan2(m[2], m[1]) - math.atan2(r[2], r[1])
