@@ -1,0 +1,242 @@
+"""Frictionless unilateral contact of many cells about one closing rotation."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gearlube_core.checks import check_finite, check_positive, check_within
+from gearlube_core.contact.unilateral_kernels import (
+    longest_step,
+    project,
+    separate,
+    step_length,
+    turn,
+    turn_to_penetration,
+)
+from gearlube_core.contact.unilateral_problem import (
+    Array,
+    Outcome,
+    UnilateralProblem,
+    UnilateralSolution,
+)
+from gearlube_core.errors import ConvergenceError, ParameterError
+
+_FINEST = 1e-12  # rounding of the convolution ends the descent there
+_PROPORTION = 0.1  # penetrating over loaded squared residual at which cells are added
+
+
+def solve_torque(
+    problem: UnilateralProblem,
+    torque: float,
+    *,
+    tolerance: float = 1e-6,
+    max_iterations: int = 1000,
+    start: Array | None = None,
+    throw: bool = True,
+) -> UnilateralSolution:
+    """Return the contact that balances a torque.
+
+    Minimises f.A f/2 + g.f over f >= 0 with R.f = T by conjugate gradients in the moments
+    q = R f, in which the compliance R^-1 A R^-1 stays symmetric and the constraint reads
+    sum of q = T.
+
+    Parameters
+    ----------
+    problem
+        Cells, gaps and compliance.
+    torque
+        T [N m], above zero.
+    tolerance
+        Limit of `Outcome.residual` [1]; 1e-12 to 1e-2. The rotation is about as accurate, the
+        strain energy more so.
+    max_iterations
+        Where to stop without convergence.
+    start : ndarray, shape (n,), optional
+        Forces [N] to start from, e.g. of the torque before; negative entries and masked cells
+        count as zero. The answer does not depend on it within the tolerance.
+    throw
+        Raise on `iteration limit`; else return the last state with that outcome.
+
+    Returns
+    -------
+    UnilateralSolution
+        Torque balance holds to rounding.
+
+    Raises
+    ------
+    ParameterError
+        Torque or settings out of range, or a compliance that is not positive definite.
+    ConvergenceError
+        The tolerance was not reached within `max_iterations`.
+
+    Notes
+    -----
+    Sources: Polonsky and Keer 1999 for the gradient under the load constraint, the projection
+    and the load restored by scaling; Dostal and Schoeberl 2005 for adding penetrating cells by
+    an exact line search, once their part of the gradient is out of proportion, and for the
+    feasible step where the projected one would raise the energy. Polonsky and Keer's own step
+    for penetrating cells may diverge where a smooth compliance couples all cells. Between
+    changes of the loaded set the displacement follows the step: one application of A an
+    iteration instead of two.
+    """
+    check_positive("torque", torque, "N m", "Turn the problem round for the other flank.")
+    forces = _starting_forces(problem, start)
+    if start is None or not forces.any():
+        forces = np.where(problem.usable, 1.0, 0.0)
+        spread = _displaced(problem, forces)
+        forces = _winkler_forces(problem, torque, float(spread @ forces) / float(forces.sum()))
+    forces *= torque / float(problem.arm @ forces)
+    return _solve(problem, forces, math.nan, float(torque), tolerance, max_iterations, throw)
+
+
+def solve_rotation(
+    problem: UnilateralProblem,
+    rotation: float,
+    *,
+    tolerance: float = 1e-6,
+    max_iterations: int = 1000,
+    start: Array | None = None,
+    throw: bool = True,
+) -> UnilateralSolution:
+    """Return the contact at a prescribed closing rotation; its torque is an answer.
+
+    Parameters, errors and source as in `solve_torque`, without the constraint on the moments.
+    `rotation` is delta [rad]; where it closes no gap all forces are zero, without error.
+    """
+    check_finite("rotation", rotation, "rad")
+    forces = _starting_forces(problem, start)
+    closing = np.where(problem.usable, problem.arm * rotation - problem.gap, 0.0)
+    if not forces.any():
+        forces = np.maximum(closing, 0.0)
+    if forces.any():
+        work, twice_energy = float(forces @ closing), float(forces @ _displaced(problem, forces))
+        if work > 0.0:
+            forces *= work / twice_energy  # least energy among all multiples
+    return _solve(problem, forces, float(rotation), math.nan, tolerance, max_iterations, throw)
+
+
+def _starting_forces(problem: UnilateralProblem, start: Array | None) -> Array:
+    if start is None:
+        return np.zeros(problem.gap.size)
+    forces = np.array(start, dtype=np.float64)
+    if forces.shape != problem.gap.shape or not np.isfinite(forces).all():
+        raise ParameterError(
+            f"start must hold one finite force a cell, shape {problem.gap.shape}, got shape "
+            f"{forces.shape}. Leave it out to start from scratch."
+        )
+    return np.where(problem.usable, np.maximum(forces, 0.0), 0.0)
+
+
+def _winkler_forces(problem: UnilateralProblem, torque: float, softness: float) -> Array:
+    """Return max(R delta - g, 0)/softness with delta from the torque balance."""
+    touch = np.where(problem.usable, problem.gap / problem.arm, math.inf)
+    order = np.argsort(touch, kind="stable")[: int(problem.usable.sum())]
+    weight = np.cumsum(problem.arm[order] ** 2)
+    candidates = (softness * torque + np.cumsum(problem.arm[order] ** 2 * touch[order])) / weight
+    # candidates with one more cell fall until the next cell no longer touches
+    next_touch = np.append(touch[order][1:], math.inf)
+    rotation = candidates[int(np.argmax(candidates <= next_touch))]
+    closing = np.where(problem.usable, problem.arm * rotation - problem.gap, 0.0)
+    return np.maximum(closing, 0.0) / softness
+
+
+def _displaced(problem: UnilateralProblem, forces: Array) -> Array:
+    """Return the displacement under forces that do not all vanish; check that A can be inverted."""
+    displacement = np.array(problem.compliance(forces), dtype=np.float64)
+    if displacement.shape != forces.shape or not np.isfinite(displacement).all():
+        raise ParameterError(
+            f"compliance must return a finite displacement of shape {forces.shape}, got shape "
+            f"{displacement.shape} or an entry that is not finite."
+        )
+    work = float(forces @ displacement)
+    if not work > 0.0:
+        raise ParameterError(
+            f"compliance must be positive definite, got the work f.u = {work:g} J under forces of "
+            f"{float(forces.sum()):g} N in sum. Check the sign and symmetry of the smooth part."
+        )
+    return displacement
+
+
+def _solve(
+    problem: UnilateralProblem,
+    forces: Array,
+    rotation: float,
+    torque: float,
+    tolerance: float,
+    max_iterations: int,
+    throw: bool,
+) -> UnilateralSolution:
+    """Iterate; rotation NaN means given torque, torque NaN means given rotation."""
+    check_within("tolerance", tolerance, _FINEST, 1e-2)
+    check_within("max_iterations", max_iterations, 1, 1e6)
+    fixed_torque = math.isnan(rotation)
+    gap, arm = problem.gap, problem.arm
+    weight = np.where(problem.usable, gap if fixed_torque else gap - rotation * arm, 0.0)
+    residual, direction, probe = (np.zeros(gap.size) for _ in range(3))
+    displacement = _displaced(problem, forces) if forces.any() else np.zeros(gap.size)
+    operations = 2  # the start took one
+    history: list[float] = []
+    loaded_before = math.inf
+    while True:
+        delta, loaded, penetrating, misfit, deepest = separate(
+            forces, displacement, gap, arm, rotation, residual
+        )
+        work = float(forces @ displacement)
+        history.append(_relative(misfit, work, deepest * float(forces.sum())))
+        if history[-1] <= tolerance or len(history) > max_iterations:
+            break
+        if penetrating > _PROPORTION * loaded:
+            turn_to_penetration(forces, residual, arm, fixed_torque, direction, probe)
+            loaded = float(np.dot(direction, direction))
+        else:
+            turn(forces, residual, arm, loaded / loaded_before, fixed_torque, direction, probe)
+        loaded_before = loaded
+        product = problem.compliance(probe)
+        operations += 1
+        tau = step_length(residual, direction, probe, product)
+        limit = longest_step(forces, probe)
+        if tau <= limit:
+            forces -= tau * probe
+            displacement -= tau * product
+            continue
+        feasible, feasible_displacement = forces.copy(), displacement - limit * product
+        energy = 0.5 * work + float(weight @ forces)
+        project(forces, probe, arm, tau, torque)
+        displacement = np.array(problem.compliance(forces))
+        operations += 1
+        if 0.5 * float(forces @ displacement) + float(weight @ forces) > energy:
+            project(feasible, probe, arm, limit, torque)
+            forces, displacement = feasible, feasible_displacement
+    outcome = Outcome(
+        status="converged" if history[-1] <= tolerance else "iteration limit",
+        iterations=len(history) - 1,
+        operations=operations,
+        residual=history[-1],
+        history=tuple(history),
+    )
+    if throw and not outcome.converged:
+        raise ConvergenceError(
+            f"contact must reach a residual of {tolerance:g}, got {outcome.residual:.3g} after "
+            f"{outcome.iterations} iterations. Raise max_iterations, or check that the compliance "
+            "is symmetric and positive definite."
+        )
+    return UnilateralSolution(
+        forces=forces,
+        pressure=forces / problem.cell_area,
+        displacement=displacement,
+        separation=residual * arm,
+        rotation=delta,
+        torque=float(arm @ forces),
+        touching=forces > 0.0,
+        strain_energy=0.5 * work,
+        outcome=outcome,
+    )
+
+
+def _relative(misfit: float, work: float, penetration: float) -> float:
+    """Return the residual of complementarity, infinite where cells penetrate without load."""
+    if work > 0.0:
+        return max(misfit, penetration) / work
+    return math.inf if penetration > 0.0 else 0.0

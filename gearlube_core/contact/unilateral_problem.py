@@ -1,0 +1,140 @@
+"""Statement and solution of a frictionless unilateral contact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from gearlube_core.errors import ParameterError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+Compliance = Callable[[Array], Array]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UnilateralProblem:
+    """Cells that may press but not pull, closed by one rotation.
+
+    g + u - R delta >= 0,  f >= 0,  f.(g + u - R delta) = 0,  u = A f,  T = R.f
+
+    Parameters
+    ----------
+    compliance
+        A: maps cell forces [N], shape (n,), to displacement [m], same shape; symmetric and
+        positive definite on the unmasked cells. It may return a buffer that it overwrites.
+    gap : ndarray, shape (n,)
+        Normal gap g [m] without load at rotation zero; inf masks a cell. May be negative.
+    arm : ndarray, shape (n,)
+        R [m]: closing of a cell per unit rotation, above zero where the gap is finite. With
+        arm one everywhere, the rotation is an approach [m] and the torque a load [N].
+    cell_area : ndarray, shape (n,)
+        Area [m2] over which a cell's force is spread.
+
+    Raises
+    ------
+    ParameterError
+        Shapes differ, an entry is NaN or out of range, or every cell is masked.
+    """
+
+    compliance: Compliance
+    gap: Array
+    arm: Array
+    cell_area: Array
+
+    def __post_init__(self) -> None:
+        for name in ("gap", "arm", "cell_area"):
+            field = np.array(getattr(self, name), dtype=np.float64)
+            object.__setattr__(self, name, field)
+            if field.ndim != 1 or field.shape != self.gap.shape:
+                raise ParameterError(
+                    f"{name} must be flat with one entry a cell, {self.gap.shape}, "
+                    f"got shape {field.shape}."
+                )
+        unusable = np.isnan(self.gap) | (self.gap == -math.inf)
+        if unusable.any():
+            raise ParameterError(
+                f"gap must be finite or inf in m, got NaN or -inf in {unusable.sum()} cells, first "
+                f"in cell {int(np.argmax(unusable))}. Mask cells outside the teeth with inf."
+            )
+        if not np.isfinite(self.gap).any():
+            raise ParameterError(
+                f"gap must be finite in at least one cell, got {self.gap.size} masked cells: "
+                "nothing can touch. Check that the strip lies on the teeth."
+            )
+        for name, unit in (("arm", "m"), ("cell_area", "m2")):
+            values = getattr(self, name)
+            bad = np.isfinite(self.gap) & ~((values > 0.0) & np.isfinite(values))
+            if bad.any():
+                cell = int(np.argmax(bad))
+                raise ParameterError(
+                    f"{name} must be above 0 {unit} in unmasked cells, got {values[cell]:g} in "
+                    f"cell {cell}. Mask cells that the rotation does not close."
+                )
+            values[~np.isfinite(self.gap)] = 1.0  # masked cells are never loaded
+
+    @property
+    def usable(self) -> np.ndarray:
+        """Cells that may touch, shape (n,)."""
+        return np.isfinite(self.gap)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """How an iteration ended.
+
+    Parameters
+    ----------
+    status
+        `converged` or `iteration limit`.
+    iterations, operations
+        Conjugate-gradient iterations, and applications of the compliance.
+    residual
+        Larger of the load-weighted gap error and the deepest penetration, both over the
+        load-weighted displacement [1].
+    history
+        Residual after each iteration [1].
+    """
+
+    status: Literal["converged", "iteration limit"]
+    iterations: int
+    operations: int
+    residual: float
+    history: tuple[float, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the residual is within its tolerance."""
+        return self.status == "converged"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UnilateralSolution:
+    """Loaded cells in equilibrium.
+
+    Parameters
+    ----------
+    forces, pressure, displacement, separation : ndarray, shape (n,)
+        f [N], f over cell area [Pa], u [m], and gap left after loading [m] (inf if masked).
+    rotation, torque
+        delta [rad] and R.f [N m].
+    touching : ndarray of bool, shape (n,)
+        Cells with f > 0.
+    strain_energy
+        f.u/2 [J].
+    outcome
+        How the iteration ended.
+    """
+
+    forces: Array
+    pressure: Array
+    displacement: Array
+    separation: Array
+    rotation: float
+    torque: float
+    touching: np.ndarray
+    strain_energy: float
+    outcome: Outcome
