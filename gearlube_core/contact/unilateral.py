@@ -32,7 +32,7 @@ def solve_torque(
     torque: float,
     *,
     tolerance: float = 1e-6,
-    max_iterations: int = 1000,
+    max_iterations: int = 2000,
     start: Array | None = None,
     throw: bool = True,
 ) -> UnilateralSolution:
@@ -80,15 +80,31 @@ def solve_torque(
     for penetrating cells may diverge where a smooth compliance couples all cells. Between
     changes of the loaded set the displacement follows the step: one application of A an
     iteration instead of two.
+
+    Examples
+    --------
+    Two springs of 1e8 N/m on arms of 20 mm, the second 2 um late:
+
+    >>> springs = UnilateralProblem(
+    ...     compliance=lambda forces: 1e-8 * forces,
+    ...     gap=np.array([0.0, 2e-6]),
+    ...     arm=np.array([0.02, 0.02]),
+    ...     cell_area=np.array([1e-6, 1e-6]),
+    ... )
+    >>> solve_torque(springs, 10.0).forces.round(3).tolist()
+    [350.0, 150.0]
     """
     check_positive("torque", torque, "N m", "Turn the problem round for the other flank.")
-    forces = _starting_forces(problem, start)
-    if start is None or not forces.any():
+    forces, operations = _starting_forces(problem, start), 0
+    if not forces.any():
         forces = np.where(problem.usable, 1.0, 0.0)
         spread = _displaced(problem, forces)
         forces = _winkler_forces(problem, torque, float(spread @ forces) / float(forces.sum()))
+        operations = 1
     forces *= torque / float(problem.arm @ forces)
-    return _solve(problem, forces, math.nan, float(torque), tolerance, max_iterations, throw)
+    return _solve(
+        problem, forces, math.nan, float(torque), tolerance, max_iterations, throw, operations
+    )
 
 
 def solve_rotation(
@@ -96,25 +112,29 @@ def solve_rotation(
     rotation: float,
     *,
     tolerance: float = 1e-6,
-    max_iterations: int = 1000,
+    max_iterations: int = 2000,
     start: Array | None = None,
     throw: bool = True,
 ) -> UnilateralSolution:
     """Return the contact at a prescribed closing rotation; its torque is an answer.
 
     Parameters, errors and source as in `solve_torque`, without the constraint on the moments.
-    `rotation` is delta [rad]; where it closes no gap all forces are zero, without error.
+    `rotation` is delta [rad]; where it closes no gap all forces are zero, without error. The torque
+    is accurate to a few times the tolerance. Takes about as many iterations as a given torque.
     """
     check_finite("rotation", rotation, "rad")
     forces = _starting_forces(problem, start)
     closing = np.where(problem.usable, problem.arm * rotation - problem.gap, 0.0)
     if not forces.any():
         forces = np.maximum(closing, 0.0)
-    if forces.any():
+    operations = int(forces.any())
+    if operations:
         work, twice_energy = float(forces @ closing), float(forces @ _displaced(problem, forces))
         if work > 0.0:
             forces *= work / twice_energy  # least energy among all multiples
-    return _solve(problem, forces, float(rotation), math.nan, tolerance, max_iterations, throw)
+    return _solve(
+        problem, forces, float(rotation), math.nan, tolerance, max_iterations, throw, operations
+    )
 
 
 def _starting_forces(problem: UnilateralProblem, start: Array | None) -> Array:
@@ -167,16 +187,22 @@ def _solve(
     tolerance: float,
     max_iterations: int,
     throw: bool,
+    operations: int,
 ) -> UnilateralSolution:
-    """Iterate; rotation NaN means given torque, torque NaN means given rotation."""
+    """Iterate; rotation NaN means given torque, torque NaN means given rotation.
+
+    `operations` counts what the start took.
+    """
     check_within("tolerance", tolerance, _FINEST, 1e-2)
     check_within("max_iterations", max_iterations, 1, 1e6)
     fixed_torque = math.isnan(rotation)
     gap, arm = problem.gap, problem.arm
     weight = np.where(problem.usable, gap if fixed_torque else gap - rotation * arm, 0.0)
     residual, direction, probe = (np.zeros(gap.size) for _ in range(3))
-    displacement = _displaced(problem, forces) if forces.any() else np.zeros(gap.size)
-    operations = 2  # the start took one
+    displacement = np.zeros(gap.size)
+    if forces.any():
+        displacement[:] = _displaced(problem, forces)
+        operations += 1
     history: list[float] = []
     loaded_before = math.inf
     while True:
