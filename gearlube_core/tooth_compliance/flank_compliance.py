@@ -1,0 +1,128 @@
+"""Condensed compliance of both flanks of a tooth for loaded contact.
+
+    u = H p + W (C_fe - C_hs) W^T f
+
+H p is the half-space displacement of the fine pressure, f the forces of the fine cells, W their
+bilinear weights on a coarse grid of hats. C_fe - C_hs, the image part, holds what a half-space
+does not know (bending, shear, base, free faces); it is smooth, so coarse hats carry it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from gearlube_core.checks import check_within
+from gearlube_core.materials.solid import Solid
+from gearlube_core.tooth_compliance.half_space_hats import half_space_compliance
+from gearlube_core.tooth_compliance.hat_grid import hat_values
+from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, tooth_model
+from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
+from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity, tooth_mesh
+from gearlube_core.tooth_compliance.tooth_section import Flank
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+SIDES = ("left", "right")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CondensationSettings:
+    """How finely a tooth is resolved.
+
+    Parameters
+    ----------
+    profile_hats, lengthwise_hats
+        Numbers of hats from root to tip and from toe to heel.
+    density
+        Numbers of elements; two per hat along the flank resolve a hat's own indentation.
+    """
+
+    profile_hats: int = 7
+    lengthwise_hats: int = 13
+    density: MeshDensity = field(default_factory=MeshDensity)
+
+    def __post_init__(self) -> None:
+        check_within("profile_hats", self.profile_hats, 2, 100)
+        check_within("lengthwise_hats", self.lengthwise_hats, 2, 200)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlankCompliance:
+    """Compliance of one flank between hats, along the inward normals.
+
+    Hat (i, j) of unit force is number i nh + j. The displacement that a hat sees is its own
+    weighted average, so that both matrices are symmetric.
+
+    Parameters
+    ----------
+    s, t
+        Flank parameters of the hats' centres [1], (mh,) root to tip and (nh,) toe to heel.
+    image
+        C_fe - C_hs [m/N], (mh nh, mh nh).
+    elastic
+        C_fe, the whole compliance [m/N], (mh nh, mh nh).
+    """
+
+    s: Array
+    t: Array
+    image: Array
+    elastic: Array
+
+
+def tooth_compliance(
+    geometry: ToothGeometry, solid: Solid, settings: CondensationSettings
+) -> tuple[FlankCompliance, FlankCompliance]:
+    """Return the compliance of the left and the right flank.
+
+    Parameters
+    ----------
+    geometry
+        Tooth and rim.
+    solid
+        Linear elastic and isotropic.
+    settings
+        Hats and elements.
+
+    Raises
+    ------
+    ParameterError
+        When the geometry cannot be meshed.
+
+    Notes
+    -----
+    Small strains. The base block is held at its bottom and at the two cuts through the rim; toe
+    and heel are free, and so are the slots. Teeth beside this one are left out.
+    """
+    mesh = tooth_mesh(geometry, settings.density)
+    model = tooth_model(mesh, solid)
+    s = np.linspace(0.0, 1.0, settings.profile_hats)
+    t = np.linspace(0.0, 1.0, settings.lengthwise_hats)
+    loads = [normal_hat_loads(mesh, side, s, t)[0] for side in SIDES]
+    whole = model.compliance(np.hstack(loads))
+    flanks = []
+    for k, side in enumerate(SIDES):
+        part = slice(k * s.size * t.size, (k + 1) * s.size * t.size)
+        elastic = whole[part, part].copy()
+        half_space = half_space_compliance(Flank(getattr(geometry, side)), s, t, solid)
+        flanks.append(FlankCompliance(s=s, t=t, image=elastic - half_space, elastic=elastic))
+    return flanks[0], flanks[1]
+
+
+def interpolation_weights(s: Array, t: Array, compliance: FlankCompliance) -> csr_array:
+    """Return W, the weights of points on the hats, sparse (points, mh nh) [1].
+
+    W^T f spreads point forces over hats, W u interpolates the hats' displacements. Points
+    outside the grid are moved to its edge.
+
+    Parameters
+    ----------
+    s, t
+        Flank parameters of the points [1], any shape that broadcasts; counted in C order.
+    compliance
+        Its grid of hats.
+    """
+    return hat_values(s, t, compliance.s, compliance.t)

@@ -1,0 +1,134 @@
+"""What the compliance model knows of one gear member: two flanks, the axis and the rim."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_positive, check_within
+from gearlube_core.errors import ParameterError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_FEWEST_POINTS = 4  # the grids are interpolated by cubic splines
+
+
+def _unit_vector(name: str, vector: Array) -> Array:
+    length = float(np.linalg.norm(vector))
+    if vector.shape != (3,) or not math.isfinite(length) or length == 0.0:
+        raise ParameterError(f"{name} must be 3 finite numbers that are not all zero.")
+    return vector / length
+
+
+def _flank_points(name: str, points: Array) -> Array:
+    grid = np.ascontiguousarray(points, dtype=np.float64)
+    if grid.ndim != 3 or grid.shape[2] != 3 or min(grid.shape[:2]) < _FEWEST_POINTS:
+        raise ParameterError(
+            f"{name} must have the shape (m, n, 3) with m, n >= {_FEWEST_POINTS}, "
+            f"got {grid.shape}. Axis 0 runs root to tip, axis 1 toe to heel."
+        )
+    if not np.all(np.isfinite(grid)):
+        raise ParameterError(f"{name} must hold finite coordinates [m]; some are not.")
+    return grid
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToothGeometry:
+    """One tooth of a gear of any kind: two flanks, the axis and the block that carries it.
+
+    Parameters
+    ----------
+    left, right
+        Points of the two flanks of one tooth [m], (m, n, 3); axis 0 from the root line to the
+        tip, axis 1 from toe to heel. Seen from the toe, tip upwards, `left` is on the left.
+    inward
+        Direction into the body below the tooth (normal of the root cone) at each station, (n, 3).
+    axis_point, axis_direction
+        A point [m] and the direction of the gear's axis, (3,).
+    teeth
+        Number of teeth.
+    slot_depth
+        Depth of the slot's bottom below the root lines of the flanks [m]; the root fillet
+        takes it up.
+    base_depth
+        Depth of the base block below the slot's bottom [m].
+    neighbour_pitches
+        Plain rim on each side beyond the middle of the slot, in pitches.
+
+    Notes
+    -----
+    The flank's parameters are the fractions of the grids' indices: s = 0 at the root line and
+    1 at the tip, t = 0 at the toe and 1 at the heel.
+    """
+
+    left: Array
+    right: Array
+    inward: Array
+    axis_point: Array
+    axis_direction: Array
+    teeth: int
+    slot_depth: float
+    base_depth: float
+    neighbour_pitches: float
+
+    def __post_init__(self) -> None:
+        left, right = _flank_points("left", self.left), _flank_points("right", self.right)
+        if left.shape != right.shape:
+            raise ParameterError(
+                f"left and right must have the same shape, got {left.shape} and {right.shape}. "
+                "Sample both flanks with one grid."
+            )
+        inward = np.array(self.inward, dtype=np.float64)
+        lengths = np.linalg.norm(inward, axis=-1)
+        if inward.shape != (left.shape[1], 3) or not np.all(lengths > 0.0):
+            raise ParameterError(
+                f"inward must hold a direction for each station, shape ({left.shape[1]}, 3), "
+                f"got {inward.shape} or a zero vector."
+            )
+        axis_point = np.array(self.axis_point, dtype=np.float64)
+        if axis_point.shape != (3,) or not np.all(np.isfinite(axis_point)):
+            raise ParameterError("axis_point must be 3 finite coordinates [m].")
+        check_within("teeth", self.teeth, 3, 1e4, "", "Give the number of teeth of the gear.")
+        check_positive("slot_depth", self.slot_depth, "m", "About 0.3 of a module is usual.")
+        check_positive("base_depth", self.base_depth, "m", "About 3 modules are usual.")
+        # the rim's two ends must stay apart: half a turn in all
+        most = 0.25 * self.teeth - 0.5
+        check_within("neighbour_pitches", self.neighbour_pitches, 0.0, most, "pitches")
+        for name, value in (
+            ("left", left),
+            ("right", right),
+            ("inward", inward / lengths[:, None]),
+            ("axis_point", axis_point),
+            (
+                "axis_direction",
+                _unit_vector("axis_direction", np.array(self.axis_direction, dtype=np.float64)),
+            ),
+        ):
+            value.setflags(write=False)
+            object.__setattr__(self, name, value)
+
+    @property
+    def pitch(self) -> float:
+        """Pitch angle [rad]."""
+        return 2.0 * math.pi / self.teeth
+
+    def rotated_vectors(self, vectors: Array, angle: float | Array) -> Array:
+        """Return directions (..., 3) turned about the axis by angles (...) [rad] (Rodrigues)."""
+        k = self.axis_direction
+        c, s = np.cos(angle)[..., None], np.sin(angle)[..., None]
+        along = (vectors @ k)[..., None] * k
+        return along + c * (vectors - along) + s * np.cross(k, vectors)
+
+    def rotated_points(self, points: Array, angle: float | Array) -> Array:
+        """Return points (..., 3) [m] turned about the axis by angles (...) [rad]."""
+        return self.axis_point + self.rotated_vectors(points - self.axis_point, angle)
+
+    def angle_between(self, start: Array, end: Array) -> Array:
+        """Return the angle about the axis from points (..., 3) to points (..., 3) [rad]."""
+        k = self.axis_direction
+        a, b = np.cross(k, start - self.axis_point), np.cross(k, end - self.axis_point)
+        sine = np.einsum("...j,j->...", np.cross(a, b), k)
+        return np.arctan2(sine, np.einsum("...j,...j->...", a, b))
