@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from gearlube_core.flank_surface.cutting_motion import cut_state
 from gearlube_core.flank_surface.flank import Flank, Side
@@ -19,6 +20,8 @@ from gearlube_core.tooth_contact.placement import (
     Placement,
     gear_placement,
     pinion_placement,
+    place_direction,
+    place_point,
     turned,
 )
 
@@ -91,7 +94,7 @@ class FlankPair:
 
     def gear_placed(self, angle: float) -> Placement:
         """Return the placement of the gear at `angle` [rad]."""
-        return turned(gear_placement(self.gear.motion, self.misalignment), self._gear_turn + angle)
+        return turned(self.gear_base, self.gear_turn(angle))
 
     def pinion_placed(self, angle: float) -> Placement:
         """Return the placement of the pinion at `angle` [rad]; zero as at gear angle zero."""
@@ -102,6 +105,15 @@ class FlankPair:
         """Placement of the pinion with its work at rotation zero."""
         return pinion_placement(self.pinion.motion, self.misalignment)
 
+    @property
+    def gear_base(self) -> Placement:
+        """Placement of the gear with its work at rotation zero."""
+        return gear_placement(self.gear.motion, self.misalignment)
+
+    def gear_turn(self, angle: float) -> float:
+        """Return the rotation about the work axis [rad] of the gear angle `angle` [rad]."""
+        return self._gear_turn + angle
+
     def pinion_turn(self, angle: float) -> float:
         """Return the rotation about the work axis [rad] of the pinion angle `angle` [rad]."""
         return self._pinion_turn_zero - angle
@@ -109,6 +121,19 @@ class FlankPair:
     def pinion_angle(self, turn: float) -> float:
         """Return the pinion angle [rad] of a rotation about the work axis [rad]."""
         return self._pinion_turn_zero - turn
+
+    def gear_in_place(self, angle: float, r: Array, direction: Array) -> tuple[Array, Array]:
+        """Return points (..., 3) [m] and directions of the gear in the fixed frame at `angle`."""
+        turn = Rotation.from_rotvec((self._gear_turn + angle) * self.gear.axis).as_matrix()
+        shift = np.array([0.0, 0.0, self.misalignment.gear_axial])
+        return r @ turn.T + shift, direction @ turn.T
+
+    @property
+    def pinion_axis_placed(self) -> tuple[Array, Array]:
+        """Unit vector of the pinion's work axis and a point on it [m], in the fixed frame."""
+        base = self.pinion_base
+        point = np.array(place_point(base, base.point))
+        return np.array(place_direction(base, base.axis)), point
 
     @cached_property
     def _gear_turn(self) -> float:

@@ -1,0 +1,326 @@
+"""Loaded contact of all tooth pairs at one position of the mesh."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import block_diag, csr_array
+
+from gearlube_core.checks import check_positive, check_within
+from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
+from gearlube_core.contact.strip_compliance import StripCompliance
+from gearlube_core.contact.unilateral import solve_torque
+from gearlube_core.contact.unilateral_problem import UnilateralProblem, UnilateralSolution
+from gearlube_core.contact.unilateral_stiffness import tangent_stiffness
+from gearlube_core.errors import ConvergenceError
+from gearlube_core.flank_surface.flank import Flank
+from gearlube_core.tooth_compliance.flank_compliance import FlankCompliance, interpolation_weights
+from gearlube_core.tooth_contact.gap_map import GapMap, gap_map
+from gearlube_core.tooth_contact.pair import FlankPair
+from gearlube_core.tooth_contact.strip import Strip, StripFrame, cut_strip, strip_frame
+
+Array = NDArray[np.float64]
+
+_GROW = 1.6  # a strip that contact leaves is cut anew, this much larger
+_ATTEMPTS = 8
+_FIRST_STIFFNESS = 3e8  # N/m, only to size the first strips
+_WIDE = 2.5  # half-width of a strip over the half-width of Hertz' line contact
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedSettings:
+    """How finely loaded contact is resolved.
+
+    Parameters
+    ----------
+    cells_across, cells_along : int
+        Cells of a strip across and along the contact line.
+    tolerance : float
+        Of the unilateral contact's residual [1].
+    """
+
+    cells_across: int = 32
+    cells_along: int = 48
+    tolerance: float = 1e-5
+
+    def __post_init__(self) -> None:
+        check_within("cells_across", self.cells_across, 8, 256)
+        check_within("cells_along", self.cells_along, 8, 512)
+        check_within("tolerance", self.tolerance, 1e-10, 1e-3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PairStiffness:
+    """Elastic data of a flank pair.
+
+    Parameters
+    ----------
+    pinion, gear : FlankCompliance
+        Bending and base of the teeth (image part).
+    contact_modulus : float
+        E* [Pa], both bodies.
+    """
+
+    pinion: FlankCompliance
+    gear: FlankCompliance
+    contact_modulus: float
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedPair:
+    """What one tooth pair carries.
+
+    Parameters
+    ----------
+    phase : float
+        Position of the pair [mesh periods]; zero where the reference points meet.
+    strip : Strip
+    forces, pressure : ndarray of shape (nx, ny)
+        [N], [Pa].
+    torque : float
+        Part of the pinion torque [N.m].
+    """
+
+    phase: float
+    strip: Strip
+    forces: Array
+    pressure: Array
+    torque: float
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedState:
+    """Equilibrium at one gear angle and pinion torque.
+
+    Parameters
+    ----------
+    phase : float
+        Mesh phase [mesh periods].
+    torque : float
+        Pinion torque [N.m], positive on either flank.
+    rotation : float
+        Pinion rotation beyond the nominal ratio, towards the gear [rad].
+    unloaded_rotation : float
+        The same without load.
+    gear_torque : float
+        [N.m]
+    strain_energy : float
+        [J]
+    tangent : float
+        d(torque)/d(rotation) [N.m/rad].
+    pairs : tuple of LoadedPair
+        Pairs with strips, loaded or not, by rising phase.
+    iterations : int
+    """
+
+    phase: float
+    torque: float
+    rotation: float
+    unloaded_rotation: float
+    gear_torque: float
+    strain_energy: float
+    tangent: float
+    pairs: tuple[LoadedPair, ...]
+    iterations: int
+
+    @property
+    def force(self) -> Array:
+        """Resultant of the normal forces on the gear [N], (3,), fixed frame."""
+        return -sum(
+            (np.einsum("ij,ijk->k", p.forces, p.strip.normal) for p in self.pairs), np.zeros(3)
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class MeshPosition:
+    """The tooth pairs near contact at one gear angle, unloaded.
+
+    Parameters
+    ----------
+    pair : FlankPair
+    phase : float
+        [mesh periods]
+    phases : tuple of float
+        Phase of each pair.
+    maps : tuple of GapMap
+    """
+
+    pair: FlankPair
+    phase: float
+    phases: tuple[float, ...]
+    maps: tuple[GapMap, ...]
+
+    @classmethod
+    def at(cls, pair: FlankPair, phase: float, pairs: int = 2) -> MeshPosition:
+        """Return the position at mesh phase `phase`, with `pairs` tooth pairs before and after."""
+        phases = tuple(phase + j for j in range(-pairs, pairs + 1))
+        maps = tuple(gap_map(pair, *_angles(pair, k)) for k in phases)
+        return cls(pair, phase, phases, maps)
+
+    @property
+    def unloaded_rotation(self) -> float:
+        """Pinion rotation [rad] to first contact on the maps' grid."""
+        return min(float(np.min(m.touching_rotation)) for m in self.maps)
+
+    def load(
+        self, torque: float, stiffness: PairStiffness, settings: LoadedSettings, closing: float = 0
+    ) -> LoadedState:
+        """Return the equilibrium under the pinion torque `torque` [N.m], above zero.
+
+        `closing` [m] is a first guess of the loaded approach; strips are enlarged until they hold
+        the contact.
+
+        Raises
+        ------
+        ConvergenceError
+            When contact keeps running out of the strips.
+        """
+        check_positive("torque", torque, "N.m", "Coast flanks carry positive torque too.")
+        arm = 0.02 if not self.maps else float(np.median(np.abs(self.maps[0].arm)))
+        closing = closing or torque / arm / _FIRST_STIFFNESS
+        width = 1.0
+        for _ in range(_ATTEMPTS):
+            strips = self._strips(torque / arm, closing, width, settings)
+            state, solution = self._solve(torque, strips, stiffness, settings)
+            needed = arm * (solution.rotation - self.unloaded_rotation)
+            sideways = any(_touches_side(pair) for pair in state.pairs)
+            if needed <= closing and not sideways:
+                return state
+            if needed > closing:
+                closing = max(1.15 * needed, _GROW**0.5 * closing)
+            if sideways:
+                width *= _GROW
+        raise ConvergenceError(
+            f"Contact at mesh phase {self.phase:.3f} and {torque:g} N.m leaves strips of "
+            f"{2e3 * max(s.frame.half_width for _, s in strips):.2g} mm width. The flanks may be "
+            "conjugate across the tooth, or the load too high for them."
+        )
+
+    def _strips(
+        self, force: float, closing: float, width: float, settings: LoadedSettings
+    ) -> list[tuple[float, Strip]]:
+        shape = settings.cells_across, settings.cells_along
+        reach_rotation = self.unloaded_rotation
+        strips = []
+        for phase, gaps in zip(self.phases, self.maps, strict=True):
+            arm = float(np.median(np.abs(gaps.arm)))
+            reach = arm * reach_rotation + closing
+            frame = strip_frame(gaps, reach, 1e-3)
+            if frame is None:
+                continue
+            half = _hertz_half_width(self.pair, frame, force)
+            frame = StripFrame(
+                frame.centre,
+                frame.across,
+                frame.along,
+                frame.normal,
+                _WIDE * width * half,
+                frame.half_length,
+                frame.gear_start,
+                frame.pinion_start,
+            )
+            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, shape)
+            if strip.usable.any():
+                strips.append((phase, strip))
+        return strips
+
+    def _solve(
+        self,
+        torque: float,
+        strips: Sequence[tuple[float, Strip]],
+        stiffness: PairStiffness,
+        settings: LoadedSettings,
+    ) -> tuple[LoadedState, UnilateralSolution]:
+        cells = [strip for _, strip in strips]
+        shapes = block_diag([_weights(self.pair, strip, stiffness) for strip in cells], "csr")
+        one = block_diag([stiffness.pinion.image, stiffness.gear.image]).toarray()
+        compliance = StripCompliance(
+            [_half_space(strip, stiffness.contact_modulus) for strip in cells],
+            csr_array(shapes),
+            block_diag([one] * len(cells)).toarray(),
+        )
+        problem = UnilateralProblem(
+            compliance=compliance,
+            gap=np.concatenate([strip.gap.ravel() for strip in cells]),
+            arm=np.concatenate([np.where(strip.usable, strip.arm, 1.0).ravel() for strip in cells]),
+            cell_area=np.concatenate([strip.area.ravel() for strip in cells]),
+        )
+        solution = solve_torque(problem, torque, tolerance=settings.tolerance)
+        tangent = tangent_stiffness(problem, solution)
+        size = settings.cells_across * settings.cells_along
+        pairs = []
+        for i, (phase, strip) in enumerate(strips):
+            part = slice(i * size, (i + 1) * size)
+            forces = solution.forces[part].reshape(strip.gap.shape)
+            pressure = solution.pressure[part].reshape(strip.gap.shape)
+            pairs.append(
+                LoadedPair(phase, strip, forces, pressure, float(np.nansum(forces * strip.arm)))
+            )
+        unloaded = float(np.min(problem.gap / problem.arm))
+        state = LoadedState(
+            phase=self.phase,
+            torque=torque,
+            rotation=solution.rotation,
+            unloaded_rotation=min(unloaded, self.unloaded_rotation),
+            gear_torque=float(sum(np.nansum(p.forces * p.strip.gear_arm) for p in pairs)),
+            strain_energy=solution.strain_energy,
+            tangent=tangent,
+            pairs=tuple(pairs),
+            iterations=solution.outcome.iterations,
+        )
+        return state, solution
+
+
+def _angles(pair: FlankPair, phase: float) -> tuple[float, float]:
+    return phase * pair.gear_pitch, phase * pair.pinion_pitch
+
+
+def _half_space(strip: Strip, contact_modulus: float) -> HalfSpaceConvolution:
+    nx, ny = strip.gap.shape
+    return HalfSpaceConvolution(love_coefficients(*strip.cell, nx, ny, contact_modulus))
+
+
+def _weights(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> csr_array:
+    """Return the weights of the cells on the hats of pinion and gear, (cells, hats of both)."""
+    from scipy.sparse import hstack
+
+    parts = []
+    for flank, parameters, compliance in (
+        (pair.pinion, strip.pinion_parameters, stiffness.pinion),
+        (pair.gear, strip.gear_parameters, stiffness.gear),
+    ):
+        s, t = tooth_position(flank, parameters)
+        usable = strip.usable
+        s, t = np.where(usable, s, 0.5), np.where(usable, t, 0.5)
+        parts.append(interpolation_weights(s, t, compliance))
+    return csr_array(hstack(parts))
+
+
+def tooth_position(flank: Flank, parameters: Array) -> tuple[Array, Array]:
+    """Return profile and face position (s, t) [-] of cutting parameters (..., 3)."""
+    w = flank.sample_parameters(parameters).r - flank.axis_point
+    axial = w @ flank.axis
+    radius = np.linalg.norm(w - axial[..., None] * flank.axis, axis=-1)
+    return flank.region.position(radius, axial)
+
+
+def _hertz_half_width(pair: FlankPair, frame: StripFrame, force: float) -> float:
+    """Return the half-width [m] of line contact under `force` [N] over the strip's length."""
+    gear = pair.gear.sample_parameters(frame.gear_start)
+    pinion = pair.pinion.sample_parameters(frame.pinion_start)
+    curvature = float(
+        np.max(np.abs(np.linalg.eigvalsh(gear.curvature)))
+        + np.max(np.abs(np.linalg.eigvalsh(pinion.curvature)))
+    )
+    per_length = force / max(2.0 * frame.half_length, 2e-3)
+    return math.sqrt(4.0 * per_length / (math.pi * 1.15e11 * curvature))
+
+
+def _touches_side(pair: LoadedPair) -> bool:
+    """Tell whether contact reaches the long sides of the strip where the teeth go on."""
+    loaded = pair.forces > 0.0
+    return bool(loaded[[0, -1]].any())
