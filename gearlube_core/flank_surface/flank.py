@@ -204,7 +204,7 @@ class Flank:
 
     @cached_property
     def _start_grid(self) -> Array:
-        """Parameters on a coarse grid, each search started from its neighbour, (m, n, 3)."""
+        """Starts on a coarse grid, each found from its neighbour, (m, n, 3)."""
         rows, columns = _START_GRID
         s, t = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1, columns), indexing="ij")
         radius, axial = self.region.section(s, t)
@@ -224,6 +224,10 @@ class Flank:
                 f"The {self.role}'s cutter leaves no {self.side} flank at the middle of the tooth. "
                 "Check its machine settings against the mean point (reference_plane_distance)."
             )
+        # below an undercut, a search may start from the lowest place that has a flank
+        for i in range(rows - 2, -1, -1):
+            missing = np.isnan(found[i, :, 0])
+            found[i, missing] = found[i + 1, missing]
         return found
 
 
