@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -25,7 +26,7 @@ Array = NDArray[np.float64]
 Curve = Literal["convex", "concave"]
 
 _X, _Y, _Z = np.eye(3)
-_SCAN = 721  # positions tried for a root: half a degree of cutter rotation
+_TURN = np.linspace(-math.pi, math.pi, 721)  # tried for a root: half a degree of rotation each
 
 
 class ReferenceCut(NamedTuple):
@@ -129,7 +130,7 @@ def pinion_cut(file: HypoidGearFile, curve: Curve) -> ReferenceCut:
 
 def reference_plane_distance(cut: ReferenceCut, blank: HypoidBlank) -> float:
     """Return the height [m] of the mean reference point over the cutter's reference plane."""
-    return _from_cutter(cut.motion, reference_point(blank), cut.cradle_angle)[0]
+    return float(_from_cutter(cut.motion, reference_point(blank), cut.cradle_angle)[0])
 
 
 def _vector(a: Array) -> Vector:
@@ -162,35 +163,38 @@ def _with_offset(motion: CuttingMotion, cutter: Cutter, th: float, ph: float) ->
     return motion._replace(cos_offset=math.cos(angle), sin_offset=math.sin(angle))
 
 
-def _from_cutter(motion: CuttingMotion, point: Array, ph: float) -> tuple[float, Array]:
-    """Return height over the reference plane and radius vector of `point`, cradle turned by ph."""
-    origin = np.array(motion.cradle_point)
-    turned = Rotation.from_rotvec(-ph * np.array(motion.cradle_axis)).apply(point - origin) + origin
-    offset = turned - np.array(motion.cutter_centre)
-    height = float(offset @ np.array(motion.cutter_axis))
-    return height, offset - height * np.array(motion.cutter_axis)
+def _from_cutter(motion: CuttingMotion, point: Array, ph: float | Array) -> tuple[Array, Array]:
+    """Return height over the reference plane (...) and radius vector (..., 3) of `point` [m].
+
+    The cradle is turned by `ph`, of shape (...).
+    """
+    origin, axis = np.array(motion.cradle_point), np.array(motion.cutter_axis)
+    turn = Rotation.from_rotvec(np.multiply.outer(-np.asarray(ph), np.array(motion.cradle_axis)))
+    offset = turn.apply(point - origin) + origin - np.array(motion.cutter_centre)
+    height = offset @ axis
+    return height, offset - np.multiply.outer(height, axis)
 
 
-def _roots(function, low: float, high: float) -> list[float]:  # type: ignore[no-untyped-def]
-    grid = np.linspace(low, high, _SCAN)
-    values = [function(x) for x in grid]
+def _roots(function: Callable[[float], float], values: Array) -> list[float]:
+    """Return the roots of a function of an angle whose `values` are known on the grid `_TURN`."""
     return [
-        float(brentq(function, grid[i], grid[i + 1], xtol=1e-14))
-        for i in range(_SCAN - 1)
-        if values[i] * values[i + 1] < 0.0
+        float(brentq(function, _TURN[i], _TURN[i + 1], xtol=1e-14))
+        for i in np.flatnonzero(values[1:] * values[:-1] < 0.0)
     ]
 
 
 def _pinion_cradle_angle(motion: CuttingMotion, point: Array) -> float:
-    def excess(ph: float) -> float:
-        return float(np.linalg.norm(_from_cutter(motion, point, ph)[1])) - motion.radius
+    def excess(ph: Array) -> Array:
+        radial = _from_cutter(motion, point, ph)[1]
+        return np.asarray(np.linalg.norm(radial, axis=-1) - motion.radius)
 
-    candidates = _roots(excess, -math.pi, math.pi)
+    values = excess(_TURN)
+    candidates = _roots(lambda ph: float(excess(np.asarray(ph))), values)
     if not candidates:
-        nearest = min(excess(ph) for ph in np.linspace(-math.pi, math.pi, _SCAN))
+        nearest = float(np.min(np.abs(values)))
         raise ParameterError(
             "The pinion's cutter does not reach the mean point at any cradle angle: it passes it "
-            f"by {abs(nearest) / MILLIMETRE:.3g} mm. Check radial_setting_mm (a change of about "
+            f"by {nearest / MILLIMETRE:.3g} mm. Check radial_setting_mm (a change of about "
             "that size would mesh), point_radius_mm, sliding_base_mm and blank_offset_mm."
         )
     return min(candidates, key=abs)
@@ -214,7 +218,7 @@ def _gear_cutter_angle(motion: CuttingMotion, blank: HypoidBlank) -> float:
             float(tangent @ np.cross(along, radial * cosine - sine * _Z)) / float(tangent @ along)
         )
 
-    candidates = _roots(excess, -math.pi, math.pi)
+    candidates = _roots(excess, np.array([excess(th) for th in _TURN]))
     if not candidates:
         raise ParameterError(
             "The gear's cutter does not cross the middle of the face, cone distance "
