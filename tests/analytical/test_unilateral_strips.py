@@ -151,3 +151,12 @@ def test_stiff_bending_does_not_spoil_convergence() -> None:
     turned = solve_rotation(problem, solution.rotation)
     assert solution.outcome.iterations < 300
     assert turned.torque == pytest.approx(150.0, rel=1e-4)
+
+
+def test_smaller_torque_is_a_good_start() -> None:
+    problem = teeth([3e-6, 0.0, 5e-6], [0.022, 0.0222, 0.0224])
+    before = solve_torque(problem, 120.0)
+    cold, warm = solve_torque(problem, 150.0), solve_torque(problem, 150.0, start=before.forces)
+    # cells enter while the iteration runs, not after it: no more work than from scratch
+    assert warm.outcome.iterations <= cold.outcome.iterations
+    assert warm.rotation == pytest.approx(cold.rotation, rel=1e-5)

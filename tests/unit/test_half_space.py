@@ -36,11 +36,25 @@ def potential_of_a_cell(x: float, y: float) -> float:
 def test_centre_coefficient_is_the_integral_of_boussinesq(i: int, j: int) -> None:
     coefficients = love_coefficients(DX, DY, 12, 8, E_STAR)
     # the quadrature's tolerance, spoilt by the logarithm at the observer
-    assert coefficients[i, j] == pytest.approx(potential_of_a_cell(i * DX, j * DY), rel=1e-8)
+    assert coefficients[i, j] / potential_of_a_cell(i * DX, j * DY) == pytest.approx(1.0, rel=1e-8)
 
 
-@pytest.mark.parametrize(("i", "j"), [(0, 0), (1, 0), (0, 1), (3, 2), (25, 9)])
-def test_mean_coefficient_averages_the_displacement_over_a_cell(i: int, j: int) -> None:
+# midpoint rule, second order in DX/40: cells that touch bend the field within DX of their edges
+@pytest.mark.parametrize(
+    ("i", "j", "tolerance"),
+    [
+        (0, 0, 1e-4),
+        (1, 0, 1e-4),
+        (0, 1, 1e-4),
+        (3, 2, 1e-6),
+        (0, 2, 1e-6),
+        (20, 0, 1e-5),
+        (25, 9, 1e-6),
+    ],
+)
+def test_mean_coefficient_averages_the_displacement_over_a_cell(
+    i: int, j: int, tolerance: float
+) -> None:
     # fine sub-cells of the observing cell, each seen in its centre; (25, 9) lies in the far branch
     x = i * DX + DX * ((np.arange(40) + 0.5) / 40 - 0.5)
     y = j * DY + DY * ((np.arange(800) + 0.5) / 800 - 0.5)
@@ -53,8 +67,7 @@ def test_mean_coefficient_averages_the_displacement_over_a_cell(i: int, j: int) 
             total = total + sx * sy * (X * np.log(Y + r) + Y * np.log(X + r))
     expected = float(np.mean(total)) / (math.pi * E_STAR * DX * DY)
     value = love_coefficients(DX, DY, 26, 10, E_STAR, "mean")[i, j]
-    # midpoint rule: the field bends within DX of the cell's edges, second order in DX/40
-    assert value == pytest.approx(expected, rel=1e-4)
+    assert value / expected == pytest.approx(1.0, rel=tolerance)
 
 
 @pytest.mark.parametrize("observed", ["centre", "mean"])
