@@ -41,6 +41,8 @@ class ContactKinematics:
         Unit vectors [-]; minor towards the entrainment, major = normal x minor.
     velocity_p, velocity_g : ndarray of shape (N, 3)
         Tangential velocities of pinion and gear, the gear at the teeth ratio [m].
+    ratio : float
+        Teeth ratio gear / pinion [-].
     """
 
     r: Array
@@ -54,6 +56,7 @@ class ContactKinematics:
     major_axis: Array
     velocity_p: Array
     velocity_g: Array
+    ratio: float
 
     @property
     def entrainment(self) -> Array:
@@ -89,11 +92,8 @@ class ContactKinematics:
 
     @property
     def friction_arm_g(self) -> Array:
-        """Arm of a force along xi about the gear axis [m], (N,); Karagiannis 2012, eq. (9).
-
-        The gear turns teeth-ratio times slower than its flank's velocity per unit pinion speed.
-        """
-        return _dot(self.xi, self.velocity_g) * self._ratio
+        """Arm of a force along xi about the gear axis [m], (N,); Karagiannis 2012, eq. (9)."""
+        return _dot(self.xi, self.velocity_g) * self.ratio
 
     @property
     def R_sliding(self) -> Array:
@@ -104,9 +104,6 @@ class ContactKinematics:
         """Return the radius of the gap [m] in the section along unit tangents (N, 3)."""
         K = self.relative_curvature
         return np.asarray(1.0 / np.einsum("ni,nij,nj->n", direction, K, direction))
-
-    # set by the constructor function; the friction arm of the gear counts its own rotation
-    _ratio: float = 1.0
 
 
 def path_kinematics(path: ContactPath) -> ContactKinematics:
@@ -180,7 +177,7 @@ def contact_kinematics(
         major_axis=np.cross(normal, minor),
         velocity_p=velocity_p,
         velocity_g=velocity_g,
-        _ratio=pair.ratio,
+        ratio=pair.ratio,
     )
 
 
@@ -188,7 +185,9 @@ def _principal(curvature: Array, normal: Array, towards: Array) -> tuple[Array, 
     """Return R_x, R_y [m] and the unit minor axis, turned `towards` a direction."""
     t1 = towards / np.linalg.norm(towards, axis=1)[:, None]
     t2 = np.cross(normal, t1)
-    a, b, c = (np.einsum("ni,nij,nj->n", p, curvature, q) for p, q in ((t1, t1), (t1, t2), (t2, t2)))
+    a, b, c = (
+        np.einsum("ni,nij,nj->n", p, curvature, q) for p, q in ((t1, t1), (t1, t2), (t2, t2))
+    )
     # the larger eigenvalue's direction stands at half the angle of Mohr's circle
     angle = 0.5 * np.arctan2(2.0 * b, a - c)
     mean, radius = 0.5 * (a + c), np.hypot(0.5 * (a - c), b)

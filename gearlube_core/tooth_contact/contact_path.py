@@ -21,6 +21,7 @@ from gearlube_core.tooth_contact.placed_flank import placed_sample, tooth_positi
 Array = NDArray[np.float64]
 
 _LONGEST_STEP = 0.125  # of a pitch, between solutions that start from one another
+_DIFFERENCE = 1e-3  # of a pitch: errors of both difference and rounding below 1e-8 m
 _TRIED = (0.0, -0.25, 0.25, -0.5, 0.5)  # gear angles [pitches] tried for a first contact
 
 
@@ -40,6 +41,8 @@ class ContactPath:
     gear_s, gear_t, pinion_s, pinion_t : ndarray of shape (N,)
         Profile (root 0, tip 1) and face (toe 0, heel 1) positions [-]. The surfaces reach beyond
         the teeth; `inside` tells where both teeth are.
+    pinion_regularity : ndarray of shape (N,)
+        Not positive beyond a fold of the pinion surface (undercut) [-].
     """
 
     pair: FlankPair
@@ -53,6 +56,7 @@ class ContactPath:
     gear_t: Array
     pinion_s: Array
     pinion_t: Array
+    pinion_regularity: Array
 
     @property
     def transmission_error(self) -> Array:
@@ -61,9 +65,10 @@ class ContactPath:
 
     @property
     def inside(self) -> NDArray[np.bool_]:
-        """Where the point lies on both teeth, (N,)."""
+        """Where the point lies on both teeth, and not beyond a fold, (N,)."""
         places = np.stack([self.gear_s, self.gear_t, self.pinion_s, self.pinion_t])
-        return np.asarray(((places >= 0.0) & (places <= 1.0)).all(axis=0))
+        on_teeth = ((places >= 0.0) & (places <= 1.0)).all(axis=0)
+        return np.asarray(on_teeth & (self.pinion_regularity > 0.0))
 
 
 def contact_path(pair: FlankPair, gear_angles: Array) -> ContactPath:
@@ -104,6 +109,18 @@ def contact_path(pair: FlankPair, gear_angles: Array) -> ContactPath:
     return _path(pair, gear_angles, found)
 
 
+def contact_migration(path: ContactPath) -> Array:
+    """Return the velocity of the point of contact in the fixed frame, per unit pinion speed [m].
+
+    Shape (N, 3), by central differences of exact contacts. Surface velocities are those of the
+    bodies' points; relative to the moving contact they are smaller or larger by this.
+    """
+    step = _DIFFERENCE * path.pair.gear_pitch
+    after = contact_path(path.pair, path.gear_angle + step)
+    before = contact_path(path.pair, path.gear_angle - step)
+    return np.asarray((after.r - before.r) / (after.pinion_angle - before.pinion_angle)[:, None])
+
+
 def _path(pair: FlankPair, gear_angles: Array, found: Array) -> ContactPath:
     gear, pinion = found[:, :3], found[:, 3:6]
     surface = placed_sample(pair.pinion, pair.pinion_base, found[:, 6], pinion)
@@ -115,8 +132,9 @@ def _path(pair: FlankPair, gear_angles: Array, found: Array) -> ContactPath:
         pinion,
         surface.r,
         surface.normal,
-        *tooth_position(pair.gear, gear),
-        *tooth_position(pair.pinion, pinion),
+        *tooth_position(pair.gear, pair.gear.sample_parameters(gear).r),
+        *tooth_position(pair.pinion, pair.pinion.sample_parameters(pinion).r),
+        surface.regularity,
     )
 
 

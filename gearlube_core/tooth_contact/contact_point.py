@@ -118,9 +118,7 @@ def _put_equations(
             r, n, scale = gear.r_ph, gear.normal_ph, _STEP_ANGLE
         r = place_direction(gear_placed, r)
         n = place_direction(gear_placed, n)
-        _put_column(
-            rows, j, -scale, r, sign * a * dot(n, t1), sign * a * dot(n, t2)
-        )
+        _put_column(rows, j, -scale, r, sign * a * dot(n, t1), sign * a * dot(n, t2))
     for j in range(3):
         if j == 0:
             r, n, scale = pinion.r_u, pinion.normal_u, _STEP_HEIGHT

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,7 @@ from gearlube_core.tooth_contact.placement import (
 )
 
 Array = NDArray[np.float64]
+Angle = TypeVar("Angle", float, NDArray[np.float64])
 
 
 @dataclass(frozen=True)
@@ -110,15 +112,15 @@ class FlankPair:
         """Placement of the gear with its work at rotation zero."""
         return gear_placement(self.gear.motion, self.misalignment)
 
-    def gear_turn(self, angle: float) -> float:
+    def gear_turn(self, angle: Angle) -> Angle:
         """Return the rotation about the work axis [rad] of the gear angle `angle` [rad]."""
         return self._gear_turn + angle
 
-    def pinion_turn(self, angle: float) -> float:
+    def pinion_turn(self, angle: Angle) -> Angle:
         """Return the rotation about the work axis [rad] of the pinion angle `angle` [rad]."""
         return self._pinion_turn_zero - angle
 
-    def pinion_angle(self, turn: float) -> float:
+    def pinion_angle(self, turn: Angle) -> Angle:
         """Return the pinion angle [rad] of a rotation about the work axis [rad]."""
         return self._pinion_turn_zero - turn
 

@@ -50,9 +50,9 @@ def placed_axis(flank: Flank, base: Placement) -> tuple[Array, Array]:
     return tilt @ flank.axis, tilt @ flank.axis_point + np.array(base.shift)
 
 
-def tooth_position(flank: Flank, parameters: Array) -> tuple[Array, Array]:
-    """Return profile position s and face position t [-] of cutting parameters (..., 3)."""
-    r = flank.sample_parameters(parameters).r - flank.axis_point
+def tooth_position(flank: Flank, r: Array) -> tuple[Array, Array]:
+    """Return profile and face position s, t [-] of points (..., 3) [m] in the member's frame."""
+    r = r - flank.axis_point
     axial = r @ flank.axis
     radius = np.linalg.norm(r - axial[..., None] * flank.axis, axis=-1)
     return flank.region.position(radius, axial)
