@@ -6,30 +6,38 @@ of the docs and the error messages come from these models.
 
 from __future__ import annotations
 
+import math
 import tomllib
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from gearlube_core.blank.hypoid_blank import HypoidBlank, MemberBlank
 from gearlube_core.errors import ParameterError
+from gearlube_core.flank_surface.field_notes import field_notes, sentence
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
 Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
 ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False)]
-SpiralAngle = Annotated[float, Field(ge=-65.0, le=65.0, allow_inf_nan=False)]
+SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
+OffsetAngle = Annotated[float, Field(ge=-90.0, le=90.0, allow_inf_nan=False)]
+TiltAngle = Annotated[float, Field(ge=0.0, le=80.0, allow_inf_nan=False)]
+RollRatio = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
+PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
+Clearance = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
 BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False)]
 Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False)]
 Text = Annotated[str, Field(min_length=1)]
+Fields = Annotated[tuple[Text, ...], Field(strict=False)]
 Origin = Literal["table", "inferred", "completed"]
 
 
 class _Section(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
 
 
 class Cutter(_Section):
@@ -53,62 +61,94 @@ class Cutter(_Section):
     blade_groups: int = Field(
         ge=0,
         le=60,
-        description="Blade groups that pass while the work turns by one tooth per group; "
-        "0 for single indexing (face milling)",
+        description="Blade groups of the cutter head; the work turns by one tooth per group (face "
+        "hobbing). 0: it stands still, single indexing (face milling)",
     )
     blade_edge_radius_mm: Length | None = Field(
-        None, description="Radius of a curved blade edge, concave in the blade; absent: straight"
-    )
-    blade_offset_angle_deg: Angle | None = Field(
         None,
-        description="Angle of the blade face from the cutter radius; absent: normal to the cutting "
-        "velocity at the reference point",
+        description="Radius of a curved blade edge, hollow, so that the flank is crowned along its "
+        "profile; absent: straight",
+    )
+    blade_offset_angle_deg: OffsetAngle | None = Field(
+        None,
+        description="Angle from the cutter radius to the blade face, about the cutter axis; "
+        "absent: the blade face is normal to the cutting velocity at the reference point",
     )
 
 
 class FormateMachine(_Section):
     """Machine settings of a form-cut (not generated) gear."""
 
-    machine_root_angle_deg: ConeAngle
+    machine_root_angle_deg: ConeAngle = Field(
+        description="From the gear axis to the reference plane of the cutter"
+    )
     machine_center_to_back_mm: Millimetres = Field(
-        description="Crossing point to the apex of the reference plane, along the gear axis"
+        description="From the crossing point to the apex of the reference plane (the machine "
+        "centre), along the gear axis, positive beyond the crossing point"
     )
     horizontal_setting_mm: Millimetres = Field(
-        description="Cutter centre from the machine centre along the root line"
+        description="Cutter centre from the machine centre along the root line, positive to the "
+        "heel"
     )
     vertical_setting_mm: Millimetres = Field(
-        description="Cutter centre from the machine centre, parallel to the offset"
+        description="Cutter centre from the machine centre, parallel to the offset and positive "
+        "on the side of the pinion axis"
     )
 
 
 class GeneratorMachine(_Section):
-    """Machine settings of a pinion generated with cutter tilt."""
+    """Machine settings of a pinion generated with cutter tilt.
 
-    machine_root_angle_deg: Angle
-    machine_center_to_back_mm: Millimetres
-    sliding_base_mm: Millimetres
-    blank_offset_mm: Millimetres
+    The cradle stands in for the gear: with all crowning taken away, its axis is the gear axis.
+    """
+
+    machine_root_angle_deg: Angle = Field(
+        description="Of the pinion axis towards the cradle plane; 0: at right angles to the cradle "
+        "axis"
+    )
+    machine_center_to_back_mm: Millimetres = Field(
+        description="Shift of the pinion along its axis, positive away from the crossing point: "
+        "the pinion is cut that much further out than it runs"
+    )
+    sliding_base_mm: Millimetres = Field(
+        description="From the pinion axis to the machine plane, which holds the cutter centre, "
+        "along the cradle axis; positive with the pinion axis on the side of the blade tips"
+    )
+    blank_offset_mm: Millimetres = Field(
+        description="Of the pinion axis from the cradle axis, positive as the offset of the pair"
+    )
     radial_setting_mm: Length = Field(description="Cutter centre from the cradle axis")
-    basic_cradle_angle_deg: Angle
-    basic_swivel_angle_deg: Angle
-    tilt_angle_deg: Annotated[float, Field(ge=0.0, le=80.0)] = Field(
-        description="Of the cutter axis from the cradle axis"
+    basic_cradle_angle_deg: Angle = Field(
+        description="q: azimuth of the cutter centre about the cradle axis, from the direction of "
+        "the pinion axis towards that of the offset; only a phase"
     )
-    ratio_of_roll: float = Field(
-        ge=0.1, le=50.0, description="Rotation of the work per rotation of the cradle"
+    basic_swivel_angle_deg: Angle = Field(
+        description="j: the cutter axis leans to the azimuth q - j - 90 deg"
     )
+    tilt_angle_deg: TiltAngle = Field(
+        description="i: angle between the cutter axis and the cradle axis"
+    )
+    ratio_of_roll: RollRatio = Field(description="Rotation of the work per rotation of the cradle")
 
 
 class Member(_Section):
     """Blank of one member; apexes count positive beyond the crossing point of the axes."""
 
-    teeth: int = Field(ge=3, le=400)
-    face_width_mm: Length = Field(description="Along the pitch cone")
-    outer_cone_distance_mm: Length = Field(description="Pitch apex to heel, along the pitch cone")
-    pitch_angle_deg: ConeAngle
+    teeth: int = Field(ge=3, le=400, description="Number of teeth")
+    face_width_mm: Length = Field(description="Face width along the pitch cone")
+    outer_cone_distance_mm: Length = Field(
+        description="From the pitch apex to the heel, along the pitch cone"
+    )
+    pitch_angle_deg: ConeAngle = Field(
+        description="Half angle of the pitch cone; face and root cone have the same (uniform depth)"
+    )
     spiral_angle_deg: SpiralAngle = Field(description="Mean spiral angle, without sign")
-    pitch_apex_mm: Millimetres
-    face_apex_mm: Millimetres
+    pitch_apex_mm: Millimetres = Field(
+        description="Apex of the pitch cone, positive beyond the crossing point"
+    )
+    face_apex_mm: Millimetres = Field(
+        description="Apex of the face cone, positive beyond the crossing point"
+    )
     cutter: Cutter
 
 
@@ -127,8 +167,8 @@ class Gear(Member):
 class Pair(_Section):
     """How the members stand to each other; axes at 90 degrees."""
 
-    offset_mm: Millimetres = Field(ge=0.0, description="Distance of the axes (pinion offset)")
-    clearance_mm: Annotated[float, Field(ge=0.0, le=20.0)] | None = Field(
+    offset_mm: PairOffset = Field(description="Distance of the axes (pinion offset)")
+    clearance_mm: Clearance | None = Field(
         None,
         description="Between the top of one member and the root of the other; absent: an eighth of "
         "the working depth",
@@ -143,13 +183,47 @@ class HypoidGearFile(_Section):
     Karagiannis et al. 2012, Table 1, for the names of the settings.
     """
 
-    name: Text
-    source: Text
+    name: Text = Field(description="What reports and plots call the pair")
+    source: Text = Field(description="Where the numbers are from")
     pair: Pair
     pinion: Pinion
     gear: Gear
-    inferred: tuple[str, ...] = Field((), description="Fields not printed in the source: inferred")
-    completed: tuple[str, ...] = Field((), description="Fields missing in the source: completed")
+    inferred: Fields = Field(
+        (), description="Dotted names of fields that the source does not print but implies"
+    )
+    completed: Fields = Field(
+        (), description="Dotted names of fields that the source lacks and that were chosen"
+    )
+
+    @model_validator(mode="after")
+    def _hangs_together(self) -> HypoidGearFile:
+        """Refuse what no field can see alone."""
+        for role, member in (("pinion", self.pinion), ("gear", self.gear)):
+            if not member.face_width_mm < member.outer_cone_distance_mm:
+                raise ValueError(
+                    f"{role}.face_width_mm must be below {role}.outer_cone_distance_mm, "
+                    f"{member.outer_cone_distance_mm:g} mm, got {member.face_width_mm:g} mm"
+                )
+        depth = sum(
+            (member.face_apex_mm - member.pitch_apex_mm) * math.sin(member.pitch_angle_deg * DEGREE)
+            for member in (self.pinion, self.gear)
+        )
+        if not depth > 0.0:
+            raise ValueError(
+                f"The working depth, from the face and pitch apexes, must be above 0 mm, got "
+                f"{depth:.3g} mm; apexes count positive beyond the crossing point"
+            )
+        known = field_notes(HypoidGearFile)
+        for field in (*self.inferred, *self.completed):
+            if field not in known:
+                raise ValueError(f"inferred or completed names {field!r}, which is not a field")
+        if (self.pinion.cutter.blade_groups == 0) != (self.gear.cutter.blade_groups == 0):
+            raise ValueError(
+                "pinion.cutter.blade_groups and gear.cutter.blade_groups must be both 0 (face "
+                f"milling) or both above 0, got {self.pinion.cutter.blade_groups} and "
+                f"{self.gear.cutter.blade_groups}"
+            )
+        return self
 
     @classmethod
     def from_toml(cls, path: str | Path) -> HypoidGearFile:
@@ -174,7 +248,8 @@ class HypoidGearFile(_Section):
         try:
             return cls.model_validate(data)
         except ValidationError as reason:
-            lines = [_sentence(error) for error in reason.errors()]
+            notes = field_notes(cls)
+            lines = [sentence(error, notes) for error in reason.errors()]
             raise ParameterError(
                 f"{where} has {len(lines)} wrong field(s). " + " ".join(lines)
             ) from None
@@ -224,14 +299,3 @@ def _member_blank(member: Member) -> MemberBlank:
         pitch_apex=member.pitch_apex_mm * MILLIMETRE,
         face_apex=member.face_apex_mm * MILLIMETRE,
     )
-
-
-def _sentence(error: Any) -> str:
-    """Return one of pydantic's findings as: which field, what is wrong, what was given."""
-    field = ".".join(str(part) for part in error["loc"]) or "the file"
-    kind = error["type"]
-    if kind == "missing":
-        return f"{field} is missing."
-    if kind == "extra_forbidden":
-        return f"{field} is not a field of a gear file; check the spelling."
-    return f"{field}: {error['msg'][0].lower()}{error['msg'][1:]}, got {error['input']!r}."
