@@ -14,7 +14,7 @@ from gearlube_core.tooth_contact.placed_flank import placed_axis, placed_sample,
 
 Array = NDArray[np.float64]
 
-_LARGEST_LEAN = 0.02  # rad, between normals that still count as opposite
+_LARGEST_LEAN = 0.1  # rad, between normals that still count as opposite: edges lean
 _LARGEST_GAP = 1e-3  # m, between points that still count as opposite
 
 
