@@ -1,0 +1,125 @@
+"""Analytic derivatives, normals and curvatures of the cut surfaces against differences."""
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlube_core.flank_surface.cutting_motion import cut_state
+from gearlube_core.flank_surface.flank import Flank
+from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.flank_surface.surface_point import CONVERGED, locate, surface_point
+
+FILE = HypoidGearFile.named("mohammadpour_2015")
+MEMBERS = [(role, side) for role in ("pinion", "gear") for side in ("drive", "coast")]
+
+
+@pytest.fixture(scope="module", params=MEMBERS, ids="-".join)
+def flank(request):
+    return Flank.from_file(FILE, *request.param)
+
+
+@pytest.mark.parametrize("name", ["u", "th", "ph"])
+def test_derivatives_are_those_of_the_points_and_normals(flank, name):
+    at = flank.start + np.array([0.7e-3, 0.08, -0.05 * flank.motion.generated])
+    step = np.zeros(3)
+    step[("u", "th", "ph").index(name)] = h = 1e-6
+    if name == "ph" and not flank.motion.generated:
+        pytest.skip("a form-cut flank has no cradle motion")
+    state = cut_state(flank.motion, *at)
+    ahead, behind = cut_state(flank.motion, *(at + step)), cut_state(flank.motion, *(at - step))
+
+    def difference(field):
+        return (np.array(getattr(ahead, field)) - np.array(getattr(behind, field))) / (2.0 * h)
+
+    # rounding 2e-16 x 0.1 m / 1e-6 = 2e-11; truncation h^2 times third derivatives of order 0.1
+    np.testing.assert_allclose(difference("r"), getattr(state, f"r_{name}"), atol=1e-10)
+    np.testing.assert_allclose(difference("normal"), getattr(state, f"normal_{name}"), atol=1e-10)
+    assert difference("meshing") == pytest.approx(getattr(state, f"meshing_{name}"), abs=1e-10)
+
+
+def test_normal_is_that_of_the_surface_through_neighbouring_points(flank):
+    s, t, h = np.array([0.4, 0.6, 0.8]), np.array([0.3, 0.5, 0.8]), 1e-4
+    along_s = flank.sample(s + h, t).r - flank.sample(s - h, t).r
+    along_t = flank.sample(s, t + h).r - flank.sample(s, t - h).r
+    across = np.cross(along_s, along_t)
+    across /= np.linalg.norm(across, axis=-1, keepdims=True)
+    normal = flank.sample(s, t).normal
+    # central differences over 3 um of a surface of 10 mm radius: (1e-4)^2
+    np.testing.assert_allclose(np.abs(np.sum(across * normal, axis=-1)), 1.0, atol=1e-7)
+
+
+def test_shape_operator_is_the_turning_of_the_normal(flank):
+    """Dn = -K dr along both directions of the flank, in the tangents of the sample."""
+    s, t, h = np.array([0.4, 0.6, 0.8]), np.array([0.3, 0.5, 0.8]), 1e-4
+    here = flank.sample(s, t)
+    tangents = np.stack([here.tangent_1, here.tangent_2], axis=-2)
+    for ds, dt in ((h, 0.0), (0.0, h)):
+        ahead, behind = flank.sample(s + ds, t + dt), flank.sample(s - ds, t - dt)
+        dr = np.einsum("nij,nj->ni", tangents, ahead.r - behind.r)
+        dn = np.einsum("nij,nj->ni", tangents, ahead.normal - behind.normal)
+        predicted = -np.einsum("nij,nj->ni", here.curvature, dr)
+        # truncation of the difference, h^2 = 1e-8 of third-order terms a hundred times the second
+        np.testing.assert_allclose(predicted, dn, atol=2e-6 * np.abs(dn).max())
+
+
+def test_a_plane_through_three_neighbours_touches_the_flank(flank):
+    """Second order: the flank leaves its tangent plane by half the normal curvature."""
+    s, t, h = np.array([0.6]), np.array([0.5]), 5e-3
+    here = flank.sample(s, t)
+    near = flank.sample(s + h, t + h).r - here.r
+    back = flank.sample(s - h, t - h).r - here.r
+    x = np.array([near[0] @ here.tangent_1[0], near[0] @ here.tangent_2[0]])
+    sag = 0.5 * float((near[0] + back[0]) @ here.normal[0])
+    # r = ... + n (x K x) / 2; 4th order terms are (h x face width)^2 / R^2 = 1e-4 of it
+    assert sag == pytest.approx(0.5 * x @ here.curvature[0] @ x, rel=2e-3)
+
+
+def test_located_point_stands_at_the_radius_and_height_asked_for(flank):
+    radius, axial = flank.region.section(np.array(0.7), np.array(0.4))
+    parameters = flank.start.copy()
+    assert locate(flank.motion, float(radius), float(axial), parameters) == CONVERGED
+    state = cut_state(flank.motion, *parameters)
+    w = np.array(state.r) - flank.axis_point
+    # Newton stops at steps of 1e-11 of 2 mm and 0.1 rad
+    assert w @ flank.axis == pytest.approx(axial, abs=1e-12)
+    assert np.linalg.norm(np.cross(flank.axis, w)) == pytest.approx(radius, abs=1e-12)
+    assert state.meshing == pytest.approx(0.0, abs=1e-12)
+
+
+def test_places_far_from_the_cutter_are_not_located():
+    flank = Flank.from_file(FILE, "gear", "drive")
+    assert locate(flank.motion, 1.0, 0.0, flank.start.copy()) != CONVERGED
+
+
+def test_compiled_kernels_equal_their_python_source(flank):
+    compiled = surface_point(flank.motion, *flank.start, flank.outward)
+    plain = surface_point.py_func(flank.motion, *flank.start, flank.outward)
+    for a, b in zip(compiled, plain, strict=True):
+        # same operations up to fused multiply-adds
+        np.testing.assert_allclose(np.array(a), np.array(b), rtol=1e-9, atol=1e-11)
+
+
+def test_normals_of_both_flanks_leave_the_tooth():
+    """Convex and concave flank of a tooth face apart: normals oppose along the circumference."""
+    for role in ("pinion", "gear"):
+        swings = []
+        for side in ("drive", "coast"):
+            flank = Flank.from_file(FILE, role, side)
+            point = flank.sample_parameters(flank.start)
+            swing = np.cross(flank.axis, point.r - flank.axis_point)
+            swings.append(float(point.normal @ swing) / float(np.linalg.norm(swing)))
+        assert swings[0] * swings[1] < 0.0
+        # cos(spiral) cos(pressure) of the printed angles, 46 and 27.6 deg, is 0.63 to 0.86
+        assert min(map(abs, swings)) > 0.55
+        assert max(map(abs, swings)) < 0.9
+
+
+def test_region_maps_section_and_position_back_and_forth():
+    region = Flank.from_file(FILE, "pinion", "drive").region
+    s, t = np.array([-0.1, 0.0, 0.3, 1.0]), np.array([0.0, 1.2, 0.5, 1.0])
+    back = region.position(*region.section(s, t))
+    np.testing.assert_allclose(back, (s, t), atol=1e-13)
+    radius, axial = region.section(np.array(0.0), np.array([0.0, 1.0]))
+    # root line parallel to the pitch cone: rise over run is the tangent of the pitch angle
+    assert np.diff(radius) / np.diff(axial) == pytest.approx(math.tan(math.radians(29.056)))
