@@ -123,17 +123,28 @@ def test_rack_generates_the_involute(radius):
     assert double / error == pytest.approx(2.0, rel=0.01)
 
 
-@pytest.mark.parametrize("radius", [39e-3, 40e-3, 42e-3])
-def test_generated_involute_has_the_length_of_its_tangent_as_radius_of_curvature(radius):
+def principal_curvatures(radius):
     motion, at = rack_motion(), np.zeros(3)
     assert locate(motion, radius, 0.0, at) == CONVERGED
     point = surface_point(motion, *at, 1.0)
     operator = [[point.k_11, point.k_12], [point.k_12, point.k_22]]
-    along, across = np.sort(np.abs(np.linalg.eigvalsh(operator)))
+    return np.sort(np.abs(np.linalg.eigvalsh(operator)))
+
+
+@pytest.mark.parametrize("radius", [39e-3, 40e-3, 42e-3])
+def test_generated_involute_has_the_length_of_its_tangent_as_radius_of_curvature(radius):
+    along, across = principal_curvatures(radius)
     # straight along the axis but for the round cutter
     assert along == pytest.approx(math.cos(RACK_ANGLE) / FAR, rel=1e-2)
-    # 20 mm of tangent to 20 m of rack
-    assert 1.0 / across == pytest.approx(math.sqrt(radius**2 - BASE_RADIUS**2), rel=1e-3)
+    # 40 mm of pitch radius to 20 m of rack, twice where the tangent is short
+    assert 1.0 / across == pytest.approx(math.sqrt(radius**2 - BASE_RADIUS**2), rel=4e-3)
+
+
+def test_curvature_at_the_pitch_point_is_that_of_euler_and_savary():
+    """Straight flank, circles of radius r and R: 1 / rho = (1/r + 1/R) / sin(alpha)."""
+    _, across = principal_curvatures(PITCH_RADIUS)
+    expected = (1.0 / PITCH_RADIUS + 1.0 / FAR) / math.sin(RACK_ANGLE)
+    assert across == pytest.approx(expected, rel=1e-9)
 
 
 def test_rack_envelope_folds_on_the_base_circle():
