@@ -1,12 +1,39 @@
-"""Synthetic teeth for the compliance tests: a straight prism and a tapered spiral tooth."""
+"""Synthetic bodies for the compliance tests: a box and a tapered spiral tooth."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
+from skfem import MeshHex
 
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
+from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity, ToothMesh
+
+COARSE = MeshDensity(profile=4, lengthwise=6, thickness=2, growth=1.6, fillet=3, slot=1, rim=2)
+
+
+def box_mesh(x: np.ndarray, y: np.ndarray, z: np.ndarray, profile: int) -> ToothMesh:
+    """Return a box whose left flank is the face x = x[0] over the first `profile` rows of y.
+
+    Tip at y[0], held at y[-1]; x, y, z must rise.
+    """
+    tensor = MeshHex.init_tensor(*(np.arange(float(len(q))) for q in (x, y, z)))
+    logical = MeshHex(tensor.p, np.ascontiguousarray(tensor.t[::-1]))
+    index = np.rint(logical.p).astype(int)
+
+    def uniform(count: int) -> np.ndarray:
+        return np.linspace(0.0, 1.0, count)
+
+    points = np.stack([x[index[0]], y[index[1]], z[index[2]]])
+    return ToothMesh(
+        MeshHex(points, logical.t),
+        logical,
+        len(x) - 1,
+        len(y) - 1,
+        uniform(profile + 1),
+        uniform(len(z)),
+    )
 
 
 def spiral_tooth(

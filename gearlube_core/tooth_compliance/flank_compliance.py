@@ -1,10 +1,12 @@
 """Condensed compliance of both flanks of a tooth for loaded contact.
 
-    u = H p + W (C_fe - C_hs) W^T f
+    u = H p + W B W^T f,  B = M^-1 (C_fe - C_hs) M^-T,  M_ij = integral hat_i hat_j dA / A_i
 
 H p is the half-space displacement of the fine pressure, f the forces of the fine cells, W their
-bilinear weights on a coarse grid of hats. C_fe - C_hs, the image part, holds what a half-space
-does not know (bending, shear, base, free faces); it is smooth, so coarse hats carry it.
+bilinear weights on a coarse grid of hats. C_fe - C_hs holds what a half-space does not know
+(bending, shear, base, free faces), averaged over hats. M undoes the averaging: B is the projection
+on the hats of the influence function itself (least squares in the area), so that what W
+interpolates is not smoothed twice.
 """
 
 from __future__ import annotations
@@ -18,7 +20,11 @@ from scipy.sparse import csr_array
 from gearlube_core.checks import check_within
 from gearlube_core.materials.solid import Solid
 from gearlube_core.tooth_compliance.half_space_hats import half_space_compliance
-from gearlube_core.tooth_compliance.hat_grid import hat_values
+from gearlube_core.tooth_compliance.hat_grid import (
+    hat_values,
+    lengthwise_nodes,
+    profile_nodes,
+)
 from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, tooth_model
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity, tooth_mesh
@@ -54,23 +60,31 @@ class CondensationSettings:
 class FlankCompliance:
     """Compliance of one flank between hats, along the inward normals.
 
-    Hat (i, j) of unit force is number i nh + j. The displacement that a hat sees is its own
-    weighted average, so that both matrices are symmetric.
+    Hat (i, j) is number i nh + j. Both matrices are symmetric.
 
     Parameters
     ----------
     s, t
         Flank parameters of the hats' centres [1], (mh,) root to tip and (nh,) toe to heel.
     image
-        C_fe - C_hs [m/N], (mh nh, mh nh).
+        B = M^-1 (C_fe - C_hs) M^-T, influence function between the hats' centres [m/N],
+        (mh nh, mh nh).
     elastic
-        C_fe, the whole compliance [m/N], (mh nh, mh nh).
+        C_fe, averages of the whole displacement under unit hats [m/N], (mh nh, mh nh).
     """
 
     s: Array
     t: Array
     image: Array
     elastic: Array
+
+
+def projected(averages: Array, gram: Array) -> Array:
+    """Return M^-1 averages M^-T with M = gram over its rows' sums: undo the hats' averaging."""
+    averaging = gram / gram.sum(axis=1)[:, None]
+    once = np.linalg.solve(averaging, averages)
+    both = np.linalg.solve(averaging, once.T)
+    return 0.5 * (both + both.T)
 
 
 def tooth_compliance(
@@ -99,16 +113,17 @@ def tooth_compliance(
     """
     mesh = tooth_mesh(geometry, settings.density)
     model = tooth_model(mesh, solid)
-    s = np.linspace(0.0, 1.0, settings.profile_hats)
-    t = np.linspace(0.0, 1.0, settings.lengthwise_hats)
-    loads = [normal_hat_loads(mesh, side, s, t)[0] for side in SIDES]
-    whole = model.compliance(np.hstack(loads))
+    s = profile_nodes(settings.profile_hats)
+    t = lengthwise_nodes(settings.lengthwise_hats)
+    loaded = [normal_hat_loads(mesh, side, s, t) for side in SIDES]
+    whole = model.compliance(np.hstack([forces for forces, _ in loaded]))
     flanks = []
-    for k, side in enumerate(SIDES):
+    for k, (side, (_, gram)) in enumerate(zip(SIDES, loaded, strict=True)):
         part = slice(k * s.size * t.size, (k + 1) * s.size * t.size)
         elastic = whole[part, part].copy()
         half_space = half_space_compliance(Flank(getattr(geometry, side)), s, t, solid)
-        flanks.append(FlankCompliance(s=s, t=t, image=elastic - half_space, elastic=elastic))
+        image = projected(elastic - half_space, gram)
+        flanks.append(FlankCompliance(s=s, t=t, image=image, elastic=elastic))
     return flanks[0], flanks[1]
 
 

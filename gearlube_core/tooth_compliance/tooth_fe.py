@@ -66,8 +66,8 @@ def normal_hat_loads(
     -------
     forces
         (3 nodes, mh nh) [1]: newtons per newton. Their transpose averages the displacement.
-    areas
-        A_h [m2], (mh nh,).
+    gram
+        Integral of hat_h hat_k dA [m2], (mh nh, mh nh); a row adds up to A_h.
     """
     basis = FacetBasis(mesh.solid, _ELEMENT, facets=mesh.flank_facets(side), intorder=_DEGREE)
     s_all, t_all = mesh.flank_parameters()
@@ -75,12 +75,12 @@ def normal_hat_loads(
     corners = FacetBasis(
         mesh.solid, mesh.solid.elem(), facets=basis.find, quadrature=basis.quadrature
     )
-    s, t = (corners.interpolate(field).value for field in (s_all, t_all))
+    s, t = (np.asarray(corners.interpolate(field)) for field in (s_all, t_all))
     hats = hat_values(s, t, s_nodes, t_nodes)
-    areas = hats.T @ basis.dx.ravel()
+    gram = (hats.T @ hats.multiply(basis.dx.reshape(-1, 1))).toarray()
     forces = np.zeros((3 * basis.N, hats.shape[1]))
     for function in range(basis.Nbfun):
-        shape = basis.basis[function][0].value * basis.dx
+        shape = np.asarray(basis.basis[function][0]) * basis.dx
         nodes = np.repeat(basis.element_dofs[function], shape.shape[1])
         for axis in range(3):
             amount = (-basis.normals[axis] * shape).ravel()
@@ -88,7 +88,7 @@ def normal_hat_loads(
                 coo_array((amount, (nodes, np.arange(amount.size))), shape=(basis.N, amount.size))
             )
             forces[axis::3] += (gather @ hats).toarray()
-    return forces / areas, areas
+    return forces / gram.sum(axis=1), gram
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from skfem import MeshHex
 
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.tooth_compliance.hat_grid import lengthwise_nodes, profile_nodes
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
 from gearlube_core.tooth_compliance.tooth_section import HalfSection, half_section
 
@@ -76,20 +77,20 @@ class ToothMesh:
     logical: MeshHex
     across: int
     down: int
-    profile: int
-    stations: int
+    s: Array  # flank parameter of the rows, from 0 at the root line upwards
+    t: Array  # of the stations
 
     def flank_facets(self, side: str) -> Array:
         """Return the facets of the flank `left` or `right`."""
         end = 0.0 if side == "left" else float(self.across)
         return self.logical.facets_satisfying(
-            lambda x: (np.abs(x[0] - end) < 0.1) & (x[1] < self.profile)
+            lambda x: (np.abs(x[0] - end) < 0.1) & (x[1] < len(self.s) - 1)
         )
 
     def flank_parameters(self) -> tuple[Array, Array]:
         """Return s and t at all nodes [1]; s is meant on the flanks only."""
-        _, down, station = self.logical.p
-        return 1.0 - down / self.profile, station / (self.stations - 1)
+        _, down, station = np.rint(self.logical.p).astype(int)
+        return self.s[::-1][np.minimum(down, len(self.s) - 1)], self.t[station]
 
 
 def graded_thickness(density: MeshDensity) -> Array:
@@ -176,8 +177,7 @@ def tooth_mesh(geometry: ToothGeometry, density: MeshDensity) -> ToothMesh:
     ParameterError
         When an element is turned inside out.
     """
-    s = np.linspace(0.0, 1.0, density.profile + 1)
-    t = np.linspace(0.0, 1.0, density.lengthwise + 1)
+    s, t = profile_nodes(density.profile + 1), lengthwise_nodes(density.lengthwise + 1)
     grid = _nodes(geometry, density, s, t)
     across, down, stations = (n - 1 for n in grid.shape[:3])
     tensor = MeshHex.init_tensor(*(np.arange(n + 1.0) for n in (across, down, stations)))
@@ -192,4 +192,4 @@ def tooth_mesh(geometry: ToothGeometry, density: MeshDensity) -> ToothMesh:
             "Seen from the toe with the tip upwards `left` must lie on the left (swap the "
             "flanks if not); else reduce base_depth or slot_depth."
         )
-    return ToothMesh(solid, logical, across, down, density.profile, stations + 1)
+    return ToothMesh(solid, logical, across, down, s, t)

@@ -1,0 +1,91 @@
+"""Compliances on disk: found again, told apart, mended."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from compliance_cases import COARSE, spiral_tooth
+
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.tooth_compliance import cache
+from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
+
+SETTINGS = CondensationSettings(profile_hats=3, lengthwise_hats=4, density=COARSE)
+TOOTH = spiral_tooth(neighbour_pitches=0.5, base_depth=8e-3)
+
+
+def same(a, b):
+    return all(
+        np.array_equal(getattr(x, name), getattr(y, name))
+        for x, y in zip(a, b, strict=True)
+        for name in ("s", "t", "image", "elastic")
+    )
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    calls = []
+    compute = cache.tooth_compliance
+
+    def counting(*arguments):
+        calls.append(arguments)
+        return compute(*arguments)
+
+    monkeypatch.setattr(cache, "tooth_compliance", counting)
+    return calls
+
+
+def test_the_second_call_reads_the_first_ones_result(tmp_path, counted):
+    first = cache.cached_tooth_compliance(TOOTH, STEEL, SETTINGS, tmp_path)
+    second = cache.cached_tooth_compliance(TOOTH, STEEL, SETTINGS, tmp_path)
+    assert len(counted) == 1
+    assert same(first, second)
+    assert [p.suffix for p in cache.cache_folder(tmp_path).iterdir()] == [".npz"]
+
+
+def test_a_damaged_file_is_computed_and_written_anew(tmp_path, counted):
+    first = cache.cached_tooth_compliance(TOOTH, STEEL, SETTINGS, tmp_path)
+    (path,) = cache.cache_folder(tmp_path).iterdir()
+    whole = path.read_bytes()
+    for damage in (
+        b"",
+        b"not a zip",
+        whole[: len(whole) // 2],
+        whole[:600] + b"x" * 200 + whole[800:],
+    ):
+        path.write_bytes(damage)
+        assert same(first, cache.cached_tooth_compliance(TOOTH, STEEL, SETTINGS, tmp_path))
+        assert path.read_bytes() != damage
+    assert len(counted) == 5
+
+
+def test_every_input_that_matters_changes_the_key():
+    key = cache.compliance_key(TOOTH, STEEL, SETTINGS)
+    assert key == cache.compliance_key(
+        spiral_tooth(neighbour_pitches=0.5, base_depth=8e-3), STEEL, SETTINGS
+    )
+    left = TOOTH.left.copy()
+    left[3, 4, 1] += 1e-12
+    others = [
+        cache.compliance_key(TOOTH, replace(STEEL, youngs_modulus=200e9), SETTINGS),
+        cache.compliance_key(TOOTH, replace(STEEL, poisson_ratio=0.29), SETTINGS),
+        cache.compliance_key(replace(TOOTH, left=left), STEEL, SETTINGS),
+        cache.compliance_key(replace(TOOTH, base_depth=8.1e-3), STEEL, SETTINGS),
+        cache.compliance_key(replace(TOOTH, teeth=37), STEEL, SETTINGS),
+        cache.compliance_key(TOOTH, STEEL, replace(SETTINGS, profile_hats=4)),
+        cache.compliance_key(TOOTH, STEEL, replace(SETTINGS, density=replace(COARSE, fillet=4))),
+    ]
+    assert len({key, *others}) == len(others) + 1
+
+
+def test_density_of_the_material_does_not_change_the_key():
+    key = cache.compliance_key(TOOTH, STEEL, SETTINGS)
+    assert key == cache.compliance_key(TOOTH, replace(STEEL, density=7700.0), SETTINGS)
+
+
+def test_the_environment_chooses_the_folder(tmp_path, monkeypatch):
+    monkeypatch.setenv(cache.FOLDER_VARIABLE, str(tmp_path))
+    assert cache.cache_folder() == tmp_path / "tooth_compliance"
+    assert cache.cache_folder(tmp_path / "own") == tmp_path / "own" / "tooth_compliance"
+    monkeypatch.delenv(cache.FOLDER_VARIABLE)
+    assert "gearlube" in str(cache.cache_folder())
