@@ -89,7 +89,10 @@ def contact_dataset(
     `torque` is the magnitude of the pinion torque on the side. Signs of `n`, `error` and `e` as in
     docs/conventions.md. Where a pair carries nothing its data are NaN.
     """
-    sides = [_side(FlankPair.from_file(file, side, settings.misalignment), cycle[side], settings) for side in SIDES]
+    sides = [
+        _side(FlankPair.from_file(file, side, settings.misalignment), cycle[side], settings)
+        for side in SIDES
+    ]
     data = {
         name: (dims, np.stack([part[name] for part in sides]), {"units": unit, "long_name": text})
         for name, (dims, unit, text) in _UNITS.items()
@@ -97,7 +100,11 @@ def contact_dataset(
     coords: dict[str, Any] = {
         "side": list(SIDES),
         "phase": ("phase", settings.phases, {"units": "1", "long_name": "mesh phase"}),
-        "torque": ("torque", list(settings.torques), {"units": "N.m", "long_name": "pinion torque"}),
+        "torque": (
+            "torque",
+            list(settings.torques),
+            {"units": "N.m", "long_name": "pinion torque"},
+        ),
         "pair": np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1),
         "axis": ["x", "y", "z"],
         "map_s": (np.arange(MAP_SHAPE[0]) + 0.5) / MAP_SHAPE[0],
@@ -184,9 +191,7 @@ def _mesh_error(pair: FlankPair) -> Array:
     return np.asarray(pair.touching_sign * first)
 
 
-def _pair_kinematics(
-    pair: FlankPair, cycle: Record, settings: CycleSettings
-) -> dict[str, Array]:
+def _pair_kinematics(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, Array]:
     """Return curvature and motion at each pair's centre of force."""
     shape = cycle["pair_torque"].shape
     offsets = np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1)

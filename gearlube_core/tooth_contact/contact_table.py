@@ -68,9 +68,10 @@ def fourier(samples: Array, orders: int = ORDERS) -> Array:
     The mesh phase of the first sample is zero; the series counts from the pinion angle at which
     the phase is `ZERO_PHASE`.
     """
-    spectrum = np.fft.rfft(samples) / samples.size
-    spectrum = spectrum[: orders + 1]
-    order = np.arange(spectrum.size)
+    spectrum = np.zeros(orders + 1, dtype=complex)
+    resolved = min(orders, (samples.size - 1) // 2)  # an order needs more than two samples
+    spectrum[: resolved + 1] = (np.fft.rfft(samples) / samples.size)[: resolved + 1]
+    order = np.arange(orders + 1)
     # value(angle) = samples(phase = angle + ZERO_PHASE)
     spectrum = spectrum * np.exp(2j * np.pi * order * ZERO_PHASE)
     result = np.stack([2.0 * spectrum.real, -2.0 * spectrum.imag], axis=1)

@@ -240,7 +240,9 @@ _work: dict[str, object] = {}  # what every position of a run shares, set once i
 def _prepare(
     file: HypoidGearFile, stiffness: dict[Side, PairStiffness], settings: CycleSettings
 ) -> None:
-    _work["pairs"] = {side: FlankPair.from_file(file, side, settings.misalignment) for side in SIDES}
+    _work["pairs"] = {
+        side: FlankPair.from_file(file, side, settings.misalignment) for side in SIDES
+    }
     _work["stiffness"] = stiffness
     _work["settings"] = settings
 

@@ -134,7 +134,9 @@ def strip_frame(gaps: GapMap, reach: float, half_width: float) -> StripFrame | N
     line = points[inside]
     centre = weight @ line
     nearest = np.unravel_index(
-        np.argmin(np.linalg.norm(gaps.point - centre, axis=-1) + np.where(np.isfinite(gaps.gap), 0, 1.0)),
+        np.argmin(
+            np.linalg.norm(gaps.point - centre, axis=-1) + np.where(np.isfinite(gaps.gap), 0, 1.0)
+        ),
         gaps.gap.shape,
     )
     normal = gaps.normal[nearest]
@@ -204,7 +206,11 @@ def _facing_parameters(
 
 
 def cut_strip(
-    pair: FlankPair, gear_angle: float, pinion_angle: float, frame: StripFrame, shape: tuple[int, int]
+    pair: FlankPair,
+    gear_angle: float,
+    pinion_angle: float,
+    frame: StripFrame,
+    shape: tuple[int, int],
 ) -> Strip:
     """Return the strip's cells: both flanks met along the normal of the tangent plane.
 
