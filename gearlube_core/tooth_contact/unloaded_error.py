@@ -82,8 +82,11 @@ class UnloadedError:
 
     @property
     def linear(self) -> Array:
-        """Error along the line of action, R_p times the angular error [m], (N,)."""
-        return self.kinematics.R_p * self.angular
+        """Error along the line of action [m], (N,): the angular one times the mean R_p.
+
+        One arm for the whole period keeps it continuous: R_p itself jumps where pairs hand over.
+        """
+        return float(self.kinematics.R_p.mean()) * self.angular
 
     @property
     def mean(self) -> float:
