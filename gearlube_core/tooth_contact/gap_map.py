@@ -1,4 +1,4 @@
-"""The gap between two flanks over a whole tooth, coarsely: where could they touch?"""
+"""The gap between two flanks over a whole tooth: coarsely, where could they touch."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from gearlube_core.flank_surface.cutting_motion import CuttingMotion
 from gearlube_core.flank_surface.flank import Flank
 from gearlube_core.flank_surface.vectors import Vector
 from gearlube_core.tooth_contact.pair import FlankPair
+from gearlube_core.tooth_contact.placed_flank import tooth_position
 from gearlube_core.tooth_contact.placement import Placement, place_direction, place_point
 from gearlube_core.tooth_contact.rays import HIT, hit_along
 
@@ -78,10 +79,7 @@ def within_tooth(flank: Flank, r: Array) -> NDArray[np.bool_]:
 
     Points in the frame of the member, rotation zero.
     """
-    w = r - flank.axis_point
-    axial = w @ flank.axis
-    radius = np.linalg.norm(w - axial[..., None] * flank.axis, axis=-1)
-    s, t = flank.region.position(radius, axial)
+    s, t = tooth_position(flank, r)
     with np.errstate(invalid="ignore"):
         return (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import block_diag, csr_array
+from scipy.sparse import block_diag, csr_array, hstack
 
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
@@ -17,10 +17,10 @@ from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem, UnilateralSolution
 from gearlube_core.contact.unilateral_stiffness import tangent_stiffness
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.flank_surface.flank import Flank
 from gearlube_core.tooth_compliance.flank_compliance import FlankCompliance, interpolation_weights
 from gearlube_core.tooth_contact.gap_map import GapMap, gap_map
 from gearlube_core.tooth_contact.pair import FlankPair
+from gearlube_core.tooth_contact.placed_flank import tooth_position
 from gearlube_core.tooth_contact.strip import Strip, StripFrame, cut_strip, strip_frame
 
 Array = NDArray[np.float64]
@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 _GROW = 1.6  # a strip that contact leaves is cut anew, this much larger
 _ATTEMPTS = 8
 _FIRST_STIFFNESS = 3e8  # N/m, only to size the first strips
+_SHORTEST = 2e-3  # m, length of a strip for its first width
 _WIDE = 2.5  # half-width of a strip over the half-width of Hertz' line contact
 
 
@@ -180,11 +181,11 @@ class MeshPosition:
             When contact keeps running out of the strips.
         """
         check_positive("torque", torque, "N.m", "Coast flanks carry positive torque too.")
-        arm = 0.02 if not self.maps else float(np.median(np.abs(self.maps[0].arm)))
+        arm = float(np.nanmedian(np.abs(self.maps[len(self.maps) // 2].arm)))
         closing = closing or torque / arm / _FIRST_STIFFNESS
         width = 1.0
         for _ in range(_ATTEMPTS):
-            strips = self._strips(torque / arm, closing, width, settings)
+            strips = self._strips(torque / arm, arm, closing, width, stiffness, settings)
             state, solution = self._solve(torque, strips, stiffness, settings)
             needed = arm * (solution.rotation - self.unloaded_rotation)
             sideways = any(_touches_side(pair) for pair in state.pairs)
@@ -195,38 +196,44 @@ class MeshPosition:
             if sideways:
                 width *= _GROW
         raise ConvergenceError(
-            f"Contact at mesh phase {self.phase:.3f} and {torque:g} N.m leaves strips of "
-            f"{2e3 * max(s.frame.half_width for _, s in strips):.2g} mm width. The flanks may be "
-            "conjugate across the tooth, or the load too high for them."
+            f"Contact at mesh phase {self.phase:.3f} and {torque:g} N.m still leaves its strips "
+            f"after {_ATTEMPTS} enlargements. Reduce the torque, or check that the flanks are "
+            "crowned: the strips hold contact along lines."
         )
 
     def _strips(
-        self, force: float, closing: float, width: float, settings: LoadedSettings
+        self,
+        force: float,
+        arm: float,
+        closing: float,
+        width: float,
+        stiffness: PairStiffness,
+        settings: LoadedSettings,
     ) -> list[tuple[float, Strip]]:
         shape = settings.cells_across, settings.cells_along
-        reach_rotation = self.unloaded_rotation
+        reach = arm * self.unloaded_rotation + closing
         strips = []
         for phase, gaps in zip(self.phases, self.maps, strict=True):
-            arm = float(np.median(np.abs(gaps.arm)))
-            reach = arm * reach_rotation + closing
-            frame = strip_frame(gaps, reach, 1e-3)
+            frame = strip_frame(gaps, reach)
             if frame is None:
                 continue
-            half = _hertz_half_width(self.pair, frame, force)
-            frame = StripFrame(
-                frame.centre,
-                frame.across,
-                frame.along,
-                frame.normal,
-                _WIDE * width * half,
-                frame.half_length,
-                frame.gear_start,
-                frame.pinion_start,
-            )
-            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, shape)
+            half = _WIDE * width * self._hertz_half_width(frame, force, stiffness.contact_modulus)
+            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, half, shape)
             if strip.usable.any():
                 strips.append((phase, strip))
         return strips
+
+    def _hertz_half_width(self, frame: StripFrame, force: float, modulus: float) -> float:
+        """Return the half-width [m] of line contact under `force` [N] over the strip's length."""
+        curvature = 0.0
+        for flank, start in (
+            (self.pair.gear, frame.gear_start),
+            (self.pair.pinion, frame.pinion_start),
+        ):
+            shape = flank.sample_parameters(start).curvature
+            curvature += float(np.max(np.abs(np.linalg.eigvalsh(shape))))
+        per_length = force / max(2.0 * frame.half_length, _SHORTEST)
+        return math.sqrt(4.0 * per_length / (math.pi * modulus * curvature))
 
     def _solve(
         self,
@@ -286,38 +293,16 @@ def _half_space(strip: Strip, contact_modulus: float) -> HalfSpaceConvolution:
 
 def _weights(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> csr_array:
     """Return the weights of the cells on the hats of pinion and gear, (cells, hats of both)."""
-    from scipy.sparse import hstack
-
     parts = []
     for flank, parameters, compliance in (
         (pair.pinion, strip.pinion_parameters, stiffness.pinion),
         (pair.gear, strip.gear_parameters, stiffness.gear),
     ):
-        s, t = tooth_position(flank, parameters)
+        s, t = tooth_position(flank, flank.sample_parameters(parameters).r)
         usable = strip.usable
         s, t = np.where(usable, s, 0.5), np.where(usable, t, 0.5)
         parts.append(interpolation_weights(s, t, compliance))
     return csr_array(hstack(parts))
-
-
-def tooth_position(flank: Flank, parameters: Array) -> tuple[Array, Array]:
-    """Return profile and face position (s, t) [-] of cutting parameters (..., 3)."""
-    w = flank.sample_parameters(parameters).r - flank.axis_point
-    axial = w @ flank.axis
-    radius = np.linalg.norm(w - axial[..., None] * flank.axis, axis=-1)
-    return flank.region.position(radius, axial)
-
-
-def _hertz_half_width(pair: FlankPair, frame: StripFrame, force: float) -> float:
-    """Return the half-width [m] of line contact under `force` [N] over the strip's length."""
-    gear = pair.gear.sample_parameters(frame.gear_start)
-    pinion = pair.pinion.sample_parameters(frame.pinion_start)
-    curvature = float(
-        np.max(np.abs(np.linalg.eigvalsh(gear.curvature)))
-        + np.max(np.abs(np.linalg.eigvalsh(pinion.curvature)))
-    )
-    per_length = force / max(2.0 * frame.half_length, 2e-3)
-    return math.sqrt(4.0 * per_length / (math.pi * 1.15e11 * curvature))
 
 
 def _touches_side(pair: LoadedPair) -> bool:

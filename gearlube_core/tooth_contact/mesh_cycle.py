@@ -23,9 +23,9 @@ from gearlube_core.tooth_contact.loaded_contact import (
     LoadedState,
     MeshPosition,
     PairStiffness,
-    tooth_position,
 )
 from gearlube_core.tooth_contact.pair import FlankPair
+from gearlube_core.tooth_contact.placed_flank import tooth_position
 from gearlube_core.tooth_contact.placement import ALIGNED, Misalignment
 
 Array = NDArray[np.float64]
@@ -112,7 +112,7 @@ def _state_record(pair: FlankPair, position: MeshPosition, state: LoadedState) -
                 (pair.pinion, loaded.strip.pinion_parameters),
             )
         ):
-            s, t = tooth_position(flank, parameters[touching])
+            s, t = tooth_position(flank, flank.sample_parameters(parameters[touching]).r)
             centres[k, j] = weights @ s, weights @ t
             if k == 0:
                 row = np.clip((s * MAP_SHAPE[0]).astype(int), 0, MAP_SHAPE[0] - 1)

@@ -29,8 +29,8 @@ class StripFrame:
         [m], fixed frame.
     across, along, normal : ndarray of shape (3,)
         Unit vectors; the normal points from the gear to the pinion.
-    half_width, half_length : float
-        Across and along the contact line [m].
+    half_length : float
+        Along the contact line [m].
     gear_start, pinion_start : ndarray of shape (3,)
         Cutting parameters of both flanks near the centre.
     """
@@ -39,7 +39,6 @@ class StripFrame:
     across: Array
     along: Array
     normal: Array
-    half_width: float
     half_length: float
     gear_start: Array
     pinion_start: Array
@@ -109,7 +108,7 @@ def contact_line(gaps: GapMap) -> tuple[Array, Array]:
     return least, point
 
 
-def strip_frame(gaps: GapMap, reach: float, half_width: float) -> StripFrame | None:
+def strip_frame(gaps: GapMap, reach: float) -> StripFrame | None:
     """Return the frame of a strip over the part of the contact line that `reach` can close.
 
     Parameters
@@ -117,8 +116,6 @@ def strip_frame(gaps: GapMap, reach: float, half_width: float) -> StripFrame | N
     gaps : GapMap
     reach : float
         Largest gap [m] that may close. Gaps may be negative.
-    half_width : float
-        Across the line [m].
 
     Returns
     -------
@@ -161,7 +158,6 @@ def strip_frame(gaps: GapMap, reach: float, half_width: float) -> StripFrame | N
         across,
         along,
         normal,
-        half_width,
         0.5 * (high - low),
         gaps.gear_parameters[nearest],
         gaps.pinion_parameters[nearest],
@@ -210,6 +206,7 @@ def cut_strip(
     gear_angle: float,
     pinion_angle: float,
     frame: StripFrame,
+    half_width: float,
     shape: tuple[int, int],
 ) -> Strip:
     """Return the strip's cells: both flanks met along the normal of the tangent plane.
@@ -220,13 +217,15 @@ def cut_strip(
     gear_angle, pinion_angle : float
         [rad]
     frame : StripFrame
+    half_width : float
+        Across the contact line [m].
     shape : tuple of int
         Cells across and along.
     """
     nx, ny = shape
-    cell = 2.0 * frame.half_width / nx, 2.0 * frame.half_length / ny
-    x = (np.arange(nx) - 0.5 * (nx - 1)) * cell[0]
-    y = (np.arange(ny) - 0.5 * (ny - 1)) * cell[1]
+    cell = 2.0 * half_width / nx, 2.0 * frame.half_length / ny
+    x: Array = (np.arange(nx, dtype=np.float64) - 0.5 * (nx - 1)) * cell[0]
+    y: Array = (np.arange(ny, dtype=np.float64) - 0.5 * (ny - 1)) * cell[1]
     stacked = np.stack([frame.centre, frame.across, frame.along, frame.normal])
     gear, pinion = pair.gear, pair.pinion
     on_gear = _facing_parameters(
