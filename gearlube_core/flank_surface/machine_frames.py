@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 Curve = Literal["convex", "concave"]
 
 _X, _Y, _Z = np.eye(3)
-_TURN = np.linspace(-math.pi, math.pi, 721)  # tried for a root: half a degree of rotation each
+_TURN = np.linspace(-math.pi, math.pi, 361)  # tried for a root: a degree of rotation each
 
 
 class ReferenceCut(NamedTuple):

@@ -13,8 +13,8 @@ from scipy.spatial.transform import Rotation
 
 from gearlube_core.checks import check_positive
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.cutting_motion import cut_state
-from gearlube_core.flank_surface.flank import CURVES, Flank, Side
+from gearlube_core.flank_surface.cutting_motion import cut_state, unit_normal
+from gearlube_core.flank_surface.flank import CURVES, Role, Side
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.flank_surface.machine_frames import (
     gear_cut,
@@ -43,7 +43,7 @@ _GEAR_FIELDS = {
     "gear.machine.machine_center_to_back_mm": 20.0,
     "gear.machine.machine_root_angle_deg": 20.0,
 }
-_TRIALS = 81
+_TRIALS = 41
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,18 +86,18 @@ def reference_misfit(file: HypoidGearFile, role: str) -> float:
     return height - (blank.gear.addendum - 0.5 * blank.working_depth)
 
 
-def pressure_angle(flank: Flank, file: HypoidGearFile) -> float:
-    """Return the pressure angle [rad] where the cutter's reference path meets the mean point.
+def pressure_angle(file: HypoidGearFile, role: Role, side: Side) -> float:
+    """Return the pressure angle [rad] of a flank where its cutter's path meets the mean point.
 
     Angle between the flank's normal and the pitch plane, the tooth turned to the mean point.
     """
     blank = file.blank()
-    mean = reference_point(blank) - flank.axis_point
-    sample = flank.sample_parameters(flank.start)
-    r = sample.r - flank.axis_point
-    axis = flank.axis
+    cut = (pinion_cut if role == "pinion" else gear_cut)(file, CURVES[role, side])
+    axis, point = np.array(cut.motion.work_axis), np.array(cut.motion.work_point)
+    state = cut_state(cut.motion, 0.0, cut.cutter_angle, cut.cradle_angle)
+    mean, r = reference_point(blank) - point, np.array(state.r) - point
     turn = math.atan2(float(axis @ np.cross(r, mean)), float(r @ mean - (axis @ r) * (axis @ mean)))
-    normal = Rotation.from_rotvec(turn * axis).apply(sample.normal)
+    normal = Rotation.from_rotvec(turn * axis).apply(np.array(unit_normal(state)))
     return math.asin(abs(float(normal @ blank.pitch_normal())))
 
 
@@ -106,8 +106,7 @@ def pressure_angle_mismatch(file: HypoidGearFile, side: Side) -> float:
 
     A positive mismatch bears at the pinion's root and the gear's tip.
     """
-    pinion, gear = (Flank.from_file(file, role, side) for role in ("pinion", "gear"))
-    return pressure_angle(pinion, file) - pressure_angle(gear, file)
+    return pressure_angle(file, "pinion", side) - pressure_angle(file, "gear", side)
 
 
 def suggest_settings(file: HypoidGearFile, limit: float = REFERENCE_LIMIT) -> list[Suggestion]:
