@@ -1,0 +1,30 @@
+"""The mesh stiffness does not hang on the cells of the contact strips."""
+
+import numpy as np
+import pytest
+
+from gearlube_core.tooth_contact.loaded_contact import LoadedSettings, MeshPosition
+from tests.contact_cases import shipped_pair
+from tests.loaded_cases import stiffness
+
+TEETH = stiffness()
+
+
+@pytest.mark.parametrize("torque", [20.0, 200.0])
+@pytest.mark.parametrize("phase", [0.1, 0.6])
+def test_closing_changes_by_less_than_one_percent_on_refined_cells(torque, phase):
+    position = MeshPosition.at(shipped_pair("drive"), phase)
+    coarse = position.load(torque, TEETH, LoadedSettings())
+    fine = position.load(torque, TEETH, LoadedSettings(cells_across=72, cells_along=96))
+    closing = [s.rotation - position.unloaded_rotation for s in (coarse, fine)]
+    assert closing[0] == pytest.approx(closing[1], rel=0.01)
+
+
+def test_stiffness_over_the_mesh_is_smooth():
+    # neighbouring positions differ by the true change plus the noise of newly cut cells; the
+    # second difference of a smooth curve at 24 positions stays below a tenth of its range
+    phases = np.arange(24) / 24
+    positions = [MeshPosition.at(shipped_pair("coast"), float(k)) for k in phases]
+    rotation = np.array([p.load(20.0, TEETH, LoadedSettings()).rotation for p in positions])
+    second = np.roll(rotation, 1) - 2.0 * rotation + np.roll(rotation, -1)
+    assert np.median(np.abs(second)) < 0.1 * np.ptp(rotation)
