@@ -44,7 +44,7 @@ class MeshDensity:
     growth: float = 1.6
     fillet: int = 5
     slot: int = 1
-    rim: int = 4
+    rim: int = 3
 
     def __post_init__(self) -> None:
         for name in ("profile", "lengthwise", "fillet", "slot", "rim"):
