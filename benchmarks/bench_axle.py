@@ -24,9 +24,17 @@ from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.integrate import solve_ivp
 
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.integrate import blend_mesh, step_inputs
+from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_rhs
-from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, PHI_P, X
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    N_ODE,
+    N_STATE,
+    PHI_P,
+    SIDE,
+    X,
+)
 from gearlube_core.rheology.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
@@ -89,7 +97,7 @@ def right_hand_side(axle: HypoidAxle) -> tuple[Any, ...]:
     oil = lubricant_state(p.oil, INPUTS[2])
     series, window = np.zeros(mesh.series_size), np.zeros(mesh.window_size)
     table = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
-    blend_mesh(s[LOAD_TORQUE], *table, series, window)
+    blend_mesh(s[LOAD_TORQUE], s[SIDE], *table, series, window)
     inputs = step_inputs(s, INPUTS[0], INPUTS[1], oil, p)
     return s, inputs, series, mesh.orders, window, mesh.nodes, oil, p
 

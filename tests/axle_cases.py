@@ -61,3 +61,16 @@ def record(axle, torques, names, duration, h=1e-4):
         axle.step(h, *torques, OIL)
         rows.append(axle.outputs[columns])
     return np.array(rows).T
+
+
+def with_coast_flanks(table, R_p=1.03, k_m=0.9, e=1.6):
+    """The table with coast levels of its own: radii, stiffness and e scaled, n mirrored in y."""
+    scale = {"k_m": k_m, "k_t": k_m, "R_p": R_p, "R_g": R_p, "n_y": -1.0, "e": e}
+    coast = {key: scale.get(key, 1.0) * values[::-1] for key, values in table.series.items()}
+    windows = {key: np.concatenate([v[::-1], v]) for key, v in table.windows.items()}
+    return replace(
+        table,
+        torque=np.concatenate([-table.torque[::-1], table.torque]),
+        series={key: np.concatenate([coast[key], v]) for key, v in table.series.items()},
+        windows=windows,
+    )

@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.mesh_table.kernels import N_SERIES, R_G, R_P
-from gearlube_core.mesh_table.table import SERIES_UNITS, MeshTable
+from gearlube_core.mesh_table.table import MeshTable
 
 Array = NDArray[np.float64]
 
+# the series that the kernels read, in their order
+PACKED_SERIES = ("k_m", "R_p", "R_g", "n_x", "n_y", "n_z", "e")
 # order of the channels of a packed window
 SHARE, R_E, SIDE_FLOW, PRESSURE, ENTRAIN, ARM_P, ARM_G, XI_X, XI_Y, XI_Z = range(10)
 N_CHANNELS = 10
@@ -25,7 +27,7 @@ class PackedMesh:
     Parameters
     ----------
     levels : ndarray of shape (L,)
-        Load levels, pinion torque [N.m].
+        Load levels, signed pinion torque [N.m].
     series : ndarray of shape (L * N_SERIES * (2 H + 1),)
         Fourier coefficients grouped by load, then order, then cosine before sine.
     windows : ndarray of shape (L * (N + 1) * N_CHANNELS,)
@@ -70,7 +72,7 @@ def pack_mesh(table: MeshTable, contact_modulus: float, radii: str) -> PackedMes
     levels = table.torque.size
     orders = table.orders
     series = np.empty((levels, 2 * orders + 1, N_SERIES))
-    for column, key in enumerate(SERIES_UNITS):
+    for column, key in enumerate(PACKED_SERIES):
         coefficients = table.series[key]
         series[:, 0, column] = coefficients[:, 0, 0]
         series[:, 1::2, column] = coefficients[:, 1:, 0]

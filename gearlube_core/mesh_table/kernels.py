@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.jit import kernel
 
-# order of the series in a packed coefficient array (that of table.SERIES_UNITS)
+# order of the series in a packed coefficient array
 K_M, R_P, R_G, N_X, N_Y, N_Z, E = range(7)
 N_SERIES = 7
 
@@ -43,13 +43,35 @@ class MeshSeries(NamedTuple):
 
 
 @kernel
-def load_bracket(torque: float, levels: NDArray[float64], n_levels: int) -> LoadBracket:
-    """Return where abs(torque) [N.m] lies in the rising `levels` [N.m]; held outside."""
+def load_bracket(
+    torque: float, side: float, levels: NDArray[float64], n_levels: int
+) -> LoadBracket:
+    """Return where a load of abs(torque) [N.m] lies among the levels of one side; held outside.
+
+    Parameters
+    ----------
+    torque : float
+        Pinion torque [N.m]; its sign does not count.
+    side : float
+        Below 0: the coast flanks, which have the negative levels, or the drive flanks' data if
+        there are none; else the drive flanks.
+    levels : ndarray of shape (n_levels,)
+        Rising, the last one positive [N.m].
+    n_levels : int
+    """
     load = abs(torque)
-    if n_levels < 2 or load <= levels[0]:
-        return LoadBracket(0, 0, 0.0)
-    upper = 1
-    while upper < n_levels - 1 and load > levels[upper]:
+    first = 0
+    while levels[first] < 0.0:
+        first += 1
+    last = n_levels - 1
+    if side < 0.0 and first > 0:
+        last = first - 1
+        first = 0
+        load = -load
+    if first == last or load <= levels[first]:
+        return LoadBracket(first, first, 0.0)
+    upper = first + 1
+    while upper < last and load > levels[upper]:
         upper += 1
     span = levels[upper] - levels[upper - 1]
     return LoadBracket(upper - 1, upper, min(1.0, (load - levels[upper - 1]) / span))
@@ -107,6 +129,23 @@ def mesh_series(
         dnz += w * (coefficients[j + N_Z] * c - coefficients[i + N_Z] * s)
         de += w * (coefficients[j + E] * c - coefficients[i + E] * s)
     return MeshSeries(k, rp, rg, nx, ny, nz, dk, dnx, dny, dnz, de)
+
+
+@kernel
+def transmission_error(
+    coefficients: NDArray[float64], n_orders: int, z_p: float, phi: float
+) -> float:
+    """Return e [m] at pinion angle `phi` [rad]; `coefficients` as in `mesh_series`."""
+    c1 = math.cos(z_p * phi)
+    s1 = math.sin(z_p * phi)
+    c = 1.0
+    s = 0.0
+    e = coefficients[E]
+    for h in range(1, n_orders + 1):
+        c, s = c * c1 - s * s1, s * c1 + c * s1
+        i = N_SERIES * (2 * h - 1)
+        e += coefficients[i + E] * c + coefficients[i + N_SERIES + E] * s
+    return e
 
 
 @kernel

@@ -23,8 +23,10 @@ from gearlube_core.mesh_table.table import (
     Provenance,
 )
 
-FORMAT = 1
+FORMAT = 2  # 1 had one sign of torque, no tangent stiffness, sliding angle or highest pressure
+FILE_IN_FMU = "mesh_table.nc"  # name among the resources of an FMU with a table of its own
 _ATTRIBUTES = ("name", "pinion_teeth", "gear_teeth", "contact_ratio")
+_SETTING = "setting_"
 
 
 def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
@@ -41,7 +43,11 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
     dataset = xr.Dataset(
         data,
         coords={
-            "torque": ("torque", table.torque, {"units": "N.m", "long_name": "pinion torque"}),
+            "torque": (
+                "torque",
+                table.torque,
+                {"units": "N.m", "long_name": "pinion torque, negative on the coast flanks"},
+            ),
             "part": ("part", ["cos", "sin"]),
         },
         attrs={
@@ -50,6 +56,11 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
             "pinion_teeth": table.pinion_teeth,
             "gear_teeth": table.gear_teeth,
             "contact_ratio": table.contact_ratio,
+            "source": table.source,
+            **{
+                _SETTING + key: value if isinstance(value, str) else float(value)
+                for key, value in table.settings.items()
+            },
         },
     )
     target = Path(path)
@@ -62,21 +73,35 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
 
 def read_mesh_table(path: str | Path) -> MeshTable:
     """Read a table written by `write_mesh_table`; raise TableError when it is none."""
+    return mesh_table_from_bytes(read_content(path), str(path))
+
+
+def read_content(path: str | Path) -> bytes:
+    """Return the bytes of a mesh table's file; raise TableError when there is none."""
     try:
-        with Path(path).open("rb") as file:
-            dataset = xr.load_dataset(io.BytesIO(file.read()), engine="scipy")
+        return Path(path).read_bytes()
+    except OSError as reason:
+        raise TableError(
+            f"No mesh table can be read at {path}: {reason.strerror or reason}. "
+            "Give the file that `gearlube contact` or write_mesh_table wrote."
+        ) from None
+
+
+def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:
+    """Return the table in the content of a file; errors call the file `name`."""
+    try:
+        dataset = xr.load_dataset(io.BytesIO(content), engine="scipy")
     except (OSError, ValueError, TypeError) as reason:
         why = str(reason).strip().splitlines()[0]
         raise TableError(
-            f"{path} is not a readable NetCDF 3 file: {why}. Write it with write_mesh_table, or "
+            f"{name} is not a readable NetCDF 3 file: {why}. Write it with write_mesh_table, or "
             "from xarray with to_netcdf(path, engine='scipy')."
         ) from None
-    if dataset.attrs.get("gearlube_mesh_table") != FORMAT:
-        raise TableError(f"{path} is not a gearlube mesh table of format {FORMAT}.")
+    _check_format(dataset, name)
     missing = [key for key in ("torque", *SERIES_UNITS, *WINDOW_UNITS) if key not in dataset]
     missing += [key for key in _ATTRIBUTES if key not in dataset.attrs]
     if missing:
-        raise TableError(f"{path} lacks {', '.join(missing)}.")
+        raise TableError(f"{name} lacks {', '.join(missing)}.")
     return MeshTable(
         name=str(dataset.attrs["name"]),
         pinion_teeth=int(dataset.attrs["pinion_teeth"]),
@@ -92,4 +117,28 @@ def read_mesh_table(path: str | Path) -> MeshTable:
             )
             for key in (*SERIES_UNITS, *WINDOW_UNITS)
         },
+        source=str(dataset.attrs.get("source", "")),
+        settings={
+            key.removeprefix(_SETTING): value if isinstance(value, str) else float(value)
+            for key, value in dataset.attrs.items()
+            if isinstance(key, str) and key.startswith(_SETTING)
+        },
     )
+
+
+def _check_format(dataset: xr.Dataset, name: str) -> None:
+    found = dataset.attrs.get("gearlube_mesh_table")
+    if not isinstance(found, int | np.integer):
+        raise TableError(
+            f"{name} is not a gearlube mesh table. Give the file that `gearlube contact` wrote."
+        )
+    if found < FORMAT:
+        raise TableError(
+            f"{name} was written by an older gearlube: a mesh table of format {found}, this one "
+            f"reads format {FORMAT}. Run `gearlube contact` again."
+        )
+    if found > FORMAT:
+        raise TableError(
+            f"{name} was written by a newer gearlube: a mesh table of format {found}, this one "
+            f"reads format {FORMAT}. Install that version, or run `gearlube contact` of this one."
+        )

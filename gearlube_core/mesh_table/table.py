@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Literal, NamedTuple, get_args
@@ -24,6 +25,7 @@ SERIES_UNITS: Mapping[str, str] = {
     "n_y": "1",
     "n_z": "1",
     "e": "m",
+    "k_t": "N/m",
 }
 WINDOW_UNITS: Mapping[str, str] = {
     "share": "1",
@@ -36,7 +38,10 @@ WINDOW_UNITS: Mapping[str, str] = {
     "xi_x": "1",
     "xi_y": "1",
     "xi_z": "1",
+    "chi": "rad",
+    "pressure_max": "Pa",
 }
+ABOVE_ZERO = ("k_m", "R_p", "R_g", "k_t", "R_x", "R_y")  # means of series, every node of windows
 PAIRS = 3
 SHARE_TOLERANCE = 1e-9  # shares are normalised in double precision before they are stored
 
@@ -63,26 +68,42 @@ class MeshTable:
     pinion_teeth, gear_teeth : int
         Numbers of teeth [-].
     torque : ndarray of shape (L,)
-        Pinion torque of each load level [N.m], increasing. Between levels data are interpolated
-        linearly, outside held.
+        Signed pinion torque of each load level [N.m], increasing, none zero. Positive levels hold
+        the drive flanks, negative ones the coast flanks; without negative levels the drive flanks'
+        data serve both. Between levels of one side data are interpolated linearly, outside held:
+        nothing is interpolated across zero.
     contact_ratio : float
         Length of contact of a pair in mesh periods [-], at most `PAIRS`.
     series : mapping of str to ndarray of shape (L, H + 1, 2)
         Cosine and sine coefficients of k_m [N/m] (secant stiffness along the line of action),
-        R_p, R_g [m] (contact radii), n_x, n_y, n_z [-] (unit normal, pinion into gear) and
-        e [m] (unloaded transmission error).
+        R_p, R_g [m] (contact radii), n_x, n_y, n_z [-] (unit normal: of the drive flanks from
+        the pinion into the gear, of the coast flanks from the gear into the pinion, so that both
+        radii are positive), e [m] (unloaded transmission error: how far the gear lags with these
+        flanks touching) and k_t [N/m] (tangent stiffness).
     windows : mapping of str to ndarray of shape (L, N)
         Per pair, at N nodes over the window, N divisible by `PAIRS`: load share [-], R_x and R_y
         [m] (relative radii along the minor and the major axis of the contact ellipse), psi [rad]
         (entrainment from the minor axis), entrainment_arm [m] (mean surface speed per pinion
-        speed), friction_arm_p/g [m], xi [-] (unit sliding direction, pinion relative to gear).
+        speed), friction_arm_p/g [m], xi [-] (unit sliding direction, pinion relative to gear),
+        chi [rad] (sliding direction from the minor axis), pressure_max [Pa] (highest contact
+        pressure of the pair). Where the share is zero the others must hold the nearest loaded
+        value: they are interpolated from there to the first loaded node.
     provenance : mapping of str to Provenance
         One entry for each series and window.
+    source : str
+        What the data were computed from, e.g. the name of a gear file.
+    settings : mapping of str to str or float
+        How they were computed, e.g. numbers of positions; names of letters, digits, "_", "." and
+        "-".
 
     Raises
     ------
     TableError
         When a datum is missing, has the wrong shape, is not finite or contradicts another.
+
+    Notes
+    -----
+    k_t, chi and pressure_max are kept for reading; the dynamics does not use them.
 
     References
     ----------
@@ -99,12 +120,24 @@ class MeshTable:
     series: Mapping[str, Array]
     windows: Mapping[str, Array]
     provenance: Mapping[str, Provenance]
+    source: str = ""
+    settings: Mapping[str, str | float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         levels = self.torque.size
         rising = self.torque.ndim == 1 and levels > 0 and bool(np.all(np.diff(self.torque) > 0.0))
         if not rising or not np.all(np.isfinite(self.torque)):
             raise TableError(f"{self.name}: torque must be a rising list [N.m], got {self.torque}.")
+        if np.any(self.torque == 0.0) or self.torque[-1] < 0.0:
+            raise TableError(
+                f"{self.name}: torque must have a level above 0 N.m and none at 0 N.m, got "
+                f"{self.torque}. Load the drive flanks with about 5 N.m in place of none."
+            )
+        if min(self.pinion_teeth, self.gear_teeth) < 1:
+            raise TableError(
+                f"{self.name}: numbers of teeth must be at least 1, got {self.pinion_teeth} and "
+                f"{self.gear_teeth}. Count the teeth of the gear pair."
+            )
         if not 1.0 <= self.contact_ratio <= PAIRS:
             raise TableError(
                 f"{self.name}: contact_ratio must be within 1 to {PAIRS}, got "
@@ -112,6 +145,7 @@ class MeshTable:
             )
         self._check("series", self.series, SERIES_UNITS, 3)
         self._check("windows", self.windows, WINDOW_UNITS, 2)
+        self._check_signs()
         nodes = self.nodes
         if nodes % PAIRS:
             raise TableError(f"{self.name}: the window needs {PAIRS} n nodes, got {nodes}.")
@@ -119,6 +153,14 @@ class MeshTable:
         worst = float(np.max(np.abs(share - 1.0)))
         if worst > SHARE_TOLERANCE:
             raise TableError(f"{self.name}: load shares must sum to 1, off by {worst:.3g}.")
+        for key, value in self.settings.items():
+            if not re.fullmatch(r"[\w.-]+", key, re.ASCII) or not isinstance(
+                value, str | float | int
+            ):
+                raise TableError(
+                    f"{self.name}: a setting must be a text or a number under a name of letters, "
+                    f"digits, '_', '.' and '-', got {key!r}: {value!r}."
+                )
 
     def _check(
         self, kind: str, data: Mapping[str, Array], wanted: Mapping[str, str], ndim: int
@@ -140,6 +182,27 @@ class MeshTable:
             if origin is None or origin.kind not in get_args(Kind) or not origin.derivation:
                 raise TableError(f"{self.name}: {key!r} needs a provenance and its derivation.")
 
+    def _check_signs(self) -> None:
+        for key in ABOVE_ZERO:
+            values = self.series[key][:, 0, 0] if key in self.series else self.windows[key]
+            level, *_ = np.unravel_index(int(np.argmin(values)), values.shape)
+            if not np.min(values) > 0.0:
+                raise TableError(
+                    f"{self.name}: {key!r} must be above 0, got {np.min(values):g} at "
+                    f"{self.torque[level]:g} N.m. The normal of the coast flanks points from the "
+                    "gear into the pinion; nodes without load hold the nearest loaded value."
+                )
+        if np.min(self.windows["share"]) < 0.0:
+            raise TableError(
+                f"{self.name}: load shares must not be below 0, got "
+                f"{np.min(self.windows['share']):g}."
+            )
+
+    @property
+    def has_coast_levels(self) -> bool:
+        """Whether the coast flanks have data of their own."""
+        return bool(self.torque[0] < 0.0)
+
     @property
     def nodes(self) -> int:
         """Number of nodes in a window [-]."""
@@ -156,8 +219,16 @@ class MeshTable:
         return self.gear_teeth / self.pinion_teeth
 
     def mean(self, key: str, torque: float) -> float:
-        """Return the mean over a mesh period of series `key` at pinion torque `torque` [N.m]."""
-        return float(np.interp(abs(torque), self.torque, self.series[key][:, 0, 0]))
+        """Return the mean over a mesh period of series `key` at pinion torque `torque` [N.m].
+
+        A negative torque reads the coast flanks' data where there are any.
+        """
+        means = self.series[key][:, 0, 0]
+        if torque < 0.0 and self.has_coast_levels:
+            coast = self.torque < 0.0
+            return float(np.interp(torque, self.torque[coast], means[coast]))
+        drive = self.torque > 0.0
+        return float(np.interp(abs(torque), self.torque[drive], means[drive]))
 
     @classmethod
     def named(cls, name: str) -> MeshTable:

@@ -117,8 +117,13 @@ def inferred_mesh_table(blank: HypoidBlank) -> MeshTable:
     R_p0 = float(mean_point_arm @ normal)
     k0 = mean_stiffness(R_p0, R_p0 * blank.ratio)
 
-    R_x = relative_curvature_radius(blank)[0]
+    R_x, across = relative_curvature_radius(blank)
     R_y = crowning_radius(blank, R_x, float(share.max() * torque[-1] / R_p0), modulus)
+
+    loaded = share > 0.0
+    load = np.outer(torque / R_p0, share[loaded])
+    peak = 1.5 * hertz_ellipse(R_x, R_y, modulus, 1.0)[2] * np.cbrt(load)
+    pressure_max = np.array([np.interp(periods, periods[loaded], row) for row in peak])
 
     def transmission_error(t: Array) -> Array:
         return 3.0 * TRANSMISSION_ERROR_MEAN * (2.0 * _to_nearest(t - 0.5 * contact_ratio)) ** 2
@@ -133,14 +138,16 @@ def inferred_mesh_table(blank: HypoidBlank) -> MeshTable:
     constant[0, 0] = 1.0
     radius_g = blank.ratio * (R_p0 * constant - error_rate)
 
+    k_m = k0 * stiffness_trend(torque)[:, None, None] * fourier(stiffness)
     series = {
-        "k_m": k0 * stiffness_trend(torque)[:, None, None] * fourier(stiffness),
+        "k_m": k_m,
         "R_p": np.tile(R_p0 * constant, (levels, 1, 1)),
         "R_g": np.tile(radius_g, (levels, 1, 1)),
         "n_x": np.tile(normal[0] * constant, (levels, 1, 1)),
         "n_y": np.tile(normal[1] * constant, (levels, 1, 1)),
         "n_z": np.tile(normal[2] * constant, (levels, 1, 1)),
         "e": np.tile(error, (levels, 1, 1)),
+        "k_t": k_m,
     }
     windows = {
         "share": share,
@@ -153,7 +160,9 @@ def inferred_mesh_table(blank: HypoidBlank) -> MeshTable:
         "xi_x": motion.xi[:, 0],
         "xi_y": motion.xi[:, 1],
         "xi_z": motion.xi[:, 2],
+        "chi": np.arccos(np.minimum(1.0, np.abs(motion.xi @ across))),
     }
+    by_load = {key: np.tile(values, (levels, 1)) for key, values in windows.items()}
     return MeshTable(
         name=blank.name,
         pinion_teeth=z_p,
@@ -161,8 +170,9 @@ def inferred_mesh_table(blank: HypoidBlank) -> MeshTable:
         torque=torque,
         contact_ratio=contact_ratio,
         series=series,
-        windows={key: np.tile(values, (levels, 1)) for key, values in windows.items()},
+        windows={**by_load, "pressure_max": pressure_max},
         provenance={key: Provenance("inferred", text) for key, text in _DERIVATIONS.items()},
+        source="blank of Mohammadpour et al. 2015, Table A1; constants of Karagiannis et al. 2012",
     )
 
 
@@ -189,6 +199,7 @@ _DERIVATIONS = {
         "parabola over a pitch, zero where a pair stands at mid-contact, of mean 0.96 um "
         "(Karagiannis 2012, text of fig. 18), cut after five orders"
     ),
+    "k_t": "taken equal to the secant stiffness k_m",
     "share": "raised-cosine engagement over the contact ratio, normalised to sum to one",
     "R_x": "conjugate line contact with the Formate gear flank (straight profile, cutter radius)",
     "R_y": "contact ellipse of the most loaded pair spans half the face width at 400 N.m",
@@ -199,6 +210,8 @@ _DERIVATIONS = {
     "xi_x": _KINEMATICS,
     "xi_y": _KINEMATICS,
     "xi_z": _KINEMATICS,
+    "chi": _KINEMATICS,
+    "pressure_max": "Hertz ellipse under the share of T/R_p; beyond contact the nearest value",
 }
 
 

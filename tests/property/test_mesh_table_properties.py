@@ -85,7 +85,7 @@ def test_series_repeat_after_a_mesh_period(seed, orders, phi):
 )
 def test_blended_data_stay_between_the_neighbouring_levels(levels, torque, seed):
     packed = np.random.default_rng(seed).normal(size=(len(levels), 3))
-    bracket = load_bracket(torque, np.array(levels), len(levels))
+    bracket = load_bracket(torque, 1.0, np.array(levels), len(levels))
     assert 0.0 <= bracket.weight <= 1.0
     assert bracket.upper - bracket.lower in (0, 1)
     out = np.empty(3)

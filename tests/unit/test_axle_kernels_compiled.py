@@ -10,7 +10,7 @@ from typing import get_type_hints
 
 import numpy as np
 import pytest
-from axle_cases import OIL, running_axle
+from axle_cases import OIL, running_axle, with_coast_flanks
 from numba.core.dispatcher import Dispatcher
 
 from gearlube_core.bearings import shaft_expansion
@@ -21,14 +21,22 @@ from gearlube_core.dynamics.hypoid_axle import (
     communication,
     flanks,
     integrate,
+    mesh_at_load,
     mesh_force,
     mohammadpour_2015_axle,
     outputs,
     rhs,
 )
 from gearlube_core.dynamics.hypoid_axle.output_names import BEARINGS_AT, N_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.state import LOAD_TORQUE, N_ODE, N_STATE, PHI_P, X
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    N_ODE,
+    N_STATE,
+    PHI_P,
+    SIDE,
+    X,
+)
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
 from gearlube_core.flat_tuples import flatten
 from gearlube_core.mesh_table import kernels
 from gearlube_core.rheology.lubricant_state import lubricant_state
@@ -47,8 +55,9 @@ PRINTED = HypoidAxle(
 STATE_OF_OIL = lubricant_state(P.oil, OIL)
 INPUTS = integrate.step_inputs(STATE, TORQUE_P, TORQUE_G, STATE_OF_OIL, P)
 SERIES, WINDOW = np.zeros(MESH.series_size), np.zeros(MESH.window_size)
-integrate.blend_mesh(
+mesh_at_load.blend_mesh(
     STATE[LOAD_TORQUE],
+    1.0,
     MESH.levels,
     MESH.series,
     MESH.orders,
@@ -74,19 +83,29 @@ SEPARATED = STATE.copy()
 SEPARATED[X] = -3.0
 COASTING = STATE.copy()
 COASTING[X] = -155.0
+BOTH = pack_mesh(with_coast_flanks(AXLE.parameters.mesh), 115e9, "consistent")
+BOTH_SIDES = (BOTH.levels, BOTH.series, BOTH.orders, BOTH.windows, BOTH.nodes)
+CROSSED, CROSSED_BACK = STATE.copy(), STATE.copy()
+CROSSED[X], CROSSED_BACK[X] = -100.0, -50.0
+CROSSED_BACK[SIDE] = -1.0
 
 
 def zeros(size):
     return np.zeros(size)
 
 
-BRACKET = kernels.load_bracket(33.0, MESH.levels, MESH.levels.size)
+BRACKET = kernels.load_bracket(33.0, 1.0, MESH.levels, MESH.levels.size)
 WRITE_SHAFT = (*SHAFT, 300.0, STATE_OF_OIL, P.bearing_p, BEARINGS_AT, 2, 1, 0)
 CASES = [
-    (kernels.load_bracket, (33.0, MESH.levels, 7)),
-    (kernels.load_bracket, (1e3, MESH.levels, 7)),
+    *(
+        (kernels.load_bracket, (torque, side, levels, levels.size))
+        for torque in (0.0, 33.0, 1e3)
+        for side in (1.0, -1.0)
+        for levels in (MESH.levels, BOTH.levels)
+    ),
     (kernels.blend_levels, (MESH.series, MESH.series_size, BRACKET, zeros(MESH.series_size))),
     (kernels.mesh_series, (SERIES, MESH.orders, 13.0, 0.3)),
+    (kernels.transmission_error, (SERIES, MESH.orders, 13.0, 0.3)),
     (kernels.pair_channels, (WINDOW, MESH.nodes, 13.0, 0.3, 1, N_CHANNELS, zeros(N_CHANNELS))),
     (shaft_expansion._sums_line, LOOP),
     (shaft_expansion._sums_general, (*LOOP, 1.3, zeros(shaft_expansion.N_EXPANSION))),
@@ -148,7 +167,19 @@ CASES = [
     ),
     (integrate.step_inputs, (STATE, 60.0, 100.0, STATE_OF_OIL, P)),
     (integrate.step_inputs, (STATE, 60.0, 100.0, STATE_OF_OIL, P._replace(drag=0.0))),
-    (integrate.blend_mesh, (33.0, *TABLE, zeros(MESH.series_size), zeros(MESH.window_size))),
+    (
+        mesh_at_load.blend_mesh,
+        (33.0, -1.0, *BOTH_SIDES, zeros(MESH.series_size), zeros(MESH.window_size)),
+    ),
+    (
+        mesh_at_load.lateral_and_unloaded,
+        (STATE, kernels.mesh_series(SERIES, MESH.orders, 13.0, 0.3), SERIES, MESH.orders, 13.0),
+    ),
+    *(
+        (mesh_at_load.follow_flank, (state, *BOTH_SIDES, parameters, SERIES, WINDOW))
+        for state in (STATE, SEPARATED, COASTING, CROSSED, CROSSED_BACK)
+        for parameters in (P, P._replace(backlash=0.0))
+    ),
     (outputs.stored_energy, (STATE, 5e8, STATE_OF_OIL, P)),
     (
         outputs.write_flanks,

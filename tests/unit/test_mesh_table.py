@@ -7,15 +7,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
+from axle_cases import with_coast_flanks
 
 from gearlube_core.blank.hypoid_blank import HypoidBlank
+from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.errors import TableError
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.mesh_table.kernels import (
     N_SERIES,
+    E,
     blend_levels,
     load_bracket,
     mesh_series,
     pair_channels,
+    transmission_error,
 )
 from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
 from gearlube_core.mesh_table.table import SERIES_UNITS, WINDOW_UNITS, MeshTable, Provenance
@@ -23,6 +28,7 @@ from gearlube_core.tooth_contact.inferred_table import inferred_mesh_table
 
 TABLE = MeshTable.named("mohammadpour_2015")
 Z_P, Z_G = 13, 36
+MODULUS = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 KEYS = (*SERIES_UNITS, *WINDOW_UNITS)
 
 
@@ -42,15 +48,19 @@ def without_datum(key):
 
 def test_a_table_written_and_read_is_the_same_table_to_the_bit(tmp_path):
     kinds = ("table", "inferred", "completed")
+    settings = {"positions": 31, "base_depth": 2.5e-3, "tool": "Gleason 9 in", "note-1.a": ""}
     varied = replace(
         TABLE,
         name="varied",
+        source="rear axle, größer.toml",
+        settings=settings,
         provenance={key: Provenance(kinds[i % 3], f"eq. ({i})") for i, key in enumerate(KEYS)},
     )
     read = read_mesh_table(write_mesh_table(varied, tmp_path / "sub" / "table.nc"))
     assert (read.name, read.pinion_teeth, read.gear_teeth) == ("varied", Z_P, Z_G)
     assert read.contact_ratio == TABLE.contact_ratio
     assert read.provenance == varied.provenance
+    assert (read.source, read.settings) == (varied.source, settings)
     np.testing.assert_array_equal(read.torque, TABLE.torque)
     for key in KEYS:
         np.testing.assert_array_equal(data(read, key), data(TABLE, key))
@@ -134,6 +144,62 @@ def test_load_levels_must_rise_and_be_finite(torque):
         replace(TABLE, torque=torque)
 
 
+@pytest.mark.parametrize("torque", [-TABLE.torque[::-1], np.arange(-3.0, 4.0)])
+def test_the_drive_flanks_need_data_and_no_level_stands_at_zero(torque):
+    with pytest.raises(TableError, match=r"a level above 0 N\.m and none at 0 N\.m"):
+        replace(TABLE, torque=torque)
+
+
+@pytest.mark.parametrize("key", ["k_m", "R_p", "R_g", "k_t", "R_x", "R_y"])
+def test_what_must_be_positive_is_told_with_its_load(key):
+    values = data(TABLE, key).copy()
+    values[2, 0] *= -1.0
+    with pytest.raises(TableError, match=rf"'{key}' must be above 0, got -.* at 20 N\.m"):
+        replace(TABLE, **with_datum(key, values))
+
+
+def test_a_share_below_zero_is_refused_even_where_the_sum_is_one():
+    share = TABLE.windows["share"].copy()
+    share[0, 10] -= 2.0
+    share[0, 10 + TABLE.nodes // 3] += 2.0
+    with pytest.raises(TableError, match="load shares must not be below 0, got -"):
+        replace(TABLE, **with_datum("share", share))
+
+
+@pytest.mark.parametrize("teeth", [{"pinion_teeth": 0}, {"gear_teeth": -36}])
+def test_a_gear_without_teeth_is_refused(teeth):
+    with pytest.raises(TableError, match="numbers of teeth must be at least 1"):
+        replace(TABLE, **teeth)
+
+
+@pytest.mark.parametrize("settings", [{"a b": 1.0}, {"": "x"}, {"a": [1.0]}, {"a/b": 1.0}])
+def test_a_setting_that_no_file_can_hold_is_refused(settings):
+    with pytest.raises(TableError, match="a setting must be a text or a number"):
+        replace(TABLE, settings=settings)
+
+
+def test_beyond_its_contact_a_pair_holds_the_nearest_loaded_value():
+    """Else the first interval of contact would be interpolated from nothing."""
+    share = TABLE.windows["share"][0]
+    loaded = np.flatnonzero(share > 0.0)
+    for key in set(WINDOW_UNITS) - {"share"}:
+        values = TABLE.windows[key].T
+        first, last = loaded[0], loaded[-1]
+        # contact ends between two of 155 nodes: the value there differs by that much at most
+        limit = 0.05 * np.ptp(values) + 1e-15
+        np.testing.assert_allclose(values[:first] - values[first], 0.0, rtol=0, atol=limit)
+        np.testing.assert_allclose(values[last + 1 :] - values[last], 0.0, rtol=0, atol=limit)
+
+
+def test_highest_pressure_is_that_of_hertz_under_the_share_of_the_load():
+    ellipse = hertz_ellipse(
+        TABLE.windows["R_x"][3, 70], TABLE.windows["R_y"][3, 70], MODULUS,
+        TABLE.windows["share"][3, 70] * 50.0 / TABLE.mean("R_p", 50.0),
+    )  # fmt: skip
+    # peak over mean pressure of an ellipse: 3/2
+    assert TABLE.windows["pressure_max"][3, 70] == pytest.approx(1.5 * ellipse[2], rel=1e-12)
+
+
 def test_an_unknown_table_is_refused_with_the_names_that_ship():
     with pytest.raises(TableError, match=r"called 'no_such'\. Shipped: mohammadpour_2015"):
         MeshTable.named("no_such")
@@ -156,6 +222,14 @@ def without_attribute(name):
     return change
 
 
+def of_format(number):
+    def change(dataset):
+        dataset.attrs["gearlube_mesh_table"] = number
+        return dataset
+
+    return change
+
+
 def without_origin(dataset):
     del dataset["R_y"].attrs["provenance"]
     return dataset
@@ -167,10 +241,13 @@ def without_origin(dataset):
         (lambda d: d.drop_vars(["psi"]), "lacks psi"),
         (lambda d: d.drop_vars(["torque"]), "lacks torque"),
         (without_attribute("contact_ratio"), "lacks contact_ratio"),
-        (without_attribute("gearlube_mesh_table"), "not a gearlube mesh table of format 1"),
+        (without_attribute("gearlube_mesh_table"), "is not a gearlube mesh table"),
+        (of_format("two"), "is not a gearlube mesh table"),
+        (of_format(1), "older gearlube: .* format 1, .* format 2. Run `gearlube contact` again"),
+        (of_format(3), "newer gearlube: .* format 3, .* format 2. Install that version"),
         (without_origin, "'R_y' needs a provenance"),
     ],
-    ids=["window", "torque", "attribute", "format", "provenance"],
+    ids=["window", "torque", "attribute", "format", "word", "older", "newer", "provenance"],
 )
 def test_an_incomplete_file_says_what_it_lacks(tmp_path, change, message):
     with pytest.raises(TableError, match=message):
@@ -180,8 +257,13 @@ def test_an_incomplete_file_says_what_it_lacks(tmp_path, change, message):
 def test_a_file_that_is_no_netcdf_is_refused(tmp_path):
     path = tmp_path / "table.nc"
     path.write_text("not a table", encoding="utf-8")
-    for name in (path, tmp_path / "absent.nc"):
-        with pytest.raises(TableError, match="is not a readable NetCDF 3 file"):
+    with pytest.raises(TableError, match=r"table\.nc is not a readable NetCDF 3 file"):
+        read_mesh_table(path)
+
+
+def test_a_file_that_is_not_there_is_told_with_its_name_and_who_writes_one(tmp_path):
+    for name in (tmp_path / "absent.nc", tmp_path):
+        with pytest.raises(TableError, match=rf"No mesh table .* {name}: .*`gearlube contact`"):
             read_mesh_table(name)
 
 
@@ -290,7 +372,7 @@ def test_slopes_are_the_finite_differences_of_the_values():
 def test_between_load_levels_data_are_linear_and_outside_held(torque):
     packed = np.random.default_rng(1).normal(size=(7, 4))
     out = np.empty(4)
-    bracket = load_bracket(torque, TABLE.torque, 7)
+    bracket = load_bracket(torque, math.copysign(1.0, torque), TABLE.torque, 7)
     blend_levels(packed.ravel(), 4, bracket, out)
     expected = [np.interp(abs(torque), TABLE.torque, column) for column in packed.T]
     # rounding of one linear interpolation of numbers of order 1
@@ -300,9 +382,41 @@ def test_between_load_levels_data_are_linear_and_outside_held(torque):
     )
 
 
+@pytest.mark.parametrize("torque", [-900.0, -400.0, -123.0, -5.0, -1.0, 0.0, 1.0, 49.9, 900.0])
+def test_levels_of_the_other_sign_are_never_read(torque):
+    """Between the smallest levels of either side nothing is interpolated."""
+    both = with_coast_flanks(TABLE)
+    own = np.sign(both.torque) == (-1.0 if torque < 0.0 else 1.0)
+    bracket = load_bracket(torque, math.copysign(1.0, torque), both.torque, both.torque.size)
+    out = np.empty(1)
+    for key in ("k_m", "R_p", "e"):
+        means = np.ascontiguousarray(both.series[key][:, 0, 0])
+        blend_levels(means, 1, bracket, out)
+        expected = np.interp(abs(torque), *_rising(np.abs(both.torque[own]), means[own]))
+        # rounding of one linear interpolation
+        assert out[0] == pytest.approx(expected, rel=1e-14)
+        assert both.mean(key, torque) == pytest.approx(expected, rel=1e-14)
+
+
+def _rising(x, y):
+    order = np.argsort(x)
+    return x[order], y[order]
+
+
+def test_transmission_error_is_the_series_that_is_stored():
+    phi = np.linspace(-1.0, 3.0, 11)
+    coefficients = np.zeros((2 * TABLE.orders + 1, N_SERIES))
+    e = TABLE.series["e"][0]
+    coefficients[0, E], coefficients[1::2, E], coefficients[2::2, E] = e[0, 0], e[1:, 0], e[1:, 1]
+    found = [transmission_error(coefficients.ravel(), TABLE.orders, float(Z_P), p) for p in phi]
+    # recurrence over five orders, angles of 40 rad
+    np.testing.assert_allclose(found, series_at("e", phi), rtol=0, atol=1e-12 * 3e-6)
+
+
 def test_a_single_load_level_serves_every_load():
     for torque in (0.0, 50.0, 500.0):
-        assert load_bracket(torque, np.array([50.0]), 1) == (0, 0, 0.0)
+        for side in (1.0, -1.0):
+            assert load_bracket(torque, side, np.array([50.0]), 1) == (0, 0, 0.0)
 
 
 def test_a_pair_enters_contact_at_phase_zero_and_leaves_after_the_contact_ratio():

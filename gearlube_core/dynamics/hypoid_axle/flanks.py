@@ -151,4 +151,8 @@ def flank_sum(
             elif refresh != 0.0:
                 friction[2 * pair] = 0.0
                 friction[2 * pair + 1] = 0.0
+    elif refresh != 0.0:
+        # teeth may touch before the next refresh: what stands here is then used
+        for i in range(2 * _PAIRS):
+            friction[i] = 0.0
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary)

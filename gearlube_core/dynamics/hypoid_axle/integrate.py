@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh, follow_flank
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -17,6 +18,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     N_ODE,
     N_STATE,
     PINION_WORK,
+    SIDE,
     TIME_IN_STEP,
     W_G,
     W_P,
@@ -26,7 +28,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.flat_tuples import tuple_from_array
 from gearlube_core.jit import kernel
-from gearlube_core.mesh_table.kernels import K_M, N_SERIES, blend_levels, load_bracket
+from gearlube_core.mesh_table.kernels import K_M, N_SERIES
 from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
 
 OK = 0
@@ -148,23 +150,6 @@ def step_inputs(
 
 
 @kernel
-def blend_mesh(
-    load_torque: float,
-    levels: NDArray[float64],
-    series: NDArray[float64],
-    n_orders: int,
-    windows: NDArray[float64],
-    n_nodes: int,
-    series_out: NDArray[float64],
-    window_out: NDArray[float64],
-) -> None:
-    """Interpolate the packed mesh table to the load `load_torque` [N.m]."""
-    bracket = load_bracket(load_torque, levels, levels.size)
-    blend_levels(series, N_SERIES * (2 * n_orders + 1), bracket, series_out)
-    blend_levels(windows, (n_nodes + 1) * N_CHANNELS, bracket, window_out)
-
-
-@kernel
 def advance(
     s: NDArray[float64],
     duration: float,
@@ -206,7 +191,8 @@ def advance(
     Notes
     -----
     The load level of the mesh table is that at the start of the communication step; it follows the
-    pinion torque with LOAD_FILTER_TIME.
+    pinion torque with LOAD_FILTER_TIME. The side, drive or coast flanks, is chosen after every
+    integrator step, see `follow_flank`.
     """
     p: AxleParameters = tuple_from_array(parameters, AxleParameters)
     control: StepControl = tuple_from_array(control_values, StepControl)
@@ -218,7 +204,7 @@ def advance(
     blended = work[at_series:at_window]
     window = work[at_window:]
     oil = lubricant_state(p.oil, oil_temperature)
-    blend_mesh(s[LOAD_TORQUE], levels, series, n_orders, windows, n_nodes, blended, window)
+    blend_mesh(s[LOAD_TORQUE], s[SIDE], levels, series, n_orders, windows, n_nodes, blended, window)
     wanted = duration / step_limit(p, control, s[W_P], blended[K_M])
     if not wanted < MAX_STEPS:
         return TOO_MANY_STEPS
@@ -244,6 +230,8 @@ def advance(
             scratch,
             stages,
         )
+        if levels[0] < 0.0:
+            follow_flank(s, levels, series, n_orders, windows, n_nodes, p, blended, window)
     total = 0.0
     for i in range(N_ODE):
         total += abs(s[i])

@@ -14,12 +14,12 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
     OK,
     TOO_MANY_STEPS,
     StepControl,
-    blend_mesh,
     step_inputs,
     work_size,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
@@ -29,6 +29,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     MICRO,
     N_ODE,
     N_STATE,
+    SIDE,
     U_G,
     U_P,
     V_G,
@@ -41,6 +42,7 @@ from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.errors import ConvergenceError, StepError
 from gearlube_core.flat_tuples import flatten
 from gearlube_core.materials.solid import contact_modulus
+from gearlube_core.mesh_table.kernels import N_SERIES, blend_levels, load_bracket
 from gearlube_core.rheology.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
@@ -143,6 +145,7 @@ class HypoidAxle:
         s[W_P] = pinion_speed
         s[W_G] = pinion_speed / self.parameters.mesh.ratio
         s[LOAD_TORQUE] = abs(pinion_torque)
+        s[SIDE] = -1.0 if pinion_torque < 0.0 else 1.0
         self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
         try:
             self._settle(pinion_torque, oil_temperature)
@@ -195,7 +198,7 @@ class HypoidAxle:
     def derivative(self, state: Array) -> Array:
         """Return d/dt of the N_ODE integrated states, for any other integrator.
 
-        The inputs and the load level of the mesh table are those of the last step.
+        The inputs, the load level and the side of the mesh table are those of the last step.
 
         Parameters
         ----------
@@ -212,6 +215,7 @@ class HypoidAxle:
         window = np.zeros(mesh.window_size)
         blend_mesh(
             full[LOAD_TORQUE],
+            full[SIDE],
             mesh.levels,
             mesh.series,
             mesh.orders,
@@ -338,9 +342,10 @@ class HypoidAxle:
     def _series_at(self, torque: float) -> Array:
         """Return the series' means at a load as packed coefficients without harmonics."""
         mesh = self.packed
-        blocks = mesh.series.reshape(mesh.levels.size, mesh.series_size)
-        means = np.array([np.interp(abs(torque), mesh.levels, column) for column in blocks.T])
-        means[7:] = 0.0
+        means = np.zeros(mesh.series_size)
+        bracket = load_bracket(torque, float(np.sign(torque)), mesh.levels, mesh.levels.size)
+        blend_levels(mesh.series, mesh.series_size, bracket, means)
+        means[N_SERIES:] = 0.0
         return means
 
     def _step_control(self, torque: float, oil_temperature: float) -> StepControl:

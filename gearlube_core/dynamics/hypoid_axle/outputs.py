@@ -12,8 +12,9 @@ from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
 from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
 from gearlube_core.dynamics.hypoid_axle.flanks import pair_friction, sliding_speed
-from gearlube_core.dynamics.hypoid_axle.integrate import blend_mesh, step_inputs
+from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     backlash_deflection,
     mesh_force,
@@ -43,6 +44,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PHI_G,
     PHI_P,
     PINION_WORK,
+    SIDE,
     TIME_IN_STEP,
     U_G,
     U_P,
@@ -281,7 +283,7 @@ def write_outputs(
     blended = work[at_series:at_window]
     window = work[at_window:]
     oil = lubricant_state(p.oil, oil_temperature)
-    blend_mesh(s[LOAD_TORQUE], levels, series, n_orders, windows, n_nodes, blended, window)
+    blend_mesh(s[LOAD_TORQUE], s[SIDE], levels, series, n_orders, windows, n_nodes, blended, window)
     inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
     axle_rhs(s, inputs, blended, n_orders, window, n_nodes, oil, p, 1.0, 1.0, scratch, rates)
     mesh = mesh_force(s, blended, n_orders, p)

@@ -172,6 +172,7 @@ def mohammadpour_2015_axle(
     bearing_preload: float = 2500.0,
     roughness_rms: float = 0.5e-6,
     backlash: float = 150e-6,
+    mesh: MeshTable | None = None,
     oil: str = "mohammadpour_2015",
     equations: Equations = "consistent",
     radii: Radii = "consistent",
@@ -194,6 +195,9 @@ def mohammadpour_2015_axle(
         need the composite root mean square; Karagiannis et al. 2012 give 0.5 um for this pair.
     backlash : float
         Total [m], Karagiannis et al. 2012.
+    mesh : MeshTable, optional
+        Of another gear pair, e.g. read from what `gearlube contact` wrote; inertias, masses and
+        bearings stay those of the paper. By default the table that ships.
     oil : str
         Name in the lubricant library.
     bearing_approach : {"full", "as_printed"}
@@ -211,7 +215,7 @@ def mohammadpour_2015_axle(
         "Preload cannot pull; give 0 N for line-to-line bearings.",
     )
     return HypoidAxleParameters(
-        mesh=MeshTable.named("mohammadpour_2015"),
+        mesh=mesh or MeshTable.named("mohammadpour_2015"),
         bearing=TaperedRollerBearing.mohammadpour_2015(approach=bearing_approach).with_preload(
             bearing_preload
         ),

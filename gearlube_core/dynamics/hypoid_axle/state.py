@@ -23,4 +23,5 @@ N_ODE = 26  # everything above is integrated
 LOAD_TORQUE = 26  # filtered abs(pinion torque) that selects the load level [N.m]
 TIME_IN_STEP = 27  # length of the last communication step [s]
 WORK_MARK = 28  # the seven energies at the start of the last communication step [J]
-N_STATE = WORK_MARK + 7
+SIDE = WORK_MARK + 7  # below 0: the mesh data are those of the coast flanks [-]
+N_STATE = SIDE + 1

@@ -1,0 +1,121 @@
+"""The mesh table at the present load, on the flanks that touch."""
+
+from __future__ import annotations
+
+import math
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    MICRO,
+    PHI_P,
+    SIDE,
+    U_G,
+    U_P,
+    UM,
+    X,
+)
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.jit import kernel
+from gearlube_core.mesh_table.kernels import (
+    N_SERIES,
+    MeshSeries,
+    blend_levels,
+    load_bracket,
+    mesh_series,
+    transmission_error,
+)
+
+
+@kernel
+def blend_mesh(
+    load_torque: float,
+    side: float,
+    levels: NDArray[float64],
+    series: NDArray[float64],
+    n_orders: int,
+    windows: NDArray[float64],
+    n_nodes: int,
+    series_out: NDArray[float64],
+    window_out: NDArray[float64],
+) -> None:
+    """Interpolate the packed mesh table to the load `load_torque` [N.m] of one side."""
+    bracket = load_bracket(load_torque, side, levels, levels.size)
+    blend_levels(series, N_SERIES * (2 * n_orders + 1), bracket, series_out)
+    blend_levels(windows, (n_nodes + 1) * N_CHANNELS, bracket, window_out)
+
+
+@kernel
+def lateral_and_unloaded(
+    s: NDArray[float64], m: MeshSeries, series: NDArray[float64], n_orders: int, z_p: float
+) -> float:
+    """Return n.(u_p - u_g) - e [m]: what the transmission error holds besides the rotation."""
+    lateral = (
+        m.n_x * (s[U_P] - s[U_G])
+        + m.n_y * (s[U_P + 1] - s[U_G + 1])
+        + m.n_z * (s[U_P + 2] - s[U_G + 2])
+    )
+    return lateral * UM - transmission_error(series, n_orders, z_p, s[PHI_P])
+
+
+@kernel
+def follow_flank(
+    s: NDArray[float64],
+    levels: NDArray[float64],
+    series: NDArray[float64],
+    n_orders: int,
+    windows: NDArray[float64],
+    n_nodes: int,
+    p: AxleParameters,
+    series_out: NDArray[float64],
+    window_out: NDArray[float64],
+) -> None:
+    """Take the mesh data of the other side when the teeth have crossed the middle of the gap.
+
+    On either side x + b = R_p theta + n.(u_p - u_g) - e, with theta the rotation of the pinion
+    against the gear from the middle of the gap: theta and the displacements decide where both
+    flanks stand, so x is carried over from one side to the other through theta. Neither flank
+    carries force there, so no energy enters; x is kept within the gap for the same reason.
+
+    Where the gap is passed within one step (backlash of a few micrometres or none), the side
+    changes in contact: the deflection is scaled so that k_m f^2 / 2 stays.
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+        Changed at X and SIDE.
+    levels, series, n_orders, windows, n_nodes
+        Packed mesh table with coast levels.
+    p : AxleParameters
+    series_out, window_out : ndarray
+        The table at the present load; rewritten at a change of side.
+    """
+    x = s[X] * UM
+    gap = p.backlash
+    on_coast = s[SIDE] < 0.0
+    if (x <= -gap) if on_coast else (x >= 0.0):
+        return
+    phi = s[PHI_P]
+    old = mesh_series(series_out, n_orders, p.z_p, phi)
+    separated = -gap < x < 0.0
+    rotation = x + 0.5 * gap
+    if separated:
+        rotation -= lateral_and_unloaded(s, old, series_out, n_orders, p.z_p)
+    if (rotation < 0.0) == on_coast:
+        return
+    s[SIDE] = 1.0 if on_coast else -1.0
+    blend_mesh(
+        s[LOAD_TORQUE], s[SIDE], levels, series, n_orders, windows, n_nodes, series_out, window_out
+    )
+    new = mesh_series(series_out, n_orders, p.z_p, phi)
+    if separated:
+        x = rotation * new.R_p / old.R_p - 0.5 * gap
+        x += lateral_and_unloaded(s, new, series_out, n_orders, p.z_p)
+        x = min(0.0, max(-gap, x))
+    else:
+        kept = math.sqrt(old.k_m / new.k_m)
+        x = x * kept if x >= 0.0 else (x + gap) * kept - gap
+    s[X] = x * MICRO
