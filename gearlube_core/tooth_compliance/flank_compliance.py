@@ -44,7 +44,9 @@ class CondensationSettings:
     profile_hats, lengthwise_hats
         Numbers of hats from root to tip and from toe to heel.
     density
-        Numbers of elements; two per hat along the flank resolve a hat's own indentation.
+        Numbers of elements; multiples of one less than the hats' numbers keep the hats' kinks on
+        the elements' edges. With two elements between hats a hat's own half-space displacement
+        comes out 2 to 3 % low, with three 1 %; loads spread over hats are resolved better.
     """
 
     profile_hats: int = 7

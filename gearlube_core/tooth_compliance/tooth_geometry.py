@@ -62,6 +62,11 @@ class ToothGeometry:
     -----
     The flank's parameters are the fractions of the grids' indices: s = 0 at the root line and
     1 at the tip, t = 0 at the toe and 1 at the heel.
+
+    The displacement far below a loaded tooth dies out slowly, so the block's size is part of the
+    model. On a 36-tooth bevel gear, whole displacement under a line load at mid height, against 3
+    modules and 1 pitch: 1, 2 and 4 modules give -18, -5 and +2 %; with 4 modules, 0.5, 1.5 and
+    2 pitches give -8, +4.5 and +7 % against 1.
     """
 
     left: Array
