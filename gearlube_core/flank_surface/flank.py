@@ -109,7 +109,8 @@ class Flank:
     outward : float
         +1 or -1: makes r_u x r_th point out of the tooth.
     start : ndarray of shape (3,)
-        u [m], th, ph [rad] at the mean reference point.
+        u [m], th, ph [rad] where the blade's path passes the mean reference point. On a form-cut
+        flank; a generated flank runs a little below, as the point is not a pitch point.
     region : ToothRegion
     role : {"pinion", "gear"}
     side : {"drive", "coast"}

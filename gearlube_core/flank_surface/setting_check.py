@@ -87,9 +87,11 @@ def reference_misfit(file: HypoidGearFile, role: str) -> float:
 
 
 def pressure_angle(file: HypoidGearFile, role: Role, side: Side) -> float:
-    """Return the pressure angle [rad] of a flank where its cutter's path meets the mean point.
+    """Return the pressure angle [rad] of the surface that a cutter's blades sweep.
 
-    Angle between the flank's normal and the pitch plane, the tooth turned to the mean point.
+    Angle between its normal and the pitch plane, where the blades' path passes the mean reference
+    point. For a form-cut gear this surface is the flank; the pinion's is the tooth that generates
+    it and stands in for the gear's.
     """
     blank = file.blank()
     cut = (pinion_cut if role == "pinion" else gear_cut)(file, CURVES[role, side])
@@ -102,9 +104,10 @@ def pressure_angle(file: HypoidGearFile, role: Role, side: Side) -> float:
 
 
 def pressure_angle_mismatch(file: HypoidGearFile, side: Side) -> float:
-    """Return the pinion's less the gear's pressure angle [rad] at the mean reference point.
+    """Return by how much the tooth that generates the pinion differs from the gear's [rad].
 
-    A positive mismatch bears at the pinion's root and the gear's tip.
+    Pinion's less gear's pressure angle of `pressure_angle`; positive: the pinion's flank is the
+    flatter one, and bears at its root and the gear's tip.
     """
     return pressure_angle(file, "pinion", side) - pressure_angle(file, "gear", side)
 

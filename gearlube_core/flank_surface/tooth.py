@@ -26,10 +26,10 @@ _TRACE_STEP = 1e-3  # t
 class Tooth:
     """A tooth: the drive flank at rotation zero, and the coast flank that bounds the same tooth.
 
-    Both blades trace one curve in the reference plane and follow each other by half a blade
-    pitch, in which the work turns by half a tooth pitch: tooth and slot are equal there. The coast
-    flank of the tooth is therefore the coast flank at rotation zero turned by half a pitch, away
-    from the outward normal of the drive flank.
+    Both blades pass through one curve in the reference plane and follow each other by half a blade
+    pitch, in which the work turns by half a tooth pitch. The coast flank of the tooth is therefore
+    the coast flank at rotation zero turned by half a pitch, away from the outward normal of the
+    drive flank. With single indexing the same division of the pitch is assumed.
 
     Parameters
     ----------
