@@ -20,6 +20,9 @@ def main(arguments: list[str] | None = None) -> int:
     """Build, check if asked to, and return the exit status."""
     parser = argparse.ArgumentParser(description="Build HypoidAxle.fmu (FMI 2.0 co-simulation).")
     parser.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="where to put it")
+    parser.add_argument(
+        "--mesh-table", type=Path, metavar="FILE", help="mesh table (.nc) of another gear pair"
+    )
     parser.add_argument("--check", action="store_true", help="validate with fmpy and fmutool")
     parser.add_argument(
         "--page", type=Path, metavar="FILE", help="refresh the tables in docs/fmu.md"
@@ -27,7 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stderr)
     try:
-        path = build_hypoid_axle(options.out)
+        path = build_hypoid_axle(options.out, options.mesh_table)
         _LOGGER.info("built %s (%d kB)", path, path.stat().st_size // 1024)
         if options.page:
             update_page(options.page, DEFINITION)

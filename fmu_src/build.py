@@ -13,7 +13,7 @@ from pathlib import Path
 from fmu_src.archive import write_archive
 from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
-from fmu_src.hypoid_axle import DEFINITION
+from fmu_src.hypoid_axle import DEFINITION, definition_with_table
 from fmu_src.identity import IDENTITY_FILE, guid_of, identity_text
 from fmu_src.model_description import model_description
 from gearlube_core.errors import GearLubeError
@@ -57,6 +57,7 @@ def _build(definition: Definition, script: Path, out_dir: Path) -> Path:
     content = _packed_by_pythonfmu(script)
     content["modelDescription.xml"] = model_description(definition, str(guid_of(definition)))
     content[f"resources/{IDENTITY_FILE}"] = identity_text(definition).encode()
+    content |= {f"resources/{name}": data for name, data in definition.resources.items()}
     content["documentation/index.html"] = index_html(definition).encode()
     content["model.png"] = (_HERE / "model.png").read_bytes()
     for licence in sorted((_HERE / "licences").glob("*.txt")):
@@ -66,11 +67,23 @@ def _build(definition: Definition, script: Path, out_dir: Path) -> Path:
     return path
 
 
-def build_hypoid_axle(out_dir: str | Path) -> Path:
+def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None) -> Path:
     """Build HypoidAxle.fmu in `out_dir` and return its path.
+
+    Parameters
+    ----------
+    out_dir : path
+    mesh_table : path, optional
+        Mesh table of another gear pair, which the FMU then carries.
+
+    Raises
+    ------
+    TableError
+        When `mesh_table` is missing, no mesh table, or of another format.
 
     Notes
     -----
     The same sources give the same bytes. The file appears in one atomic move.
     """
-    return _build(DEFINITION, _HYPOID_AXLE_SCRIPT, Path(out_dir))
+    definition = DEFINITION if mesh_table is None else definition_with_table(mesh_table)
+    return _build(definition, _HYPOID_AXLE_SCRIPT, Path(out_dir))

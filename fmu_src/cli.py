@@ -17,7 +17,7 @@ from fmu_src.arguments import speeds_from
 from fmu_src.spread_values import SpreadingCommand
 from gearlube_core import __version__
 from gearlube_core.checks import check_within
-from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.units import celsius_to_kelvin
 
 logger = logging.getLogger("gearlube")
@@ -112,6 +112,10 @@ def sweep(
     fmu: Annotated[
         Path | None, typer.Option(help="Axle FMU to run. Default: that of this installation.")
     ] = None,
+    mesh_table: Annotated[
+        Path | None,
+        typer.Option(help="Mesh table (.nc) of another gear pair, built into the axle FMU."),
+    ] = None,
 ) -> None:
     """Sweep vehicle speed and bearing preload; write sweep.nc, summary.csv and report.html.
 
@@ -122,6 +126,11 @@ def sweep(
 
     try:
         check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        if fmu is not None and mesh_table is not None:
+            raise ParameterError(
+                "--mesh-table must not be given with --fmu, which has its own table, got both. "
+                "Build the FMU with `gearlube build-fmu --mesh-table`, or leave out --fmu."
+            )
         settings = SweepSettings(
             oil_temperature=celsius_to_kelvin(oil_temperature),
             oil=oil,
@@ -134,6 +143,7 @@ def sweep(
         failures = console_sweep(
             console,
             fmu=fmu,
+            mesh_table=mesh_table,
             speeds_kmh=speeds_from(speeds or (_QUICK_SPEEDS if quick else _DEFAULT_SPEEDS)),
             preloads=preload or list(_DEFAULT_PRELOADS),
             settings=quick_settings(settings) if quick else settings,
@@ -146,7 +156,7 @@ def sweep(
     except SweepInterruptedError as error:
         logger.warning("%s", error)
         raise typer.Exit(INTERRUPTED) from None
-    except ParameterError as error:
+    except (ParameterError, TableError) as error:
         logger.error("%s", error)
         raise typer.Exit(BAD_ARGUMENT) from None
     except GearLubeError as error:
@@ -159,6 +169,10 @@ def sweep(
 @app.command("build-fmu")
 def build_fmu(
     out: Annotated[Path, typer.Option(help="Folder that gets HypoidAxle.fmu.")] = Path(),
+    mesh_table: Annotated[
+        Path | None,
+        typer.Option(help="Mesh table (.nc) of another gear pair. Default: the one that ships."),
+    ] = None,
 ) -> None:
     """Build HypoidAxle.fmu (FMI 2.0 co-simulation)."""
     from fmu_src.build import build_hypoid_axle
@@ -166,7 +180,10 @@ def build_fmu(
     began = time.monotonic()
     try:
         out.mkdir(parents=True, exist_ok=True)
-        path = build_hypoid_axle(out)
+        path = build_hypoid_axle(out, mesh_table)
+    except TableError as error:
+        logger.error("%s", error)
+        raise typer.Exit(BAD_ARGUMENT) from None
     except (GearLubeError, OSError) as error:
         logger.error("The FMU was not built: %s", error)
         raise typer.Exit(FAILED) from None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Protocol
 
@@ -51,6 +51,8 @@ class Definition:
         (parameters by name, input values) -> initialised `Model`.
     stop_time, step_size : float
         Default experiment [s].
+    resources : mapping of str to bytes
+        Files that the FMU carries for its model, by name.
     """
 
     name: str
@@ -60,6 +62,7 @@ class Definition:
     start_model: Callable[[Mapping[str, Value], Sequence[float]], Model]
     stop_time: float
     step_size: float
+    resources: Mapping[str, bytes] = field(default_factory=dict)
 
     @cached_property
     def references(self) -> dict[str, int]:

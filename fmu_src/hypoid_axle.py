@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cache, partial
+from pathlib import Path
 from typing import Any
 
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.dynamics import hypoid_axle
+from gearlube_core.errors import TableError
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_content
+from gearlube_core.mesh_table.table import MeshTable
 
 ARGUMENTS = {
     "bearing.preload": "bearing_preload",
@@ -27,7 +33,9 @@ ARGUMENTS = {
 }
 
 
-def start_axle(parameters: Mapping[str, Value], inputs: Sequence[float]) -> hypoid_axle.HypoidAxle:
+def start_axle(
+    parameters: Mapping[str, Value], inputs: Sequence[float], mesh: MeshTable | None = None
+) -> hypoid_axle.HypoidAxle:
     """Return an initialised axle.
 
     Parameters
@@ -36,9 +44,11 @@ def start_axle(parameters: Mapping[str, Value], inputs: Sequence[float]) -> hypo
         Value of every FMI parameter, enumerations by literal.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
+    mesh : MeshTable, optional
+        By default the table that ships with gearlube.
     """
     arguments: dict[str, Any] = {ARGUMENTS[n]: v for n, v in parameters.items() if n in ARGUMENTS}
-    axle = hypoid_axle.HypoidAxle(hypoid_axle.mohammadpour_2015_axle(**arguments))
+    axle = hypoid_axle.HypoidAxle(hypoid_axle.mohammadpour_2015_axle(mesh=mesh, **arguments))
     pinion_torque, wheel_torque, oil_temperature = inputs
     axle.initialise(
         pinion_speed=float(parameters["pinion.speed_start"]),
@@ -61,7 +71,34 @@ DEFINITION = Definition(
 )
 
 
+def definition_with_table(path: str | Path) -> Definition:
+    """Return the definition of the FMU that carries the mesh table at `path`."""
+    content = read_content(path)
+    try:
+        return _definition_with(content)
+    except TableError as error:
+        raise TableError(f"{path}: {error}") from None
+
+
+@cache
+def _definition_with(content: bytes) -> Definition:
+    """Return the one definition with this table: what is kept by definition is kept once."""
+    mesh = mesh_table_from_bytes(content, "the mesh table")
+    source = f", from {mesh.source}" if mesh.source else ""
+    return replace(
+        DEFINITION,
+        description=f"{DEFINITION.description}; mesh table {mesh.name} "
+        f"({mesh.pinion_teeth}/{mesh.gear_teeth} teeth){source}",
+        start_model=partial(start_axle, mesh=mesh),
+        resources={FILE_IN_FMU: content},
+    )
+
+
 class HypoidAxle(CoSimulationSlave):
     """FMI 2.0 co-simulation slave of the hypoid axle of Mohammadpour et al. (2015)."""
 
-    definition = DEFINITION
+    @staticmethod
+    def definition_of(resources: Path) -> Definition:
+        """Return the definition with the table in `resources`, or with the one that ships."""
+        table = resources / FILE_IN_FMU
+        return definition_with_table(table) if table.is_file() else DEFINITION

@@ -53,8 +53,11 @@ def interface_digest(definition: Definition) -> bytes:
 @cache
 def guid_of(definition: Definition) -> UUID:
     """Return the GUID: equal content has an equal GUID, on every machine."""
-    content = interface_digest(definition) + source_digest()
-    return UUID(bytes=hashlib.sha256(content).digest()[:16])
+    digest = hashlib.sha256(interface_digest(definition) + source_digest())
+    for name in sorted(definition.resources):
+        content = hashlib.sha256(definition.resources[name]).digest()
+        digest.update(f"{name}\0".encode() + content)
+    return UUID(bytes=digest.digest()[:16])
 
 
 def identity_text(definition: Definition) -> str:
@@ -81,6 +84,6 @@ def check_identity(definition: Definition, resources: str) -> str:
     if built != installed:
         return (
             f"{definition.name}.fmu was built from other sources than the installed gearlube, "
-            f"which computes the results. {cure}"
+            f"which computes the results, or its resources were changed. {cure}"
         )
     return ""

@@ -10,8 +10,10 @@ from __future__ import annotations
 import logging
 import math
 import sys
+from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Any, ClassVar
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from pythonfmu import Fmi2Slave
@@ -39,13 +41,18 @@ def _explained(error: BaseException) -> str:
 
 
 class CoSimulationSlave(Fmi2Slave):
-    """FMI 2.0 co-simulation slave; a subclass names its `definition` and nothing else."""
+    """FMI 2.0 co-simulation slave; a subclass says its `definition` and nothing else."""
 
-    definition: ClassVar[Definition]
     log_categories = LOG_CATEGORIES
+
+    @staticmethod
+    @abstractmethod
+    def definition_of(resources: Path) -> Definition:
+        """Return the definition of the FMU whose resources lie in this folder."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        self.definition = self.definition_of(Path(self.resources or ""))
         self.modelName = self.definition.name
         self._values = Values(self.definition, lambda text: self.report(Fmi2Status.error, text))
         self._model: Model | None = None

@@ -29,6 +29,7 @@ def console_sweep(
     console: Console,
     *,
     fmu: Path | None,
+    mesh_table: Path | None,
     speeds_kmh: list[float],
     preloads: list[float],
     settings: SweepSettings,
@@ -38,10 +39,13 @@ def console_sweep(
     quick: bool,
     command_line: str,
 ) -> int:
-    """Run a sweep, write its report, and return the number of failed points."""
+    """Run a sweep, write its report, and return the number of failed points.
+
+    Without `fmu` the axle is that of this installation, with `mesh_table` if one is given.
+    """
     logger.info("Preparing the axle; the first time this compiles it, about 20 s.")
     if fmu is None:
-        fmu = cached_hypoid_axle()
+        fmu = cached_hypoid_axle(mesh_table)
     if scheduler is None:
         warm_up(fmu, settings)
     columns = (

@@ -140,6 +140,7 @@ def _versions(dataset: xr.Dataset) -> list[tuple[str, str]]:
     lines = [
         ("gearlube", str(dataset.attrs.get("gearlube_version", ""))),
         ("FMU GUID", str(dataset.attrs.get("fmu_guid", ""))),
+        ("mesh table", str(dataset.attrs.get("mesh_table", ""))),
         ("Python", platform.python_version()),
         ("system", f"{platform.system()} {platform.machine()}"),
     ]

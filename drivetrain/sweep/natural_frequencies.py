@@ -11,9 +11,11 @@ import xarray as xr
 from drivetrain.driveline import Driveline
 from drivetrain.driveline_modes import driveline_modes
 from drivetrain.driveline_parameters import DrivelineParameters
-from drivetrain.road_load import mohammadpour_2015_road_load
+from drivetrain.road_load import RoadLoad, mohammadpour_2015_road_load
+from drivetrain.sweep.gear_pair import final_drive_of
 from drivetrain.sweep.settings import FMU_PARAMETERS, SweepSettings
 from gearlube_core.errors import GearLubeError
+from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import kmh_to_ms
 
 logger = logging.getLogger(__name__)
@@ -22,7 +24,7 @@ _LOWEST_DRIVELINE_MODE = 100.0  # Hz, lower ones lie below the mesh frequencies 
 
 
 def natural_frequencies(
-    preloads: Sequence[float], speed_kmh: float, settings: SweepSettings
+    preloads: Sequence[float], speed_kmh: float, settings: SweepSettings, mesh: MeshTable
 ) -> xr.DataArray:
     """Return undamped natural frequencies [Hz] over (preload, mode).
 
@@ -35,9 +37,10 @@ def natural_frequencies(
     Modes are matched between preloads by their order, since two modes that share their energy may
     swap names; all take the names that they have at the first preload.
     """
-    found = [_modes(preload, speed_kmh, settings) for preload in preloads]
+    road = mohammadpour_2015_road_load(final_drive=final_drive_of(mesh))
+    found = [_modes(preload, speed_kmh, settings, mesh, road) for preload in preloads]
     first = next((row for row in found if row), {})
-    driveline = _driveline_modes(speed_kmh, settings)
+    driveline = _driveline_modes(speed_kmh, settings, road)
     names = [*first, *driveline]
     values = np.full((len(found), len(names)), np.nan)
     for row, frequencies in zip(values, found, strict=True):
@@ -47,24 +50,25 @@ def natural_frequencies(
     return xr.DataArray(values, dims=("preload", "mode"), coords={"mode": names})
 
 
-def _driveline_modes(speed_kmh: float, settings: SweepSettings) -> dict[str, float]:
+def _driveline_modes(speed_kmh: float, settings: SweepSettings, road: RoadLoad) -> dict[str, float]:
     if settings.driver != "vehicle":
         return {}
-    parameters = DrivelineParameters(road_load=mohammadpour_2015_road_load())
+    parameters = DrivelineParameters(road_load=road)
     found = driveline_modes(Driveline(parameters, kmh_to_ms(speed_kmh)))
     return {m.name: m.frequency for m in found if m.frequency > _LOWEST_DRIVELINE_MODE}
 
 
-def _modes(preload: float, speed_kmh: float, settings: SweepSettings) -> dict[str, float]:
+def _modes(
+    preload: float, speed_kmh: float, settings: SweepSettings, mesh: MeshTable, road: RoadLoad
+) -> dict[str, float]:
     # Imported here because it compiles kernels when the machine has none yet.
     from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes, mohammadpour_2015_axle
 
-    road = mohammadpour_2015_road_load()
     speed = kmh_to_ms(speed_kmh)
     options = {name: getattr(settings, name) for name in FMU_PARAMETERS}
     torque = road.pinion_torque(speed)
     try:
-        axle = HypoidAxle(mohammadpour_2015_axle(bearing_preload=preload, **options))
+        axle = HypoidAxle(mohammadpour_2015_axle(mesh=mesh, bearing_preload=preload, **options))
         axle.initialise(
             pinion_speed=road.pinion_speed(speed),
             pinion_torque=torque,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from drivetrain.driveline_parameters import DrivelineParameters
 from drivetrain.drivers import CoupledVehicle, Driver, SpeedHold
-from drivetrain.road_load import mohammadpour_2015_road_load
+from drivetrain.road_load import FinalDrive, mohammadpour_2015_road_load
 from drivetrain.sweep.settings import SweepSettings
 from gearlube_core.units import kmh_to_ms
 
@@ -27,13 +27,18 @@ class Operation:
     pinion_speed: float
 
 
-def operation(settings: SweepSettings, speed_kmh: float, axle_power_loss: float = 0.0) -> Operation:
+def operation(
+    settings: SweepSettings,
+    speed_kmh: float,
+    final_drive: FinalDrive,
+    axle_power_loss: float = 0.0,
+) -> Operation:
     """Return the driver and the start of the point at `speed_kmh` [km/h].
 
     The drivers start in the steady state with an axle that loses `axle_power_loss` [W].
     """
     speed = kmh_to_ms(speed_kmh)
-    road = mohammadpour_2015_road_load()
+    road = mohammadpour_2015_road_load(final_drive=final_drive)
     driver: CoupledVehicle | SpeedHold
     if settings.driver == "vehicle":
         driver = CoupledVehicle(

@@ -12,6 +12,7 @@ from drivetrain.sweep.axle_loss import LOSS_CHANNELS, measured_loss
 from drivetrain.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from drivetrain.sweep.curves import mesh_cycle, roller_zone, spectra, waves
 from drivetrain.sweep.fmu_axle import FmuAxle
+from drivetrain.sweep.gear_pair import final_drive_of, mesh_table_of
 from drivetrain.sweep.partner import operation
 from drivetrain.sweep.quantities import described
 from drivetrain.sweep.recording import Recording, record
@@ -59,11 +60,12 @@ def _simulate(
     directory: Path, speed_kmh: float, preload: float, settings: SweepSettings
 ) -> Recording:
     parameters = {**settings.fmu_parameters, "bearing.preload": preload}
-    held = operation(replace(settings, driver="hold"), speed_kmh)
+    final_drive = final_drive_of(mesh_table_of(directory))
+    held = operation(replace(settings, driver="hold"), speed_kmh, final_drive)
     with FmuAxle(directory, LOSS_CHANNELS) as axle:
         axle.set_parameters({**parameters, "pinion.speed_start": held.pinion_speed})
         loss = measured_loss(axle, held.driver, settings)
-    where = operation(settings, speed_kmh, loss)
+    where = operation(settings, speed_kmh, final_drive, loss)
     with FmuAxle(directory, CHANNELS) as axle:
         axle.set_parameters({**parameters, "pinion.speed_start": where.pinion_speed})
         return record(axle, where.driver, settings, CHANNELS)

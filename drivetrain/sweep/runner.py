@@ -12,6 +12,7 @@ import xarray as xr
 
 from drivetrain.sweep.bookkeeping import Book, Observer, Place
 from drivetrain.sweep.executors import Crew, PointFunction, crew_for, default_jobs
+from drivetrain.sweep.gear_pair import mesh_table_of
 from drivetrain.sweep.interrupts import deferred_interrupts
 from drivetrain.sweep.merge import merge, save
 from drivetrain.sweep.natural_frequencies import natural_frequencies
@@ -24,6 +25,7 @@ from drivetrain.sweep.unpack import fmu_guid, unpacked
 from drivetrain.sweep.warm_up import warm_up
 from gearlube_core.checks import check_within
 from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.mesh_table.table import MeshTable
 
 logger = logging.getLogger(__name__)
 
@@ -38,7 +40,7 @@ class SweepInterruptedError(GearLubeError):
 
 
 PrepareFunction = Callable[[Path, SweepSettings], None]
-ModesFunction = Callable[[Sequence[float], float, SweepSettings], xr.DataArray]
+ModesFunction = Callable[[Sequence[float], float, SweepSettings, MeshTable], xr.DataArray]
 
 
 def run_sweep(
@@ -103,7 +105,7 @@ def run_sweep(
     if jobs is not None:
         check_within("jobs", jobs, 1, _MOST_JOBS, "", "Leave it out to use all processors.")
     with unpacked(fmu) as directory:
-        guid = fmu_guid(directory)
+        guid, mesh = fmu_guid(directory), mesh_table_of(directory)
     keys = {
         (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=code_version())
         for p in loads
@@ -127,6 +129,8 @@ def run_sweep(
             "title": "Speed sweep of a lubricated hypoid axle",
             "gearlube_version": code_version(),
             "fmu_guid": guid,
+            "mesh_table": mesh.name,
+            "mesh_table_source": mesh.source,
             "command_line": command_line,
             "scheduler": scheduler or "local processes",
             "computed_points": len(keys) - book.reused,
@@ -135,7 +139,7 @@ def run_sweep(
         }
     )
     if modes is not None:
-        sweep["mode_frequency"] = modes(loads, speeds[len(speeds) // 2], settings)
+        sweep["mode_frequency"] = modes(loads, speeds[len(speeds) // 2], settings, mesh)
     described(sweep)
     save(sweep, out)
     return sweep

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from drivetrain.sweep.channels import CHANNELS
 from drivetrain.sweep.fmu_axle import FmuAxle
+from drivetrain.sweep.gear_pair import final_drive_of, mesh_table_of
 from drivetrain.sweep.partner import operation
 from drivetrain.sweep.settings import SweepSettings
 from drivetrain.sweep.unpack import unpacked
@@ -18,8 +19,8 @@ def warm_up(fmu: Path, settings: SweepSettings) -> None:
 
     The machine code stays in numba's cache on disk, from where the workers load it.
     """
-    where = operation(settings, _SPEED_KMH)
     with unpacked(fmu) as directory, FmuAxle(directory, CHANNELS) as axle:
+        where = operation(settings, _SPEED_KMH, final_drive_of(mesh_table_of(directory)))
         axle.set_parameters(settings.fmu_parameters)
         axle.set_parameters({"pinion.speed_start": where.pinion_speed})
         torques = where.driver.initial_torques()

@@ -92,7 +92,7 @@ def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:
     try:
         dataset = xr.load_dataset(io.BytesIO(content), engine="scipy")
     except (OSError, ValueError, TypeError) as reason:
-        why = str(reason).strip().splitlines()[0]
+        why = str(reason).strip().splitlines()[0].rstrip(".")
         raise TableError(
             f"{name} is not a readable NetCDF 3 file: {why}. Write it with write_mesh_table, or "
             "from xarray with to_netcdf(path, engine='scipy')."
