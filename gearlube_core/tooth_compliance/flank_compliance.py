@@ -18,6 +18,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
 from gearlube_core.materials.solid import Solid
 from gearlube_core.tooth_compliance.half_space_hats import half_space_compliance
 from gearlube_core.tooth_compliance.hat_grid import (
@@ -44,9 +45,9 @@ class CondensationSettings:
     profile_hats, lengthwise_hats
         Numbers of hats from root to tip and from toe to heel.
     density
-        Numbers of elements; multiples of one less than the hats' numbers keep the hats' kinks on
-        the elements' edges. With two elements between hats a hat's own half-space displacement
-        comes out 2 to 3 % low, with three 1 %; loads spread over hats are resolved better.
+        Numbers of elements; multiples of one less than the hats' numbers, so that the hats' kinks
+        lie on the elements' edges. With two elements between hats a hat's own half-space
+        displacement comes out 2 % low, with three 1 %; loads spread over hats are resolved better.
     """
 
     profile_hats: int = 7
@@ -56,6 +57,13 @@ class CondensationSettings:
     def __post_init__(self) -> None:
         check_within("profile_hats", self.profile_hats, 2, 100)
         check_within("lengthwise_hats", self.lengthwise_hats, 2, 200)
+        for name in ("profile", "lengthwise"):
+            hats, elements = getattr(self, f"{name}_hats"), getattr(self.density, name)
+            if elements % (hats - 1):
+                raise ParameterError(
+                    f"density.{name} must be a multiple of {name}_hats - 1 = {hats - 1}, "
+                    f"got {elements}. Choose {2 * (hats - 1)} or {3 * (hats - 1)}."
+                )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -34,7 +34,7 @@ def distributed_loads(s, t):
 
 @pytest.mark.slow
 def test_refining_the_default_mesh_changes_displacements_by_less_than_one_percent():
-    fine = MeshDensity(profile=16, lengthwise=32, thickness=5, growth=1.45, fillet=6, rim=4)
+    fine = MeshDensity(profile=18, lengthwise=36, thickness=5, growth=1.45, fillet=6)
     coarse, finer = (
         tooth_compliance(TOOTH, STEEL, CondensationSettings(density=density))
         for density in (MeshDensity(), fine)
@@ -45,8 +45,8 @@ def test_refining_the_default_mesh_changes_displacements_by_less_than_one_percen
             "ij,jk,ik->i", loads, b.elastic, loads
         )
         assert np.abs(ratio - 1.0).max() < 0.01
-        # displacement elements approach from the stiff side
-        assert np.all(ratio < 1.0)
+        # displacement elements approach from the stiff side; that is more than round-off
+        assert np.all(ratio < 1.0 - 1e-6)
 
 
 @pytest.mark.slow

@@ -72,7 +72,7 @@ def test_every_input_that_matters_changes_the_key():
         cache.compliance_key(replace(TOOTH, left=left), STEEL, SETTINGS),
         cache.compliance_key(replace(TOOTH, base_depth=8.1e-3), STEEL, SETTINGS),
         cache.compliance_key(replace(TOOTH, teeth=37), STEEL, SETTINGS),
-        cache.compliance_key(TOOTH, STEEL, replace(SETTINGS, profile_hats=4)),
+        cache.compliance_key(TOOTH, STEEL, replace(SETTINGS, profile_hats=5)),
         cache.compliance_key(TOOTH, STEEL, replace(SETTINGS, density=replace(COARSE, fillet=4))),
     ]
     assert len({key, *others}) == len(others) + 1

@@ -83,6 +83,8 @@ def test_counts_are_checked():
         MeshDensity(fillet=0)
     with pytest.raises(ParameterError, match="profile_hats"):
         CondensationSettings(profile_hats=1)
+    with pytest.raises(ParameterError, match="Choose 12 or 18"):
+        CondensationSettings(profile_hats=7, density=MeshDensity(profile=16))
 
 
 def test_points_that_are_not_finite_are_refused():
