@@ -24,7 +24,7 @@ Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
 ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False)]
 SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
-OffsetAngle = Annotated[float, Field(ge=-90.0, le=90.0, allow_inf_nan=False)]
+Slant = Annotated[float, Field(ge=-90.0, le=90.0, allow_inf_nan=False)]
 TiltAngle = Annotated[float, Field(ge=0.0, le=80.0, allow_inf_nan=False)]
 RollRatio = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
 PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
@@ -69,7 +69,7 @@ class Cutter(_Section):
         description="Radius of a curved blade edge, hollow, so that the flank is crowned along its "
         "profile; absent: straight",
     )
-    blade_offset_angle_deg: OffsetAngle | None = Field(
+    blade_offset_angle_deg: Slant | None = Field(
         None,
         description="Angle from the cutter radius to the blade face, about the cutter axis; "
         "absent: the blade face is normal to the cutting velocity at the reference point",
@@ -102,9 +102,9 @@ class GeneratorMachine(_Section):
     The cradle stands in for the gear: with all crowning taken away, its axis is the gear axis.
     """
 
-    machine_root_angle_deg: Angle = Field(
-        description="Of the pinion axis towards the cradle plane; 0: at right angles to the cradle "
-        "axis"
+    machine_root_angle_deg: Slant = Field(
+        description="Of the pinion axis from the plane at right angles to the cradle axis; positive "
+        "with the pinion leaning to the side of the blade tips"
     )
     machine_center_to_back_mm: Millimetres = Field(
         description="Shift of the pinion along its axis, positive away from the crossing point: "

@@ -1,0 +1,223 @@
+"""Rewrite docs/gear_file.md and the picture of the pair: python -m docs.gear_file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from gearlube_core.flank_surface.field_notes import FieldNote, field_notes
+from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.flank_surface.tooth import Tooth
+from gearlube_core.flank_surface.tooth_solid import Solid, gear_solid
+from gearlube_core.tooth_contact.pair import FlankPair
+from gearlube_core.tooth_contact.placement import Placement
+
+Array = NDArray[np.float64]
+
+STEEL, BRASS = np.array([0.62, 0.68, 0.75]), np.array([0.86, 0.62, 0.33])
+FOLDER = Path(__file__).parent
+SECTIONS = {
+    "": "The file",
+    "pair": "[pair]",
+    "pinion": "[pinion] and [gear]: the blank",
+    "pinion.cutter": "[pinion.cutter] and [gear.cutter]",
+    "pinion.machine": "[pinion.machine]: generated, with cutter tilt",
+    "gear.machine": "[gear.machine]: form-cut (Formate)",
+}
+
+HEAD = """# The gear file
+
+The tables are written by `python -m docs.gear_file` from the data model
+(`gearlube_core/flank_surface/gear_file.py`), the text with them; not edited by hand.
+
+A hypoid pair as a workshop describes it: blank, cutters and machine settings, in millimetres and
+degrees, in one TOML file. From it come the flank surfaces, and from them tooth contact,
+transmission error, load sharing and the mesh table of the axle.
+
+![Pinion and gear in mesh](images/gear_pair.png)
+
+*The shipped pair as its machine settings cut it, 13 to 36 teeth, offset 24 mm, face-hobbed. Right:
+the teeth in mesh, seen from the toe.*
+
+Uniform depth, axes at right angles; gear form-cut, pinion generated with cutter tilt; face-hobbed
+or, with no blade groups, face-milled. Frame, hands and the driving side:
+[conventions](conventions.md#frame-of-the-hypoid-pair).
+
+## Signs
+
+What drawings differ about, as this package reads it. With these signs the printed settings of the
+shipped pair bring the pinion's cutter to within 0.002 mm of the gear's tooth; every other choice
+of signs misses by 0.23 mm or more (`tests/literature/test_flank_surface_karagiannis_2012.py`).
+
+- **Reference plane**: the plane at the middle of the working depth. `point_radius_mm` holds there,
+  not at the blade tips, and for the blades of both flanks.
+- **Blade angles are named after the flank they cut**, convex or concave, because tables disagree
+  about "inside" and "outside". Taken the other way round, mating flanks of the shipped pair differ
+  by 11.6 deg of pressure angle.
+- **Apexes** count positive beyond the crossing point of the axes. The gear's
+  `machine_center_to_back_mm` is the same kind of length, for the reference plane.
+- **Cradle axis**: the gear axis of the assembled pair, if nothing is crowned. The cutter axis
+  leans by the tilt angle i from it, to the azimuth q - j - 90 deg (q basic cradle, j basic swivel
+  angle). The pinion axis lies a sliding base from the cutter centre's plane, on the side of the
+  blade tips.
+- **`blade_edge_radius_mm`**: a hollow blade, which crowns the tooth along its profile; without it
+  the edge is straight.
+- Root fillets are not described: below the flanks the tooth ends on the root cone.
+
+## Where a number is from
+
+`inferred` and `completed` list fields by their dotted names: what the source implies, and what was
+chosen because the source is silent. All other fields count as printed.
+"""
+
+TAIL = """
+## Write your own
+
+1. Copy `gearlube_core/flank_surface/data/mohammadpour_2015.toml` (face-hobbed) or
+   `examples/gears/face_milled.toml` and put your summary sheet's numbers in.
+2. Read it. Every wrong field is named, with its value and its range:
+
+   ```python
+   from gearlube_core.flank_surface.gear_file import HypoidGearFile
+
+   file = HypoidGearFile.from_toml("my_gear.toml")
+   ```
+
+3. Ask whether the settings meet. Each sentence of the report names the misfit and the single
+   changes that would cure it, `suggest_settings` gives them as numbers:
+
+   ```python
+   from gearlube_core.flank_surface.setting_check import setting_report, suggest_settings
+
+   print(*setting_report(file), sep="\\n")
+   for change in suggest_settings(file):
+       print(change)    # pinion.machine.sliding_base_mm from 21.647 to 20.649 mm
+   ```
+
+   A plane that misses by tenths of a millimetre is most often one sign read the other way; a
+   pressure angle off by several degrees, blade angles given to the wrong flanks.
+4. Look at the tooth: thin toplands, pointed teeth, undercut.
+
+   ```python
+   from gearlube_core.flank_surface.tooth_form import tooth_form
+
+   print(*tooth_form(file, "pinion").report(), sep="\\n")
+   ```
+
+5. Take it elsewhere: `write_flank_csv` (points, normals, curvatures), and `write_solid` with
+   `tooth_solid` or `gear_solid` for STL and GLB (`gearlube_core/flank_surface/export.py`).
+
+Half a degree of pressure angle that is left is not a fault of the file: summary sheets often omit
+hook angles and blade edge curvature. The two angle corrections of the pinion are the place for it;
+what decides is the unloaded transmission error, which should have its extreme inside the working
+depth.
+"""
+
+
+def page() -> str:
+    """Return docs/gear_file.md."""
+    groups: dict[str, list[FieldNote]] = {section: [] for section in SECTIONS}
+    for name, note in field_notes(HypoidGearFile).items():
+        section = name.rpartition(".")[0]
+        if section in groups:
+            groups[section].append(note)
+    tables = [_table(SECTIONS[section], notes) for section, notes in groups.items()]
+    return HEAD + "\n## Fields\n" + "".join(tables) + TAIL
+
+
+def _table(title: str, notes: list[FieldNote]) -> str:
+    lines = [
+        f"\n### {title}\n",
+        "| Field | Unit | Value | Without it | Meaning |",
+        "|---|---|---|---|---|",
+    ]
+    for note in notes:
+        value = f"{note.kind}, {note.limits}" if note.limits else note.kind
+        field = note.name.rpartition(".")[2]
+        without = note.default or "required"
+        lines.append(f"| `{field}` | {note.unit or '-'} | {value} | {without} | {note.meaning} |")
+    return "\n".join(lines) + "\n"
+
+
+def picture(name: str = "mohammadpour_2015") -> Figure:
+    """Return a picture of a shipped pair: the whole, and the teeth in mesh seen from the toe."""
+    file = HypoidGearFile.named(name)
+    pair = FlankPair.from_file(file, "drive")
+    members = [
+        (gear_solid(Tooth.from_file(file, "gear"), 12, 24, rim=9e-3), pair.gear_placed(0.0), STEEL),
+        (
+            gear_solid(Tooth.from_file(file, "pinion"), 16, 40, rim=9e-3),
+            pair.pinion_placed(0.0),
+            BRASS,
+        ),
+    ]
+    figure = Figure(figsize=(11.0, 5.0), dpi=120)
+    whole = _view(figure.add_axes((0.0, 0.0, 0.56, 1.0)), members, np.array([0.1, 0.85, -0.5]))
+    near = _view(figure.add_axes((0.58, 0.02, 0.41, 0.96)), members, np.array([-0.75, -0.2, -0.42]))
+    for axes, (low, high) in ((whole.axes, whole.frame), (near.axes, near.around(pair.mean_point))):
+        axes.set_xlim(low[0], high[0])
+        axes.set_ylim(low[1], high[1])
+        axes.set_aspect("equal")
+        axes.axis("off")
+    return figure
+
+
+class View(NamedTuple):
+    """A drawn view: its axes, the directions of its sheet, its corners low and high [m]."""
+
+    axes: Axes
+    sheet: Array  # (3, 2)
+    frame: tuple[Array, Array]
+
+    def around(self, point: Array) -> tuple[Array, Array]:
+        """Return the corners of a window around a point of the pair."""
+        middle = point @ self.sheet
+        return middle - 25e-3, middle + 25e-3
+
+
+def _view(axes: Axes, members: list[tuple[Solid, Placement, Array]], eye: Array) -> View:
+    """Draw the members as seen from the direction `eye`, the gear's teeth up."""
+    eye = eye / np.linalg.norm(eye)
+    parts = [_lit(solid, placement, eye, base) for solid, placement, base in members]
+    corners = np.concatenate([one[0] for one in parts])
+    shade = np.concatenate([one[1] for one in parts])
+    order = np.argsort((corners @ eye).mean(axis=1))
+    up = np.array([0.0, 0.0, -1.0]) + eye[2] * eye
+    up /= np.linalg.norm(up)
+    sheet = np.stack([np.cross(up, eye), up], axis=1)
+    flat, shade = corners[order] @ sheet, shade[order]
+    # each triangle is edged in its own colour, else the background shines through the joints
+    axes.add_collection(PolyCollection(flat, facecolors=shade, edgecolors=shade, linewidths=0.25))
+    ends = flat.reshape(-1, 2)
+    return View(axes, sheet, (ends.min(axis=0) - 2e-3, ends.max(axis=0) + 2e-3))
+
+
+def _lit(solid: Solid, placement: Placement, eye: Array, base: Array) -> tuple[Array, Array]:
+    """Return the triangles that face the eye, (f, 3, 3), and their colours, (f, 3)."""
+    angle = np.arctan2(placement.sine, placement.cosine)
+    turn = Rotation.from_rotvec(angle * np.array(placement.axis))
+    point = np.array(placement.point)
+    corners = (turn.apply(solid.vertices - point) + point)[solid.faces]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    seen = normal @ eye > 0.0
+    corners, normal = corners[seen], normal[seen]
+    lamp = eye + np.array([-0.5, 0.5, -0.6])
+    lamp /= np.linalg.norm(lamp)
+    half = (lamp + eye) / np.linalg.norm(lamp + eye)
+    diffuse = np.clip(normal @ lamp, 0.0, 1.0)[:, None]
+    gloss = np.clip(normal @ half, 0.0, 1.0)[:, None] ** 30
+    return corners, np.clip(base * (0.25 + 0.75 * diffuse) + 0.35 * gloss, 0.0, 1.0)
+
+
+if __name__ == "__main__":
+    (FOLDER / "gear_file.md").write_text(page(), encoding="utf-8")
+    (FOLDER / "images").mkdir(exist_ok=True)
+    picture().savefig(FOLDER / "images" / "gear_pair.png")
