@@ -103,8 +103,8 @@ class GeneratorMachine(_Section):
     """
 
     machine_root_angle_deg: Slant = Field(
-        description="Of the pinion axis from the plane at right angles to the cradle axis; positive "
-        "with the pinion leaning to the side of the blade tips"
+        description="Of the pinion axis from the plane at right angles to the cradle axis; "
+        "positive with the pinion leaning to the side of the blade tips"
     )
     machine_center_to_back_mm: Millimetres = Field(
         description="Shift of the pinion along its axis, positive away from the crossing point: "
