@@ -60,7 +60,7 @@ class MeshTable:
     A *series* is periodic in one mesh period: value(phi) = sum_h [c_h cos(h z_p phi) +
     s_h sin(h z_p phi)], h = 0 .. H. A *window* follows one tooth pair over `PAIRS` mesh periods;
     pair j = 0, 1, 2 sits at ((z_p phi / 2 pi + j) mod 3) / 3 of the window, and its share is zero
-    outside its contact. Phase zero: pair 0 enters contact.
+    outside its contact. Phase zero: the window of pair 0 begins.
 
     Parameters
     ----------
