@@ -14,6 +14,8 @@ from rich.console import Console
 from rich.logging import RichHandler
 
 from fmu_src.arguments import speeds_from
+from fmu_src.contact_command import ContactCommand, contact
+from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from fmu_src.spread_values import SpreadingCommand
 from gearlube_core import __version__
 from gearlube_core.checks import check_within
@@ -23,14 +25,13 @@ from gearlube_core.units import celsius_to_kelvin
 logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
 
-BAD_ARGUMENT, FAILED, INTERRUPTED = 2, 1, 130
 _DEFAULT_SPEEDS = ("20:100:5",)
 _QUICK_SPEEDS = ("20:100:40",)
 _DEFAULT_PRELOADS = (2500.0, 6000.0)
 
 app = typer.Typer(
     name="gearlube",
-    help="Lubricated hypoid axles: build the FMU, run speed sweeps, get a report.",
+    help="Lubricated hypoid axles: tooth contact, FMU, speed sweeps and their report.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_show_locals=False,
@@ -188,6 +189,9 @@ def build_fmu(
         logger.error("The FMU was not built: %s", error)
         raise typer.Exit(FAILED) from None
     logger.info("Built %s in %.1f s.", path, time.monotonic() - began)
+
+
+app.command("contact", cls=ContactCommand)(contact)
 
 
 def main() -> None:

@@ -42,21 +42,34 @@ def contact(
         int | None, typer.Option(help="Positions over a mesh period. Default 20.", metavar="N")
     ] = None,
     offset_error_um: Annotated[
-        float, typer.Option(help="Misalignment E: pinion offset [um].", metavar="UM")
+        float,
+        typer.Option(
+            help="Misalignment E: change of the pinion offset, micrometres.", metavar="UM"
+        ),
     ] = 0.0,
     pinion_axial_um: Annotated[
-        float, typer.Option(help="Misalignment P: pinion along its axis [um].", metavar="UM")
+        float,
+        typer.Option(
+            help="Misalignment P: pinion away from the crossing point, micrometres.", metavar="UM"
+        ),
     ] = 0.0,
     gear_axial_um: Annotated[
-        float, typer.Option(help="Misalignment G: gear along its axis [um].", metavar="UM")
+        float,
+        typer.Option(
+            help="Misalignment G: gear away from the crossing point, micrometres.", metavar="UM"
+        ),
     ] = 0.0,
     shaft_angle_mrad: Annotated[
-        float, typer.Option(help="Misalignment of the shaft angle [mrad].", metavar="MRAD")
+        float, typer.Option(help="Misalignment of the shaft angle, milliradians.", metavar="MRAD")
     ] = 0.0,
     jobs: Annotated[
         int | None, typer.Option(help="Local processes. Default: all processors.", metavar="N")
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_contact"),
+    export: Annotated[
+        bool,
+        typer.Option("--export", help="Also write flank points (CSV) and gears (STL, GLB)."),
+    ] = False,
     quick: Annotated[
         bool, typer.Option("--quick", help="Few positions and torques, for a first look.")
     ] = False,
@@ -88,7 +101,7 @@ def contact(
                 ),
             )
         )
-        console_contact(console, file=file, settings=settings, out=out, jobs=jobs)
+        console_contact(console, file=file, settings=settings, out=out, jobs=jobs, export=export)
     except KeyboardInterrupt:
         logger.warning("Stopped. Run the same command again to go on from %s.", out / "positions")
         raise typer.Exit(INTERRUPTED) from None

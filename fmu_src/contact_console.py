@@ -20,13 +20,20 @@ from rich.progress import (
 from rich.table import Table
 
 from drivetrain.contact_figures import save_contact_figures
+from gearlube_core.flank_surface.export import write_flank_csv, write_solid
+from gearlube_core.flank_surface.flank import Flank, Role
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.flank_surface.setting_check import setting_report
+from gearlube_core.flank_surface.tooth import Tooth
+from gearlube_core.flank_surface.tooth_form import tooth_form
+from gearlube_core.flank_surface.tooth_solid import gear_solid, tooth_solid
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.tooth_contact.analysis import ContactSettings, analyse_contact
 from gearlube_core.tooth_contact.contact_table import contact_table
 from gearlube_core.tooth_contact.mesh_cycle import SIDES, CycleProgress
 
 logger = logging.getLogger("gearlube")
+ROLES: tuple[Role, Role] = ("pinion", "gear")
 
 
 def console_contact(
@@ -36,10 +43,13 @@ def console_contact(
     settings: ContactSettings,
     out: Path,
     jobs: int | None,
+    export: bool,
 ) -> Path:
     """Analyse a gear file; write dataset, mesh table and figures to `out`; return the table."""
     began = time.monotonic()
     out.mkdir(parents=True, exist_ok=True)
+    for sentence in _doubts(file):
+        logger.warning("%s", sentence)
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -67,10 +77,36 @@ def console_contact(
         table = write_mesh_table(contact_table(file, dataset), out / f"{file.name}.nc")
         _write(dataset, out / "contact.nc")
         save_contact_figures(dataset, out / "figures")
+        if export:
+            bar.update(task, description="gears")
+            write_gears(file, out / "gears")
     console.print(_summary(dataset))
     logger.info("Analysed in %.1f s.", time.monotonic() - began)
     logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")
     return table
+
+
+def write_gears(file: HypoidGearFile, folder: Path) -> list[Path]:
+    """Write each flank as CSV, each tooth and gear as STL and GLB; return the files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    for role in ROLES:
+        tooth = Tooth.from_file(file, role)
+        files += [
+            write_flank_csv(Flank.from_file(file, role, side), folder / f"{role}_{side}.csv")
+            for side in SIDES
+        ]
+        for suffix in ("stl", "glb"):
+            files.append(write_solid(tooth_solid(tooth), folder / f"{role}_tooth.{suffix}"))
+            files.append(write_solid(gear_solid(tooth), folder / f"{role}.{suffix}"))
+    return files
+
+
+def _doubts(file: HypoidGearFile) -> list[str]:
+    """Return what is unsound about the settings and the teeth, one sentence each."""
+    return setting_report(file) + [
+        line for role in ROLES for line in tooth_form(file, role).report()
+    ]
 
 
 def _write(dataset: xr.Dataset, path: Path) -> None:
