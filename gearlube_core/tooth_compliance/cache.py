@@ -45,7 +45,9 @@ def cache_folder(folder: Path | str | None = None) -> Path:
     return user_cache_path("gearlube") / "tooth_compliance"
 
 
-def _read(path: Path, settings: CondensationSettings) -> tuple[FlankCompliance, ...] | None:
+def _read(
+    path: Path, settings: CondensationSettings
+) -> tuple[FlankCompliance, FlankCompliance] | None:
     """Return the stored flanks, or None when the file is absent or damaged."""
     count = settings.profile_hats * settings.lengthwise_hats
     try:
@@ -59,7 +61,7 @@ def _read(path: Path, settings: CondensationSettings) -> tuple[FlankCompliance, 
         for flank in flanks
         for matrix in (flank.image, flank.elastic)
     )
-    return flanks if whole else None
+    return (flanks[0], flanks[1]) if whole else None
 
 
 def _write(path: Path, flanks: tuple[FlankCompliance, ...]) -> None:
@@ -100,10 +102,27 @@ def cached_tooth_compliance(
     -----
     A damaged file is computed and written anew.
     """
-    key = compliance_key(geometry, solid, settings)
-    path = cache_folder(folder) / f"{key}.npz"
-    flanks = _read(path, settings)
+    flanks = stored_tooth_compliance(geometry, solid, settings, folder)
     if flanks is None:
         flanks = tooth_compliance(geometry, solid, settings)
-        _write(path, flanks)
-    return flanks[0], flanks[1]
+        _write(_path(geometry, solid, settings, folder), flanks)
+    return flanks
+
+
+def stored_tooth_compliance(
+    geometry: ToothGeometry,
+    solid: Solid,
+    settings: CondensationSettings,
+    folder: Path | str | None = None,
+) -> tuple[FlankCompliance, FlankCompliance] | None:
+    """Return what `cached_tooth_compliance` would take from the disk, or None."""
+    return _read(_path(geometry, solid, settings, folder), settings)
+
+
+def _path(
+    geometry: ToothGeometry,
+    solid: Solid,
+    settings: CondensationSettings,
+    folder: Path | str | None,
+) -> Path:
+    return cache_folder(folder) / f"{compliance_key(geometry, solid, settings)}.npz"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from gearlube_core.flank_surface.flank import Role, Side, tooth_region
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.flank_surface.tooth_form import tooth_grids
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, contact_modulus
-from gearlube_core.tooth_compliance.cache import cached_tooth_compliance
+from gearlube_core.tooth_compliance.cache import cached_tooth_compliance, stored_tooth_compliance
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
 from gearlube_core.tooth_contact.loaded_contact import PairStiffness
@@ -24,7 +24,6 @@ from gearlube_core.tooth_contact.loaded_contact import PairStiffness
 Array = NDArray[np.float64]
 
 _GRID = (13, 33)  # flank points handed to the mesher, root to tip and toe to heel
-_FILLET_TOP = 1.0  # the flank ends this many clearances over the root; the fillet takes the rest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +41,7 @@ class ToothBodySettings:
     """
 
     base_depth_modules: float = 3.0
-    neighbour_pitches: float = 0.5
+    neighbour_pitches: float = 1.0
     solid: Solid = STEEL_MOHAMMADPOUR_2015
     condensation: CondensationSettings = field(default_factory=CondensationSettings)
 
@@ -52,9 +51,9 @@ class ToothBodySettings:
 
 
 def lowest_profile_position(file: HypoidGearFile, role: Role) -> float:
-    """Return the profile position [-] where the flank ends and the root fillet begins."""
+    """Return the profile position [-] where flank becomes fillet: a clearance over the root."""
     blank = file.blank()
-    return _FILLET_TOP * blank.root_clearance / blank.whole_depth
+    return blank.root_clearance / blank.whole_depth
 
 
 def tooth_body(
@@ -83,7 +82,7 @@ def tooth_body(
         axis_point=point,
         axis_direction=axis,
         teeth=member.teeth,
-        slot_depth=_FILLET_TOP * blank.root_clearance,
+        slot_depth=blank.root_clearance,
         base_depth=settings.base_depth_modules * module,
         neighbour_pitches=settings.neighbour_pitches,
     )
@@ -99,11 +98,26 @@ def member_compliance(
     """
     geometry, left = tooth_body(file, role, settings)
     flanks = cached_tooth_compliance(geometry, settings.solid, settings.condensation, cache)
+    return _by_side(file, role, flanks, left)
+
+
+def stored_member_compliance(
+    file: HypoidGearFile, role: Role, settings: ToothBodySettings, cache: Path | None = None
+) -> dict[Side, FlankCompliance] | None:
+    """Return `member_compliance` if it is in the cache, else None."""
+    geometry, left = tooth_body(file, role, settings)
+    flanks = stored_tooth_compliance(geometry, settings.solid, settings.condensation, cache)
+    return None if flanks is None else _by_side(file, role, flanks, left)
+
+
+def _by_side(
+    file: HypoidGearFile,
+    role: Role,
+    flanks: tuple[FlankCompliance, FlankCompliance],
+    left: Side,
+) -> dict[Side, FlankCompliance]:
     low = lowest_profile_position(file, role)
-    on_whole = [
-        FlankCompliance(s=low + (1.0 - low) * f.s, t=f.t, image=f.image, elastic=f.elastic)
-        for f in flanks
-    ]
+    on_whole = [replace(flank, s=low + (1.0 - low) * flank.s) for flank in flanks]
     right: Side = "coast" if left == "drive" else "drive"
     return {left: on_whole[0], right: on_whole[1]}
 
@@ -117,17 +131,22 @@ def pair_stiffness(
 ) -> dict[Side, PairStiffness]:
     """Return the elastic data of the drive and the coast flanks; members in parallel."""
     roles: tuple[Role, Role] = ("pinion", "gear")
-    if jobs == 1:
-        members = [member_compliance(file, role, settings, cache) for role in roles]
-    else:
-        with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-            members = [
-                future.result()
-                for future in [
-                    pool.submit(member_compliance, file, role, settings, cache) for role in roles
-                ]
-            ]
-    pinion, gear = members
+    members = {}
+    for role in roles:
+        known = stored_member_compliance(file, role, settings, cache)
+        if known is not None:
+            members[role] = known
+    missing = [role for role in roles if role not in members]
+    if jobs == 1 or len(missing) == 1:
+        members |= {role: member_compliance(file, role, settings, cache) for role in missing}
+    elif missing:
+        with ProcessPoolExecutor(len(missing), mp_context=get_context("spawn")) as pool:
+            waiting = {
+                role: pool.submit(member_compliance, file, role, settings, cache)
+                for role in missing
+            }
+            members |= {role: future.result() for role, future in waiting.items()}
+    pinion, gear = members["pinion"], members["gear"]
     modulus = contact_modulus(settings.solid, settings.solid)
     return {
         side: PairStiffness(pinion=pinion[side], gear=gear[side], contact_modulus=modulus)
