@@ -7,7 +7,18 @@ import pytest
 from axle_cases import OIL, RATIO, conservative, output, record, with_coast_flanks
 
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.state import PHI_G, PHI_P, SIDE, U_G, U_P, UM, X
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh, follow_flank
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    PHI_G,
+    PHI_P,
+    SIDE,
+    U_G,
+    U_P,
+    UM,
+    X,
+)
+from gearlube_core.mesh_table.kernels import mesh_series
 from gearlube_core.mesh_table.table import MeshTable
 
 SHIPPED = MeshTable.named("mohammadpour_2015")
@@ -82,6 +93,42 @@ def test_changing_flanks_puts_no_energy_in(backlash):
     # at 150 um, 3e-6 J at 20 um). Another impact may leave half as much again; 5e-6 J is 1 % of
     # what data that change under 40 N.m would put in each time, (1 - 0.9) k f^2/2 = 4e-4 J.
     assert imbalance < 1.5 * one_sided + 5e-6
+
+
+def followed(x_um, side, backlash):
+    """Position and side [um, -] after the table has followed the flanks, mean k_m before, after."""
+    axle = axle_of(TWO_SIDED, backlash=backlash)
+    mesh = axle.packed
+    both = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+    series, window = np.zeros(mesh.series_size), np.zeros(mesh.window_size)
+    s = np.array(axle.state_view)
+    s[X], s[SIDE] = x_um, side
+    blend_mesh(s[LOAD_TORQUE], side, *both, series, window)
+    before = mesh_series(series, mesh.orders, 13.0, s[PHI_P]).k_m
+    follow_flank(s, *both, axle.kernel_parameters, series, window)
+    return s[X], s[SIDE], before, mesh_series(series, mesh.orders, 13.0, s[PHI_P]).k_m
+
+
+@pytest.mark.parametrize(("x", "side"), [(-4.0, 1.0), (4.0, -1.0)])
+def test_without_backlash_a_change_of_side_keeps_the_elastic_energy(x, side):
+    found, other, before, after = followed(x, side, 0.0)
+    assert other == -side
+    assert after / before == pytest.approx(COAST_STIFFNESS**side, rel=1e-12)
+    assert np.sign(found) == np.sign(x)
+    # k f^2 / 2 to rounding
+    assert after * found**2 == pytest.approx(before * x**2, rel=1e-12)
+
+
+@pytest.mark.parametrize(("x", "side"), [(3.0, 1.0), (-23.0, -1.0), (-1.0, 1.0), (-19.0, -1.0)])
+def test_flanks_in_contact_or_near_it_keep_their_side(x, side):
+    assert followed(x, side, 20e-6)[:2] == (x, side)
+
+
+@pytest.mark.parametrize(("x", "side"), [(-19.0, 1.0), (-1.0, -1.0)])
+def test_teeth_beyond_the_middle_of_the_gap_change_side_without_touching(x, side):
+    found, other, *_ = followed(x, side, 20e-6)
+    assert other == -side
+    assert -20.0 <= found <= 0.0
 
 
 @pytest.mark.parametrize("backlash", [150e-6, 20e-6])
