@@ -1,0 +1,204 @@
+"""The command `gearlube contact`: what it writes, refuses and resumes."""
+
+import logging
+from functools import partial
+
+import numpy as np
+import pytest
+import xarray as xr
+from typer.testing import CliRunner
+
+from drivetrain.contact_figures import CONTACT_CATALOGUE
+from fmu_src import cli, contact_console
+from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube_core.errors import ConvergenceError
+from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.mesh_table.netcdf import read_mesh_table
+from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
+from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
+from gearlube_core.tooth_contact import analysis, mesh_cycle
+from gearlube_core.tooth_contact.analysis import ContactSettings
+from gearlube_core.tooth_contact.loaded_contact import LoadedSettings
+from gearlube_core.tooth_contact.member_compliance import ToothBodySettings
+from gearlube_core.tooth_contact.mesh_cycle import CycleSettings
+
+COARSE_BODY = ToothBodySettings(
+    neighbour_pitches=0.0,
+    condensation=CondensationSettings(
+        profile_hats=4,
+        lengthwise_hats=7,
+        density=MeshDensity(profile=6, lengthwise=12, thickness=2, fillet=2, slot=1, rim=1),
+    ),
+)
+COARSE_CELLS = LoadedSettings(cells_across=12, cells_along=16)
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, ["contact", *map(str, arguments)])
+
+
+@pytest.fixture
+def coarse(monkeypatch, tmp_path):
+    """The command with coarse teeth and cells, and a cache of its own."""
+    monkeypatch.setenv("GEARLUBE_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(analysis, "ContactSettings", partial(ContactSettings, body=COARSE_BODY))
+    monkeypatch.setattr(mesh_cycle, "CycleSettings", partial(CycleSettings, loaded=COARSE_CELLS))
+    return tmp_path / "out"
+
+
+@pytest.fixture
+def asked(monkeypatch):
+    """What the command would have analysed."""
+    calls = []
+    monkeypatch.setattr(contact_console, "console_contact", lambda _, **given: calls.append(given))
+    return calls
+
+
+def test_quick_run_goes_on_after_a_stop_and_writes_table_dataset_and_figures(coarse, monkeypatch):
+    options = ("--quick", "--jobs", 1, "--out", coarse)
+    real, loaded = mesh_cycle.position_record, []
+
+    def stopping(pair, phase, *others):
+        if len(loaded) == 5:
+            raise KeyboardInterrupt
+        loaded.append((pair.side, phase))
+        return real(pair, phase, *others)
+
+    monkeypatch.setattr(mesh_cycle, "position_record", stopping)
+    assert run(*options).exit_code == INTERRUPTED
+    assert len(list((coarse / "positions").glob("*.npz"))) == 5
+    assert not (coarse / "contact.nc").exists()
+
+    before = list(loaded)
+
+    def counting(pair, phase, *others):
+        loaded.append((pair.side, phase))
+        return real(pair, phase, *others)
+
+    monkeypatch.setattr(mesh_cycle, "position_record", counting)
+    result = run(*options)
+    assert result.exit_code == 0, result.output
+    # eight positions of either side, none of them twice
+    assert len(loaded) == len(set(loaded)) == 16
+    assert not set(before) & set(loaded[5:])
+
+    figures = {path.stem for path in (coarse / "figures").glob("*.png")}
+    assert figures == set(CONTACT_CATALOGUE)
+    dataset = xr.load_dataset(coarse / "contact.nc", engine="scipy")
+    assert dataset["k_m"].dims == ("side", "phase", "torque")
+    np.testing.assert_array_equal(dataset["torque"], [20.0, 50.0, 150.0])
+    # shares are parts of one torque
+    np.testing.assert_allclose(dataset["share"].sum("pair"), 1.0, atol=1e-9)
+    table = read_mesh_table(coarse / "mohammadpour_2015.nc")
+    np.testing.assert_array_equal(table.torque, [-150.0, -50.0, -20.0, 20.0, 50.0, 150.0])
+    means = dataset["k_m"].sel(side="coast").mean("phase")
+    # the table holds the same mean as the zeroth order of its series, coast torques reversed
+    np.testing.assert_allclose(table.series["k_m"][:3, 0, 0], means.values[::-1], rtol=1e-12)
+
+
+def test_default_is_the_shipped_pair_at_eight_torques(asked):
+    assert run().exit_code == 0
+    (call,) = asked
+    assert call["file"] == HypoidGearFile.named("mohammadpour_2015")
+    assert call["settings"] == ContactSettings()
+    assert str(call["out"]) == "gearlube_contact"
+
+
+def test_options_reach_the_settings_in_si_units(asked):
+    result = run(
+        *("--torques", "80", "30", "--positions", "6", "--offset-error-um", "50"),
+        *("--pinion-axial-um", "-20", "--gear-axial-um", "10", "--shaft-angle-mrad", "0.5"),
+        *("--jobs", "2"),
+    )
+    assert result.exit_code == 0, result.output
+    (call,) = asked
+    cycle = call["settings"].cycle
+    assert cycle.torques == (30.0, 80.0)
+    assert cycle.positions == 6
+    assert cycle.misalignment.pinion_offset == pytest.approx(50e-6)
+    assert cycle.misalignment.pinion_axial == pytest.approx(-20e-6)
+    assert cycle.misalignment.gear_axial == pytest.approx(10e-6)
+    assert cycle.misalignment.shaft_angle == pytest.approx(0.5e-3)
+    assert call["jobs"] == 2
+
+
+def test_a_gear_file_is_read_from_its_path(asked, tmp_path, gear_text):
+    path = tmp_path / "own.toml"
+    path.write_text(gear_text.replace('name = "mohammadpour_2015"', 'name = "own"'))
+    assert run(path).exit_code == 0
+    assert asked[0]["file"].name == "own"
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("ratio_of_roll = 2.762", 'ratio_of_roll = "fast"'), ["ratio_of_roll"]),
+        (("tilt_angle_deg = 31.736", "tilt_angle_deg = 95.0"), ["tilt_angle_deg", "95"]),
+        (("sliding_base_mm = 20.647\n", ""), ["sliding_base_mm"]),
+        (("radial_setting_mm", "radial_seting_mm"), ["radial_seting_mm"]),
+        (("[pinion]", "[pinion"), ["not a readable TOML"]),
+    ],
+)
+def test_a_bad_field_is_named_and_ends_with_bad_argument(
+    change, words, asked, tmp_path, gear_text, caplog
+):
+    assert change[0] in gear_text
+    path = tmp_path / "bad.toml"
+    path.write_text(gear_text.replace(*change))
+    with caplog.at_level(logging.ERROR, "gearlube"):
+        result = run(path)
+    assert result.exit_code == BAD_ARGUMENT
+    assert not asked
+    for word in words:
+        assert word in caplog.text
+
+
+@pytest.mark.parametrize("name", ["no_such_pair", "no_such_file.toml"])
+def test_an_unknown_pair_or_file_ends_with_bad_argument(name, asked, caplog):
+    with caplog.at_level(logging.ERROR, "gearlube"):
+        assert run(name).exit_code == BAD_ARGUMENT
+    assert name in caplog.text
+    assert not asked
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--torques", "-5"),
+        ("--torques", "nan"),
+        ("--torques", "50", "50"),
+        ("--positions", "2"),
+        ("--offset-error-um", "1e9"),
+    ],
+)
+def test_options_out_of_range_end_with_bad_argument(options, asked):
+    assert run(*options).exit_code == BAD_ARGUMENT
+    assert not asked
+
+
+def test_flanks_that_do_not_meet_end_with_bad_argument(coarse, tmp_path, gear_text, caplog):
+    path = tmp_path / "apart.toml"
+    path.write_text(gear_text.replace("radial_setting_mm = 86.983", "radial_setting_mm = 200.0"))
+    with caplog.at_level(logging.ERROR, "gearlube"):
+        assert run(path, "--jobs", 1, "--out", coarse).exit_code == BAD_ARGUMENT
+    assert "radial_setting_mm" in caplog.text
+    assert not (coarse / "contact.nc").exists()
+
+
+@pytest.mark.parametrize("reason", [ConvergenceError("no equilibrium"), OSError("disk full")])
+def test_a_failed_analysis_says_why_and_fails(reason, monkeypatch, caplog):
+    def fail(_, **given):
+        raise reason
+
+    monkeypatch.setattr(contact_console, "console_contact", fail)
+    with caplog.at_level(logging.ERROR, "gearlube"):
+        assert run().exit_code == FAILED
+    assert str(reason) in caplog.text
+
+
+@pytest.fixture
+def gear_text():
+    from importlib.resources import files
+
+    data = files("gearlube_core.flank_surface") / "data" / "mohammadpour_2015.toml"
+    return data.read_text(encoding="utf-8")
