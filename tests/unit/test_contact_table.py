@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS, SHARE, XI_X, pack_mesh
 from gearlube_core.errors import TableError
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.kernels import mesh_series, pair_channels, transmission_error
@@ -92,10 +91,17 @@ def level(table, side, torque):
     return int(np.flatnonzero(table.torque == (torque if side == "drive" else -torque))[0])
 
 
-def packed_window(table, index):
-    packed = pack_mesh(table, 115.4e9, "paper")
-    size = packed.window_size
-    return packed.windows[index * size : (index + 1) * size]
+def flat_series(table, index):
+    """Coefficients of a load level as `mesh_series` takes them: by order, cosine before sine."""
+    names = ("k_m", "R_p", "R_g", "n_x", "n_y", "n_z", "e")
+    stacked = np.stack([table.series[name][index] for name in names], axis=-1)
+    return np.ascontiguousarray(stacked.reshape(-1, len(names))[[0, *range(2, 2 * len(stacked))]])
+
+
+def flat_window(table, index):
+    """Share and sliding direction of a load level, the first node repeated at the end."""
+    channels = np.stack([table.windows[name][index] for name in ("share", "xi_x")], axis=-1)
+    return np.vstack([channels, channels[:1]]).ravel()
 
 
 def test_coast_levels_carry_negative_torque_in_rising_order():
@@ -106,14 +112,12 @@ def test_coast_levels_carry_negative_torque_in_rising_order():
 @pytest.mark.parametrize("torque", TORQUES)
 def test_kernels_give_back_the_samples_at_their_pinion_angles(side, torque):
     table = contact_table(FILE, dataset())
-    packed = pack_mesh(table, 115.4e9, "paper")
-    size = packed.series_size
     index = level(table, side, torque)
-    coefficients = packed.series[index * size : (index + 1) * size]
+    coefficients = flat_series(table, index).ravel()
     # at a phase between the samples too: the waves' highest order, 3, is below 12 / 2
     for phase in (0.0, 1.0 / POSITIONS, 7.0 / POSITIONS, 0.413):
         angle = 2.0 * np.pi * (phase - START) / Z_P
-        found = mesh_series(coefficients, packed.orders, float(Z_P), angle)
+        found = mesh_series(coefficients, table.orders, float(Z_P), angle)
         for name in ("k_m", "R_p", "R_g", "n_x", "n_y", "n_z"):
             expected = wave(name, side, torque, phase)
             assert getattr(found, name) == pytest.approx(expected, rel=ROUND_OFF)
@@ -127,15 +131,12 @@ def test_kernels_give_back_the_samples_at_their_pinion_angles(side, torque):
 def test_error_is_zero_where_the_flanks_are_tightest(side, tightest):
     """Drive flanks touch first where the gear lags least, coast flanks where it lags most."""
     table = contact_table(FILE, dataset())
-    packed = pack_mesh(table, 115.4e9, "paper")
-    size = packed.series_size
-    index = level(table, side, 50.0)
-    coefficients = packed.series[index * size : (index + 1) * size]
+    coefficients = flat_series(table, level(table, side, 50.0)).ravel()
     phases = np.arange(64) / 64
     own = error(side, phases)
     for phase, value in zip(phases, own, strict=True):
         angle = 2.0 * np.pi * (phase - START) / Z_P
-        found = transmission_error(coefficients, packed.orders, float(Z_P), angle)
+        found = transmission_error(coefficients, table.orders, float(Z_P), angle)
         assert found == pytest.approx(value - tightest(own), abs=ROUND_OFF * 1e-6)
 
 
@@ -154,23 +155,23 @@ CENTRES = (0.0, -5.0 / POSITIONS, 1.0, -11.0 / POSITIONS, 0.75)
 @pytest.mark.parametrize("centre", CENTRES)
 def test_a_pair_is_found_at_its_own_phase_wherever_the_window_begins(centre):
     table = contact_table(FILE, dataset(centre=centre))
-    window = packed_window(table, level(table, "drive", 50.0))
-    out = np.zeros(N_CHANNELS)
+    window = flat_window(table, level(table, "drive", 50.0))
+    out = np.zeros(2)
     for position in range(PAIRS * POSITIONS):
         turned = position / POSITIONS  # mesh periods since pinion angle zero
         angle = 2.0 * np.pi * turned / Z_P
         total = 0.0
         for pair in range(PAIRS):
-            pair_channels(window, table.nodes, float(Z_P), angle, pair, N_CHANNELS, out)
-            total += out[SHARE]
+            pair_channels(window, table.nodes, float(Z_P), angle, pair, 2, out)
+            total += out[0]
             # the same pair comes back after PAIRS periods, so its phase is known up to them
             phases = turned + pair + START + PAIRS * np.arange(-3, 3)
             expected = hump(phases, centre)
             # 1e-9: pair_channels rounds the angle to a place between two nodes
-            assert out[SHARE] == pytest.approx(expected.sum(), abs=1e-9)
+            assert out[0] == pytest.approx(expected.sum(), abs=1e-9)
             if expected.max() > 1e-6:
                 here = place_value(phases[np.argmax(expected)])
-                assert out[XI_X] == pytest.approx(here, rel=1e-9)
+                assert out[1] == pytest.approx(here, rel=1e-9)
         assert total == pytest.approx(1.0, abs=1e-9)
 
 
