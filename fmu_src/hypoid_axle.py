@@ -23,6 +23,7 @@ ARGUMENTS = {
     "mesh.modal_loss_factor": "modal_loss_factor",
     "model.equations": "equations",
     "model.radii": "radii",
+    "model.mesh_stiffness": "mesh_stiffness",
     "mesh.damping": "mesh_damping",
     "friction.model": "friction",
     "bearing.approach": "bearing_approach",

@@ -169,6 +169,12 @@ _ENERGIES = tuple(
     )
 )
 
+# parameters younger than the first release: appended, so that value references stay
+_LATER_PARAMETERS = (
+    _option("model.mesh_stiffness", "Spring of the mesh: tangent at its load, or secant",
+            "tangent", "secant", start="tangent"),
+)  # fmt: skip
+
 HYPOID_AXLE: tuple[Variable, ...] = (
     *_INPUTS,
     *_PARAMETERS,
@@ -180,4 +186,5 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *(variable for j in (1, 2, 3, 4) for variable in _bearing(j)),
     *_ROLLERS,
     *_ENERGIES,
+    *_LATER_PARAMETERS,
 )

@@ -63,8 +63,37 @@ def record(axle, torques, names, duration, h=1e-4):
     return np.array(rows).T
 
 
+def drive_only(table):
+    """The table without its coast levels: the drive flanks' data serve both sides."""
+    drive = table.torque > 0.0
+    return replace(
+        table,
+        torque=table.torque[drive],
+        series={key: values[drive] for key, values in table.series.items()},
+        windows={key: values[drive] for key, values in table.windows.items()},
+    )
+
+
+def plain(table, level=50.0):
+    """The drive flanks with radii, normal and e as at `level` [N.m], radii and n at their means.
+
+    One stiffness for tangent and secant: the table for which motions are known in closed form.
+    """
+    table = drive_only(table)
+    at = int(np.argmin(np.abs(table.torque - level)))
+    series = dict(table.series)
+    for key in ("R_p", "R_g", "n_x", "n_y", "n_z", "e"):
+        series[key] = np.repeat(table.series[key][at : at + 1], table.torque.size, axis=0)
+        if key != "e":
+            series[key][:, 1:] = 0.0
+    series["R_g"] = table.ratio * series["R_p"]
+    series["k_t"] = series["k_m"]
+    return replace(table, series=series)
+
+
 def with_coast_flanks(table, R_p=1.03, k_m=0.9, e=1.6):
     """The table with coast levels of its own: radii, stiffness and e scaled, n mirrored in y."""
+    table = drive_only(table)
     scale = {"k_m": k_m, "k_t": k_m, "R_p": R_p, "R_g": R_p, "n_y": -1.0, "e": e}
     coast = {key: scale.get(key, 1.0) * values[::-1] for key, values in table.series.items()}
     windows = {key: np.concatenate([v[::-1], v]) for key, v in table.windows.items()}

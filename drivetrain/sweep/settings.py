@@ -19,6 +19,7 @@ FMU_PARAMETERS = {
     "backlash": "mesh.backlash",
     "equations": "model.equations",
     "radii": "model.radii",
+    "mesh_stiffness": "model.mesh_stiffness",
     "mesh_damping": "mesh.damping",
     "modal_loss_factor": "mesh.modal_loss_factor",
     "friction": "friction.model",
@@ -40,7 +41,8 @@ class SweepSettings:
     driver : str
         "vehicle": the axle is coupled to the driveline and the road; "hold": road load and a slow
         speed hold act on it directly.
-    oil, equations, radii, mesh_damping, friction, bearing_approach, bearing_torque_loss : str
+    oil, equations, radii, mesh_stiffness, mesh_damping, friction : str
+    bearing_approach, bearing_torque_loss : str
         Options of the axle model, passed to the FMU.
     roughness_rms, backlash : float
         Composite roughness of the flanks, total normal backlash [m].
@@ -66,6 +68,7 @@ class SweepSettings:
     backlash: float = 150e-6
     equations: str = "consistent"
     radii: str = "consistent"
+    mesh_stiffness: str = "tangent"
     mesh_damping: str = "hysteretic"
     modal_loss_factor: float = 0.06
     friction: str = "consistent"

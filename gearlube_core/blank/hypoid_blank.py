@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from dataclasses import dataclass
-from importlib.resources import files
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,10 +81,6 @@ class HypoidBlank:
     pinion, gear : MemberBlank
     offset : float
         Distance of the axes [m].
-    gear_cutter_radius : float
-        Point radius of the gear cutter at mid working depth [m].
-    gear_blade_angle_convex, gear_blade_angle_concave : float
-        Gear blade angles [rad].
     name, source : str
         Where the data come from.
     clearance : float, optional
@@ -102,81 +94,19 @@ class HypoidBlank:
     pinion: MemberBlank
     gear: MemberBlank
     offset: float
-    gear_cutter_radius: float
-    gear_blade_angle_convex: float
-    gear_blade_angle_concave: float
     name: str
     source: str
     clearance: float | None = None
 
     def __post_init__(self) -> None:
         check_within("offset", self.offset, 0.0, 0.5, "m", _METRES)
-        check_within("gear_cutter_radius", self.gear_cutter_radius, 1e-3, 2.0, "m", _METRES)
         if self.clearance is not None:
             check_within("clearance", self.clearance, 0.0, self.working_depth, "m", _METRES)
-
-    @classmethod
-    def named(cls, name: str) -> HypoidBlank:
-        """Return a blank that ships with the package, e.g. "mohammadpour_2015"."""
-        resource = files("gearlube_core.blank") / f"{name}.toml"
-        if not resource.is_file():
-            raise ParameterError(f"No blank is called {name!r}. Shipped: mohammadpour_2015.")
-        return cls._from_dict(tomllib.loads(resource.read_text(encoding="utf-8")))
-
-    @classmethod
-    def from_toml(cls, path: str | Path) -> HypoidBlank:
-        """Read a blank from a TOML file with the fields of blank/mohammadpour_2015.toml."""
-        try:
-            data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-        except (OSError, tomllib.TOMLDecodeError) as reason:
-            raise ParameterError(f"{path} is not a readable TOML file: {reason}.") from None
-        return cls._from_dict(data)
-
-    @classmethod
-    def _from_dict(cls, data: dict[str, Any]) -> HypoidBlank:
-        def member(key: str) -> MemberBlank:
-            fields = data[key]
-            return MemberBlank(
-                teeth=int(fields["teeth"]),
-                face_width=fields["face_width_mm"] * 1e-3,
-                outer_cone_distance=fields["outer_cone_distance_mm"] * 1e-3,
-                pitch_angle=math.radians(fields["pitch_angle_deg"]),
-                spiral_angle=math.radians(fields["spiral_angle_deg"]),
-                pitch_apex=fields["pitch_apex_mm"] * 1e-3,
-                face_apex=fields["face_apex_mm"] * 1e-3,
-            )
-
-        try:
-            cutter = data["gear_cutter"]
-            clearance = data["pair"].get("clearance_mm")
-            return cls(
-                pinion=member("pinion"),
-                gear=member("gear"),
-                offset=data["pair"]["offset_mm"] * 1e-3,
-                gear_cutter_radius=cutter["point_radius_mm"] * 1e-3,
-                gear_blade_angle_convex=math.radians(cutter["convex_blade_angle_deg"]),
-                gear_blade_angle_concave=math.radians(cutter["concave_blade_angle_deg"]),
-                name=data["name"],
-                source=data["source"],
-                clearance=None if clearance is None else clearance * 1e-3,
-            )
-        except TypeError as reason:
-            raise ParameterError(f"The blank file has a text for a number: {reason}.") from None
-        except KeyError as missing:
-            raise ParameterError(
-                f"The blank file lacks the field {missing}. "
-                "Compare it with blank/mohammadpour_2015.toml of the package."
-            ) from None
 
     @property
     def ratio(self) -> float:
         """Teeth ratio gear / pinion [-]; the final drive ratio."""
         return self.gear.teeth / self.pinion.teeth
-
-    @property
-    def normal_pressure_angle(self) -> float:
-        """Mean of the gear's two blade angles [rad]."""
-        return 0.5 * (self.gear_blade_angle_convex + self.gear_blade_angle_concave)
 
     @property
     def working_depth(self) -> float:
@@ -262,17 +192,3 @@ class HypoidBlank:
         """Return the unit vector along the gear's pitch cone, apex to mean point, shape (3,)."""
         line = self.mean_point() - self.gear_apex
         return line / np.linalg.norm(line)
-
-    def tooth_trace(self) -> Vector:
-        """Return the unit tangent of the tooth in the pitch plane at the mean point, shape (3,)."""
-        generator = self.gear_generator()
-        across = np.cross(self.pitch_normal(), generator)
-        psi = self.gear.spiral_angle
-        return math.cos(psi) * generator - math.sin(psi) * across
-
-    def drive_flank_normal(self) -> Vector:
-        """Return the unit normal of the drive flanks at the mean point, pinion into gear, (3,)."""
-        across = np.cross(self.pitch_normal(), self.tooth_trace())
-        across *= np.sign(across @ np.cross(self.gear_axis, self.mean_point()))
-        alpha = self.normal_pressure_angle
-        return math.cos(alpha) * across - math.sin(alpha) * self.pitch_normal()

@@ -8,16 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.friction.flank_data import contact_geometry
-from gearlube_core.mesh_table.kernels import N_SERIES, R_G, R_P
+from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_G, R_P, E
 from gearlube_core.mesh_table.table import MeshTable
 
 Array = NDArray[np.float64]
 
+# the series whose mean is the linear stiffness of the mesh
+STIFFNESS_SERIES = {"tangent": "k_t", "secant": "k_m"}
 # the series that the kernels read, in their order
 PACKED_SERIES = ("k_m", "R_p", "R_g", "n_x", "n_y", "n_z", "e")
 # order of the channels of a packed window
 SHARE, R_E, SIDE_FLOW, PRESSURE, ENTRAIN, ARM_P, ARM_G, XI_X, XI_Y, XI_Z = range(10)
 N_CHANNELS = 10
+_SAMPLES_PER_ORDER = 8  # of the period, where a quotient of series is made a series again
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +56,7 @@ class PackedMesh:
         return (self.nodes + 1) * N_CHANNELS
 
 
-def pack_mesh(table: MeshTable, contact_modulus: float, radii: str) -> PackedMesh:
+def pack_mesh(table: MeshTable, contact_modulus: float, radii: str, stiffness: str) -> PackedMesh:
     """Return the flat arrays of `table`.
 
     What depends on position alone (ellipse, film geometry) is evaluated here, once, by the same
@@ -68,15 +71,21 @@ def pack_mesh(table: MeshTable, contact_modulus: float, radii: str) -> PackedMes
         "consistent": R_g = R_p z_g/z_p, since the unloaded transmission error already is the
         integral of the ratio error; "paper": both as tabulated, which counts it twice; "mean":
         both constant, at the teeth ratio.
+    stiffness : {"tangent", "secant"}
+        "tangent": the spring k_t through the loaded state of each level, so that vibration about
+        that load has its stiffness. The flanks are softer below it, so the spring starts
+        F (1/k_m - 1/k_t) further in; what varies of that with the mesh is added to e, so that the
+        static transmission error under the level's load stays. "secant": the spring k_m from
+        first contact.
     """
     levels = table.torque.size
     orders = table.orders
     series = np.empty((levels, 2 * orders + 1, N_SERIES))
     for column, key in enumerate(PACKED_SERIES):
-        coefficients = table.series[key]
-        series[:, 0, column] = coefficients[:, 0, 0]
-        series[:, 1::2, column] = coefficients[:, 1:, 0]
-        series[:, 2::2, column] = coefficients[:, 1:, 1]
+        series[:, :, column] = _flat(table.series[key])
+    if stiffness == "tangent":
+        series[:, :, K_M] = _flat(table.series["k_t"])
+        series[:, :, E] += _flat(_later_start(table))
     if radii == "mean":
         series[:, 1:, R_P] = 0.0
     if radii != "paper":
@@ -106,3 +115,31 @@ def pack_mesh(table: MeshTable, contact_modulus: float, radii: str) -> PackedMes
     return PackedMesh(
         np.ascontiguousarray(table.torque), series.ravel(), windows.ravel(), orders, nodes
     )
+
+
+def _flat(coefficients: Array) -> Array:
+    """Return (L, H + 1, 2) coefficients as (L, 2 H + 1): the mean, then cosines and sines."""
+    levels, size, _ = coefficients.shape
+    flat = np.empty((levels, 2 * size - 1))
+    flat[:, 0] = coefficients[:, 0, 0]
+    flat[:, 1::2] = coefficients[:, 1:, 0]
+    flat[:, 2::2] = coefficients[:, 1:, 1]
+    return flat
+
+
+def _later_start(table: MeshTable) -> Array:
+    """Return the variation of F (1/k_m - 1/k_t) [m] at each level's own force, (L, H + 1, 2)."""
+    count = _SAMPLES_PER_ORDER * (table.orders + 1)
+    angle = 2.0 * np.pi * np.arange(count) / count
+    order = np.arange(table.orders + 1)[:, None]
+    cosine, sine = np.cos(order * angle), np.sin(order * angle)
+
+    def samples(key: str) -> Array:
+        values = table.series[key]
+        return np.asarray(values[:, :, 0] @ cosine + values[:, :, 1] @ sine)
+
+    force = table.torque[:, None] / samples("R_p")
+    start = force * (1.0 / samples("k_m") - 1.0 / samples("k_t"))
+    result = np.stack([start @ cosine.T, start @ sine.T], axis=-1) * (2.0 / count)
+    result[:, 0] = 0.0
+    return result

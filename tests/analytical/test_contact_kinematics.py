@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from conjugate_curvature import conjugate_relative_curvature
 from contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.flank_surface.vectors import Vector
-from gearlube_core.tooth_contact.conjugate_curvature import conjugate_relative_curvature
 from gearlube_core.tooth_contact.contact_kinematics import contact_kinematics, path_kinematics
 from gearlube_core.tooth_contact.contact_path import contact_path
 from gearlube_core.tooth_contact.placed_flank import placed_sample, shape_operator

@@ -280,9 +280,6 @@ def blank(name):
         pinion=member(1, made.pinion_teeth),
         gear=member(2, made.gear_teeth),
         offset=made.offset,
-        gear_cutter_radius=made.cutter.radius,
-        gear_blade_angle_convex=RAD(20.0),
-        gear_blade_angle_concave=RAD(20.0),
         name=name,
         source="ISO 23509:2016, annex F",
     )

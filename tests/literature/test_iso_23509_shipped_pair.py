@@ -11,11 +11,11 @@ from dataclasses import replace
 import pytest
 
 from gearlube_core.blank.face_hobbed_lead import CutterHead
-from gearlube_core.blank.hypoid_blank import HypoidBlank
 from gearlube_core.blank.iso_23509 import HypoidDesign, curvature_misfit, method_1
 from gearlube_core.blank.pitch_cones import PitchCones
+from gearlube_core.flank_surface.gear_file import HypoidGearFile
 
-BLANK = HypoidBlank.named("mohammadpour_2015")
+BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 RAD = math.radians
 CALCULATION_POINT = 79.63  # cone distance at which the printed spiral angles belong together
 PRINTED_POINT_RADIUS = 64.185

@@ -161,10 +161,10 @@ def test_a_state_that_is_not_finite_is_refused(axle, value):
 
 
 def test_a_step_that_blows_up_is_refused_and_can_be_retried():
-    """Teeth 0.2 m apart are no axle: the step is refused, the same state goes on with a cure."""
+    """Teeth 2 m apart are no axle: the step is refused, the same state goes on with a cure."""
     axle, *torques = running_axle(60)
     good = axle.get_state()
-    axle.set_state(spoiled(axle, 0, 2e5))
+    axle.set_state(spoiled(axle, 0, 2e6))
     broken, shown = axle.get_state(), axle.outputs.copy()
     with pytest.raises(StepError, match=r"step of 0\.0001 s refused: .* Reduce the torques"):
         axle.step(1e-4, *torques, OIL)

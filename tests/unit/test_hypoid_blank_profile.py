@@ -2,19 +2,18 @@
 
 import math
 from dataclasses import replace
-from importlib.resources import files
 
 import numpy as np
 import pytest
 
 from gearlube_core.blank.face_hobbed_lead import CutterHead, ToothTrace
-from gearlube_core.blank.hypoid_blank import HypoidBlank
 from gearlube_core.blank.iso_23509 import HypoidDesign, method_2
 from gearlube_core.blank.member_profile import MemberProfile
 from gearlube_core.blank.pitch_cones import PitchCones
 from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.flank_surface.gear_file import HypoidGearFile
 
-BLANK = HypoidBlank.named("mohammadpour_2015")
+BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 PROFILES = [MemberProfile.of_pinion(BLANK), MemberProfile.of_gear(BLANK)]
 DESIGN = HypoidDesign(
     pinion_teeth=9,
@@ -67,11 +66,9 @@ def test_face_and_root_cones_of_the_mates_leave_the_clearance():
         )
 
 
-def test_a_given_clearance_replaces_the_completed_one(tmp_path):
-    printed = (files("gearlube_core.blank") / "mohammadpour_2015.toml").read_text(encoding="utf-8")
-    path = tmp_path / "pair.toml"
-    path.write_text(printed.replace("[pair]\n", "[pair]\nclearance_mm = 0.9\n"), encoding="utf-8")
-    blank = HypoidBlank.from_toml(path)
+def test_a_given_clearance_replaces_the_completed_one():
+    file = HypoidGearFile.named("mohammadpour_2015")
+    blank = file.varied({"pair.clearance_mm": 0.9}).blank()
     assert blank.root_clearance == pytest.approx(0.9e-3, rel=1e-15)
     assert blank.gear_dedendum == pytest.approx(BLANK.pinion.addendum + 0.9e-3, rel=1e-15)
     assert replace(blank, clearance=None) == BLANK

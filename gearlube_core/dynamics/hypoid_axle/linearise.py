@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_ODE, U_G, U_P, V_G, V_P, W_G, W_P, X
+from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.rheology.lubricant_state import lubricant_state
 
 if TYPE_CHECKING:
@@ -87,7 +88,8 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     )
     masses = np.array([p.I_p, p.I_g] + 3 * [p.m_p] + 3 * [p.m_g])
     mesh = axle.packed
-    levels = np.array([axle.parameters.mesh.mean(key, torque) for key in ("k_m", "R_p")])
+    spring = STIFFNESS_SERIES[axle.parameters.mesh_stiffness]
+    levels = np.array([axle.parameters.mesh.mean(key, torque) for key in (spring, "R_p")])
     series = np.zeros(mesh.series_size)
     series[0] = levels[0]
     series[1] = levels[1]

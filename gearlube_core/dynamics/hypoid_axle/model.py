@@ -82,7 +82,10 @@ class HypoidAxle:
     def __init__(self, parameters: HypoidAxleParameters) -> None:
         self.parameters = parameters
         self.packed: PackedMesh = pack_mesh(
-            parameters.mesh, contact_modulus(parameters.solid, parameters.solid), parameters.radii
+            parameters.mesh,
+            contact_modulus(parameters.solid, parameters.solid),
+            parameters.radii,
+            parameters.mesh_stiffness,
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         self._oil_range = parameters.oil.temperature_low, parameters.oil.temperature_high

@@ -9,6 +9,7 @@ from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.errors import ParameterError
 from gearlube_core.materials.lubricant import Lubricant
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
@@ -16,6 +17,7 @@ from gearlube_core.mesh_table.table import MeshTable
 
 Equations = Literal["consistent", "as_printed"]
 Radii = Literal["consistent", "paper", "mean"]
+MeshStiffness = Literal["tangent", "secant"]
 MeshDamping = Literal["hysteretic", "modal"]
 Friction = Literal["consistent", "as_printed", "off"]
 Approach = Literal["full", "as_printed"]
@@ -55,6 +57,8 @@ class HypoidAxleParameters:
     radii : {"consistent", "paper", "mean"}
         R_g = R_p z_g/z_p with all ratio error in e; both as in the table (counts the ratio error
         twice); both constant.
+    mesh_stiffness : {"tangent", "secant"}
+        Spring of the mesh about its load, see `pack_mesh`.
     mesh_damping : {"hysteretic", "modal"}
         Eq. (4), or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
@@ -86,6 +90,7 @@ class HypoidAxleParameters:
     backlash: float
     equations: Equations
     radii: Radii
+    mesh_stiffness: MeshStiffness
     mesh_damping: MeshDamping
     modal_loss_factor: float
     friction: Friction
@@ -98,6 +103,7 @@ class HypoidAxleParameters:
     def __post_init__(self) -> None:
         check_option("equations", self.equations, get_args(Equations))
         check_option("radii", self.radii, get_args(Radii))
+        check_option("mesh_stiffness", self.mesh_stiffness, get_args(MeshStiffness))
         check_option("mesh_damping", self.mesh_damping, get_args(MeshDamping))
         check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
@@ -137,7 +143,7 @@ class HypoidAxleParameters:
         """Coefficient c of the modal option [N s/m], zero for eq. (4)."""
         if self.mesh_damping == "hysteretic":
             return 0.0
-        stiffness = self.mesh.mean("k_m", REFERENCE_TORQUE)
+        stiffness = self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
         return float(self.modal_loss_factor * (stiffness * self.equivalent_mass) ** 0.5)
 
     def kernel_parameters(self) -> AxleParameters:
@@ -176,6 +182,7 @@ def mohammadpour_2015_axle(
     oil: str = "mohammadpour_2015",
     equations: Equations = "consistent",
     radii: Radii = "consistent",
+    mesh_stiffness: MeshStiffness = "tangent",
     mesh_damping: MeshDamping = "hysteretic",
     modal_loss_factor: float = 0.06,
     friction: Friction = "consistent",
@@ -229,6 +236,7 @@ def mohammadpour_2015_axle(
         backlash=backlash,
         equations=equations,
         radii=radii,
+        mesh_stiffness=mesh_stiffness,
         mesh_damping=mesh_damping,
         modal_loss_factor=modal_loss_factor,
         friction=friction,
