@@ -45,7 +45,7 @@ def ease_off_map(dataset: xr.Dataset) -> Any:
             _flank_axes(ax)
         figure.colorbar(filled, ax=axes, label="ease-off [µm]")
         figure.suptitle(
-            "Gear flank: ease-off, path of contact (black), pattern at 6.35 µm marking compound (red)",
+            "Gear flank: ease-off, path of contact (black), pattern at 6.35 µm (red)",
             fontsize=11.5,
         )
     return figure
