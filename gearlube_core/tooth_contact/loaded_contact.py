@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -185,7 +185,7 @@ class MeshPosition:
         closing = closing or torque / arm / _FIRST_STIFFNESS
         width = 1.0
         for _ in range(_ATTEMPTS):
-            strips = self._strips(torque / arm, arm, closing, width, stiffness, settings)
+            strips = self._strips(torque / arm, closing, width, stiffness, settings)
             state, solution = self._solve(torque, strips, stiffness, settings)
             needed = arm * (solution.rotation - self.unloaded_rotation)
             sideways = any(_touches_side(pair) for pair in state.pairs)
@@ -204,17 +204,18 @@ class MeshPosition:
     def _strips(
         self,
         force: float,
-        arm: float,
         closing: float,
         width: float,
         stiffness: PairStiffness,
         settings: LoadedSettings,
     ) -> list[tuple[float, Strip]]:
         shape = settings.cells_across, settings.cells_along
-        reach = arm * self.unloaded_rotation + closing
         strips = []
         for phase, gaps in zip(self.phases, self.maps, strict=True):
-            frame = strip_frame(gaps, reach)
+            # turned to first touch: with backlash to close, arms that differ by per cents would
+            # else blur the reach by more than the closing
+            touching = replace(gaps, gap=gaps.gap - self.unloaded_rotation * gaps.arm)
+            frame = strip_frame(touching, closing)
             if frame is None:
                 continue
             half = _WIDE * width * self._hertz_half_width(frame, force, stiffness.contact_modulus)
