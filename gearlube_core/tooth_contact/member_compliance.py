@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +18,7 @@ from gearlube_core.tooth_compliance.cache import cached_tooth_compliance, stored
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
 from gearlube_core.tooth_contact.loaded_contact import PairStiffness
+from gearlube_core.worker_pool import worker_pool
 
 Array = NDArray[np.float64]
 
@@ -140,7 +139,7 @@ def pair_stiffness(
     if jobs == 1 or len(missing) == 1:
         members |= {role: member_compliance(file, role, settings, cache) for role in missing}
     elif missing:
-        with ProcessPoolExecutor(len(missing), mp_context=get_context("spawn")) as pool:
+        with worker_pool(len(missing)) as pool:
             waiting = {
                 role: pool.submit(member_compliance, file, role, settings, cache)
                 for role in missing

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-import multiprocessing
 import os
 import zipfile
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -27,6 +26,7 @@ from gearlube_core.tooth_contact.loaded_contact import (
 from gearlube_core.tooth_contact.pair import FlankPair
 from gearlube_core.tooth_contact.placed_flank import tooth_position
 from gearlube_core.tooth_contact.placement import ALIGNED, Misalignment
+from gearlube_core.worker_pool import single_threaded, worker_pool
 
 Array = NDArray[np.float64]
 Record = dict[str, Array]
@@ -213,14 +213,11 @@ def _computed(
     if jobs <= 1:
         _prepare(file, stiffness, settings)
         for side, phase in tasks:
-            yield side, phase, _position(side, phase)
+            with single_threaded():
+                record = _position(side, phase)
+            yield side, phase, record
         return
-    with ProcessPoolExecutor(
-        jobs,
-        mp_context=multiprocessing.get_context("spawn"),
-        initializer=_prepare,
-        initargs=(file, stiffness, settings),
-    ) as pool:
+    with worker_pool(jobs, _prepare, (file, stiffness, settings)) as pool:
         waiting: dict[Future[Record], tuple[Side, float]] = {
             pool.submit(_position, side, phase): (side, phase) for side, phase in tasks
         }
