@@ -9,17 +9,10 @@ from pathlib import Path
 
 import xarray as xr
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 from rich.table import Table
 
 from drivetrain.contact_figures import save_contact_figures
+from fmu_src.progress_bar import progress_bar
 from gearlube_core.flank_surface.export import write_flank_csv, write_solid
 from gearlube_core.flank_surface.flank import Flank, Role
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
@@ -50,15 +43,8 @@ def console_contact(
     out.mkdir(parents=True, exist_ok=True)
     for sentence in _doubts(file):
         logger.warning("%s", sentence)
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    )
     total = len(SIDES) * settings.cycle.positions
-    with Progress(*columns, console=console) as bar:
+    with progress_bar(console) as bar:
         task = bar.add_task("contact", total=total)
 
         def observe(progress: CycleProgress) -> None:

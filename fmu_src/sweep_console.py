@@ -6,14 +6,6 @@ import logging
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 
 from drivetrain.figures import CATALOGUE, ESSENTIAL
 from drivetrain.report import write_report
@@ -21,6 +13,7 @@ from drivetrain.sweep import Progress as PointProgress
 from drivetrain.sweep import SweepSettings, run_sweep
 from drivetrain.sweep.warm_up import warm_up
 from fmu_src.fmu_cache import cached_hypoid_axle
+from fmu_src.progress_bar import progress_bar
 
 logger = logging.getLogger("gearlube")
 
@@ -48,14 +41,7 @@ def console_sweep(
         fmu = cached_hypoid_axle(mesh_table)
     if scheduler is None:
         warm_up(fmu, settings)
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=console) as bar:
+    with progress_bar(console) as bar:
         task = bar.add_task("sweep", total=len(speeds_kmh) * len(set(preloads)))
 
         def observe(progress: PointProgress) -> None:
