@@ -1,0 +1,1 @@
+"""Periodic motions: found, followed and judged for stability, whatever the model."""
