@@ -21,7 +21,11 @@ from gearlube_core.flank_surface.tooth import Tooth
 from gearlube_core.flank_surface.tooth_form import tooth_form
 from gearlube_core.flank_surface.tooth_solid import gear_solid, tooth_solid
 from gearlube_core.mesh_table.netcdf import write_mesh_table
-from gearlube_core.tooth_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.tooth_contact.analysis import (
+    ContactSettings,
+    analyse_contact,
+    check_settings_meet,
+)
 from gearlube_core.tooth_contact.contact_table import contact_table
 from gearlube_core.tooth_contact.mesh_cycle import SIDES, CycleProgress
 
@@ -41,6 +45,7 @@ def console_contact(
     """Analyse a gear file; write dataset, mesh table and figures to `out`; return the table."""
     began = time.monotonic()
     out.mkdir(parents=True, exist_ok=True)
+    check_settings_meet(file)
     for sentence in _doubts(file):
         logger.warning("%s", sentence)
     total = len(SIDES) * settings.cycle.positions

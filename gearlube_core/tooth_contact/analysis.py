@@ -8,7 +8,9 @@ from pathlib import Path
 
 import xarray as xr
 
+from gearlube_core.errors import ParameterError
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.flank_surface.setting_check import reference_misfit, setting_report
 from gearlube_core.tooth_contact.contact_dataset import contact_dataset
 from gearlube_core.tooth_contact.member_compliance import ToothBodySettings, pair_stiffness
 from gearlube_core.tooth_contact.mesh_cycle import (
@@ -18,6 +20,18 @@ from gearlube_core.tooth_contact.mesh_cycle import (
     run_cycle,
 )
 from gearlube_core.tooth_contact.pair import FlankPair
+
+_LARGEST_MISFIT = 1e-3  # m, of a cutter's reference plane from the middle of the teeth
+
+
+def check_settings_meet(file: HypoidGearFile) -> None:
+    """Raise ParameterError, with the settings that would cure it, when the cutters miss the teeth.
+
+    Small misfits only shift the contact; `setting_report` names them.
+    """
+    misfits = [reference_misfit(file, role) for role in ("pinion", "gear")]
+    if not all(abs(misfit) <= _LARGEST_MISFIT for misfit in misfits):
+        raise ParameterError("The flanks cannot mesh. " + " ".join(setting_report(file)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,6 +83,7 @@ def analyse_contact(
         When a position finds no equilibrium.
     """
     announce("cutting flanks")
+    check_settings_meet(file)
     for side in SIDES:
         FlankPair.from_file(file, side, settings.cycle.misalignment)
     announce("tooth compliance")
