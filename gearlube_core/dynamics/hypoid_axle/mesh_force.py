@@ -8,6 +8,7 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import (
     PHI_P,
@@ -23,8 +24,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series
 
-DAMPING_BUILD_UP = 0.5e-6  # m, small against the 2 to 8 um of a loaded mesh
-
 
 class MeshForce(NamedTuple):
     """Mesh force and what it does."""
@@ -38,21 +37,6 @@ class MeshForce(NamedTuple):
     n_x: float
     n_y: float
     n_z: float
-
-
-@kernel
-def backlash_deflection(x: float, backlash: float) -> float:
-    """Return f(x) [m]: x for x >= 0, 0 within the backlash, x + backlash beyond.
-
-    References
-    ----------
-    Mohammadpour et al. 2015, eq. (3), with backlash = 2b.
-    """
-    if x >= 0.0:
-        return x
-    if x <= -backlash:
-        return x + backlash
-    return 0.0
 
 
 @kernel
@@ -111,8 +95,7 @@ def mesh_force(
     force = elastic + c * x_rate
     torque_p = -m.R_p * force
     if p.consistent != 0.0:
-        force = elastic + min(1.0, abs(f) / DAMPING_BUILD_UP) * c * x_rate
-        force = max(force, 0.0) if f >= 0.0 else min(force, 0.0)
+        force = gated_force(elastic, c, x_rate, f)
         torque_p = -arm_p * force - 0.5 * m.dk_m * f * f
     return MeshForce(
         force,

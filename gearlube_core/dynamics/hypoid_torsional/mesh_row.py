@@ -1,0 +1,65 @@
+"""Mesh data at one pinion angle as a row of floats, and rows over a mesh period.
+
+Steps are locked to the pinion angle, so that the same angles return every mesh period: rows for
+all stages of an integrator are made once and only read inside a time step.
+"""
+
+from __future__ import annotations
+
+import math
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.jit import kernel
+from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series, pair_channels
+from gearlube_core.mesh_table.table import PAIRS
+
+K, DK, R_P, R_G, DE = range(5)  # N/m, N/m per rad, m, m, m per rad
+PAIRS_AT = 5  # N_CHANNELS values of each pair from here, see `packed_mesh`
+N_ROW = PAIRS_AT + PAIRS * N_CHANNELS
+_PAIRS = PAIRS
+
+
+@kernel
+def mesh_row(
+    series: NDArray[float64],
+    n_orders: int,
+    window: NDArray[float64],
+    n_nodes: int,
+    z_p: float,
+    phi: float,
+    row: NDArray[float64],
+) -> None:
+    """Write the mesh data at pinion angle `phi` [rad] into `row`, shape (N_ROW,)."""
+    m: MeshSeries = mesh_series(series, n_orders, z_p, phi)
+    row[K] = m.k_m
+    row[DK] = m.dk_m
+    row[R_P] = m.R_p
+    row[R_G] = m.R_g
+    row[DE] = m.de
+    for pair in range(_PAIRS):
+        at = PAIRS_AT + pair * N_CHANNELS
+        channels = row[at : at + N_CHANNELS]
+        pair_channels(window, n_nodes, z_p, phi, pair, N_CHANNELS, channels)
+
+
+@kernel
+def mesh_rows(
+    series: NDArray[float64],
+    n_orders: int,
+    window: NDArray[float64],
+    n_nodes: int,
+    z_p: float,
+    rows: NDArray[float64],
+) -> None:
+    """Write the rows at equal angles over one mesh period, shape (2 steps, N_ROW).
+
+    A pair hands its place to the next one from period to period; sums over the pairs do not
+    notice.
+    """
+    count = rows.shape[0]
+    for i in range(count):
+        phi = 2.0 * math.pi * i / (z_p * count)
+        mesh_row(series, n_orders, window, n_nodes, z_p, phi, rows[i])

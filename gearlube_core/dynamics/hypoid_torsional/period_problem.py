@@ -1,0 +1,188 @@
+"""Periodic motions of the torsional pair as a system of equations; interface: `period_map`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.checks import check_within
+from gearlube_core.dynamics.hypoid_torsional.angle_march import N_MAX, OK, march
+from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
+from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
+from gearlube_core.dynamics.hypoid_torsional.period_map import WORK, period_map
+from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Orbit:
+    """Samples of a motion over one period at equal pinion angles, all of shape (samples,).
+
+    Parameters
+    ----------
+    angle : ndarray
+        Of the pinion [rad].
+    x : ndarray
+        Dynamic transmission error [m].
+    pinion_speed : ndarray
+        [rad/s]
+    force : ndarray
+        Mesh force [N].
+    load_torque : float
+        [N.m]
+    """
+
+    angle: Array
+    x: Array
+    pinion_speed: Array
+    force: Array
+    load_torque: float
+
+    @property
+    def separation_share(self) -> float:
+        """Share of the samples without contact [-]."""
+        return float(np.mean(self.force == 0.0))
+
+
+class PeriodProblem:
+    """Equations of a periodic motion of given mean speed; see `period_map` for the interface.
+
+    Parameters
+    ----------
+    parameters : HypoidTorsionalParameters
+        With torque ripple, `periods` must be a multiple of the teeth of the pinion.
+    periods : int
+        Mesh periods in one period of the motion.
+    steps_per_mesh_period : int
+        Of the integrator.
+    """
+
+    def __init__(
+        self,
+        parameters: HypoidTorsionalParameters,
+        *,
+        periods: int = 1,
+        steps_per_mesh_period: int = 256,
+    ) -> None:
+        self.model = HypoidTorsional(parameters)
+        p = self.model.kernel_parameters
+        check_within("periods", periods, 1, 1024)
+        teeth = parameters.mesh.pinion_teeth
+        if parameters.torque_ripple > 0.0 and periods % teeth:
+            check_within(
+                "periods modulo teeth of the pinion",
+                periods % teeth,
+                0,
+                0,
+                "",
+                f"Torque ripple repeats once a revolution; give {teeth}.",
+            )
+        self.periods = periods
+        self.steps_per_mesh_period = steps_per_mesh_period
+        self._rows = self.model.rows(steps_per_mesh_period)
+        self._p = p
+        self._work = np.zeros(WORK)
+        self._two = parameters.form == "two_dof"
+        self.size = 4 if self._two else 2
+        x = MICRO * self.model.static_deflection
+        surge = self.model.static_deflection * math.sqrt(self.model.stiffness / p.m_eq)  # m/s
+        self.scales: Array = (
+            np.array([x, surge / p.R_p0, surge / p.R_g0, self.model.mean_load_torque])
+            if self._two
+            else np.array([x, surge])
+        )
+        # d(states)/d(speed) at constant z
+        self._per_speed = np.array([0.0, 1.0, p.R_p0 / p.R_g0]) if self._two else np.zeros(2)
+
+    def initial_guess(self, speed: float) -> Array:
+        """Return z of the static deflection at pinion speed `speed` [rad/s], shape (size,)."""
+        y = self.model.initial_state(speed)[:-1] - speed * self._per_speed
+        return np.append(y, self.model.mean_load_torque) if self._two else y
+
+    def state(self, z: Array, speed: float) -> tuple[Array, float]:
+        """Return y0 with time last, and the load torque [N.m]."""
+        states = self._per_speed.size
+        y = np.append(z[:states] + speed * self._per_speed, 0.0)
+        return y, float(z[states]) if self._two else self.model.mean_load_torque
+
+    def flow(self, z: Array, speed: float) -> tuple[Array, Array]:
+        """Return y at the end of the period, time last, and its derivatives.
+
+        Returns
+        -------
+        ndarray of shape (m + 1,)
+            NaN when the period is not finite.
+        ndarray of shape (m + 1, m + 2)
+            By the m states at the start, the load torque and `speed` of the speed hold.
+        """
+        y, load_torque = self.state(np.asarray(z, dtype=np.float64), speed)
+        derivatives = np.zeros((y.size, y.size + 1))
+        status = period_map(
+            y,
+            derivatives,
+            load_torque,
+            float(speed),
+            self.periods,
+            self._rows,
+            self._p,
+            self._work,
+        )
+        if status != OK:
+            y[:] = np.nan
+        return y, derivatives
+
+    def residual_and_jacobian(self, z: Array, speed: float) -> tuple[Array, Array, Array]:
+        """Return the residual and its derivatives by z and by the mean pinion speed.
+
+        Parameters
+        ----------
+        z : ndarray of shape (size,)
+            Unknowns, see `period_map`.
+        speed : float
+            Mean pinion speed [rad/s].
+        """
+        y_end, d = self.flow(z, speed)
+        m = self._per_speed.size
+        by_state = d[:, :m]
+        by_speed = d[:, m + 1] + by_state @ self._per_speed
+        y0, _ = self.state(z, speed)
+        if not self._two:
+            return (
+                y_end[:m] - y0[:m],
+                by_state[:m] - np.eye(m),
+                by_speed[:m],
+            )
+        angle = 2.0 * math.pi * self.periods / self._p.z_p
+        mean = angle / y_end[m]
+        per_time = -mean / y_end[m]
+        residual = np.append(y_end[:m] - y0[:m], mean - speed)
+        jacobian = np.empty((m + 1, m + 1))
+        jacobian[:m, :m] = by_state[:m] - np.eye(m)
+        jacobian[:m, m] = d[:m, m]
+        jacobian[m, :m] = per_time * by_state[m]
+        jacobian[m, m] = per_time * d[m, m]
+        d_speed = np.append(by_speed[:m] - self._per_speed, per_time * by_speed[m] - 1.0)
+        return residual, jacobian, d_speed
+
+    def monodromy(self, z: Array, speed: float) -> Array:
+        """Return d y_end/d y0 of the states, shape (m, m), m = 3 or 2."""
+        m = self._per_speed.size
+        return self.flow(z, speed)[1][:m, :m]
+
+    def orbit(self, z: Array, speed: float) -> Orbit:
+        """Return the motion over the period that starts at z."""
+        y, load_torque = self.state(np.asarray(z, dtype=np.float64), speed)
+        record = np.zeros((self.periods * self.steps_per_mesh_period, 4))
+        work = np.zeros(3 * N_MAX)
+        march(y, 0, self.periods, load_torque, float(speed), self._rows, self._p, work, record)
+        return Orbit(
+            angle=record[:, 0],
+            x=record[:, 1] * UM,
+            pinion_speed=record[:, 2],
+            force=record[:, 3],
+            load_torque=load_torque,
+        )

@@ -1,0 +1,157 @@
+"""Rates of the torsional hypoid pair: two degrees of freedom, and their reduction to one."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
+from gearlube_core.dynamics.hypoid_torsional.flank_torques import flank_torques
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
+from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, DK, R_G, R_P, K
+from gearlube_core.jit import kernel
+
+MICRO = 1.0e6  # um per m; states hold x in um beside speeds of like size
+UM = 1.0e-6
+
+
+class PairRates(NamedTuple):
+    """Rates of the 2-DOF pair and what makes them."""
+
+    x: float  # dx/dt [m/s]
+    w_p: float  # rad/s2
+    w_g: float  # rad/s2
+    force: float  # F [N]
+    torque_p: float  # of the mesh on the pinion, without friction [N.m]
+    friction_p: float  # Q_p [N.m]
+    friction_g: float  # Q_g [N.m]
+    pinion_torque: float  # applied, with ripple and speed hold [N.m]
+    load_torque: float  # N.m
+    damping_power: float  # W
+    friction_power: float  # W
+
+
+@kernel
+def mesh_force(x: float, x_rate: float, k: float, p: TorsionalParameters) -> float:
+    """Return F = k f(x) + c x' [N]; gated: no damping force within the backlash, no adhesion."""
+    f = backlash_deflection(x, p.backlash)
+    if p.gated != 0.0:
+        return gated_force(k * f, p.c, x_rate, f)
+    return k * f + p.c * x_rate
+
+
+@kernel
+def pair_rates(
+    x: float,
+    w_p: float,
+    w_g: float,
+    phi: float,
+    load_torque: float,
+    speed: float,
+    row: NDArray[float64],
+    p: TorsionalParameters,
+) -> PairRates:
+    """Return the rates of the 2-DOF pair.
+
+    x' = R_p w_p - R_g w_g - e' w_p
+    I_p w_p' = T_p - (R_p - e') F - k' f^2/2 + Q_p,   I_g w_g' = -T_g + R_g F + Q_g
+    T_p = T_p0 (1 + ripple cos phi) + gain (speed - w_p)
+
+    with ' of R, e and k meaning d/dphi of the pinion.
+
+    Parameters
+    ----------
+    x : float
+        Dynamic transmission error from first contact of the drive flanks [m].
+    w_p, w_g : float
+        [rad/s]
+    phi : float
+        Pinion angle [rad].
+    load_torque : float
+        T_g, its mean with an instantaneous load [N.m].
+    speed : float
+        What the speed hold keeps the pinion at [rad/s].
+    row : ndarray of shape (N_ROW,)
+        `mesh_row` at `phi`.
+    p : TorsionalParameters
+
+    Notes
+    -----
+    e' and k' on the pinion make the mesh exchange no energy with nothing; the printed form, in
+    which the pinion carries -R_p F, has p.consistent = 0. The instantaneous load of eq. (32)
+    follows R_g/R_p over its mean.
+
+    References
+    ----------
+    Karagiannis et al. 2012, eq. (1)-(6), (31), (32); eq. (3) as a rate.
+    """
+    k = row[K]
+    arm_p = row[R_P] - row[DE]
+    x_rate = arm_p * w_p - row[R_G] * w_g
+    force = mesh_force(x, x_rate, k, p)
+    f = backlash_deflection(x, p.backlash)
+    torque_p = -row[R_P] * force
+    if p.consistent != 0.0:
+        torque_p = -arm_p * force - 0.5 * row[DK] * f * f
+    friction = flank_torques(row, w_p, w_g, force, p)
+    applied = p.pinion_torque * (1.0 + p.ripple * math.cos(phi)) + p.hold_gain * (speed - w_p)
+    load = load_torque
+    if p.instantaneous_load != 0.0:
+        load *= row[R_G] / (row[R_P] * p.ratio)
+    return PairRates(
+        x_rate,
+        (applied + torque_p + friction.torque_p) / p.I_p,
+        (row[R_G] * force + friction.torque_g - load) / p.I_g,
+        force,
+        torque_p,
+        friction.torque_p,
+        friction.torque_g,
+        applied,
+        load,
+        (force - k * f) * x_rate,
+        friction.power,
+    )
+
+
+class ReducedRates(NamedTuple):
+    """Rates of the 1-DOF reduction."""
+
+    x: float  # dx/dt [m/s]
+    v: float  # m/s2
+    force: float  # N
+
+
+@kernel
+def reduced_rates(
+    x: float, v: float, phi: float, speed: float, row: NDArray[float64], p: TorsionalParameters
+) -> ReducedRates:
+    """Return the rates of the reduction to one degree of freedom at constant speed.
+
+    m_eq x'' + c x' + k f(x) = F_mean - m_eq e'',  as  x' = v - e' Omega,  m_eq v' = F_mean - F
+
+    Parameters
+    ----------
+    x : float
+        Dynamic transmission error from first contact of the drive flanks [m].
+    v : float
+        x' + e' Omega, the rate at which the mean base circles approach [m/s]; needs no e''.
+    phi, speed, row, p
+        As in `pair_rates`; `speed` is Omega, constant.
+
+    Notes
+    -----
+    F_mean = T_p0/R_p0, with the ripple of the pinion torque times m_eq R_p0^2/I_p. Constant
+    radii: what R_p and R_g hold besides their means does not count. No friction.
+
+    References
+    ----------
+    Karagiannis et al. 2012, eq. (30) and the 1-DOF model compared there.
+    """
+    x_rate = v - row[DE] * speed
+    force = mesh_force(x, x_rate, row[K], p)
+    swing = p.ripple * math.cos(phi) * p.m_eq * p.R_p0 * p.R_p0 / p.I_p
+    drive = p.pinion_torque / p.R_p0 * (1.0 + swing)
+    return ReducedRates(x_rate, (drive - force) / p.m_eq, force)
