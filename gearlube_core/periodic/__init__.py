@@ -1,1 +1,30 @@
 """Periodic motions: found, followed and judged for stability, whatever the model."""
+
+from gearlube_core.periodic.branch import Branch, SpecialPoint
+from gearlube_core.periodic.branch_switching import BranchStart, switch_branch
+from gearlube_core.periodic.continuation import ContinuationSettings, follow
+from gearlube_core.periodic.floquet import (
+    floquet_multipliers,
+    loss_of_stability,
+    stability_margin,
+)
+from gearlube_core.periodic.newton import NewtonSettings
+from gearlube_core.periodic.problem import PeriodicProblem, fixed_point_residual
+from gearlube_core.periodic.shooting import PeriodicMotion, solve_periodic
+
+__all__ = [
+    "Branch",
+    "BranchStart",
+    "ContinuationSettings",
+    "NewtonSettings",
+    "PeriodicMotion",
+    "PeriodicProblem",
+    "SpecialPoint",
+    "fixed_point_residual",
+    "floquet_multipliers",
+    "follow",
+    "loss_of_stability",
+    "solve_periodic",
+    "stability_margin",
+    "switch_branch",
+]

@@ -1,0 +1,239 @@
+"""Branches of periodic motions followed through folds by pseudo-arclength."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from gearlube_core.checks import check_finite, check_positive, check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.periodic.arclength import Arc, Node, hermite, turn
+from gearlube_core.periodic.branch import Branch, Ending
+from gearlube_core.periodic.newton import NewtonSettings
+from gearlube_core.periodic.problem import Array, PeriodicProblem
+from gearlube_core.periodic.recorder import Recorder
+from gearlube_core.periodic.shooting import require
+
+Progress = Callable[[int, float], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContinuationSettings:
+    """Lengths and limits of a continuation; lengths are in scaled unknowns and parameter [-].
+
+    Parameters
+    ----------
+    step, smallest_step, largest_step
+        Arclength of the first step, and its limits.
+    turn
+        Angle [rad] by which the branch should turn in a step; steps that turn three times as far
+        are repeated with half the length. 0.01 to 0.5.
+    max_points
+        Rows at which to stop.
+    location_tolerance
+        Arclength within which folds and bifurcations are located.
+    newton
+        Of the corrector. Few iterations: a shorter step is better than a long search.
+    """
+
+    step: float = 0.05
+    smallest_step: float = 1e-5
+    largest_step: float = 1.0
+    turn: float = 0.15
+    max_points: int = 1000
+    location_tolerance: float = 1e-7
+    newton: NewtonSettings = field(
+        default_factory=lambda: NewtonSettings(
+            tolerance=1e-9, max_iterations=8, smallest_fraction=0.125
+        )
+    )
+
+    def __post_init__(self) -> None:
+        check_positive("smallest_step", self.smallest_step)
+        check_finite("largest_step", self.largest_step)
+        check_within("step", self.step, self.smallest_step, self.largest_step)
+        check_within("turn", self.turn, 0.01, 0.5, "rad")
+        check_positive("location_tolerance", self.location_tolerance)
+        if self.max_points < 1:
+            raise ParameterError(f"max_points must be 1 or more, got {self.max_points}.")
+
+
+_DEFAULTS = ContinuationSettings()
+
+
+def follow(
+    problem: PeriodicProblem,
+    start: Array,
+    parameter: float,
+    *,
+    limits: tuple[float, float],
+    heading: float | Array = 1.0,
+    at: Iterable[float] = (),
+    settings: ContinuationSettings = _DEFAULTS,
+    progress: Progress | None = None,
+) -> Branch:
+    """Return the branch of periodic motions through a start, with its folds and bifurcations.
+
+    Parameters
+    ----------
+    problem
+        Equations and scales. The scales decide what counts as a step.
+    start : ndarray, shape (m,)
+        Unknowns near a motion at `parameter`.
+    parameter
+        p to start from, within the limits.
+    limits
+        Least and largest p; the branch ends exactly on them.
+    heading
+        Above zero to set out towards larger p, below zero towards smaller; or a scaled direction,
+        shape (m + 1,), as `switch_branch` hands out.
+    at
+        Values of p at which the branch shall have rows, `Branch.at` finds them.
+    settings
+        Lengths and limits.
+    progress
+        Called after each step with the number of rows and p. KeyboardInterrupt, raised there or
+        anywhere else, ends the branch with what was found.
+
+    Raises
+    ------
+    ParameterError
+        Start of the wrong shape, or parameter outside the limits.
+    ConvergenceError
+        No motion found near the start. Later failures end the branch with `step limit`.
+
+    Notes
+    -----
+    Keller 1977: predictor along the tangent, corrector in the plane normal to it. The step grows
+    and shrinks with the corrector's iterations and with the turn of the branch. A turn that does
+    not shrink with the step is a corner and is passed: branches of piecewise linear motions have
+    them where contact begins, smoothed over a tiny length.
+
+    Examples
+    --------
+    The fold of p = z^2 at the origin, entered on the upper side. As a map with multiplier
+    exp(-2 z) the upper side is stable:
+
+    >>> def parabola(z, p):
+    ...     return p - z * z, np.diag(-2.0 * z), np.ones(1), np.diag(np.exp(-2.0 * z))
+    >>> problem = PeriodicProblem(
+    ...     residual=parabola, unknown_scale=np.ones(1), parameter_scale=1.0
+    ... )
+    >>> branch = follow(
+    ...     problem, np.ones(1), 1.0, limits=(-1.0, 1.0), heading=-1.0, at=[0.25]
+    ... )
+    >>> [point.kind for point in branch.special], abs(branch.special[0].parameter) < 1e-8
+    (['fold'], True)
+    >>> branch.unknowns[branch.at(0.25), 0].round(9).tolist(), branch.ending
+    ([0.5, -0.5], 'parameter limit')
+    >>> [stable for _, stable in branch.runs()]
+    [True, False]
+    """
+    low, high = (value / problem.parameter_scale for value in _checked_limits(limits))
+    check_within("parameter", parameter, *limits)
+    values = [check_finite("at", value) / problem.parameter_scale for value in at]
+    arc = Arc(problem, settings.newton)
+    node = _first(arc, problem.place(start, parameter), heading)
+    recorder = Recorder(arc, node, values, settings.location_tolerance)
+    ending: Ending = "point limit"
+    try:
+        outward = node.tangent[-1]
+        if (outward > 0.0 and node.place[-1] >= high) or (outward < 0.0 and node.place[-1] <= low):
+            ending = "parameter limit"
+        walk = _Walk(arc, node, settings)
+        while ending == "point limit" and recorder.count < settings.max_points:
+            before, after = walk.node, walk.advance()
+            if after is None:
+                ending = "step limit"
+                break
+            bound = min(max(after.place[-1], low), high)
+            if bound != after.place[-1]:
+                landed = recorder.landing(before, after, bound)
+                ending = "step limit" if landed is None else "parameter limit"
+                after = landed
+            elif walk.steps > 3 and _passes(before, after, node):
+                ending, after = "closed", node
+            if after is not None:
+                recorder.add(before, after)
+            if progress is not None:
+                progress(recorder.count, recorder.last_parameter)
+    except KeyboardInterrupt:
+        ending = "interrupted"
+    return recorder.branch(ending)
+
+
+def _checked_limits(limits: tuple[float, float]) -> tuple[float, float]:
+    low, high = (check_finite("limits", value) for value in limits)
+    if not low < high:
+        raise ParameterError(f"limits must rise, got {low:g} to {high:g}. Give (least, largest).")
+    return low, high
+
+
+def _first(arc: Arc, place: Array, heading: float | Array) -> Node:
+    direction = np.zeros(place.size)
+    if np.ndim(heading) == 0:
+        direction[-1] = heading
+    elif np.shape(heading) == place.shape:
+        direction[:] = heading
+    if not direction.any():
+        raise ParameterError(
+            f"heading must be a number or a direction of shape {place.shape}, and not zero, got "
+            f"{heading}."
+        )
+    # on a new branch the fixed parameter may lead back to the old one: keep to the heading
+    normal = direction / float(np.linalg.norm(direction))
+    correction = arc.correct(place, normal)
+    require(arc.problem, correction)
+    node = arc.first(correction.evaluation, direction)
+    if node is None:
+        raise ParameterError("The start is a branch point. Start beside it.")
+    return node
+
+
+def _passes(a: Node, b: Node, start: Node) -> bool:
+    """Whether a step runs through the start again, in the same direction."""
+    chord = b.place - a.place
+    squared = float(chord @ chord)
+    fraction = float(chord @ (start.place - a.place)) / squared
+    if not 0.0 < fraction <= 1.0 or float(a.tangent @ start.tangent) < 0.5:
+        return False
+    apart = start.place - hermite(a, b, fraction)[0]
+    return float(apart @ apart) <= 1e-4 * squared
+
+
+class _Walk:
+    """Steps along a branch with a length that follows what the corrector needs."""
+
+    def __init__(self, arc: Arc, node: Node, settings: ContinuationSettings) -> None:
+        self.arc, self.node, self.settings = arc, node, settings
+        self.length, self.steps = settings.step, 0
+
+    def advance(self) -> Node | None:
+        """Return the next point; None if the smallest step fails."""
+        refused, unmoved = math.inf, 0
+        while self.length >= self.settings.smallest_step:
+            here = self.node
+            correction = self.arc.correct(here.place + self.length * here.tangent, here.tangent)
+            node = (
+                self.arc.node(correction.evaluation, here.tangent) if correction.converged else None
+            )
+            if node is not None:
+                angle = turn(here, node)
+                unmoved = unmoved + 1 if angle > 0.8 * refused else 0
+                refused = angle
+                shortest = self.length < 2.0 * self.settings.smallest_step
+                if angle <= 3.0 * self.settings.turn or unmoved >= 2 or shortest:
+                    self._adapt(angle, correction.iterations)
+                    self.node, self.steps = node, self.steps + 1
+                    return node
+            self.length *= 0.5
+        return None
+
+    def _adapt(self, angle: float, iterations: int) -> None:
+        by_effort = {0: 2.0, 1: 2.0, 2: 2.0, 3: 1.5, 4: 1.0}.get(iterations, 0.7)
+        by_turn = self.settings.turn / max(angle, 1e-6)
+        length = self.length * max(0.5, min(by_effort, by_turn))
+        self.length = min(max(length, self.settings.smallest_step), self.settings.largest_step)

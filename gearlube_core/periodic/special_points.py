@@ -1,0 +1,102 @@
+"""Folds and bifurcations between two points of a branch."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlube_core.periodic.arclength import Arc, Node
+from gearlube_core.periodic.branch import Kind
+from gearlube_core.periodic.floquet import doubling_test, torus_pair, torus_test
+
+Test = Callable[[Node], float]
+
+_TESTS: dict[Kind, Test] = {
+    "branch point": lambda node: node.determinant,
+    "fold": lambda node: float(node.tangent[-1]),
+    "period doubling": lambda node: doubling_test(node.multipliers),
+    "Neimark-Sacker": lambda node: torus_test(node.multipliers),
+}
+_MOST_TRIALS = 80  # bisection alone needs half as many from step 1 to rounding
+_JUMP = 0.05  # share of a test function's size that must be gone at a zero
+
+
+class Crossing(NamedTuple):
+    """Where a test function changes sign: the point, the width of the bracket, zero or jump."""
+
+    kind: Kind
+    node: Node
+    width: float
+    smooth: bool
+
+
+def crossings(arc: Arc, a: Node, b: Node, tolerance: float) -> list[Crossing]:
+    """Return the special points from a (excluded) to b (included), in the order they are met.
+
+    Parameters
+    ----------
+    arc
+        Finds points between a and b.
+    a, b
+        Successive points of a branch.
+    tolerance
+        Width of the bracket [-] at which a search ends.
+
+    Notes
+    -----
+    Seen by the signs of test functions at the two ends, so that two of one kind within a step
+    cancel. Where the parameter has an extremum at a branch point (the arms of a pitchfork), the
+    branch point alone is listed.
+    """
+    found: list[Crossing] = []
+    for kind, test in _TESTS.items():
+        at_a, at_b = test(a), test(b)
+        if at_a == 0.0 or at_a * at_b > 0.0 or not np.isfinite(at_a * at_b):
+            continue
+        node, width, smooth = locate(arc, a, b, test, tolerance)
+        if kind == "Neimark-Sacker" and not torus_pair(node.multipliers):
+            continue
+        if kind == "fold" and any(
+            crossing.kind == "branch point"
+            and np.linalg.norm(crossing.node.place - node.place) <= 100.0 * tolerance
+            for crossing in found
+        ):
+            continue
+        found.append(Crossing(kind, node, width, smooth))
+    chord = b.place - a.place
+    return sorted(found, key=lambda crossing: float(chord @ (crossing.node.place - a.place)))
+
+
+def locate(arc: Arc, a: Node, b: Node, test: Test, tolerance: float) -> tuple[Node, float, bool]:
+    """Return the point where a test function changes sign, the bracket's width, and if smoothly.
+
+    The Illinois variant of false position on the cubic between the ends of the bracket, each
+    trial corrected onto the branch. If that fails, the better end of the bracket reached so far is
+    returned with its width.
+    """
+    at_a, at_b = test(a), test(b)
+    size, width = max(abs(at_a), abs(at_b)), float(np.linalg.norm(b.place - a.place))
+    true_a, true_b, side, long = at_a, at_b, 0, width > 100.0 * tolerance
+    for _ in range(_MOST_TRIALS):
+        if width <= tolerance or true_b == 0.0:
+            break
+        margin = 0.4 * tolerance / width  # else the far end of the bracket would never move
+        node = arc.between(a, b, min(max(at_a / (at_a - at_b), margin), 1.0 - margin))
+        if node is None:
+            break
+        value = test(node)
+        if value * at_b > 0.0:
+            b, at_b, true_b = node, value, value
+            at_a *= 0.5 if side < 0 else 1.0
+            side = -1
+        elif value * at_a > 0.0:
+            a, at_a, true_a = node, value, value
+            at_b *= 0.5 if side > 0 else 1.0
+            side = 1
+        else:
+            return node, 0.0, True
+        width = float(np.linalg.norm(b.place - a.place))
+    node, value = (a, true_a) if abs(true_a) < abs(true_b) else (b, true_b)
+    return node, width, not long or abs(value) <= _JUMP * size
