@@ -30,12 +30,11 @@ def contact_properties(dataset: xr.Dataset) -> Any:
         ("R_sliding", "$R_{zx}$, along sliding [mm]", 1e3),
         ("entrainment_arm", "entrainment / $\\omega_p$ [mm]", 1e3),
         ("sliding_arm", "sliding / $\\omega_p$ [mm]", 1e3),
-        ("psi", "entrainment from minor axis [°]", 180.0 / np.pi),
-        ("chi", "sliding from minor axis [°]", 180.0 / np.pi),
+        ("psi", "entrainment angle [°]", 180.0 / np.pi),
+        ("chi", "sliding angle [°]", 180.0 / np.pi),
     )
-    return _pair_figure(
-        dataset, rows, "A tooth pair from entry to exit: curvature and motion", 13.0, {"R_sliding"}
-    )
+    title = "A tooth pair from entry to exit: curvature and motion (angles from the minor axis)"
+    return _pair_figure(dataset, rows, title, 13.0, {"R_sliding"})
 
 
 def _pair_figure(
@@ -66,7 +65,7 @@ def _pair_figure(
                     )
                 if logarithmic and name in logarithmic:
                     ax.set_yscale("log")
-                elif name != "R_y":
+                elif name != "R_y" and column == 1:  # both sides are drawn, so the top is known
                     ax.set_ylim(bottom=0.0)
                 if column == 0:
                     ax.set_ylabel(label)
