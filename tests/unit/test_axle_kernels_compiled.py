@@ -15,7 +15,7 @@ from numba.core.dispatcher import Dispatcher
 
 from gearlube_core.bearings import shaft_expansion
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.dynamics import hypoid_axle
+from gearlube_core.dynamics import flank_force, hypoid_axle
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
     communication,
@@ -128,9 +128,11 @@ CASES = [
         shaft_expansion.expanded_shaft_forces,
         (3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0, P.bearing_p, EXPANSION),
     ),
-    (mesh_force.backlash_deflection, (3e-6, 150e-6)),
-    (mesh_force.backlash_deflection, (-3e-6, 150e-6)),
-    (mesh_force.backlash_deflection, (-153e-6, 150e-6)),
+    (flank_force.backlash_deflection, (3e-6, 150e-6)),
+    (flank_force.backlash_deflection, (-3e-6, 150e-6)),
+    (flank_force.backlash_deflection, (-153e-6, 150e-6)),
+    (flank_force.gated_force, (900.0, 2278.0, -0.1, 3e-6)),
+    (flank_force.gated_force, (-30.0, 2278.0, -0.1, -0.1e-6)),
     (mesh_force.reference_frequency, (P, 145.0)),
     (mesh_force.reference_frequency, (P, -1.0)),
     *(
@@ -273,7 +275,7 @@ def test_compiled_step_and_outputs_equal_their_source(monkeypatch, kernel, args)
 
 def test_no_kernel_of_these_modules_is_left_out():
     names = [f"{hypoid_axle.__name__}.{m.name}" for m in pkgutil.iter_modules(hypoid_axle.__path__)]
-    names += [kernels.__name__, shaft_expansion.__name__]
+    names += [kernels.__name__, shaft_expansion.__name__, flank_force.__name__]
     found = {
         value
         for name in names

@@ -3,17 +3,15 @@
 Interface of `period_problem.PeriodProblem`, in the order of use:
 
     problem = PeriodProblem(parameters, periods=1, steps_per_mesh_period=256)
-    problem.size                 n, number of unknowns: 4 (2-DOF) or 2 (1-DOF)
-    problem.scales               (n,) natural size of each unknown
+    problem.equations()          gearlube_core.periodic.problem.PeriodicProblem, scaled
     problem.initial_guess(W)     (n,) static deflection at pinion speed W [rad/s]
-    problem.residual_and_jacobian(z, W) -> residual (n,), jacobian (n, n), d residual/dW (n,)
-    problem.monodromy(z, W)      (m, m) d y_end/d y0 of the m = 3 or 2 states: its eigenvalues are
-                                 the Floquet multipliers
+    problem.residual(z, W)       residual (n,), by z (n, n), by W (n,), monodromy (m, m)
     problem.orbit(z, W)          samples of the motion over the period
 
 Unknowns z, 2-DOF: (x [um], w_p - W [rad/s], w_g - W z_p/z_g [rad/s], T_g [N.m]) with the states
-those at the start of the period; residual (y_end - y0 of the three states, mean speed - W).
-1-DOF: z = (x [um], v [m/s]); its speed is constant, its load no unknown.
+those (m = 3) at the start of the period, n = 4;
+residual (y_end - y0 of the three states, mean speed - W).
+1-DOF: z = (x [um], v [m/s]), n = m = 2; its speed is constant, its load no unknown.
 The parameter is the mean pinion speed W; the mesh frequency is z_p W/(2 pi). The pinion angle is
 the independent variable, so the system is not autonomous and needs no phase condition.
 A period that is not finite (teeth parted by 0.1 m) gives a residual of NaN.
@@ -37,7 +35,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalP
 from gearlube_core.jit import kernel
 
 # steps of the central differences; rates are linear or nearly so in all of these
-_STEP_X = 1.0e-3  # um
+_STEP_X = 1.0e-5  # um, as small as rounding allows: stages may lie near a kink
 _STEP_W = 1.0e-3  # rad/s
 _STEP_V = 1.0e-6  # m/s
 _STEP_TORQUE = 1.0e-2  # N.m

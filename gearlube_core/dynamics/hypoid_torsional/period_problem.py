@@ -14,6 +14,7 @@ from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.period_map import WORK, period_map
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
+from gearlube_core.periodic.problem import PeriodicProblem
 
 Array = NDArray[np.float64]
 
@@ -135,8 +136,8 @@ class PeriodProblem:
             y[:] = np.nan
         return y, derivatives
 
-    def residual_and_jacobian(self, z: Array, speed: float) -> tuple[Array, Array, Array]:
-        """Return the residual and its derivatives by z and by the mean pinion speed.
+    def residual(self, z: Array, speed: float) -> tuple[Array, Array, Array, Array]:
+        """Return the residual, its derivatives by z and by the speed, and the monodromy matrix.
 
         Parameters
         ----------
@@ -144,6 +145,14 @@ class PeriodProblem:
             Unknowns, see `period_map`.
         speed : float
             Mean pinion speed [rad/s].
+
+        Returns
+        -------
+        residual : ndarray of shape (size,)
+        jacobian : ndarray of shape (size, size)
+        by_speed : ndarray of shape (size,)
+        monodromy : ndarray of shape (m, m)
+            d y_end/d y0 of the m states.
         """
         y_end, d = self.flow(z, speed)
         m = self._per_speed.size
@@ -155,6 +164,7 @@ class PeriodProblem:
                 y_end[:m] - y0[:m],
                 by_state[:m] - np.eye(m),
                 by_speed[:m],
+                by_state[:m],
             )
         angle = 2.0 * math.pi * self.periods / self._p.z_p
         mean = angle / y_end[m]
@@ -166,12 +176,16 @@ class PeriodProblem:
         jacobian[m, :m] = per_time * by_state[m]
         jacobian[m, m] = per_time * d[m, m]
         d_speed = np.append(by_speed[:m] - self._per_speed, per_time * by_speed[m] - 1.0)
-        return residual, jacobian, d_speed
+        return residual, jacobian, d_speed, by_state[:m]
 
-    def monodromy(self, z: Array, speed: float) -> Array:
-        """Return d y_end/d y0 of the states, shape (m, m), m = 3 or 2."""
-        m = self._per_speed.size
-        return self.flow(z, speed)[1][:m, :m]
+    def equations(self) -> PeriodicProblem:
+        """Return the problem for shooting and continuation over the pinion speed."""
+        return PeriodicProblem(
+            residual=self.residual,
+            unknown_scale=self.scales,
+            residual_scale=np.append(self.scales[:-1], self.scales[1]) if self._two else None,
+            parameter_scale=self.model.pinion_speed(self.model.natural_frequency),
+        )
 
     def orbit(self, z: Array, speed: float) -> Orbit:
         """Return the motion over the period that starts at z."""
