@@ -4,12 +4,13 @@ Steps are locked to the mesh: sampled motions need no interpolation and no windo
 are read from `mesh_rows`. States, by form:
 
 2-DOF: y = (x [um], w_p [rad/s], w_g [rad/s], t [s])
-1-DOF: y = (x [um], v [m/s], t [s])
+1-DOF: y = (x [um], v [m/s], 0, t [s])
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from numpy import float64
 from numpy.typing import NDArray
@@ -20,34 +21,47 @@ from gearlube_core.jit import kernel
 
 OK, NOT_FINITE = 0, 1
 DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
-N_MAX = 4  # of y
+N_Y = 4
+
+
+class AngleSlope(NamedTuple):
+    """dy/dphi of the four of a state, and the mesh force."""
+
+    y_0: float
+    y_1: float
+    y_2: float
+    y_3: float
+    force: float  # N
 
 
 @kernel
 def angle_slope(
-    y: NDArray[float64],
+    y_0: float,
+    y_1: float,
+    y_2: float,
     phi: float,
     load_torque: float,
     speed: float,
-    row: NDArray[float64],
+    rows: NDArray[float64],
+    i: int,
     p: TorsionalParameters,
-    slope: NDArray[float64],
-) -> float:
-    """Write dy/dphi into `slope`; return the mesh force [N]. `row` is `mesh_row` at `phi`."""
+) -> AngleSlope:
+    """Return dy/dphi; nothing depends on time. `rows[i]` is `mesh_row` at `phi`."""
     if p.form == 1.0:
-        reduced = reduced_rates(y[0] * UM, y[1], phi, speed, row, p)
+        reduced = reduced_rates(y_0 * UM, y_1, phi, speed, rows, i, p)
         per_angle = 1.0 / speed
-        slope[0] = reduced.x * MICRO * per_angle
-        slope[1] = reduced.v * per_angle
-        slope[2] = per_angle
-        return reduced.force
-    rates = pair_rates(y[0] * UM, y[1], y[2], phi, load_torque, speed, row, p)
-    per_angle = 1.0 / y[1]
-    slope[0] = rates.x * MICRO * per_angle
-    slope[1] = rates.w_p * per_angle
-    slope[2] = rates.w_g * per_angle
-    slope[3] = per_angle
-    return rates.force
+        return AngleSlope(
+            reduced.x * MICRO * per_angle, reduced.v * per_angle, 0.0, per_angle, reduced.force
+        )
+    rates = pair_rates(y_0 * UM, y_1, y_2, phi, load_torque, speed, rows, i, p)
+    per_angle = 1.0 / y_1
+    return AngleSlope(
+        rates.x * MICRO * per_angle,
+        rates.w_p * per_angle,
+        rates.w_g * per_angle,
+        per_angle,
+        rates.force,
+    )
 
 
 @kernel
@@ -57,35 +71,59 @@ def angle_step(
     h: float,
     load_torque: float,
     speed: float,
-    row: NDArray[float64],
-    row_middle: NDArray[float64],
-    row_end: NDArray[float64],
+    rows: NDArray[float64],
+    i: int,
     p: TorsionalParameters,
-    work: NDArray[float64],
-) -> None:
+) -> float:
     """Advance `y` by the angle `h` [rad] with the classic fourth-order Runge-Kutta scheme.
 
-    `work` has shape (3 N_MAX,).
+    Returns the mesh force before the step [N]. `rows[i]` belongs to `phi`, the next two (in a
+    circle) to the middle and the end of the step.
     """
-    n = y.size
-    trial = work[0:n]
-    slope = work[N_MAX : N_MAX + n]
-    total = work[2 * N_MAX : 2 * N_MAX + n]
-    angle_slope(y, phi, load_torque, speed, row, p, slope)
-    for i in range(n):
-        total[i] = slope[i]
-        trial[i] = y[i] + 0.5 * h * slope[i]
-    angle_slope(trial, phi + 0.5 * h, load_torque, speed, row_middle, p, slope)
-    for i in range(n):
-        total[i] += 2.0 * slope[i]
-        trial[i] = y[i] + 0.5 * h * slope[i]
-    angle_slope(trial, phi + 0.5 * h, load_torque, speed, row_middle, p, slope)
-    for i in range(n):
-        total[i] += 2.0 * slope[i]
-        trial[i] = y[i] + h * slope[i]
-    angle_slope(trial, phi + h, load_torque, speed, row_end, p, slope)
-    for i in range(n):
-        y[i] += h / 6.0 * (total[i] + slope[i])
+    x, a, b = y[0], y[1], y[2]
+    half = 0.5 * h
+    j = i + 1
+    k = i + 2 if i + 2 < rows.shape[0] else 0
+    s_1 = angle_slope(x, a, b, phi, load_torque, speed, rows, i, p)
+    s_2 = angle_slope(
+        x + half * s_1.y_0,
+        a + half * s_1.y_1,
+        b + half * s_1.y_2,
+        phi + half,
+        load_torque,
+        speed,
+        rows,
+        j,
+        p,
+    )
+    s_3 = angle_slope(
+        x + half * s_2.y_0,
+        a + half * s_2.y_1,
+        b + half * s_2.y_2,
+        phi + half,
+        load_torque,
+        speed,
+        rows,
+        j,
+        p,
+    )
+    s_4 = angle_slope(
+        x + h * s_3.y_0,
+        a + h * s_3.y_1,
+        b + h * s_3.y_2,
+        phi + h,
+        load_torque,
+        speed,
+        rows,
+        k,
+        p,
+    )
+    sixth = h / 6.0
+    y[0] += sixth * (s_1.y_0 + 2.0 * (s_2.y_0 + s_3.y_0) + s_4.y_0)
+    y[1] += sixth * (s_1.y_1 + 2.0 * (s_2.y_1 + s_3.y_1) + s_4.y_1)
+    y[2] += sixth * (s_1.y_2 + 2.0 * (s_2.y_2 + s_3.y_2) + s_4.y_2)
+    y[3] += sixth * (s_1.y_3 + 2.0 * (s_2.y_3 + s_3.y_3) + s_4.y_3)
+    return s_1.force
 
 
 @kernel
@@ -97,14 +135,13 @@ def march(
     speed: float,
     rows: NDArray[float64],
     p: TorsionalParameters,
-    work: NDArray[float64],
     record: NDArray[float64],
 ) -> int:
     """Advance `y` over whole mesh periods; return OK or NOT_FINITE.
 
     Parameters
     ----------
-    y : ndarray of shape (4,) or (3,)
+    y : ndarray of shape (4,)
         Changed.
     first_period : int
         Mesh periods since pinion angle zero.
@@ -114,28 +151,26 @@ def march(
     rows : ndarray of shape (2 steps, N_ROW)
         `mesh_rows`; sets the number of steps per mesh period.
     p : TorsionalParameters
-    work : ndarray of shape (3 N_MAX,)
     record : ndarray of shape (periods * steps, 4) or (0, 4)
         Angle [rad], x [um], pinion speed [rad/s] and mesh force [N] before each step, or nothing
         recorded.
     """
-    count = rows.shape[0]
-    steps = count // 2
+    steps = rows.shape[0] // 2
     period = 2.0 * math.pi / p.z_p
     h = period / steps
-    slope = work[N_MAX : N_MAX + y.size]
+    keep = record.shape[0] > 0
     for m in range(periods):
         for i in range(steps):
             phi = (first_period + m) * period + i * h
-            row = rows[2 * i]
-            if record.shape[0] > 0:
+            x = y[0]
+            w = speed if p.form == 1.0 else y[1]
+            force = angle_step(y, phi, h, load_torque, speed, rows, 2 * i, p)
+            if keep:
                 at = m * steps + i
                 record[at, 0] = phi
-                record[at, 1] = y[0]
-                record[at, 2] = speed if p.form == 1.0 else y[1]
-                record[at, 3] = angle_slope(y, phi, load_torque, speed, row, p, slope)
-            row_end = rows[(2 * i + 2) % count]
-            angle_step(y, phi, h, load_torque, speed, row, rows[2 * i + 1], row_end, p, work)
-        if not abs(y[0]) < DIVERGED_UM or not y[y.size - 1] < math.inf:
+                record[at, 1] = x
+                record[at, 2] = w
+                record[at, 3] = force
+        if not abs(y[0]) < DIVERGED_UM or not y[3] < math.inf:
             return NOT_FINITE
     return OK

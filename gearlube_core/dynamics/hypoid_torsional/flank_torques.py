@@ -37,14 +37,20 @@ class FlankTorques(NamedTuple):
 
 @kernel
 def pair_friction(
-    row: NDArray[float64], at: int, load: float, sliding: float, w_p: float, p: TorsionalParameters
+    rows: NDArray[float64],
+    i: int,
+    at: int,
+    load: float,
+    sliding: float,
+    w_p: float,
+    p: TorsionalParameters,
 ) -> float:
-    """Return the friction [N] of the pair whose channels begin at row[at], under `load` [N]."""
+    """Return the friction [N] of the pair whose channels begin at rows[i, at], under `load` [N]."""
     flank = flank_friction(
         load,
-        row[at + ENTRAIN] * w_p,
+        rows[i, at + ENTRAIN] * w_p,
         sliding,
-        ContactGeometry(row[at + R_E], row[at + SIDE_FLOW], row[at + PRESSURE]),
+        ContactGeometry(rows[i, at + R_E], rows[i, at + SIDE_FLOW], rows[i, at + PRESSURE]),
         p.oil,
         p.surface,
         p.solid,
@@ -55,7 +61,7 @@ def pair_friction(
 
 @kernel
 def flank_torques(
-    row: NDArray[float64], w_p: float, w_g: float, force: float, p: TorsionalParameters
+    rows: NDArray[float64], i: int, w_p: float, w_g: float, force: float, p: TorsionalParameters
 ) -> FlankTorques:
     """Return the friction torques of all pairs that share the mesh force `force` [N].
 
@@ -69,16 +75,16 @@ def flank_torques(
     torque_p = 0.0
     torque_g = 0.0
     power = 0.0
-    if p.friction_form >= 0.0 and force != 0.0:
+    if force != 0.0:
         for pair in range(_PAIRS):
             at = PAIRS_AT + pair * N_CHANNELS
-            load = abs(force) * row[at + SHARE]
+            load = abs(force) * rows[i, at + SHARE]
             if load > 0.0:
-                sliding = w_p * row[at + ARM_P] - w_g * row[at + ARM_G]
-                f = pair_friction(row, at, load, sliding, w_p, p)
+                sliding = w_p * rows[i, at + ARM_P] - w_g * rows[i, at + ARM_G]
+                f = pair_friction(rows, i, at, load, sliding, w_p, p)
                 if sliding < 0.0:
                     f = -f
-                torque_p -= f * row[at + ARM_P]
-                torque_g += f * row[at + ARM_G]
+                torque_p -= f * rows[i, at + ARM_P]
+                torque_g += f * rows[i, at + ARM_G]
                 power += f * sliding
     return FlankTorques(torque_p, torque_g, power)

@@ -152,10 +152,10 @@ class HypoidTorsional:
         return rows
 
     def row(self, phi: float) -> Array:
-        """Return the mesh data at pinion angle `phi` [rad], shape (N_ROW,), see `mesh_row`."""
-        row = np.zeros(N_ROW)
+        """Return the mesh data at pinion angle `phi` [rad], shape (1, N_ROW), see `mesh_row`."""
+        row = np.zeros((1, N_ROW))
         z_p = self.kernel_parameters.z_p
-        mesh_row(self._series, self._orders, self._window, self._nodes, z_p, phi, row)
+        mesh_row(self._series, self._orders, self._window, self._nodes, z_p, phi, row[0])
         return row
 
     def pair_rates(
@@ -163,17 +163,17 @@ class HypoidTorsional:
     ) -> PairRates:
         """Return the rates of the 2-DOF pair for any time integrator, see `rates.pair_rates`."""
         p = self.kernel_parameters
-        return pair_rates(x, w_p, w_g, phi, load_torque, speed, self.row(phi), p)
+        return pair_rates(x, w_p, w_g, phi, load_torque, speed, self.row(phi), 0, p)
 
     def reduced_rates(self, x: float, v: float, phi: float, speed: float) -> ReducedRates:
         """Return the rates of the 1-DOF reduction, see `rates.reduced_rates`."""
-        return reduced_rates(x, v, phi, speed, self.row(phi), self.kernel_parameters)
+        return reduced_rates(x, v, phi, speed, self.row(phi), 0, self.kernel_parameters)
 
     def initial_state(self, speed: float) -> Array:
         """Return y of `angle_march` at pinion angle and time zero: static deflection, x' = 0."""
-        row = self.row(0.0)
+        row = self.row(0.0)[0]
         x = MICRO * self.static_deflection
         if self.parameters.form == "one_dof":
-            return np.array([x, float(row[DE]) * speed, 0.0])
+            return np.array([x, float(row[DE]) * speed, 0.0, 0.0])
         w_g = (row[R_P] - row[DE]) * speed / row[R_G]
         return np.array([x, speed, w_g, 0.0])

@@ -26,9 +26,10 @@ from numpy.typing import NDArray
 
 from gearlube_core.dynamics.hypoid_torsional.angle_march import (
     DIVERGED_UM,
-    N_MAX,
+    N_Y,
     NOT_FINITE,
     OK,
+    AngleSlope,
     angle_slope,
 )
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
@@ -40,20 +41,31 @@ _STEP_W = 1.0e-3  # rad/s
 _STEP_V = 1.0e-6  # m/s
 _STEP_TORQUE = 1.0e-2  # N.m
 _STEP_SPEED = 1.0e-3  # rad/s
-N_DERIVATIVES = N_MAX + 1  # columns at most: states without time, load torque, speed
-WORK = 4 * N_MAX + 4 * N_MAX * N_DERIVATIVES
+N_COLUMNS = N_Y + 1  # derivatives by three states, load torque, speed
+WORK = 2 * N_Y + 3 * N_Y * N_COLUMNS
+
+
+@kernel
+def _add_row(
+    turned: NDArray[float64], upper: AngleSlope, lower: AngleSlope, width: float, column: int
+) -> None:
+    """Add the derivative by one argument to a column."""
+    turned[0, column] += (upper.y_0 - lower.y_0) / width
+    turned[1, column] += (upper.y_1 - lower.y_1) / width
+    turned[2, column] += (upper.y_2 - lower.y_2) / width
+    turned[3, column] += (upper.y_3 - lower.y_3) / width
 
 
 @kernel
 def slope_derivative(
-    y: NDArray[float64],
+    trial: NDArray[float64],
     tangent: NDArray[float64],
     phi: float,
     load_torque: float,
     speed: float,
-    row: NDArray[float64],
+    rows: NDArray[float64],
+    at: int,
     p: TorsionalParameters,
-    work: NDArray[float64],
     slope: NDArray[float64],
     turned: NDArray[float64],
 ) -> None:
@@ -61,43 +73,47 @@ def slope_derivative(
 
     Parameters
     ----------
-    y, slope : ndarray of shape (n,)
-        State with time last.
-    tangent, turned : ndarray of shape (n, n + 1)
-        Derivatives of y by (y0 without time, load torque, speed), and those of the slope.
-    work : ndarray of shape (3 N_MAX,)
-        Work space.
+    trial, slope : ndarray of shape (N_Y,)
+        State, and its dy/dphi.
+    tangent, turned : ndarray of shape (N_Y, N_COLUMNS)
+        Derivatives of the state, and those of the slope.
+    at : int
+        Row of the mesh data at `phi`.
     """
-    n = y.size
-    trial = work[0:n]
-    upper = work[N_MAX : N_MAX + n]
-    lower = work[2 * N_MAX : 2 * N_MAX + n]
-    angle_slope(y, phi, load_torque, speed, row, p, slope)
-    for i in range(n):
-        trial[i] = y[i]
-        for j in range(n + 1):
+    x, a, b = trial[0], trial[1], trial[2]
+    here = angle_slope(x, a, b, phi, load_torque, speed, rows, at, p)
+    slope[0] = here.y_0
+    slope[1] = here.y_1
+    slope[2] = here.y_2
+    slope[3] = here.y_3
+    for i in range(N_Y):
+        for j in range(N_COLUMNS):
             turned[i, j] = 0.0
-    for s in range(n - 1):  # nothing depends on time
-        step = _STEP_X
-        if s > 0:
-            step = _STEP_V if p.form == 1.0 else _STEP_W
-        trial[s] = y[s] + step
-        angle_slope(trial, phi, load_torque, speed, row, p, upper)
-        trial[s] = y[s] - step
-        angle_slope(trial, phi, load_torque, speed, row, p, lower)
-        trial[s] = y[s]
-        for i in range(n):
-            d = (upper[i] - lower[i]) / (2.0 * step)
-            for j in range(n + 1):
-                turned[i, j] += d * tangent[s, j]
-    angle_slope(y, phi, load_torque + _STEP_TORQUE, speed, row, p, upper)
-    angle_slope(y, phi, load_torque - _STEP_TORQUE, speed, row, p, lower)
-    for i in range(n):
-        turned[i, n - 1] += (upper[i] - lower[i]) / (2.0 * _STEP_TORQUE)
-    angle_slope(y, phi, load_torque, speed + _STEP_SPEED, row, p, upper)
-    angle_slope(y, phi, load_torque, speed - _STEP_SPEED, row, p, lower)
-    for i in range(n):
-        turned[i, n] += (upper[i] - lower[i]) / (2.0 * _STEP_SPEED)
+    step_a = _STEP_V if p.form == 1.0 else _STEP_W
+    for s in range(3):
+        dx = _STEP_X if s == 0 else 0.0
+        da = step_a if s == 1 else 0.0
+        db = _STEP_W if s == 2 else 0.0
+        upper = angle_slope(x + dx, a + da, b + db, phi, load_torque, speed, rows, at, p)
+        lower = angle_slope(x - dx, a - da, b - db, phi, load_torque, speed, rows, at, p)
+        width = 2.0 * (dx + da + db)
+        d_0 = (upper.y_0 - lower.y_0) / width
+        d_1 = (upper.y_1 - lower.y_1) / width
+        d_2 = (upper.y_2 - lower.y_2) / width
+        d_3 = (upper.y_3 - lower.y_3) / width
+        for j in range(N_COLUMNS):
+            turned[0, j] += d_0 * tangent[s, j]
+            turned[1, j] += d_1 * tangent[s, j]
+            turned[2, j] += d_2 * tangent[s, j]
+            turned[3, j] += d_3 * tangent[s, j]
+    d = _STEP_TORQUE
+    upper = angle_slope(x, a, b, phi, load_torque + d, speed, rows, at, p)
+    lower = angle_slope(x, a, b, phi, load_torque - d, speed, rows, at, p)
+    _add_row(turned, upper, lower, 2.0 * d, 3)
+    d = _STEP_SPEED
+    upper = angle_slope(x, a, b, phi, load_torque, speed + d, rows, at, p)
+    lower = angle_slope(x, a, b, phi, load_torque, speed - d, rows, at, p)
+    _add_row(turned, upper, lower, 2.0 * d, 4)
 
 
 @kernel
@@ -119,10 +135,10 @@ def period_map(
 
     Parameters
     ----------
-    y : ndarray of shape (n,)
-        (x [um], w_p, w_g [rad/s], time [s]) or (x, v [m/s], time); in: start, out: end.
-    derivatives : ndarray of shape (n, n + 1)
-        Out: d(y_end)/d(y0 without time, load torque [N.m], speed [rad/s]).
+    y : ndarray of shape (N_Y,)
+        State of `angle_march`; in: start, out: end.
+    derivatives : ndarray of shape (N_Y, N_COLUMNS)
+        Out: d(y_end)/d(three states of y0, load torque [N.m], speed [rad/s]).
     load_torque, speed : float
         [N.m], [rad/s]
     periods : int
@@ -137,51 +153,51 @@ def period_map(
     int
         OK or NOT_FINITE.
     """
-    n = y.size
-    width = n + 1
-    size = n * width
-    trial = work[0:n]
-    small = work[N_MAX : 4 * N_MAX]
-    at = 4 * N_MAX
-    trial_tangent = work[at : at + size].reshape((n, width))
-    turned = work[at + size : at + 2 * size].reshape((n, width))
-    total_tangent = work[at + 2 * size : at + 3 * size].reshape((n, width))
-    slope = work[at + 3 * size : at + 3 * size + n]
-    total = work[at + 3 * size + n : at + 3 * size + 2 * n]
-    for i in range(n):
-        for j in range(width):
-            derivatives[i, j] = 0.0
-    for i in range(n - 1):
-        derivatives[i, i] = 1.0
+    size = N_Y * N_COLUMNS
+    trial = work[0:N_Y]
+    slope = work[N_Y : 2 * N_Y]
+    total = 2 * N_Y
+    tangent = work[total : total + size].reshape((N_Y, N_COLUMNS))
+    turned = work[total + size : total + 2 * size].reshape((N_Y, N_COLUMNS))
+    start = work[total + 2 * size : total + 3 * size].reshape((N_Y, N_COLUMNS))
+    for i in range(N_Y):
+        for j in range(N_COLUMNS):
+            derivatives[i, j] = 1.0 if i == j and i < 3 else 0.0
     count = rows.shape[0]
     steps = count // 2
-    period = 2.0 * math.pi / p.z_p
-    h = period / steps
+    h = 2.0 * math.pi / (p.z_p * steps)
     for step in range(periods * steps):
-        k = 2 * (step % steps)
+        first = 2 * (step % steps)
+        x, a, b = y[0], y[1], y[2]
+        for i in range(N_Y):
+            for j in range(N_COLUMNS):
+                start[i, j] = derivatives[i, j]
         for stage in range(4):
             ahead = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
-            row = rows[(k + (0 if stage == 0 else (2 if stage == 3 else 1))) % count]
-            for i in range(n):
-                trial[i] = y[i] + ahead * slope[i] if stage > 0 else y[i]
-                for j in range(width):
-                    trial_tangent[i, j] = derivatives[i, j]
-                    if stage > 0:
-                        trial_tangent[i, j] += ahead * turned[i, j]
-            phi = step * h + ahead
+            at = first if stage == 0 else (first + 2 if stage == 3 else first + 1)
+            trial[0] = x + ahead * slope[0]
+            trial[1] = a + ahead * slope[1]
+            trial[2] = b + ahead * slope[2]
+            for i in range(N_Y):
+                for j in range(N_COLUMNS):
+                    tangent[i, j] = start[i, j] + ahead * turned[i, j]
             slope_derivative(
-                trial, trial_tangent, phi, load_torque, speed, row, p, small, slope, turned
+                trial,
+                tangent,
+                step * h + ahead,
+                load_torque,
+                speed,
+                rows,
+                at % count,
+                p,
+                slope,
+                turned,
             )
             weight = h / 6.0 if stage == 0 or stage == 3 else h / 3.0
-            for i in range(n):
-                total[i] = weight * slope[i] + (total[i] if stage > 0 else 0.0)
-                for j in range(width):
-                    before = total_tangent[i, j] if stage > 0 else 0.0
-                    total_tangent[i, j] = before + weight * turned[i, j]
-        for i in range(n):
-            y[i] += total[i]
-            for j in range(width):
-                derivatives[i, j] += total_tangent[i, j]
-    if not abs(y[0]) < DIVERGED_UM or not y[n - 1] < math.inf:
+            for i in range(N_Y):
+                y[i] += weight * slope[i]
+                for j in range(N_COLUMNS):
+                    derivatives[i, j] += weight * turned[i, j]
+    if not abs(y[0]) < DIVERGED_UM or not y[3] < math.inf:
         return NOT_FINITE
     return OK

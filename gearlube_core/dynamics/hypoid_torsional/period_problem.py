@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_MAX, OK, march
+from gearlube_core.dynamics.hypoid_torsional.angle_march import N_Y, OK, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
-from gearlube_core.dynamics.hypoid_torsional.period_map import WORK, period_map
+from gearlube_core.dynamics.hypoid_torsional.period_map import N_COLUMNS, WORK, period_map
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
 from gearlube_core.periodic.problem import PeriodicProblem
 
@@ -101,27 +101,29 @@ class PeriodProblem:
 
     def initial_guess(self, speed: float) -> Array:
         """Return z of the static deflection at pinion speed `speed` [rad/s], shape (size,)."""
-        y = self.model.initial_state(speed)[:-1] - speed * self._per_speed
+        m = self._per_speed.size
+        y = self.model.initial_state(speed)[:m] - speed * self._per_speed
         return np.append(y, self.model.mean_load_torque) if self._two else y
 
     def state(self, z: Array, speed: float) -> tuple[Array, float]:
-        """Return y0 with time last, and the load torque [N.m]."""
-        states = self._per_speed.size
-        y = np.append(z[:states] + speed * self._per_speed, 0.0)
-        return y, float(z[states]) if self._two else self.model.mean_load_torque
+        """Return y0 of `angle_march` and the load torque [N.m]."""
+        m = self._per_speed.size
+        y = np.zeros(N_Y)
+        y[:m] = z[:m] + speed * self._per_speed
+        return y, float(z[m]) if self._two else self.model.mean_load_torque
 
     def flow(self, z: Array, speed: float) -> tuple[Array, Array]:
-        """Return y at the end of the period, time last, and its derivatives.
+        """Return y at the end of the period and its derivatives.
 
         Returns
         -------
-        ndarray of shape (m + 1,)
+        ndarray of shape (N_Y,)
             NaN when the period is not finite.
-        ndarray of shape (m + 1, m + 2)
-            By the m states at the start, the load torque and `speed` of the speed hold.
+        ndarray of shape (N_Y, N_COLUMNS)
+            By the states at the start, the load torque and `speed` of the speed hold.
         """
         y, load_torque = self.state(np.asarray(z, dtype=np.float64), speed)
-        derivatives = np.zeros((y.size, y.size + 1))
+        derivatives = np.zeros((N_Y, N_COLUMNS))
         status = period_map(
             y,
             derivatives,
@@ -157,7 +159,7 @@ class PeriodProblem:
         y_end, d = self.flow(z, speed)
         m = self._per_speed.size
         by_state = d[:, :m]
-        by_speed = d[:, m + 1] + by_state @ self._per_speed
+        by_speed = d[:, 4] + by_state @ self._per_speed
         y0, _ = self.state(z, speed)
         if not self._two:
             return (
@@ -167,15 +169,15 @@ class PeriodProblem:
                 by_state[:m],
             )
         angle = 2.0 * math.pi * self.periods / self._p.z_p
-        mean = angle / y_end[m]
-        per_time = -mean / y_end[m]
+        mean = angle / y_end[3]
+        per_time = -mean / y_end[3]
         residual = np.append(y_end[:m] - y0[:m], mean - speed)
         jacobian = np.empty((m + 1, m + 1))
         jacobian[:m, :m] = by_state[:m] - np.eye(m)
-        jacobian[:m, m] = d[:m, m]
-        jacobian[m, :m] = per_time * by_state[m]
-        jacobian[m, m] = per_time * d[m, m]
-        d_speed = np.append(by_speed[:m] - self._per_speed, per_time * by_speed[m] - 1.0)
+        jacobian[:m, m] = d[:m, 3]
+        jacobian[m, :m] = per_time * by_state[3]
+        jacobian[m, m] = per_time * d[3, 3]
+        d_speed = np.append(by_speed[:m] - self._per_speed, per_time * by_speed[3] - 1.0)
         return residual, jacobian, d_speed, by_state[:m]
 
     def equations(self) -> PeriodicProblem:
@@ -191,8 +193,7 @@ class PeriodProblem:
         """Return the motion over the period that starts at z."""
         y, load_torque = self.state(np.asarray(z, dtype=np.float64), speed)
         record = np.zeros((self.periods * self.steps_per_mesh_period, 4))
-        work = np.zeros(3 * N_MAX)
-        march(y, 0, self.periods, load_torque, float(speed), self._rows, self._p, work, record)
+        march(y, 0, self.periods, load_torque, float(speed), self._rows, self._p, record)
         return Orbit(
             angle=record[:, 0],
             x=record[:, 1] * UM,

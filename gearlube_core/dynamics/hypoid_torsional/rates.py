@@ -9,7 +9,7 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
-from gearlube_core.dynamics.hypoid_torsional.flank_torques import flank_torques
+from gearlube_core.dynamics.hypoid_torsional.flank_torques import FlankTorques, flank_torques
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, DK, R_G, R_P, K
 from gearlube_core.jit import kernel
@@ -51,7 +51,8 @@ def pair_rates(
     phi: float,
     load_torque: float,
     speed: float,
-    row: NDArray[float64],
+    rows: NDArray[float64],
+    i: int,
     p: TorsionalParameters,
 ) -> PairRates:
     """Return the rates of the 2-DOF pair.
@@ -74,8 +75,10 @@ def pair_rates(
         T_g, its mean with an instantaneous load [N.m].
     speed : float
         What the speed hold keeps the pinion at [rad/s].
-    row : ndarray of shape (N_ROW,)
-        `mesh_row` at `phi`.
+    rows : ndarray of shape (n, N_ROW)
+        Mesh data, see `mesh_row`.
+    i : int
+        The row that holds those at `phi`.
     p : TorsionalParameters
 
     Notes
@@ -88,23 +91,25 @@ def pair_rates(
     ----------
     Karagiannis et al. 2012, eq. (1)-(6), (31), (32); eq. (3) as a rate.
     """
-    k = row[K]
-    arm_p = row[R_P] - row[DE]
-    x_rate = arm_p * w_p - row[R_G] * w_g
+    k = rows[i, K]
+    arm_p = rows[i, R_P] - rows[i, DE]
+    x_rate = arm_p * w_p - rows[i, R_G] * w_g
     force = mesh_force(x, x_rate, k, p)
     f = backlash_deflection(x, p.backlash)
-    torque_p = -row[R_P] * force
+    torque_p = -rows[i, R_P] * force
     if p.consistent != 0.0:
-        torque_p = -arm_p * force - 0.5 * row[DK] * f * f
-    friction = flank_torques(row, w_p, w_g, force, p)
-    applied = p.pinion_torque * (1.0 + p.ripple * math.cos(phi)) + p.hold_gain * (speed - w_p)
+        torque_p = -arm_p * force - 0.5 * rows[i, DK] * f * f
+    friction = FlankTorques(0.0, 0.0, 0.0)
+    if p.friction_form >= 0.0:
+        friction = flank_torques(rows, i, w_p, w_g, force, p)
+    applied = p.pinion_torque * ripple(phi, p) + p.hold_gain * (speed - w_p)
     load = load_torque
     if p.instantaneous_load != 0.0:
-        load *= row[R_G] / (row[R_P] * p.ratio)
+        load *= rows[i, R_G] / (rows[i, R_P] * p.ratio)
     return PairRates(
         x_rate,
         (applied + torque_p + friction.torque_p) / p.I_p,
-        (row[R_G] * force + friction.torque_g - load) / p.I_g,
+        (rows[i, R_G] * force + friction.torque_g - load) / p.I_g,
         force,
         torque_p,
         friction.torque_p,
@@ -114,6 +119,14 @@ def pair_rates(
         (force - k * f) * x_rate,
         friction.power,
     )
+
+
+@kernel
+def ripple(phi: float, p: TorsionalParameters) -> float:
+    """Return the pinion torque over its mean, 1 + ripple cos phi."""
+    if p.ripple == 0.0:
+        return 1.0  # a cosine costs as much as the rest
+    return 1.0 + p.ripple * math.cos(phi)
 
 
 class ReducedRates(NamedTuple):
@@ -126,7 +139,13 @@ class ReducedRates(NamedTuple):
 
 @kernel
 def reduced_rates(
-    x: float, v: float, phi: float, speed: float, row: NDArray[float64], p: TorsionalParameters
+    x: float,
+    v: float,
+    phi: float,
+    speed: float,
+    rows: NDArray[float64],
+    i: int,
+    p: TorsionalParameters,
 ) -> ReducedRates:
     """Return the rates of the reduction to one degree of freedom at constant speed.
 
@@ -138,7 +157,7 @@ def reduced_rates(
         Dynamic transmission error from first contact of the drive flanks [m].
     v : float
         x' + e' Omega, the rate at which the mean base circles approach [m/s]; needs no e''.
-    phi, speed, row, p
+    phi, speed, rows, i, p
         As in `pair_rates`; `speed` is Omega, constant.
 
     Notes
@@ -150,8 +169,8 @@ def reduced_rates(
     ----------
     Karagiannis et al. 2012, eq. (30) and the 1-DOF model compared there.
     """
-    x_rate = v - row[DE] * speed
-    force = mesh_force(x, x_rate, row[K], p)
-    swing = p.ripple * math.cos(phi) * p.m_eq * p.R_p0 * p.R_p0 / p.I_p
+    x_rate = v - rows[i, DE] * speed
+    force = mesh_force(x, x_rate, rows[i, K], p)
+    swing = (ripple(phi, p) - 1.0) * p.m_eq * p.R_p0 * p.R_p0 / p.I_p
     drive = p.pinion_torque / p.R_p0 * (1.0 + swing)
     return ReducedRates(x_rate, (drive - force) / p.m_eq, force)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_MAX, OK, march
+from gearlube_core.dynamics.hypoid_torsional.angle_march import OK, march
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
@@ -72,7 +72,6 @@ def sweep_kernel(
     load_torque: float,
     rows: NDArray[np.float64],
     p: TorsionalParameters,
-    work: NDArray[np.float64],
     record: NDArray[np.float64],
     mean_speeds: NDArray[np.float64],
 ) -> int:
@@ -80,7 +79,7 @@ def sweep_kernel(
 
     Parameters
     ----------
-    y : ndarray of shape (4,) or (3,)
+    y : ndarray of shape (4,)
         State of `angle_march` at the first speed.
     speeds, mean_speeds : ndarray of shape (n,)
         Asked for and found [rad/s].
@@ -92,15 +91,15 @@ def sweep_kernel(
     for i in range(speeds.size):
         if i > 0:
             scale = speeds[i] / speeds[i - 1]
-            for j in range(1, y.size - 1):
+            for j in range(1, 3):
                 y[j] *= scale
-        status = march(y, 0, settle, load_torque, speeds[i], rows, p, work, nothing)
-        start = y[y.size - 1]
+        status = march(y, 0, settle, load_torque, speeds[i], rows, p, nothing)
+        start = y[3]
         if status == OK:
-            status = march(y, settle, keep, load_torque, speeds[i], rows, p, work, record[i])
+            status = march(y, settle, keep, load_torque, speeds[i], rows, p, record[i])
         if status != OK:
             return i
-        mean_speeds[i] = keep * 2.0 * math.pi / p.z_p / (y[y.size - 1] - start)
+        mean_speeds[i] = keep * 2.0 * math.pi / p.z_p / (y[3] - start)
     return speeds.size
 
 
@@ -160,7 +159,6 @@ def time_sweep(
         model.mean_load_torque,
         rows,
         model.kernel_parameters,
-        np.zeros(3 * N_MAX),
         record,
         mean_speed,
     )
