@@ -10,7 +10,7 @@ import numpy as np
 from gearlube_core.periodic.floquet import Multipliers
 from gearlube_core.periodic.problem import Array
 
-Kind = Literal["fold", "branch point", "period doubling", "Neimark-Sacker"]
+Kind = Literal["fold", "branch point", "exchange", "period doubling", "Neimark-Sacker"]
 Ending = Literal["parameter limit", "closed", "point limit", "step limit", "interrupted"]
 
 
@@ -22,7 +22,8 @@ class SpecialPoint:
     ----------
     kind
         `fold` (the branch turns in the parameter), `branch point` (another branch of the same
-        period crosses), `period doubling` (a multiplier through -1), `Neimark-Sacker` (a complex
+        period crosses), `exchange` (a multiplier through +1 with neither: possible where the
+        disturbed system holds constants that are unknowns of the problem), `period doubling` (a multiplier through -1), `Neimark-Sacker` (a complex
         pair through the unit circle: a slow modulation sets in).
     index
         Row of the branch that holds it.

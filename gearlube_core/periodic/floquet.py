@@ -81,6 +81,11 @@ def loss_of_stability(multipliers: Multipliers) -> Loss:
     return "fold" if largest.real > 0.0 else "period doubling"
 
 
+def exchange_test(multipliers: Multipliers) -> float:
+    """Return the product of (1 - mu) [-]; changes sign where one real multiplier passes +1."""
+    return float(np.prod(1.0 - multipliers).real)
+
+
 def doubling_test(multipliers: Multipliers) -> float:
     """Return the product of (1 + mu) [-]; changes sign where one real multiplier passes -1."""
     return float(np.prod(1.0 + multipliers).real)

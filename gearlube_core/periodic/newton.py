@@ -115,7 +115,7 @@ def correct(
                 break
             fraction *= 0.5
             if fraction < settings.smallest_fraction:
-                # rounding: the residual is as small as it gets, only the step is ill determined
+                # rounding: the residual is as small as it gets, and the step ill determined
                 settled = here.size <= settings.tolerance
                 status: Status = "converged" if settled else "no descent"
                 return Correction(here, tuple(history), evaluations, status)

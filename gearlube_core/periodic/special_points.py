@@ -9,17 +9,19 @@ import numpy as np
 
 from gearlube_core.periodic.arclength import Arc, Node
 from gearlube_core.periodic.branch import Kind
-from gearlube_core.periodic.floquet import doubling_test, torus_pair, torus_test
+from gearlube_core.periodic.floquet import doubling_test, exchange_test, torus_pair, torus_test
 
 Test = Callable[[Node], float]
 
 _TESTS: dict[Kind, Test] = {
     "branch point": lambda node: node.determinant,
     "fold": lambda node: float(node.tangent[-1]),
+    "exchange": lambda node: exchange_test(node.multipliers),
     "period doubling": lambda node: doubling_test(node.multipliers),
     "Neimark-Sacker": lambda node: torus_test(node.multipliers),
 }
 _MOST_TRIALS = 80  # bisection alone needs half as many from step 1 to rounding
+_SAME = 1e-3  # share of a test function's size left where another kind explains its zero
 _JUMP = 0.05  # share of a test function's size that must be gone at a zero
 
 
@@ -48,12 +50,17 @@ def crossings(arc: Arc, a: Node, b: Node, tolerance: float) -> list[Crossing]:
     -----
     Seen by the signs of test functions at the two ends, so that two of one kind within a step
     cancel. Where the parameter has an extremum at a branch point (the arms of a pitchfork), the
-    branch point alone is listed.
+    branch point alone is listed. Folds and branch points bring a multiplier through +1 with them,
+    which is not listed again.
     """
     found: list[Crossing] = []
     for kind, test in _TESTS.items():
         at_a, at_b = test(a), test(b)
         if at_a == 0.0 or at_a * at_b > 0.0 or not np.isfinite(at_a * at_b):
+            continue
+        if kind == "exchange" and any(
+            abs(test(crossing.node)) <= _SAME * max(abs(at_a), abs(at_b)) for crossing in found
+        ):
             continue
         node, width, smooth = locate(arc, a, b, test, tolerance)
         if kind == "Neimark-Sacker" and not torus_pair(node.multipliers):
