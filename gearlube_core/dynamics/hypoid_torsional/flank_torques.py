@@ -7,7 +7,10 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
+    THERMAL_EYRING,
+    TorsionalParameters,
+)
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import PAIRS_AT
 from gearlube_core.dynamics.packed_mesh import (
     ARM_G,
@@ -21,6 +24,9 @@ from gearlube_core.dynamics.packed_mesh import (
 )
 from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import CONSISTENT, ContactGeometry
+from gearlube_core.friction.friction_torques import flank_speeds, friction_torques
+from gearlube_core.friction.thermal_eyring_data import ThermalFlankState
+from gearlube_core.friction.thermal_eyring_flank import thermal_eyring_flank
 from gearlube_core.jit import kernel
 from gearlube_core.mesh_table.table import PAIRS
 
@@ -36,6 +42,32 @@ class FlankTorques(NamedTuple):
 
 
 @kernel
+def thermal_pair(
+    rows: NDArray[float64],
+    i: int,
+    at: int,
+    load: float,
+    w_p: float,
+    w_g: float,
+    p: TorsionalParameters,
+) -> ThermalFlankState:
+    """Return film and friction of the pair whose channels begin at rows[i, at], load in N."""
+    speed, sliding = flank_speeds(w_p, w_g, rows[i, at + ARM_P], rows[i, at + ARM_G])
+    if p.along_sliding == 0.0:
+        speed = rows[i, at + ENTRAIN] * w_p
+    return thermal_eyring_flank(
+        load,
+        speed,
+        sliding,
+        ContactGeometry(rows[i, at + R_E], rows[i, at + SIDE_FLOW], rows[i, at + PRESSURE]),
+        p.thermal_oil,
+        p.surface,
+        p.solid,
+        p.thermal,
+    )
+
+
+@kernel
 def pair_friction(
     rows: NDArray[float64],
     i: int,
@@ -43,9 +75,13 @@ def pair_friction(
     load: float,
     sliding: float,
     w_p: float,
+    w_g: float,
     p: TorsionalParameters,
 ) -> float:
     """Return the friction [N] of the pair whose channels begin at rows[i, at], under `load` [N]."""
+    if p.friction_form == THERMAL_EYRING:
+        hot = thermal_pair(rows, i, at, load, w_p, w_g, p)
+        return hot.viscous_friction + hot.boundary_friction
     flank = flank_friction(
         load,
         rows[i, at + ENTRAIN] * w_p,
@@ -65,12 +101,11 @@ def flank_torques(
 ) -> FlankTorques:
     """Return the friction torques of all pairs that share the mesh force `force` [N].
 
-    Q_p = -sum f r_p sign(dU),  Q_g = +sum f r_g sign(dU),  dU = w_p r_p - w_g r_g
+    See `friction_torques`.
 
     References
     ----------
-    Karagiannis et al. 2012, eq. (5)-(9), (13), (19), with signs for which the power
-    Q_p w_p + Q_g w_g = -sum f abs(dU) is a loss.
+    Karagiannis et al. 2012, eq. (5)-(9), (13).
     """
     torque_p = 0.0
     torque_g = 0.0
@@ -80,11 +115,11 @@ def flank_torques(
             at = PAIRS_AT + pair * N_CHANNELS
             load = abs(force) * rows[i, at + SHARE]
             if load > 0.0:
-                sliding = w_p * rows[i, at + ARM_P] - w_g * rows[i, at + ARM_G]
-                f = pair_friction(rows, i, at, load, sliding, w_p, p)
-                if sliding < 0.0:
-                    f = -f
-                torque_p -= f * rows[i, at + ARM_P]
-                torque_g += f * rows[i, at + ARM_G]
-                power += f * sliding
+                arm_p, arm_g = rows[i, at + ARM_P], rows[i, at + ARM_G]
+                sliding = flank_speeds(w_p, w_g, arm_p, arm_g)[1]
+                f = pair_friction(rows, i, at, load, sliding, w_p, w_g, p)
+                on_pinion, on_gear, lost = friction_torques(f, sliding, arm_p, arm_g)
+                torque_p += on_pinion
+                torque_g += on_gear
+                power += lost
     return FlankTorques(torque_p, torque_g, power)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.friction.thermal_eyring_data import ThermalEyringOil, ThermalEyringOptions
 from gearlube_core.materials.solid import SolidParameters
 from gearlube_core.rheology.lubricant_state import LubricantState
 
@@ -35,3 +36,6 @@ class TorsionalParameters(NamedTuple):
     surface: SurfaceParameters
     solid: SolidParameters
     oil: LubricantState
+    along_sliding: float  # 1: entrainment speed as printed, along sliding; 0: vector mean
+    thermal_oil: ThermalEyringOil
+    thermal: ThermalEyringOptions

@@ -30,10 +30,24 @@ from gearlube_core.dynamics.hypoid_torsional.rates import (
     pair_rates,
     reduced_rates,
 )
-from gearlube_core.dynamics.packed_mesh import pack_mesh
+from gearlube_core.dynamics.packed_mesh import (
+    N_CHANNELS,
+    PRESSURE,
+    R_E,
+    SIDE_FLOW,
+    PackedMesh,
+    pack_mesh,
+)
+from gearlube_core.friction.thermal_eyring_data import (
+    PRESSURES,
+    grubin_contact_geometry,
+    thermal_eyring_oil,
+    thermal_eyring_options,
+)
 from gearlube_core.materials.solid import contact_modulus, solid_parameters
 from gearlube_core.mesh_table import kernels as series
 from gearlube_core.mesh_table.kernels import blend_levels, load_bracket
+from gearlube_core.rheology.houpert_1985 import houpert_parameters
 from gearlube_core.rheology.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
@@ -71,6 +85,8 @@ class HypoidTorsional:
             parameters.radii,
             parameters.mesh_stiffness,
         )
+        if parameters.friction == "thermal_eyring":
+            _use_grubin_geometry(packed, parameters)
         bracket = load_bracket(parameters.pinion_torque, 1.0, packed.levels, packed.levels.size)
         self._orders, self._nodes = packed.orders, packed.nodes
         self._series = np.zeros(packed.series_size)
@@ -108,6 +124,13 @@ class HypoidTorsional:
             surface=SurfaceParameters(p.roughness_rms, XI_BETA_SIGMA, SIGMA_OVER_BETA),
             solid=solid_parameters(p.solid, p.solid),
             oil=lubricant_state(p.oil.parameters(), p.oil_temperature),
+            along_sliding=1.0 if p.entrainment == "along_sliding" else 0.0,
+            thermal_oil=thermal_eyring_oil(
+                houpert_parameters(p.oil), p.oil.parameters(), p.oil_temperature
+            ),
+            thermal=thermal_eyring_options(
+                contact_modulus(p.solid, p.solid), p.film, p.film_temperature, p.flash_temperature
+            ),
         )
 
     @property
@@ -177,3 +200,18 @@ class HypoidTorsional:
             return np.array([x, float(row[DE]) * speed, 0.0, 0.0])
         w_g = (row[R_P] - row[DE]) * speed / row[R_G]
         return np.array([x, speed, w_g, 0.0])
+
+
+def _use_grubin_geometry(packed: PackedMesh, parameters: HypoidTorsionalParameters) -> None:
+    """Overwrite the geometry channels of the packed windows with those of a Grubin film."""
+    data = parameters.mesh.windows
+    angle = data["chi" if parameters.entrainment == "along_sliding" else "psi"]
+    modulus = contact_modulus(parameters.solid, parameters.solid)
+    pressure = PRESSURES[parameters.contact_pressure]
+    windows = packed.windows.reshape(packed.levels.size, packed.nodes + 1, N_CHANNELS)
+    for level in range(packed.levels.size):
+        for node in range(packed.nodes + 1):
+            at = level, node % packed.nodes
+            windows[level, node, [R_E, SIDE_FLOW, PRESSURE]] = grubin_contact_geometry(
+                data["R_x"][at], data["R_y"][at], angle[at], modulus, pressure
+            )

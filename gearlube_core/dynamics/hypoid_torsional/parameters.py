@@ -10,6 +10,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     EVANS_JOHNSON,
     FRICTION_OFF,
     ONE_DOF,
+    THERMAL_EYRING,
     TWO_DOF,
 )
 from gearlube_core.errors import ParameterError
@@ -24,10 +25,22 @@ MeshDamping = Literal["constant", "modal"]
 DampingGate = Literal["gated", "as_printed"]
 Equations = Literal["consistent", "as_printed"]
 LoadTorque = Literal["mean", "instantaneous"]
-Friction = Literal["off", "evans_johnson"]
+Friction = Literal["off", "evans_johnson", "thermal_eyring"]
+Film = Literal["consistent", "as_printed"]
+ContactPressure = Literal["elliptical", "circular"]
+FilmTemperature = Literal["inlet", "effective", "inlet_shear_heating"]
+Entrainment = Literal["vector_mean", "along_sliding"]
 
 FORMS = {"one_dof": ONE_DOF, "two_dof": TWO_DOF}
-FRICTION_FORMS = {"off": FRICTION_OFF, "evans_johnson": EVANS_JOHNSON}
+FRICTION_FORMS = {
+    "off": FRICTION_OFF,
+    "evans_johnson": EVANS_JOHNSON,
+    "thermal_eyring": THERMAL_EYRING,
+}
+    "off": FRICTION_OFF,
+    "evans_johnson": EVANS_JOHNSON,
+    "thermal_eyring": THERMAL_EYRING,
+}
 KARAGIANNIS_DAMPING = 2278.1  # N s/m, Karagiannis et al. 2012 Table 1
 KARAGIANNIS_DAMPING_RATIO = 0.03  # [-], ditto
 
@@ -69,8 +82,13 @@ class HypoidTorsionalParameters:
         Constant, or following R_g/R_p through the mesh.
     hold_gain : float
         Slow speed hold on the pinion [N.m s/rad].
-    friction : {"off", "evans_johnson"}
-        On the flanks of all pairs; the 1-DOF form has none.
+    friction : {"off", "evans_johnson", "thermal_eyring"}
+        On the flanks of all pairs: `flank_friction`, `thermal_eyring_flank`; the 1-DOF form has
+        none.
+    film, film_temperature, flash_temperature, contact_pressure
+        Options of "thermal_eyring", see `thermal_eyring_options`, `grubin_contact_geometry`.
+    entrainment : {"vector_mean", "along_sliding"}
+        Ditto: the mean of both surface velocities, or as printed its part along sliding.
     oil : Lubricant
     oil_temperature : float
         [K]
@@ -105,6 +123,11 @@ class HypoidTorsionalParameters:
     oil_temperature: float
     solid: Solid
     roughness_rms: float
+    film: Film = "consistent"
+    film_temperature: FilmTemperature = "inlet"
+    flash_temperature: bool = False
+    contact_pressure: ContactPressure = "elliptical"
+    entrainment: Entrainment = "vector_mean"
 
     def __post_init__(self) -> None:
         check_option("form", self.form, get_args(Form))
@@ -115,6 +138,10 @@ class HypoidTorsionalParameters:
         check_option("equations", self.equations, get_args(Equations))
         check_option("load_torque", self.load_torque, get_args(LoadTorque))
         check_option("friction", self.friction, get_args(Friction))
+        check_option("film", self.film, get_args(Film))
+        check_option("film_temperature", self.film_temperature, get_args(FilmTemperature))
+        check_option("contact_pressure", self.contact_pressure, get_args(ContactPressure))
+        check_option("entrainment", self.entrainment, get_args(Entrainment))
         check_positive("pinion_inertia", self.pinion_inertia, "kg m2")
         check_positive("gear_inertia", self.gear_inertia, "kg m2")
         check_within(
@@ -159,6 +186,11 @@ def karagiannis_2012_pair(
     oil: str = "karagiannis_2012",
     oil_temperature: float = 313.15,
     roughness_rms: float = 0.5e-6,
+    film: Film = "consistent",
+    film_temperature: FilmTemperature = "inlet",
+    flash_temperature: bool = False,
+    contact_pressure: ContactPressure = "elliptical",
+    entrainment: Entrainment = "vector_mean",
 ) -> HypoidTorsionalParameters:
     """Return the gear pair of Karagiannis et al. 2012 (Tables 1 and 2).
 
@@ -204,4 +236,9 @@ def karagiannis_2012_pair(
         oil_temperature=oil_temperature,
         solid=STEEL_MOHAMMADPOUR_2015,
         roughness_rms=roughness_rms,
+        film=film,
+        film_temperature=film_temperature,
+        flash_temperature=flash_temperature,
+        contact_pressure=contact_pressure,
+        entrainment=entrainment,
     )
