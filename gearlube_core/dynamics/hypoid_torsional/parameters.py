@@ -37,10 +37,6 @@ FRICTION_FORMS = {
     "evans_johnson": EVANS_JOHNSON,
     "thermal_eyring": THERMAL_EYRING,
 }
-    "off": FRICTION_OFF,
-    "evans_johnson": EVANS_JOHNSON,
-    "thermal_eyring": THERMAL_EYRING,
-}
 KARAGIANNIS_DAMPING = 2278.1  # N s/m, Karagiannis et al. 2012 Table 1
 KARAGIANNIS_DAMPING_RATIO = 0.03  # [-], ditto
 
