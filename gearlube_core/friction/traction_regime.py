@@ -9,7 +9,7 @@ therefore straight lines L = constant. Derived here from the film of Johnson and
 
 - Newtonian film, any sliding: tau <= tau_N = 2 X*_max [2 K eta/(beta h^2)]^(1/2), with
   X*_max = max Y/cosh Y = 0.6627. Where tau_N < tau0 heat limits traction before stress thins the
-  film: L < -ln(4 X*_max^2) = -0.563.
+  film: L < -ln(4 X*_max^2) = -0.564.
 - Eyring film: s sinh s = 4 X*_max^2 exp(L) at the largest s = tau/tau0.
 - limiting stress: where that s exceeds tau_L/tau0 the film yields first (elastic-plastic).
 """
