@@ -246,3 +246,13 @@ for _options in OPTIONS:
 def test_compiled_kernel_equals_its_python_function(function: Any, arguments: Any) -> None:
     # roundings, magnified by the logarithms of the root
     np.testing.assert_allclose(function(*arguments), function.py_func(*arguments), rtol=1e-12)
+
+
+@pytest.mark.parametrize("position", [0, 1, 2])
+def test_a_non_number_in_the_motion_is_not_hidden(position: int) -> None:
+    motion = [1000.0, 5.0, 3.0]
+    motion[position] = float("nan")
+    for options in OPTIONS:
+        state = flank(*motion, options)
+        assert math.isnan(state.viscous_friction)
+        assert state.status == 1.0
