@@ -23,8 +23,9 @@ class SpecialPoint:
     kind
         `fold` (the branch turns in the parameter), `branch point` (another branch of the same
         period crosses), `exchange` (a multiplier through +1 with neither: possible where the
-        disturbed system holds constants that are unknowns of the problem), `period doubling` (a multiplier through -1), `Neimark-Sacker` (a complex
-        pair through the unit circle: a slow modulation sets in).
+        disturbed system holds constants that are unknowns of the problem), `period doubling` (a
+        multiplier through -1), `Neimark-Sacker` (a complex pair through the unit circle: a slow
+        modulation sets in).
     index
         Row of the branch that holds it.
     parameter, unknowns

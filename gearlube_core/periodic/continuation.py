@@ -17,6 +17,8 @@ from gearlube_core.periodic.problem import Array, PeriodicProblem
 from gearlube_core.periodic.recorder import Recorder
 from gearlube_core.periodic.shooting import require
 
+_FAILURES = 2  # shorter steps tried before a corner is suspected
+_BACK = 0.995  # cosine of 6 degrees: a branch does not return so nearly along itself
 Progress = Callable[[int, float], None]
 
 
@@ -27,7 +29,8 @@ class ContinuationSettings:
     Parameters
     ----------
     step, smallest_step, largest_step
-        Arclength of the first step, and its limits.
+        Arclength of the first step, and its limits. Two special points of one kind within a step
+        are not seen: the largest step should be below the width of what is looked for.
     turn
         Angle [rad] by which the branch should turn in a step; steps that turn three times as far
         are repeated with half the length. 0.01 to 0.5.
@@ -41,7 +44,7 @@ class ContinuationSettings:
 
     step: float = 0.05
     smallest_step: float = 1e-5
-    largest_step: float = 1.0
+    largest_step: float = 0.2
     turn: float = 0.15
     max_points: int = 1000
     location_tolerance: float = 1e-7
@@ -109,8 +112,10 @@ def follow(
     -----
     Keller 1977: predictor along the tangent, corrector in the plane normal to it. The step grows
     and shrinks with the corrector's iterations and with the turn of the branch. A turn that does
-    not shrink with the step is a corner and is passed: branches of piecewise linear motions have
-    them where contact begins, smoothed over a tiny length.
+    not shrink with the step is a corner and is passed, also when sharper than a right angle.
+    Motions through a backlash, integrated with fixed steps, give branches with a corner wherever
+    a step of the integration meets a corner of the force. Corners cost points: if a branch
+    creeps, let the map resolve its corners with more steps.
 
     Examples
     --------
@@ -213,24 +218,57 @@ class _Walk:
 
     def advance(self) -> Node | None:
         """Return the next point; None if the smallest step fails."""
-        refused, unmoved = math.inf, 0
+        refused, unmoved, failed = math.inf, 0, 0
         while self.length >= self.settings.smallest_step:
             here = self.node
             correction = self.arc.correct(here.place + self.length * here.tangent, here.tangent)
-            node = (
-                self.arc.node(correction.evaluation, here.tangent) if correction.converged else None
-            )
-            if node is not None:
+            node = None
+            if correction.converged:
+                node = self.arc.node(correction.evaluation, here.tangent)
+            if node is None:
+                failed += 1
+                node = self._beyond_corner() if failed > _FAILURES else None
+                if node is not None:
+                    return self._step_to(node)
+            else:
                 angle = turn(here, node)
                 unmoved = unmoved + 1 if angle > 0.8 * refused else 0
                 refused = angle
                 shortest = self.length < 2.0 * self.settings.smallest_step
                 if angle <= 3.0 * self.settings.turn or unmoved >= 2 or shortest:
                     self._adapt(angle, correction.iterations)
-                    self.node, self.steps = node, self.steps + 1
-                    return node
+                    return self._step_to(node)
             self.length *= 0.5
         return None
+
+    def _beyond_corner(self) -> Node | None:
+        """Return a point around a corner so sharp that no plane ahead meets the branch.
+
+        Beyond the corner the branch leaves along the null vector of the derivative found there. Of
+        its two directions the one that keeps the sign of det [dr/dy; tangent] leads onwards, in
+        piecewise smooth equations as in smooth ones (Allgower and Georg 1990, ch. 12).
+        """
+        here, arc = self.node, self.arc
+        ahead = arc.problem.evaluate(here.place + self.length * here.tangent)
+        arc.evaluations += 1
+        if not np.isfinite(ahead.size):
+            return None
+        direction = np.linalg.svd(ahead.jacobian)[2][-1]
+        if np.linalg.det(np.vstack((ahead.jacobian, direction))) * here.determinant < 0.0:
+            direction = -direction
+        predicted = here.place + self.length * direction
+        correction = arc.correct(predicted, direction)
+        moved = float(np.linalg.norm(correction.evaluation.place - predicted))
+        if not correction.converged or moved > self.length:
+            return None
+        chord = correction.evaluation.place - here.place
+        if float(chord @ here.tangent) < -_BACK * float(np.linalg.norm(chord)):
+            return None
+        return arc.node(correction.evaluation, direction)
+
+    def _step_to(self, node: Node) -> Node:
+        self.node, self.steps = node, self.steps + 1
+        return node
 
     def _adapt(self, angle: float, iterations: int) -> None:
         by_effort = {0: 2.0, 1: 2.0, 2: 2.0, 3: 1.5, 4: 1.0}.get(iterations, 0.7)

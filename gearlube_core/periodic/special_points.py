@@ -21,6 +21,7 @@ _TESTS: dict[Kind, Test] = {
     "Neimark-Sacker": lambda node: torus_test(node.multipliers),
 }
 _MOST_TRIALS = 80  # bisection alone needs half as many from step 1 to rounding
+_NOISE = 1e-8  # without damping the pairs' product is one but for the errors of integration
 _SAME = 1e-3  # share of a test function's size left where another kind explains its zero
 _JUMP = 0.05  # share of a test function's size that must be gone at a zero
 
@@ -56,10 +57,11 @@ def crossings(arc: Arc, a: Node, b: Node, tolerance: float) -> list[Crossing]:
     found: list[Crossing] = []
     for kind, test in _TESTS.items():
         at_a, at_b = test(a), test(b)
-        if at_a == 0.0 or at_a * at_b > 0.0 or not np.isfinite(at_a * at_b):
+        size = max(abs(at_a), abs(at_b))
+        if not _NOISE < size < np.inf or at_a == 0.0 or at_a * at_b > 0.0:
             continue
         if kind == "exchange" and any(
-            abs(test(crossing.node)) <= _SAME * max(abs(at_a), abs(at_b)) for crossing in found
+            abs(test(crossing.node)) <= _SAME * size for crossing in found
         ):
             continue
         node, width, smooth = locate(arc, a, b, test, tolerance)
