@@ -1,0 +1,135 @@
+"""Every kernel of the torsional pair, compiled and in Python."""
+
+import importlib
+import pkgutil
+
+import numpy as np
+import pytest
+from numba.core.dispatcher import Dispatcher
+from torsional_cases import reconstructed
+
+from gearlube_core.dynamics import hypoid_torsional
+from gearlube_core.dynamics.hypoid_torsional import (
+    angle_march,
+    flank_torques,
+    mesh_row,
+    period_map,
+    rates,
+    time_sweep,
+)
+from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
+from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
+from gearlube_core.flat_tuples import flatten
+
+MODELS = {
+    "hot": HypoidTorsional(karagiannis_2012_pair(friction="thermal_eyring", torque_ripple=0.1)),
+    "along": HypoidTorsional(
+        karagiannis_2012_pair(friction="thermal_eyring", entrainment="along_sliding")
+    ),
+    "cold": HypoidTorsional(karagiannis_2012_pair(friction="evans_johnson")),
+    "printed": HypoidTorsional(
+        reconstructed(
+            0.003, equations="as_printed", damping_gate="as_printed", load_torque="instantaneous"
+        )
+    ),
+    "reduced": HypoidTorsional(reconstructed(form="one_dof", torque_ripple=0.1)),
+}
+HOT = MODELS["hot"]
+P = HOT.kernel_parameters
+ROWS = HOT.rows(16)
+MESH = HOT._series, HOT._orders, HOT._window, HOT._nodes, 13.0
+W_P, W_G, LOAD, SPEED = 900.0, 325.0, 138.0, 905.0
+FLANK = mesh_row.PAIRS_AT + int(np.argmax(ROWS[3, mesh_row.PAIRS_AT :: 10])) * 10
+SLOPES = angle_march.AngleSlope(1.0, 2.0, 3.0, 4.0, 5.0), angle_march.AngleSlope(*range(5))
+
+
+def zeros(*shape):
+    return np.zeros(shape)
+
+
+CASES = [
+    (mesh_row.mesh_row, (*MESH, 0.3, zeros(mesh_row.N_ROW))),
+    (mesh_row.mesh_rows, (*MESH, zeros(8, mesh_row.N_ROW))),
+    (rates.ripple, (0.3, P)),
+    (period_map._add_row, (zeros(4, 5), *SLOPES, 0.1, 2)),
+]
+for name, model in MODELS.items():
+    p, rows = model.kernel_parameters, model.rows(16)
+    start = model.initial_state(SPEED)
+    for x in (3e-6, 0.2e-6, -20e-6, -153e-6):
+        CASES += [(rates.mesh_force, (x, -0.05, 4e8, p))]
+        y = np.array([x * 1e6, *start[1:]])
+        at = y[0], y[1], y[2], 0.1, LOAD, SPEED, rows, 3, p
+        CASES += [
+            (angle_march.angle_slope, at),
+            (angle_march.angle_step, (y, 0.1, 0.03, LOAD, SPEED, rows, 30, p)),
+        ]
+        if name == "reduced":
+            CASES += [(rates.reduced_rates, (x, y[1], 0.1, SPEED, rows, 3, p))]
+        else:
+            CASES += [(rates.pair_rates, (x, W_P, W_G, 0.1, LOAD, SPEED, rows, 3, p))]
+    record, no_record = zeros(32, 4), zeros(0, 4)
+    CASES += [
+        (angle_march.march, (start, 1, 2, LOAD, SPEED, rows, p, record)),
+        (angle_march.march, (start, 1, 2, LOAD, SPEED, rows, p, no_record)),
+        (
+            time_sweep.sweep_kernel,
+            (start, np.array([SPEED, 910.0]), 1, 1, LOAD, rows, p, zeros(2, 16, 4), zeros(2)),
+        ),
+        (
+            period_map.slope_derivative,
+            (start, np.eye(4, 5), 0.1, LOAD, SPEED, rows, 3, p, zeros(4), zeros(4, 5)),
+        ),
+        (
+            period_map.period_map,
+            (start, zeros(4, 5), LOAD, SPEED, 1, rows, p, zeros(period_map.WORK)),
+        ),
+    ]
+    if name in ("hot", "along", "cold"):
+        CASES += [
+            (flank_torques.flank_torques, (rows, 3, W_P, W_G, force, p))
+            for force in (2400.0, 0.0, -300.0)
+        ]
+        CASES += [(flank_torques.pair_friction, (rows, 3, FLANK, 900.0, 4.0, W_P, W_G, p))]
+        CASES += [(flank_torques.thermal_pair, (rows, 3, FLANK, 900.0, W_P, W_G, p))]
+BROKEN = np.array([2e5, SPEED, SPEED, 0.0])
+CASES += [
+    (angle_march.march, (BROKEN, 0, 1, LOAD, SPEED, ROWS, P, zeros(0, 4))),
+    (
+        time_sweep.sweep_kernel,
+        (BROKEN, np.array([SPEED]), 0, 1, LOAD, ROWS, P, zeros(1, 16, 4), zeros(1)),
+    ),
+    (period_map.period_map, (BROKEN, zeros(4, 5), LOAD, SPEED, 1, ROWS, P, zeros(period_map.WORK))),
+]
+
+
+def everything(function, args):
+    """What a function returns or writes, as one array."""
+    own = tuple(a.copy() if isinstance(a, np.ndarray) else a for a in args)
+    returned = function(*own)
+    parts = [np.ravel(a) for a in own if isinstance(a, np.ndarray)]
+    if returned is not None:
+        parts.append(np.ravel(flatten(returned) if isinstance(returned, tuple) else returned))
+    return np.concatenate(parts)
+
+
+@pytest.mark.parametrize(
+    ("kernel", "args"), CASES, ids=[f"{k.__name__}-{i}" for i, (k, _) in enumerate(CASES)]
+)
+def test_compiled_equals_python(kernel, args):
+    compiled, source = everything(kernel, args), everything(kernel.py_func, args)
+    # the compiler may fuse products: differences of x' at 20 m/s round at 1e-15 of that, which
+    # steps of 1e-5 um in the derivatives raise to 1e-9
+    derived = kernel.__name__ in ("period_map", "slope_derivative")
+    scale = np.max(np.abs(source[np.isfinite(source)]))
+    limit = 1e-7 if derived else 1e-12
+    np.testing.assert_allclose(compiled, source, rtol=limit, atol=1e-15 * scale)
+
+
+def test_no_kernel_is_left_out():
+    found = set()
+    for m in pkgutil.iter_modules(hypoid_torsional.__path__):
+        name = f"{hypoid_torsional.__name__}.{m.name}"
+        values = vars(importlib.import_module(name)).values()
+        found |= {v for v in values if isinstance(v, Dispatcher) and v.py_func.__module__ == name}
+    assert found == {kernel for kernel, _ in CASES}
