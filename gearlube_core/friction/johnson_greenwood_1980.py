@@ -65,6 +65,62 @@ def _excess(Y: float, c: float, log_slip: float) -> tuple[float, float]:
 
 
 @kernel
+def thermal_eyring_film_near(
+    start: float,
+    log_viscosity: float,
+    beta: float,
+    conductivity: float,
+    tau0: float,
+    film_thickness: float,
+    sliding_speed: float,
+) -> ThermalEyringFilm:
+    """Return what `thermal_eyring_film` does, searching from Y = `start` [1]; 0: no idea of it."""
+    slip = abs(sliding_speed)
+    if slip == 0.0:
+        return ThermalEyringFilm(0.0, 0.0, 1.0, 0.0, 0.0, CONVERGED)
+    stress_length = tau0 * film_thickness
+    c = 8.0 * conductivity / (beta * stress_length * slip)
+    relative_slip = slip / stress_length
+    log_slip = log_viscosity + math.log(relative_slip)
+    isothermal = eyring_stress_ratio(relative_slip, log_viscosity)
+    q = isothermal / c
+    # tanh Y > Y/(1 + Y) turns Y tanh Y <= q into a bound on Y
+    high = 0.5 * (q + math.sqrt(q * (q + 4.0))) * (1.0 + 1e-9)
+    low = 0.0
+    Y = start if 0.0 < start < high else math.sqrt(q)
+    if Y > 1.0 and start != Y:
+        # both logarithms are nearly straight there
+        Y = (log_slip + _LN2 + math.log(1.0 + (isothermal + c) / (c + 2.0))) / (c + 2.0)
+        Y = min(max(Y, 0.7), high)
+    status = NOT_CONVERGED
+    for _ in range(_ITERATIONS):
+        excess, slope = _excess(Y, c, log_slip)
+        if excess > 0.0:
+            high = Y
+        else:
+            low = Y
+        step = -excess / slope
+        proposal = Y * (1.0 + step) if Y > 1.0 else Y * math.exp(step)
+        if not low <= proposal <= high:
+            proposal = 0.5 * (low + high)
+        change = abs(proposal - Y)
+        Y = proposal
+        if change <= _TOLERANCE * Y:
+            status = CONVERGED
+            break
+    if not Y > _NO_FILM_HEAT:
+        Y = math.nan
+        status = NOT_CONVERGED
+    log_ratio = _log_sinh_ratio(Y)
+    s = c * Y * math.tanh(Y)
+    cosh_rise = 2.0 * Y + 2.0 * math.log1p(math.exp(-2.0 * Y)) - 2.0 * _LN2
+    if Y < _SERIES_BELOW:
+        square = Y * Y
+        cosh_rise = square * (1.0 - square * (1.0 / 6.0 - square * (2.0 / 45.0)))
+    return ThermalEyringFilm(Y, s, math.exp(-log_ratio), cosh_rise / beta, log_ratio / beta, status)
+
+
+@kernel
 def thermal_eyring_film(
     log_viscosity: float,
     beta: float,
@@ -104,49 +160,9 @@ def thermal_eyring_film(
     below, inside a bracket: a cold film gives Y tanh Y <= asinh(dU*)/c.
     Source: Johnson and Greenwood 1980; Karagiannis et al. 2012 eq. (14)-(20).
     """
-    slip = abs(sliding_speed)
-    if slip == 0.0:
-        return ThermalEyringFilm(0.0, 0.0, 1.0, 0.0, 0.0, CONVERGED)
-    stress_length = tau0 * film_thickness
-    c = 8.0 * conductivity / (beta * stress_length * slip)
-    relative_slip = slip / stress_length
-    log_slip = log_viscosity + math.log(relative_slip)
-    isothermal = eyring_stress_ratio(relative_slip, log_viscosity)
-    q = isothermal / c
-    # tanh Y > Y/(1 + Y) turns Y tanh Y <= q into a bound on Y
-    high = 0.5 * (q + math.sqrt(q * (q + 4.0))) * (1.0 + 1e-9)
-    low = 0.0
-    Y = math.sqrt(q)
-    if Y > 1.0:
-        # both logarithms are nearly straight there
-        Y = (log_slip + _LN2 + math.log(1.0 + (isothermal + c) / (c + 2.0))) / (c + 2.0)
-        Y = min(max(Y, 0.7), high)
-    status = NOT_CONVERGED
-    for _ in range(_ITERATIONS):
-        excess, slope = _excess(Y, c, log_slip)
-        if excess > 0.0:
-            high = Y
-        else:
-            low = Y
-        step = -excess / slope
-        proposal = Y * (1.0 + step) if Y > 1.0 else Y * math.exp(step)
-        if not low <= proposal <= high:
-            proposal = 0.5 * (low + high)
-        change = abs(proposal - Y)
-        Y = proposal
-        if change <= _TOLERANCE * Y:
-            status = CONVERGED
-            break
-    if not Y > _NO_FILM_HEAT:
-        Y = math.nan
-        status = NOT_CONVERGED
-    log_ratio = _log_sinh_ratio(Y)
-    s = c * Y * math.tanh(Y)
-    cosh_rise = 2.0 * Y + 2.0 * math.log1p(math.exp(-2.0 * Y)) - 2.0 * _LN2
-    if Y < _SERIES_BELOW:
-        square = Y * Y
-        cosh_rise = square * (1.0 - square * (1.0 / 6.0 - square * (2.0 / 45.0)))
-    return ThermalEyringFilm(Y, s, math.exp(-log_ratio), cosh_rise / beta, log_ratio / beta, status)
+    return thermal_eyring_film_near(
+        0.0, log_viscosity, beta, conductivity, tau0, film_thickness, sliding_speed
+    )
 
 
 @kernel

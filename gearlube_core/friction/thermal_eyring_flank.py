@@ -3,33 +3,23 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from gearlube_core.contact.greenwood_tripp_1971 import (
-    SurfaceParameters,
-    asperity_area_factor,
-    asperity_integrals,
-    asperity_load_factor,
-)
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.film.grubin_1949 import (
     GrubinConvention,
     grubin_film_thickness,
     inlet_heating_factor,
 )
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
-from gearlube_core.friction.flank import (
-    BOUNDARY_SPEED,
-    LOAD_FLOOR,
-    SPEED_FLOOR,
-    contact_temperature_rise,
-)
+from gearlube_core.friction.flank import LOAD_FLOOR, SPEED_FLOOR, contact_temperature_rise
 from gearlube_core.friction.flank_data import ContactGeometry
-from gearlube_core.friction.johnson_greenwood_1980 import (
-    CONVERGED,
-    NOT_CONVERGED,
-    thermal_eyring_film,
-    thermal_newtonian_stress,
+from gearlube_core.friction.heated_film import (
+    SEARCH_ITERATIONS,
+    SEARCH_TOLERANCE,
+    film_traction,
+    next_trial,
 )
+from gearlube_core.friction.johnson_greenwood_1980 import NOT_CONVERGED, thermal_newtonian_stress
 from gearlube_core.friction.thermal_eyring_data import (
     EFFECTIVE,
     INLET_SHEAR_HEATING,
@@ -46,102 +36,7 @@ from gearlube_core.rheology.houpert_1985 import (
     houpert_temperature_coefficient,
 )
 
-_ITERATIONS = 40
-_TOLERANCE = 1.0e-4  # K, of the last step; the error after a secant step is far smaller
 _LARGEST_OVER_MEAN = 1.5  # Hertz pressure
-
-
-class _Traction(NamedTuple):
-    """What the flank does at a given film."""
-
-    log_viscosity: float  # ln eta at contact pressure and surface temperature
-    beta: float  # [1/K]
-    stress_ratio: float  # [1]
-    viscosity_ratio: float  # [1]
-    rise_centre: float  # [K]
-    rise_effective: float  # [K]
-    flash: float  # [K]
-    area_share: float  # A_a/A [1]
-    load_share: float  # W_a/A [Pa]
-    boundary_stress: float  # F_b/A [Pa]
-    status: float
-
-
-@kernel
-def _next_trial(x: float, g: float, x_old: float, g_old: float, low: float, high: float) -> float:
-    """Return the next trial of a secant search kept inside a bracket."""
-    trial = x - g * (x - x_old) / (g - g_old) if g != g_old else low - 1.0
-    if not low <= trial <= high:
-        trial = 0.5 * (low + high)
-    return trial
-
-
-@kernel
-def _traction(
-    film_thickness: float,
-    pressure: float,
-    sliding_speed: float,
-    surface_resistance: float,
-    oil: ThermalEyringOil,
-    surface: SurfaceParameters,
-    contact_modulus: float,
-) -> _Traction:
-    """Return stresses and temperatures at a given film.
-
-    Surfaces rise by flash = R [tau (1 - A_a/A) + F_b/A] |dU|, with R `surface_resistance`
-    [m2 K/W]; tau falls with it, so that there is one solution between zero and the rise that the
-    stress between cold surfaces would give.
-    """
-    law = HoupertParameters(oil.log_viscosity, oil.temperature, oil.S0, oil.Z)
-    slip = abs(sliding_speed)
-    F_2, F_5_2 = asperity_integrals(film_thickness / surface.sigma)
-    area_share = asperity_area_factor(surface) * F_2
-    load_share = min(asperity_load_factor(surface) * contact_modulus * F_5_2, pressure)
-    boundary = (oil.tau_l0 * area_share + oil.gamma * load_share) * math.tanh(slip / BOUNDARY_SPEED)
-    per_stress = surface_resistance * slip
-    flash, flash_old, gap_old, low, high = 0.0, 0.0, 0.0, 0.0, 0.0
-    status = CONVERGED if per_stress == 0.0 else NOT_CONVERGED
-    for iteration in range(_ITERATIONS):
-        T_s = oil.temperature + flash
-        reduced_log = houpert_log_viscosity(law, pressure, T_s)
-        beta = houpert_temperature_coefficient(law, reduced_log, T_s)
-        log_viscosity = reduced_log - ROELANDS_LOG_VISCOSITY
-        film = thermal_eyring_film(
-            log_viscosity, beta, oil.conductivity, oil.tau0, film_thickness, slip
-        )
-        if status == CONVERGED:
-            break
-        stress = film.stress_ratio * oil.tau0 * (1.0 - area_share) + boundary
-        gap = flash - per_stress * stress
-        if iteration == 0:
-            high = -gap
-            # Eyring films lose about tau0 for each e-fold of viscosity
-            trial = high / (1.0 + per_stress * oil.tau0 * beta)
-        else:
-            if gap > 0.0:
-                high = min(high, flash)
-            else:
-                low = max(low, flash)
-            trial = _next_trial(flash, gap, flash_old, gap_old, low, high)
-        flash_old, gap_old = flash, gap
-        flash = trial
-        if abs(flash - flash_old) <= _TOLERANCE:
-            status = CONVERGED
-    if film.status != CONVERGED:
-        status = NOT_CONVERGED
-    return _Traction(
-        log_viscosity,
-        beta,
-        film.stress_ratio,
-        film.viscosity_ratio,
-        film.rise_centre,
-        film.rise_effective,
-        flash,
-        area_share,
-        load_share,
-        boundary,
-        status,
-    )
 
 
 @kernel
@@ -246,7 +141,7 @@ def thermal_eyring_flank(
             _LARGEST_OVER_MEAN * p,
             2.0 * E_star,
         )
-    state = _traction(h, p, slip, surface_resistance, oil, surface, E_star)
+    state = film_traction(h, p, slip, surface_resistance, 0.0, 0.0, oil, surface, E_star)
     status = state.status
     if options.film_temperature == EFFECTIVE:
         status = NOT_CONVERGED
@@ -255,10 +150,12 @@ def thermal_eyring_flank(
         # higher one, though by far less than twice
         low, high = 0.0, -2.0 * gap_old
         rise = -0.9 * gap_old
-        for _ in range(_ITERATIONS):
+        for _ in range(SEARCH_ITERATIONS):
             h, eta_in, _log = _film(rise, F_film, speed, geometry, oil, options)
-            state = _traction(h, p, slip, surface_resistance, oil, surface, E_star)
-            if abs(rise - rise_old) <= _TOLERANCE:
+            state = _traction(
+                h, p, slip, surface_resistance, state.flash, state.Y, oil, surface, E_star
+            )
+            if abs(rise - rise_old) <= SEARCH_TOLERANCE:
                 status = state.status
                 break
             gap = rise - state.flash - state.rise_effective
@@ -267,7 +164,7 @@ def thermal_eyring_flank(
             else:
                 low = max(low, rise)
                 high = max(high, rise - 2.0 * gap)
-            trial = _next_trial(rise, gap, rise_old, gap_old, low, high)
+            trial = next_trial(rise, gap, rise_old, gap_old, low, high)
             rise_old, gap_old = rise, gap
             rise = trial
 

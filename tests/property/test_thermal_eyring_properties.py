@@ -40,6 +40,7 @@ LUBRICANT = Lubricant.named("karagiannis_2012")
 LAW = houpert_1985.houpert_parameters(LUBRICANT)
 OILS = {T: thermal_eyring_oil(LAW, LUBRICANT.parameters(), T) for T in (313.15, 373.15)}
 GEOMETRY = grubin_contact_geometry(0.018, 1.5, 0.8, E_STAR, ELLIPTICAL)
+CONVENTION = grubin_1949.grubin_convention("consistent", E_STAR)
 OPTIONS = [
     thermal_eyring_options(E_STAR, "consistent", temperature, flash)
     for temperature, flash in product(FILM_TEMPERATURES, (False, True))
@@ -84,7 +85,7 @@ def test_reported_temperatures_are_a_solution(options: ThermalEyringOptions) -> 
     film = johnson_greenwood_1980.thermal_eyring_film(
         log - 9.67, beta, oil.conductivity, oil.tau0, state.film_thickness, 3.2
     )
-    # left over by the search for temperatures: far below 0.1 mK
+    # left over by the search for temperatures: far below 1 mK
     assert state.shear_stress == pytest.approx(film.stress_ratio * oil.tau0, rel=1e-9)
     assert state.rise_effective == pytest.approx(film.rise_effective, rel=1e-8)
     if options.flash:
@@ -102,7 +103,19 @@ def test_reported_temperatures_are_a_solution(options: ThermalEyringOptions) -> 
     if options.film_temperature == thermal_eyring_data.EFFECTIVE:
         temperature += state.flash + state.rise_effective
     eta = houpert_1985.houpert_viscosity(LAW, 0.0, temperature)
-    # last step of the search 0.1 mK, its error far smaller
+    # alpha = 5.1e-9 Z (ln eta + 9.67) at the temperature of the film, by hand
+    alpha = 5.1e-9 * LAW.Z * (math.log(eta) + 9.67)
+    h = grubin_1949.grubin_film_thickness(
+        GEOMETRY.R_e, GEOMETRY.side_flow, eta, alpha, 5.0, 2000.0, CONVENTION
+    )
+    if options.film_temperature == thermal_eyring_data.INLET_SHEAR_HEATING:
+        beta_0 = LAW.S0 * (math.log(eta) + 9.67) / (temperature - 138.0)
+        h *= grubin_1949.inlet_heating_factor(
+            eta, beta_0, oil.conductivity, 5.0, 3.2, 1.5 * state.mean_pressure, 2.0 * E_STAR
+        )
+    # as below
+    assert state.film_thickness == pytest.approx(h, rel=1e-6)
+    # last step of the search 1 mK, its error far smaller
     assert state.inlet_viscosity == pytest.approx(eta, rel=1e-6)
 
 
@@ -211,7 +224,6 @@ def test_unknown_film_temperature_is_refused() -> None:
 
 OIL = OILS[313.15]
 STATE = flank(1000.0, 5.0, 3.0)
-CONVENTION = grubin_1949.grubin_convention("consistent", E_STAR)
 KERNELS: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
     (houpert_1985.houpert_log_viscosity, (LAW, 5e8, 350.0)),
     (houpert_1985.houpert_viscosity, (LAW, 5e8, 350.0)),
