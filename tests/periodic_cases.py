@@ -12,7 +12,7 @@ PARAMETERS = {"frequency": 0.0, "stiffness": 1.0, "force": 2.0}
 
 
 class Oscillator(NamedTuple):
-    """x'' = f cos wt - d x' + g (1 - x^2) x' - (k + e cos wt) x - b x^3 - k_stop max(x - gap, 0)."""
+    """x'' = f cos wt - (d - g (1 - x^2)) x' - (k + e cos wt + b x^2) x - s max(x - gap, 0)."""
 
     frequency: float = 1.0
     stiffness: float = 1.0
@@ -91,7 +91,9 @@ def oscillator_map(oscillator, parameter, steps=256):
 
 def oscillator_problem(oscillator, parameter, *, steps=256, periods=1, scale=1.0):
     return PeriodicProblem(
-        residual=fixed_point_residual(oscillator_map(oscillator, parameter, steps), periods=periods),
+        residual=fixed_point_residual(
+            oscillator_map(oscillator, parameter, steps), periods=periods
+        ),
         unknown_scale=np.full(2, scale),
         parameter_scale=1.0,
     )

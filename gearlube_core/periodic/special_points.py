@@ -23,6 +23,7 @@ _TESTS: dict[Kind, Test] = {
 _MOST_TRIALS = 80  # bisection alone needs half as many from step 1 to rounding
 _NOISE = 1e-8  # without damping the pairs' product is one but for the errors of integration
 _SAME = 1e-3  # share of a test function's size left where another kind explains its zero
+_BESIDE = 1000.0  # location tolerances within which a zero is explained likewise
 _JUMP = 0.05  # share of a test function's size that must be gone at a zero
 
 
@@ -52,10 +53,13 @@ def crossings(arc: Arc, a: Node, b: Node, tolerance: float) -> list[Crossing]:
     Seen by the signs of test functions at the two ends, so that two of one kind within a step
     cancel. Where the parameter has an extremum at a branch point (the arms of a pitchfork), the
     branch point alone is listed. Folds and branch points bring a multiplier through +1 with them,
-    which is not listed again.
+    which is not listed again; an exchange apart from them is looked for only where the problem has
+    more unknowns than multipliers.
     """
     found: list[Crossing] = []
     for kind, test in _TESTS.items():
+        if kind == "exchange" and a.multipliers.size >= arc.problem.count:
+            continue
         at_a, at_b = test(a), test(b)
         size = max(abs(at_a), abs(at_b))
         if not _NOISE < size < np.inf or at_a == 0.0 or at_a * at_b > 0.0:
@@ -67,9 +71,8 @@ def crossings(arc: Arc, a: Node, b: Node, tolerance: float) -> list[Crossing]:
         node, width, smooth = locate(arc, a, b, test, tolerance)
         if kind == "Neimark-Sacker" and not torus_pair(node.multipliers):
             continue
-        if kind == "fold" and any(
-            crossing.kind == "branch point"
-            and np.linalg.norm(crossing.node.place - node.place) <= 100.0 * tolerance
+        if kind in ("fold", "exchange") and any(
+            np.linalg.norm(crossing.node.place - node.place) <= _BESIDE * tolerance
             for crossing in found
         ):
             continue

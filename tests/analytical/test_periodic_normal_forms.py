@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from periodic_cases import delayed_logistic_map, logistic_map, map_problem, normal_form
 
-from gearlube_core.periodic import follow, switch_branch
+from gearlube_core.periodic import PeriodicProblem, follow, switch_branch
 
 # asked for in the search: 1e-7 of arclength; at a fold p is flat, elsewhere its slope is below 1
 PLACE = 1e-6
@@ -105,9 +105,7 @@ def test_logistic_map_doubles_at_3_and_again_at_1_plus_root_6():
 
 def test_delayed_logistic_map_starts_to_turn_at_2_by_60_degrees():
     # fixed point 1 - 1/p, characteristic equation mu^2 - mu + (p - 1) = 0
-    branch = follow(
-        map_problem(delayed_logistic_map, 2), np.full(2, 0.4), 1.6, limits=(1.6, 2.5)
-    )
+    branch = follow(map_problem(delayed_logistic_map, 2), np.full(2, 0.4), 1.6, limits=(1.6, 2.5))
     (point,) = branch.special
     assert point.kind == "Neimark-Sacker"
     assert point.parameter == pytest.approx(2.0, abs=PLACE)
@@ -115,6 +113,26 @@ def test_delayed_logistic_map_starts_to_turn_at_2_by_60_degrees():
         [math.pi / 3] * 2, abs=1e-6
     )
     assert [stable for _, stable in branch.runs()] == [True, False]
+
+
+def test_prescribed_speed_walks_past_the_folds_of_a_prescribed_load_and_tells_the_exchange():
+    # z' = z - z^3/3 + c with z = p prescribed and the load c an unknown: single-valued in p, but
+    # at a fixed load the slope 1 - z^2 changes sign at z = -1 and 1
+    def residual(unknowns, p):
+        z, c = unknowns
+        slope = 1 - z * z
+        return (
+            np.array([z - z**3 / 3 + c, z - p]),
+            np.array([[slope, 1.0], [1.0, 0.0]]),
+            np.array([0.0, -1.0]),
+            np.array([[math.exp(slope)]]),
+        )
+
+    problem = PeriodicProblem(residual=residual, unknown_scale=np.ones(2), parameter_scale=1.0)
+    branch = follow(problem, np.array([-2.0, 0.0]), -2.0, limits=(-2.0, 2.0))
+    assert kinds(branch) == ["exchange", "exchange"]
+    assert [p.parameter for p in branch.special] == pytest.approx([-1.0, 1.0], abs=PLACE)
+    assert [stable for _, stable in branch.runs()] == [True, False, True]
 
 
 @pytest.mark.parametrize("slope", [0.3, 1.0, 3.0])
