@@ -152,7 +152,7 @@ def thermal_eyring_flank(
         rise = -0.9 * gap_old
         for _ in range(SEARCH_ITERATIONS):
             h, eta_in, _log = _film(rise, F_film, speed, geometry, oil, options)
-            state = _traction(
+            state = film_traction(
                 h, p, slip, surface_resistance, state.flash, state.Y, oil, surface, E_star
             )
             if abs(rise - rise_old) <= SEARCH_TOLERANCE:
