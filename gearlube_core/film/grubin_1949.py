@@ -87,7 +87,7 @@ def grubin_geometry(R_x: float, R_y: float, angle: float) -> tuple[float, float]
     -----
     Evaluate once per contact position. Source: Karagiannis et al. 2012 eq. (11); Archard and
     Cowking 1965 for psi. A factor on the pressure build-up would enter the film with power 3/4;
-    the printed 2/3 is kept, the difference is 0.6 % at R_e/R_s = 0.1 and 4 % for a circle.
+    the printed 2/3 is kept, the difference is 0.5 % at R_e/R_s = 0.1 and 4 % for a circle.
     """
     R_e = film_geometry(R_x, R_y, angle)[0]
     side_curvature = 1.0 / R_x + 1.0 / R_y - 1.0 / R_e
