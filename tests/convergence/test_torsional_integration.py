@@ -14,7 +14,7 @@ def marched(model, speed, steps, periods):
     y = model.initial_state(speed)
     status = march(
         y, 0, periods, model.mean_load_torque, speed, model.rows(steps), model.kernel_parameters,
-        np.zeros((0, 4)),
+        np.zeros((0, 5)),
     )  # fmt: skip
     assert status == OK
     return y

@@ -104,8 +104,10 @@ def test_friction_torque_is_small_and_brakes_the_pinion(friction):
     orbit = periodic_orbit(parameters, 0.3, steps=64)
     torque = np.array(
         [
-            model.pair_rates(x, w, w * 13 / 36, phi, orbit.load_torque, speed).friction_p
-            for phi, x, w in zip(orbit.angle, orbit.x, orbit.pinion_speed, strict=True)
+            model.pair_rates(x, w_p, w_g, phi, orbit.load_torque, speed).friction_p
+            for phi, x, w_p, w_g in zip(
+                orbit.angle, orbit.x, orbit.pinion_speed, orbit.gear_speed, strict=True
+            )
         ]
     )
     assert np.all(torque < 0.0)

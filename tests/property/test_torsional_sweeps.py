@@ -30,7 +30,7 @@ def test_up_and_down_part_where_two_motions_coexist():
 
 def test_records_are_consistent_with_their_summary():
     sweep = time_sweep(reconstructed(0.003), NATURAL * np.array([0.6, 1.0]), "up", **FEW)
-    x, force = sweep.record[:, :, 1], sweep.record[:, :, 3]
+    x, force = sweep.record[:, :, 1], sweep.record[:, :, 4]
     assert sweep.peak_to_peak == pytest.approx(np.ptp(x, axis=1))
     assert np.array_equal(sweep.impact, [0, 1])
     # no pull on the drive flank, no force in the gap

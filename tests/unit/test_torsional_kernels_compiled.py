@@ -68,13 +68,13 @@ for name, model in MODELS.items():
             CASES += [(rates.reduced_rates, (x, y[1], 0.1, SPEED, rows, 3, p))]
         else:
             CASES += [(rates.pair_rates, (x, W_P, W_G, 0.1, LOAD, SPEED, rows, 3, p))]
-    record, no_record = zeros(32, 4), zeros(0, 4)
+    record, no_record = zeros(32, 5), zeros(0, 5)
     CASES += [
         (angle_march.march, (start, 1, 2, LOAD, SPEED, rows, p, record)),
         (angle_march.march, (start, 1, 2, LOAD, SPEED, rows, p, no_record)),
         (
             time_sweep.sweep_kernel,
-            (start, np.array([SPEED, 910.0]), 1, 1, LOAD, rows, p, zeros(2, 16, 4), zeros(2)),
+            (start, np.array([SPEED, 910.0]), 1, 1, LOAD, rows, p, zeros(2, 16, 5), zeros(2)),
         ),
         (
             period_map.slope_derivative,
@@ -94,10 +94,10 @@ for name, model in MODELS.items():
         CASES += [(flank_torques.thermal_pair, (rows, 3, FLANK, 900.0, W_P, W_G, p))]
 BROKEN = np.array([2e5, SPEED, SPEED, 0.0])
 CASES += [
-    (angle_march.march, (BROKEN, 0, 1, LOAD, SPEED, ROWS, P, zeros(0, 4))),
+    (angle_march.march, (BROKEN, 0, 1, LOAD, SPEED, ROWS, P, zeros(0, 5))),
     (
         time_sweep.sweep_kernel,
-        (BROKEN, np.array([SPEED]), 0, 1, LOAD, ROWS, P, zeros(1, 16, 4), zeros(1)),
+        (BROKEN, np.array([SPEED]), 0, 1, LOAD, ROWS, P, zeros(1, 16, 5), zeros(1)),
     ),
     (period_map.period_map, (BROKEN, zeros(4, 5), LOAD, SPEED, 1, ROWS, P, zeros(period_map.WORK))),
 ]

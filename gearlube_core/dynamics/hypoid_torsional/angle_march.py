@@ -22,6 +22,7 @@ from gearlube_core.jit import kernel
 OK, NOT_FINITE = 0, 1
 DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
 N_Y = 4
+N_RECORD = 5  # angle [rad], x [um], pinion speed, gear speed [rad/s], mesh force [N]
 
 
 class AngleSlope(NamedTuple):
@@ -151,9 +152,8 @@ def march(
     rows : ndarray of shape (2 steps, N_ROW)
         `mesh_rows`; sets the number of steps per mesh period.
     p : TorsionalParameters
-    record : ndarray of shape (periods * steps, 4) or (0, 4)
-        Angle [rad], x [um], pinion speed [rad/s] and mesh force [N] before each step, or nothing
-        recorded.
+    record : ndarray of shape (periods * steps, N_RECORD) or (0, N_RECORD)
+        Before each step, or nothing recorded.
     """
     steps = rows.shape[0] // 2
     period = 2.0 * math.pi / p.z_p
@@ -163,14 +163,17 @@ def march(
         for i in range(steps):
             phi = (first_period + m) * period + i * h
             x = y[0]
-            w = speed if p.form == 1.0 else y[1]
+            w_p, w_g = y[1], y[2]
+            if p.form == 1.0:
+                w_p, w_g = speed, speed / p.ratio
             force = angle_step(y, phi, h, load_torque, speed, rows, 2 * i, p)
             if keep:
                 at = m * steps + i
                 record[at, 0] = phi
                 record[at, 1] = x
-                record[at, 2] = w
-                record[at, 3] = force
+                record[at, 2] = w_p
+                record[at, 3] = w_g
+                record[at, 4] = force
         if not abs(y[0]) < DIVERGED_UM or not y[3] < math.inf:
             return NOT_FINITE
     return OK

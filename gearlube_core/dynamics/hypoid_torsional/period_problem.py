@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_Y, OK, march
+from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, N_Y, OK, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.period_map import N_COLUMNS, WORK, period_map
@@ -29,7 +29,7 @@ class Orbit:
         Of the pinion [rad].
     x : ndarray
         Dynamic transmission error [m].
-    pinion_speed : ndarray
+    pinion_speed, gear_speed : ndarray
         [rad/s]
     force : ndarray
         Mesh force [N].
@@ -40,6 +40,7 @@ class Orbit:
     angle: Array
     x: Array
     pinion_speed: Array
+    gear_speed: Array
     force: Array
     load_torque: float
 
@@ -192,12 +193,13 @@ class PeriodProblem:
     def orbit(self, z: Array, speed: float) -> Orbit:
         """Return the motion over the period that starts at z."""
         y, load_torque = self.state(np.asarray(z, dtype=np.float64), speed)
-        record = np.zeros((self.periods * self.steps_per_mesh_period, 4))
+        record = np.zeros((self.periods * self.steps_per_mesh_period, N_RECORD))
         march(y, 0, self.periods, load_torque, float(speed), self._rows, self._p, record)
         return Orbit(
             angle=record[:, 0],
             x=record[:, 1] * UM,
             pinion_speed=record[:, 2],
-            force=record[:, 3],
+            gear_speed=record[:, 3],
+            force=record[:, 4],
             load_torque=load_torque,
         )

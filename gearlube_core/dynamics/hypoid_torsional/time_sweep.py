@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.dynamics.hypoid_torsional.angle_march import OK, march
+from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
@@ -44,8 +44,8 @@ class TimeSweep:
     impact : ndarray of shape (n,) of int
         0 in contact, 1 single-sided, 2 double-sided: no contact lost, minimum within the backlash,
         minimum on the coast flanks.
-    record : ndarray of shape (n, samples, 4)
-        Pinion angle [rad], x [m], pinion speed [rad/s], mesh force [N] at equal angles.
+    record : ndarray of shape (n, samples, 5)
+        Pinion angle [rad], x [m], pinion and gear speed [rad/s], mesh force [N] at equal angles.
     """
 
     frequency: Array
@@ -85,7 +85,7 @@ def sweep_kernel(
         Asked for and found [rad/s].
     settle, keep : int
         Mesh periods before the record and in it.
-    record : ndarray of shape (n, keep * steps, 4)
+    record : ndarray of shape (n, keep * steps, N_RECORD)
     """
     nothing = record[0, 0:0]
     for i in range(speeds.size):
@@ -149,7 +149,7 @@ def time_sweep(
     speeds = np.array([model.pinion_speed(f) for f in order])
     teeth = parameters.mesh.pinion_teeth
     per_revolution = teeth * steps_per_mesh_period
-    record = np.zeros((order.size, revolutions * per_revolution, 4))
+    record = np.zeros((order.size, revolutions * per_revolution, N_RECORD))
     mean_speed = np.zeros(order.size)
     done = sweep_kernel(
         model.initial_state(speeds[0]),
@@ -176,7 +176,7 @@ def time_sweep(
         minimum=minimum,
         maximum=maximum,
         harmonics=_harmonics(x, revolutions, per_revolution, teeth, mean_speed),
-        separation_share=np.mean(record[:, :, 3] == 0.0, axis=1),
+        separation_share=np.mean(record[:, :, 4] == 0.0, axis=1),
         impact=(minimum < 0.0).astype(np.int64) + (minimum <= -parameters.backlash),
         record=record,
     )
