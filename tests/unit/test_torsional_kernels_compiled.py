@@ -47,6 +47,7 @@ def zeros(*shape):
     return np.zeros(shape)
 
 
+PER_SPEED = zeros(2), zeros(2)
 CASES = [
     (mesh_row.mesh_row, (*MESH, 0.3, zeros(mesh_row.N_ROW))),
     (mesh_row.mesh_rows, (*MESH, zeros(8, mesh_row.N_ROW))),
@@ -74,8 +75,9 @@ for name, model in MODELS.items():
         (angle_march.march, (start, 1, 2, LOAD, SPEED, rows, p, no_record)),
         (
             time_sweep.sweep_kernel,
-            (start, np.array([SPEED, 910.0]), 1, 1, LOAD, rows, p, zeros(2, 16, 5), zeros(2)),
+            (start, np.array([SPEED, 910.0]), 1, 1, 1, LOAD, rows, p, zeros(2, 16, 5), *PER_SPEED),
         ),
+        (time_sweep.settle_load, (start, 2, LOAD, SPEED, rows, p)),
         (
             period_map.slope_derivative,
             (start, np.eye(4, 5), 0.1, LOAD, SPEED, rows, 3, p, zeros(4), zeros(4, 5)),
@@ -94,10 +96,11 @@ for name, model in MODELS.items():
         CASES += [(flank_torques.thermal_pair, (rows, 3, FLANK, 900.0, W_P, W_G, p))]
 BROKEN = np.array([2e5, SPEED, SPEED, 0.0])
 CASES += [
+    (time_sweep.settle_load, (BROKEN, 2, LOAD, SPEED, ROWS, P)),
     (angle_march.march, (BROKEN, 0, 1, LOAD, SPEED, ROWS, P, zeros(0, 5))),
     (
         time_sweep.sweep_kernel,
-        (BROKEN, np.array([SPEED]), 0, 1, LOAD, ROWS, P, zeros(1, 16, 5), zeros(1)),
+        (BROKEN, np.array([SPEED]), 1, 1, 1, LOAD, ROWS, P, zeros(1, 16, 5), *PER_SPEED),
     ),
     (period_map.period_map, (BROKEN, zeros(4, 5), LOAD, SPEED, 1, ROWS, P, zeros(period_map.WORK))),
 ]

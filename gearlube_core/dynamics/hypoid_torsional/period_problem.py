@@ -35,6 +35,8 @@ class Orbit:
         Mesh force [N].
     load_torque : float
         [N.m]
+    separation_share : float
+        Share of the samples within the backlash [-].
     """
 
     angle: Array
@@ -43,11 +45,7 @@ class Orbit:
     gear_speed: Array
     force: Array
     load_torque: float
-
-    @property
-    def separation_share(self) -> float:
-        """Share of the samples without contact [-]."""
-        return float(np.mean(self.force == 0.0))
+    separation_share: float
 
 
 class PeriodProblem:
@@ -195,11 +193,13 @@ class PeriodProblem:
         y, load_torque = self.state(np.asarray(z, dtype=np.float64), speed)
         record = np.zeros((self.periods * self.steps_per_mesh_period, N_RECORD))
         march(y, 0, self.periods, load_torque, float(speed), self._rows, self._p, record)
+        x = record[:, 1] * UM
         return Orbit(
             angle=record[:, 0],
-            x=record[:, 1] * UM,
+            x=x,
             pinion_speed=record[:, 2],
             gear_speed=record[:, 3],
             force=record[:, 4],
             load_torque=load_torque,
+            separation_share=float(np.mean((x < 0.0) & (x > -self._p.backlash))),
         )
