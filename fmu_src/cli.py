@@ -16,6 +16,7 @@ from rich.logging import RichHandler
 from fmu_src.arguments import speeds_from
 from fmu_src.contact_command import ContactCommand, contact
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from fmu_src.resonance_command import resonance
 from fmu_src.spread_values import SpreadingCommand
 from gearlube_core import __version__
 from gearlube_core.checks import check_within
@@ -192,6 +193,7 @@ def build_fmu(
 
 
 app.command("contact", cls=ContactCommand)(contact)
+app.command("resonance")(resonance)
 
 
 def main() -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from drivetrain.resonance.motions import Motion
 from gearlube_core.dynamics.hypoid_torsional.flank_torques import thermal_pair
-from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, PAIRS_AT, R_G, R_P
+from gearlube_core.dynamics.hypoid_torsional.mesh_row import PAIRS_AT
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.packed_mesh import ARM_G, ARM_P, N_CHANNELS, SHARE
 from gearlube_core.friction.friction_torques import flank_speeds, friction_torques
@@ -83,8 +83,7 @@ def flank_cycle(motion: Motion, parameters: HypoidTorsionalParameters) -> FlankC
     values = {name: np.full((PAIRS, samples), np.nan) for name in names}
     sliding_radius = _sliding_radius(parameters.mesh, parameters.pinion_torque, samples)
     for i in range(samples):
-        w_p = float(orbit.pinion_speed[i])
-        w_g = float(((rows[i, R_P] - rows[i, DE]) * w_p - motion.rate[i]) / rows[i, R_G])
+        w_p, w_g = float(orbit.pinion_speed[i]), float(orbit.gear_speed[i])
         for pair in range(PAIRS):
             at = PAIRS_AT + pair * N_CHANNELS
             load = float(abs(orbit.force[i]) * rows[i, at + SHARE])

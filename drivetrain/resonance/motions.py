@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from drivetrain.resonance.measures import rate_over_period
 from drivetrain.resonance.response import Response
 from drivetrain.resonance.settings import ResonanceSettings
-from gearlube_core.dynamics.hypoid_torsional.angle_march import OK, march
+from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
@@ -135,7 +135,7 @@ def poincare_section(
     starts = _starts(response, settings, relative, pair.natural_frequency)
     x = np.full((starts.shape[0], STROBES + 1), np.nan)
     rate = np.full_like(x, np.nan)
-    nothing = np.zeros((0, 4))
+    nothing = np.zeros((0, N_RECORD))
     for number, (x_0, rate_0) in enumerate(starts):
         y = pair.initial_state(speed)
         y[0] = MICRO * x_0

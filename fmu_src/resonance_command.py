@@ -1,0 +1,143 @@
+"""The command `gearlube resonance`."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube_core.checks import check_finite, check_option, check_within
+from gearlube_core.errors import GearLubeError, ParameterError, TableError
+from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.units import celsius_to_kelvin
+
+logger = logging.getLogger("gearlube")
+console = Console(stderr=True)
+
+_RADII = ("consistent", "paper", "mean")
+_FRICTION = ("thermal_eyring", "off")
+
+
+def resonance(
+    mesh: Annotated[
+        str,
+        typer.Option(
+            help="shipped, synthetic, or a mesh table that `gearlube contact` wrote.",
+            metavar="shipped|synthetic|FILE.nc",
+        ),
+    ] = "shipped",
+    mismatch: Annotated[
+        float,
+        typer.Option(
+            help="Variation of the pinion's contact radius alone, with --mesh synthetic and "
+            "--radii paper.",
+            metavar="PERCENT",
+        ),
+    ] = 0.0,
+    radii: Annotated[
+        str,
+        typer.Option(
+            help="consistent: all ratio error is transmission error; paper: contact radii as in "
+            "the mesh table; mean: constant.",
+            metavar="|".join(_RADII),
+        ),
+    ] = "consistent",
+    torque: Annotated[float, typer.Option(help="Pinion torque [N.m].", metavar="TORQUE")] = 50.0,
+    oil_temperature: Annotated[
+        float, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
+    ] = 40.0,
+    roughness_um: Annotated[
+        float, typer.Option(help="Composite rms roughness of the flanks [um].", metavar="UM")
+    ] = 0.5,
+    friction: Annotated[
+        str,
+        typer.Option(
+            help="Flank friction of the lubricated model; off leaves that model out.",
+            metavar="|".join(_FRICTION),
+        ),
+    ] = "thermal_eyring",
+    frequency_range: Annotated[
+        str,
+        typer.Option(
+            "--range", help="Mesh over natural frequency, first:last.", metavar="FIRST:LAST"
+        ),
+    ] = "0.2:1.6",
+    frequencies: Annotated[
+        int, typer.Option(help="Frequencies of each response curve.", metavar="N")
+    ] = 200,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_resonance"),
+    quick: Annotated[
+        bool,
+        typer.Option("--quick", help="Few frequencies and coarse steps, for a first look."),
+    ] = False,
+) -> None:
+    """Follow the resonance of the torsional hypoid pair; write resonance.nc, cycle.nc and figures.
+
+    Stable and unstable periodic motions of the dry 2-DOF and 1-DOF models and of the lubricated
+    2-DOF model, with time sweeps as a check. Stopped with Ctrl-C, it writes what was found.
+    """
+    from drivetrain.resonance import ResonanceSettings, quick_settings
+    from fmu_src.resonance_console import console_resonance
+
+    try:
+        first, last = _range(frequency_range)
+        check_option("--radii", radii, _RADII)
+        check_option("--friction", friction, _FRICTION)
+        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        settings = ResonanceSettings(
+            mesh=_mesh(mesh, mismatch, radii, torque),
+            radii=radii,  # type: ignore[arg-type]
+            pinion_torque=torque,
+            oil_temperature=celsius_to_kelvin(oil_temperature),
+            roughness_rms=1e-6 * roughness_um,
+            friction=friction,
+            first=first,
+            last=last,
+            frequencies=frequencies,
+        )
+        finished = console_resonance(
+            console, settings=quick_settings(settings) if quick else settings, out=out
+        )
+    except KeyboardInterrupt:
+        logger.warning("Stopped while results were written; %s may be incomplete.", out)
+        raise typer.Exit(INTERRUPTED) from None
+    except (ParameterError, TableError) as error:
+        logger.error("%s", error)
+        raise typer.Exit(BAD_ARGUMENT) from None
+    except (GearLubeError, OSError) as error:
+        logger.error("%s", error)
+        raise typer.Exit(FAILED) from None
+    if not finished:
+        logger.warning("Stopped. What was found until then is in %s.", out)
+        raise typer.Exit(INTERRUPTED)
+
+
+def _mesh(name: str, mismatch: float, radii: str, torque: float) -> MeshTable:
+    from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
+    from gearlube_core.mesh_table.netcdf import read_mesh_table
+
+    check_within("--mismatch", mismatch, -5.0, 5.0, "percent", "0.3 is usual.")
+    if mismatch != 0.0 and (name != "synthetic" or radii != "paper"):
+        raise ParameterError(
+            f"--mismatch must be 0 with --mesh {name} and --radii {radii}, got {mismatch:g}. "
+            "It is of use with --mesh synthetic and --radii paper."
+        )
+    if name == "shipped":
+        return MeshTable.named("mohammadpour_2015")
+    if name == "synthetic":
+        return synthetic_mesh(radius_mismatch=0.01 * mismatch, torque=torque)
+    return read_mesh_table(name)
+
+
+def _range(text: str) -> tuple[float, float]:
+    """Return the two numbers of "0.2:1.6"."""
+    pieces = text.split(":")
+    cure = "Write first:last, for instance 0.2:1.6."
+    if len(pieces) != 2:
+        raise ParameterError(f"--range must be two numbers, got {text!r}. {cure}")
+    first, last = (check_finite("--range", piece, "", cure) for piece in pieces)  # type: ignore[arg-type]
+    return first, last

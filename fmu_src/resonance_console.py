@@ -1,0 +1,83 @@
+"""A resonance study with messages, a progress bar, files and a summary."""
+
+from __future__ import annotations
+
+import logging
+import os
+import time
+from pathlib import Path
+
+import xarray as xr
+from rich.console import Console
+from rich.table import Table
+
+from drivetrain.resonance import MODELS, ResonanceSettings, Stage, study_resonance
+from drivetrain.resonance.cycle_dataset import cycle_dataset
+from drivetrain.resonance.datasets import resonance_dataset
+from drivetrain.resonance.summary import ModelSummary, summaries
+from drivetrain.resonance_figures import save_resonance_figures
+from fmu_src.progress_bar import progress_bar
+
+logger = logging.getLogger("gearlube")
+_PARTS = 1000  # of the progress bar
+
+
+def console_resonance(console: Console, *, settings: ResonanceSettings, out: Path) -> bool:
+    """Run a study, write datasets and figures to `out`; return False if it was stopped."""
+    began = time.monotonic()
+    out.mkdir(parents=True, exist_ok=True)
+    with progress_bar(console) as bar:
+        task = bar.add_task("resonance", total=_PARTS)
+
+        def observe(stage: Stage) -> None:
+            bar.update(task, completed=int(_PARTS * stage.done), description=stage.name)
+
+        study = study_resonance(settings, observe)
+        bar.update(task, description="figures")
+        response, cycle = resonance_dataset(study), cycle_dataset(study)
+        _write(response, out / "resonance.nc")
+        _write(cycle, out / "cycle.nc")
+        save_resonance_figures(response, cycle, out / "figures")
+    found = summaries(study)
+    console.print(_table(found))
+    for summary in found:
+        for sentence in summary.remarks:
+            logger.warning("%s: %s", MODELS[summary.model], sentence)
+    logger.info("Studied in %.1f s.", time.monotonic() - began)
+    logger.info("Results: %s, %s, %s", out / "resonance.nc", out / "cycle.nc", out / "figures")
+    return not study.interrupted
+
+
+def _write(dataset: xr.Dataset, path: Path) -> None:
+    partial = path.with_suffix(".part")
+    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
+    os.replace(partial, path)
+
+
+def _table(found: list[ModelSummary]) -> Table:
+    table = Table(title="Resonance; frequencies as mesh over natural frequency")
+    for heading in (
+        "model",
+        "natural frequency [Hz]",
+        "folds and bifurcations",
+        "largest p-p [µm]",
+        "at",
+        "separation, rising",
+        "separation, falling",
+    ):
+        table.add_column(heading, justify="left" if heading == "model" else "right")
+    for summary in found:
+        table.add_row(
+            MODELS[summary.model],
+            f"{summary.natural_frequency:.0f}",
+            "\n".join(f"{kind} {at:.4f}" for kind, at in summary.special) or "none",
+            f"{1e6 * summary.peak:.2f}",
+            f"{summary.peak_at:.3f}",
+            _ranges(summary.separated_up),
+            _ranges(summary.separated_down),
+        )
+    return table
+
+
+def _ranges(ranges: list[tuple[float, float]]) -> str:
+    return "\n".join(f"{first:.3f} to {last:.3f}" for first, last in ranges) or "none"
