@@ -12,7 +12,7 @@ from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.periodic.arclength import Arc, Node, hermite, turn
 from gearlube_core.periodic.branch import Branch, Ending
-from gearlube_core.periodic.newton import NewtonSettings
+from gearlube_core.periodic.newton import Correction, NewtonSettings
 from gearlube_core.periodic.problem import Array, PeriodicProblem
 from gearlube_core.periodic.recorder import Recorder
 from gearlube_core.periodic.shooting import require
@@ -218,7 +218,7 @@ class _Walk:
 
     def advance(self) -> Node | None:
         """Return the next point; None if the smallest step fails."""
-        refused, unmoved, failed = math.inf, 0, 0
+        refused, unmoved, failed, length = math.inf, 0, 0, self.length
         while self.length >= self.settings.smallest_step:
             here = self.node
             correction = self.arc.correct(here.place + self.length * here.tangent, here.tangent)
@@ -236,7 +236,9 @@ class _Walk:
                 refused = angle
                 shortest = self.length < 2.0 * self.settings.smallest_step
                 if angle <= 3.0 * self.settings.turn or unmoved >= 2 or shortest:
-                    self._adapt(angle, correction.iterations)
+                    if unmoved >= 2:
+                        self.length = length
+                    self._adapt(float(np.linalg.norm(node.tangent - here.tangent)), correction)
                     return self._step_to(node)
             self.length *= 0.5
         return None
@@ -270,8 +272,8 @@ class _Walk:
         self.node, self.steps = node, self.steps + 1
         return node
 
-    def _adapt(self, angle: float, iterations: int) -> None:
-        by_effort = {0: 2.0, 1: 2.0, 2: 2.0, 3: 1.5, 4: 1.0}.get(iterations, 0.7)
+    def _adapt(self, angle: float, correction: Correction) -> None:
+        by_effort = {0: 2.0, 1: 2.0, 2: 2.0, 3: 1.5, 4: 1.0}.get(correction.iterations, 0.7)
         by_turn = self.settings.turn / max(angle, 1e-6)
         length = self.length * max(0.5, min(by_effort, by_turn))
         self.length = min(max(length, self.settings.smallest_step), self.settings.largest_step)
