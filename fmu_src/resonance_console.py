@@ -38,8 +38,10 @@ def console_resonance(console: Console, *, settings: ResonanceSettings, out: Pat
         _write(response, out / "resonance.nc")
         _write(cycle, out / "cycle.nc")
         save_resonance_figures(response, cycle, out / "figures")
-    found = summaries(study)
+    found = summaries(response)
     console.print(_table(found))
+    if "natural_frequency" in response.attrs:
+        logger.info("Natural frequency %.0f Hz.", response.attrs["natural_frequency"])
     for summary in found:
         for sentence in summary.remarks:
             logger.warning("%s: %s", MODELS[summary.model], sentence)
@@ -55,21 +57,19 @@ def _write(dataset: xr.Dataset, path: Path) -> None:
 
 
 def _table(found: list[ModelSummary]) -> Table:
-    table = Table(title="Resonance; frequencies as mesh over natural frequency")
+    table = Table(title="Resonance; mesh frequencies over the natural frequency")
     for heading in (
         "model",
-        "natural frequency [Hz]",
-        "folds and bifurcations",
-        "largest p-p [µm]",
+        "folds, bifurcations",
+        "p-p [µm]",
         "at",
-        "separation, rising",
-        "separation, falling",
+        "apart, rising",
+        "apart, falling",
     ):
         table.add_column(heading, justify="left" if heading == "model" else "right")
     for summary in found:
         table.add_row(
             MODELS[summary.model],
-            f"{summary.natural_frequency:.0f}",
             "\n".join(f"{kind} {at:.4f}" for kind, at in summary.special) or "none",
             f"{1e6 * summary.peak:.2f}",
             f"{summary.peak_at:.3f}",

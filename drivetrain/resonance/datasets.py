@@ -15,6 +15,7 @@ from drivetrain.resonance.settings import SWEPT
 from drivetrain.resonance.study import DIRECTIONS, ResonanceStudy
 
 Array = NDArray[np.float64]
+MULTIPLIERS = 3  # of the 2-DOF model; the 1-DOF model has two
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
 
 # name: unit, long name
@@ -54,6 +55,11 @@ def resonance_dataset(study: ResonanceStudy) -> xr.Dataset:
         ("model", "row", "harmonic"),
         _padded([table["harmonics"] for table in tables], (HARMONICS,)),
         {"units": "m", "long_name": "amplitude of a mesh order of the transmission error"},
+    )
+    variables["multipliers"] = (
+        ("model", "row", "multiplier_index"),
+        _padded([table["multipliers"] for table in tables], (MULTIPLIERS,)),
+        {"units": "1", "long_name": "moduli of the Floquet multipliers, largest first"},
     )
     variables |= _special_points(study.responses)
     variables |= _sweeps(study)
@@ -103,7 +109,7 @@ def study_attributes(study: ResonanceStudy) -> dict[str, Any]:
 
 
 def _rows(response: Response) -> dict[str, Array]:
-    found: dict[str, list[Any]] = {name: [] for name in (*_ROW, "harmonics")}
+    found: dict[str, list[Any]] = {name: [] for name in (*_ROW, "harmonics", "multipliers")}
     for number, segment in enumerate(response.segments):
         branch, periods = segment.branch, segment.problem.periods
         for row in range(branch.parameter.size):
@@ -121,11 +127,18 @@ def _rows(response: Response) -> dict[str, Array]:
                 "stable": float(branch.stable[row]),
                 "segment": float(number),
                 "periods": float(periods),
+                "multipliers": _moduli(branch.multipliers[row]),
                 "harmonics": mesh_harmonics(orbit.x, periods, HARMONICS),
             }
             for name, value in values.items():
                 found[name].append(value)
     return {name: np.array(values) for name, values in found.items()}
+
+
+def _moduli(multipliers: NDArray[np.complex128]) -> Array:
+    moduli = np.full(MULTIPLIERS, np.nan)
+    moduli[: multipliers.size] = np.abs(multipliers)
+    return moduli
 
 
 def _padded(tables: list[Array], shape: tuple[int, ...] = ()) -> Array:

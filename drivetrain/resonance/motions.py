@@ -104,11 +104,14 @@ class PoincareSection:
         Mesh over natural frequency [-].
     x, rate : ndarray of shape (starts, STROBES + 1)
         Transmission error [m] and its rate [m/s]; NaN after a motion that is no longer finite.
+    motions : list of Motion
+        Periodic motions found by continuation at that frequency, stable and unstable.
     """
 
     relative: float
     x: Array
     rate: Array
+    motions: list[Motion]
 
 
 def richest_frequency(response: Response, settings: ResonanceSettings) -> float:
@@ -150,7 +153,9 @@ def poincare_section(
             rate[number, strobe] = _rate(y, rows, response.model, speed)
             if march(y, strobe, 1, pair.mean_load_torque, speed, rows, p, nothing) != OK:
                 break
-    return PoincareSection(relative=relative, x=x, rate=rate)
+    return PoincareSection(
+        relative=relative, x=x, rate=rate, motions=motions_at(response, settings, relative)
+    )
 
 
 def _rate(y: Array, rows: Array, model: str, speed: float) -> float:

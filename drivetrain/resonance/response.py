@@ -165,28 +165,3 @@ def _doublings(response: Response) -> list[SpecialPoint]:
         for segment in response.segments
         for point in segment.branch.of_kind("period doubling")
     ]
-
-
-def visited(branch: Branch, direction: str) -> NDArray[np.intp]:
-    """Return the rows that a slow sweep along a branch visits, in its order.
-
-    A sweep follows stable rows and jumps at folds to the next stable row ahead of it.
-
-    Parameters
-    ----------
-    branch : Branch
-        From low to high parameter, or the reverse.
-    direction : {"up", "down"}
-        Of the parameter.
-    """
-    sign = 1.0 if direction == "up" else -1.0
-    rows = np.arange(branch.parameter.size)
-    if sign * (branch.parameter[-1] - branch.parameter[0]) < 0.0:
-        rows = rows[::-1]
-    reached, kept = -np.inf, []
-    for row in rows:
-        place = sign * branch.parameter[row]
-        if branch.stable[row] and place > reached:
-            kept.append(row)
-            reached = place
-    return np.array(kept, dtype=np.intp)

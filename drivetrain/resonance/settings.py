@@ -138,6 +138,6 @@ def quick_settings(settings: ResonanceSettings) -> ResonanceSettings:
         frequencies=min(settings.frequencies, 25),
         sweep_frequencies=min(settings.sweep_frequencies, 12),
         section_starts=min(settings.section_starts, 6),
-        steps_per_mesh_period=128,
-        lubricated_steps=48,
+        steps_per_mesh_period=256,
+        lubricated_steps=96,
     )

@@ -1,16 +1,17 @@
-"""The main numbers of a resonance study."""
+"""The main numbers of a resonance study, from its dataset."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
-from drivetrain.resonance.response import Response, Segment, visited
-from drivetrain.resonance.study import ResonanceStudy
+Array = NDArray[np.float64]
 
 _MOST_LISTED = 6
+_IN_RANGE = 2e-3  # of the range: a branch that ends closer to its limit has reached it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,10 +21,10 @@ class ModelSummary:
     Parameters
     ----------
     model : str
-    natural_frequency : float
-        [Hz]
+        See `MODELS`.
     special : list of (str, float)
-        Kind and frequency of folds and bifurcations of the first branches, along them.
+        Kind and frequency of folds and bifurcations of motions of one mesh period, along the
+        branches.
     peak, peak_at : float
         Largest peak-to-peak transmission error of a stable motion [m], and where.
     separated_up, separated_down : list of (float, float)
@@ -33,7 +34,6 @@ class ModelSummary:
     """
 
     model: str
-    natural_frequency: float
     special: list[tuple[str, float]]
     peak: float
     peak_at: float
@@ -42,60 +42,111 @@ class ModelSummary:
     remarks: list[str]
 
 
-def summaries(study: ResonanceStudy) -> list[ModelSummary]:
-    """Return the main numbers of every model that was run."""
-    return [_summary(response) for response in study.responses.values()]
+def summaries(dataset: xr.Dataset) -> list[ModelSummary]:
+    """Return the main numbers of every model of a `resonance_dataset`."""
+    return [_summary(dataset, str(model)) for model in dataset["model"].values]
 
 
-def _summary(response: Response) -> ModelSummary:
-    peak, peak_at = 0.0, float("nan")
-    special: list[tuple[str, float]] = []
-    for segment in response.segments:
-        branch = segment.branch
-        for row in np.flatnonzero(branch.stable):
-            size = float(np.ptp(segment.orbit(row).x))
-            if size > peak:
-                peak, peak_at = size, float(response.relative(branch.parameter[row]))
-        if segment.problem.periods == 1:
-            special += [
-                (point.kind, float(response.relative(point.parameter)))
-                for point in branch.special
-                if point.kind != "exchange"
-            ]
+def _summary(dataset: xr.Dataset, model: str) -> ModelSummary:
+    part = dataset.sel(model=model)
+    size = np.where(part["stable"].values > 0.5, part["peak_to_peak"].values, -np.inf)
+    top = int(np.argmax(size))
+    branches = single_branches(part)
+    path = _path(branches)
+    special = _special(part)
     remarks = [
-        f"branch {number + 1} ended at {float(response.relative(s.branch.parameter[-1])):.3f} "
-        f"of the natural frequency ({s.branch.ending})."
-        for number, s in enumerate(response.segments)
-        if s.branch.ending in ("step limit", "point limit")
+        f"branch {int(branch['segment'][0]) + 1} ended at {place:.3f} of the natural frequency: "
+        "no motion was found beyond."
+        for branch in branches
+        if _ends_within(place := float(branch["relative_frequency"][-1]), dataset.attrs)
+        and not dataset.attrs["interrupted"]
     ]
     if len(special) > _MOST_LISTED:
         remarks.append(f"{len(special)} folds and bifurcations, the first {_MOST_LISTED} listed.")
     return ModelSummary(
-        model=response.model,
-        natural_frequency=response.natural_frequency,
+        model=model,
         special=special[:_MOST_LISTED],
-        peak=peak,
-        peak_at=peak_at,
-        separated_up=separated_ranges(response, "up"),
-        separated_down=separated_ranges(response, "down"),
+        peak=float(size[top]),
+        peak_at=float(part["relative_frequency"][top]),
+        separated_up=separated_ranges(path, "up"),
+        separated_down=separated_ranges(path, "down"),
         remarks=remarks,
     )
 
 
-def separated_ranges(response: Response, direction: str) -> list[tuple[float, float]]:
-    """Return where a slow sweep loses contact and where it regains it, in its order."""
-    segments = [segment for segment in response.segments if segment.problem.periods == 1]
-    segment = segments[0] if direction == "up" else segments[-1]
-    rows = visited(segment.branch, direction)
-    apart = np.array([segment.orbit(row).separation_share > 0.0 for row in rows], dtype=bool)
-    return _runs(response, segment, rows, apart)
+def single_branches(part: xr.Dataset) -> list[xr.Dataset]:
+    """Return the branches of one model whose motions repeat every mesh period."""
+    numbers = np.where(part["periods"].values == 1.0, part["segment"].values, np.nan)
+    return [
+        part.isel(row=np.flatnonzero(numbers == number))
+        for number in np.unique(numbers[np.isfinite(numbers)])
+    ]
 
 
-def _runs(
-    response: Response, segment: Segment, rows: NDArray[np.intp], apart: NDArray[np.bool_]
-) -> list[tuple[float, float]]:
+def _path(branches: list[xr.Dataset]) -> xr.Dataset:
+    """Return one path over the range: the branch from its start, then that to its end."""
+    if len(branches) == 1:
+        return branches[0]
+    return xr.concat([branches[0], branches[1].isel(row=slice(None, None, -1))], dim="row")
+
+
+def _special(part: xr.Dataset) -> list[tuple[str, float]]:
+    single = {float(branch["segment"][0]) for branch in single_branches(part)}
+    return [
+        (str(kind), float(place))
+        for kind, place, number in zip(
+            part["special_kind"].values,
+            part["special_relative_frequency"].values,
+            part["special_segment"].values,
+            strict=True,
+        )
+        if kind not in ("", "exchange") and float(number) in single
+    ]
+
+
+def _ends_within(place: float, limits: dict[str, float]) -> bool:
+    reach = _IN_RANGE * (limits["last"] - limits["first"])
+    return limits["first"] + reach < place < limits["last"] - reach
+
+
+def visited(relative: Array, stable: Array, direction: str) -> NDArray[np.intp]:
+    """Return the rows of a branch that a slow sweep visits, in its order.
+
+    A sweep follows stable rows and jumps at folds to the next stable row ahead of it.
+
+    Parameters
+    ----------
+    relative, stable : ndarray of shape (n,)
+        Frequency and stability, in the order of the branch.
+    direction : {"up", "down"}
+
+    Examples
+    --------
+    A branch that turns back at 3 and forward again at 1:
+
+    >>> frequency = np.array([0.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.5])
+    >>> stable = np.array([1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0])
+    >>> visited(frequency, stable, "up").tolist(), visited(frequency, stable, "down").tolist()
+    ([0, 1, 2, 6], [6, 5, 4, 0])
+    """
+    sign = 1.0 if direction == "up" else -1.0
+    rows = np.arange(relative.size)
+    if sign * (relative[-1] - relative[0]) < 0.0:
+        rows = rows[::-1]
+    reached, kept = -np.inf, []
+    for row in rows:
+        if stable[row] > 0.5 and sign * relative[row] > reached:
+            kept.append(row)
+            reached = sign * relative[row]
+    return np.array(kept, dtype=np.intp)
+
+
+def separated_ranges(branch: xr.Dataset, direction: str) -> list[tuple[float, float]]:
+    """Return where a slow sweep along a branch loses contact and regains it, in its order."""
+    relative = branch["relative_frequency"].values
+    rows = visited(relative, branch["stable"].values, direction)
+    apart = branch["separation_share"].values[rows] > 0.0
     edges = np.flatnonzero(np.diff(np.concatenate([[0], apart.astype(int), [0]])))
-    relative = response.relative(segment.branch.parameter)
     return [
         (float(relative[rows[first]]), float(relative[rows[last - 1]]))
         for first, last in edges.reshape(-1, 2)

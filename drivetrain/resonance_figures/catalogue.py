@@ -40,7 +40,7 @@ RESONANCE_CATALOGUE: dict[str, tuple[str, Draw]] = {
     "spectra": ("spectrum", _of_cycle(spectra)),
     "constant_radii": ("x", _of_cycle(constant_radii)),
     "phase_portraits": ("rate", _of_cycle(phase_portraits)),
-    "poincare_section": ("section_x", poincare_section),
+    "poincare_section": ("section_x", _of_cycle(poincare_section)),
     "dry_and_lubricated": ("load", _of_cycle(dry_and_lubricated)),
     "traction_map": ("load", _of_cycle(traction_map)),
     "traction_curves": ("load", _of_cycle(traction_curves)),

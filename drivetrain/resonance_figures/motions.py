@@ -12,8 +12,7 @@ from drivetrain.resonance.settings import MODELS
 from drivetrain.resonance_figures.response_curves import COLOURS
 
 _DRY = ("two_dof", "one_dof")
-_SIZE_STYLES = ("-", (0, (4, 2)), "-.")
-_TITLE = "mesh frequency {:g} of natural"
+_TITLE = "mesh at {:g} of the natural frequency"
 
 
 def _at(cycle: xr.Dataset, relative: float, models: tuple[str, ...]) -> list[xr.Dataset]:
@@ -81,7 +80,7 @@ def _waveforms(cycle: xr.Dataset, models: tuple[str, ...], title: str) -> Any:
 
 
 def _shared_legend(figure: Any, axes: Any) -> None:
-    named = {}
+    named: dict[str, Any] = {}
     for ax in np.ravel(axes):
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
@@ -210,12 +209,12 @@ def phase_portraits(cycle: xr.Dataset) -> Any:
     return figure
 
 
-def poincare_section(response: xr.Dataset, cycle: xr.Dataset) -> Any:
+def poincare_section(cycle: xr.Dataset) -> Any:
     """Return how motions from many starts approach lasting ones, seen once a mesh period."""
     x, rate = 1e6 * cycle["section_x"].values, 1e3 * cycle["section_rate"].values
     relative = cycle.attrs["section_relative_frequency"]
     with house_style():
-        figure = new_figure(9.6, 4.8)
+        figure = new_figure(9.6, 5.2)
         left, right = figure.subplots(1, 2)
         ends = _groups(x[:, -1], rate[:, -1])
         for start in range(x.shape[0]):
@@ -234,10 +233,22 @@ def poincare_section(response: xr.Dataset, cycle: xr.Dataset) -> Any:
                 mec="black",
                 zorder=5,
             )
+        saddles = cycle["section_motion_stable"].values < 0.5
+        left.plot(
+            1e6 * cycle["section_motion_x"].values[saddles],
+            1e3 * cycle["section_motion_rate"].values[saddles],
+            "s",
+            ms=6,
+            mfc="white",
+            mec="black",
+            zorder=5,
+            label="unstable periodic motion",
+        )
         left.plot([], [], "x", color="#404040", label="start")
         left.plot([], [], "o", ms=8, mfc="white", mec="black", label="after 240 mesh periods")
-        left.legend(loc="upper right")
+        figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside lower center")
         left.set(xlabel="x [µm]", ylabel="dx/dt [mm/s]", title="at mesh phase 0")
+        right.set_xlim(0.0, 100.0)
         right.set(xlabel="mesh periods", ylabel="x at mesh phase 0 [µm]", title="approach")
         figure.suptitle(
             f"Poincaré section of the dry 2-DOF model at {relative:.3f} of the natural frequency; "

@@ -35,6 +35,8 @@ MARKS = {
     "period doubling": ("D", "period doubling"),
     "Neimark-Sacker": ("^", "Neimark-Sacker"),
 }
+# wide lines show behind others that coincide
+WIDTHS = {"two_dof": 2.6, "one_dof": 1.4, "two_dof_lubricated": 0.9}
 FREQUENCY = "mesh frequency / natural frequency"
 _SHOWN = ("two_dof", "one_dof", "two_dof_lubricated")
 
@@ -73,7 +75,7 @@ def response_curves(dataset: xr.Dataset) -> Any:
             3, 1, sharex=True, gridspec_kw={"height_ratios": (3.0, 1.6, 1.3)}
         )
         for model in models:
-            lw = 0.9 if model == "two_dof_lubricated" else 1.6
+            lw = WIDTHS[model]
             for branch in segments(dataset, model):
                 colour = COLOURS[model]
                 draw_branch(top, branch, 1e6 * branch["peak_to_peak"].values, colour, lw=lw)
@@ -155,7 +157,10 @@ def _contact_lost(ax: Any, dataset: xr.Dataset) -> None:
 def _legend(ax: Any, models: list[str], dataset: xr.Dataset) -> None:
     from matplotlib.lines import Line2D
 
-    handles = [Line2D([], [], color=COLOURS[model], label=MODELS[model]) for model in models]
+    handles = [
+        Line2D([], [], color=COLOURS[model], lw=WIDTHS[model], label=MODELS[model])
+        for model in models
+    ]
     handles += [
         Line2D([], [], color="#404040", ls="-", label="stable"),
         Line2D([], [], color="#404040", ls="--", label="unstable"),
@@ -211,19 +216,23 @@ def harmonics(dataset: xr.Dataset) -> Any:
 
 
 def stability(dataset: xr.Dataset) -> Any:
-    """Return the largest Floquet multiplier over frequency."""
+    """Return the moduli of all Floquet multipliers over frequency."""
     models = shown_models(dataset)
     with house_style():
         figure = new_figure(9.6, 4.4)
         ax = figure.subplots()
         for model in models:
             for branch in segments(dataset, model):
-                draw_branch(ax, branch, branch["multiplier"].values, COLOURS[model], lw=1.3)
-            ax.plot([], [], color=COLOURS[model], label=MODELS[model])
+                for moduli in branch["multipliers"].values.T:
+                    draw_branch(ax, branch, moduli, COLOURS[model], lw=WIDTHS[model])
+            ax.plot([], [], color=COLOURS[model], lw=WIDTHS[model], label=MODELS[model])
         ax.axhline(1.0, color="black", lw=0.8)
         ax.set_ylim(0.0, max(1.3, min(ax.get_ylim()[1], 5.0)))
-        ax.set(xlabel=FREQUENCY, ylabel="largest multiplier per mesh period [-]")
+        ax.set(xlabel=FREQUENCY, ylabel="modulus per mesh period [-]")
         ax.set_xlim(dataset.attrs["first"], dataset.attrs["last"])
         ax.legend()
-        figure.suptitle("Floquet multipliers: motions above 1 are unstable", fontsize=11.5)
+        figure.suptitle(
+            "Floquet multipliers; one above 1: unstable, one just below: the slow speed hold",
+            fontsize=11.5,
+        )
     return figure

@@ -49,7 +49,7 @@ def traction_map(cycle: xr.Dataset) -> Any:
         x = np.array([low, high])
         ax.fill_between(x, 0.0, NEWTONIAN_LIMIT - x, color=GREY, alpha=0.3, lw=0)
         ax.plot(x, NEWTONIAN_LIMIT - x, color="black", lw=1.2)
-        for number in range(0, 40, 4):
+        for number in range(0, 40, 2):
             ax.plot(x, number - x, color=GREY, lw=0.8, zorder=1)
             place = number - 0.93 * top
             if low < place < high:
@@ -62,13 +62,13 @@ def traction_map(cycle: xr.Dataset) -> Any:
                     ha="center",
                     bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
                 )
-        ax.text(0.02, 0.04, "Newtonian: heat limits traction", transform=ax.transAxes)
+        ax.text(low + 0.1, 0.35 * top, "Newtonian:\nheat limits\ntraction")
         ax.set(
             xlim=(low, high),
             ylim=(0.0, top),
             xlabel=r"film number $\ln[2K\eta_0/(\beta\tau_0^2h^2)]$",
             ylabel=r"pressure number $\ln(\eta/\eta_0)$",
-            title=f"lines: largest shear stress of the film [MPa], Eyring stress {1e-6 * tau0:g}",
+            title=f"lines: largest shear stress of a film [MPa]; Eyring stress {1e-6 * tau0:g} MPa",
         )
         ax.legend(loc="lower right", markerscale=3.0)
         figure.suptitle("Contacts over the mesh cycle on the traction map", fontsize=11.5)
@@ -115,7 +115,8 @@ def traction_curves(cycle: xr.Dataset) -> Any:
         right.plot([], [], color="#404040", lw=2.0, label="effective, heat alone")
         right.plot([], [], color="#404040", ls="--", label="stress over shear rate")
         left.set(xscale="log", xlabel="shear rate [1/s]", ylabel="shear stress / mean pressure")
-        left.set_ylim(0.0, 0.06)
+        highest = cycle["curve_stress"].sel(curve="isothermal_eyring") / cycle["curve_pressure"]
+        left.set_ylim(0.0, 1.2 * float(highest.max()))
         left.legend(loc="upper left", fontsize=7.5)
         right.set(xscale="log", yscale="log", xlabel="shear rate [1/s]", ylabel="viscosity [Pa s]")
         right.legend(loc="lower left")
