@@ -39,7 +39,8 @@ def console_resonance(console: Console, *, settings: ResonanceSettings, out: Pat
         _write(cycle, out / "cycle.nc")
         save_resonance_figures(response, cycle, out / "figures")
     found = summaries(response)
-    console.print(_table(found))
+    if found:
+        console.print(_table(found))
     if "natural_frequency" in response.attrs:
         logger.info("Natural frequency %.0f Hz.", response.attrs["natural_frequency"])
     for summary in found:

@@ -63,22 +63,21 @@ def cycle_dataset(study: ResonanceStudy) -> xr.Dataset:
         variables |= _motions(study.motions)
     if study.section is not None:
         words = "at mesh phase 0, once a mesh period"
-        for name, found, unit, what in (
+        for name, values, unit, what in (
             ("section_x", study.section.x, "m", "dynamic transmission error"),
             ("section_rate", study.section.rate, "m s-1", "its rate"),
         ):
             attributes = {"units": unit, "long_name": f"{what} {words}"}
             variables[name] = (("start", "strobe"), values, attributes)
-        for name, found, unit, words in (
-            ("x", [m.orbit.x[0] for m in study.section.motions], "m", "transmission error"),
-            ("rate", [m.rate[0] for m in study.section.motions], "m s-1", "its rate"),
-            ("stable", [float(m.stable) for m in study.section.motions], "1", "1 stable, else 0"),
+        for name, function, unit, what in (
+            ("x", lambda m: m.orbit.x[0], "m", "transmission error"),
+            ("rate", lambda m: m.rate[0], "m s-1", "its rate"),
+            ("stable", lambda m: float(m.stable), "1", "1 stable, 0 unstable"),
         ):
-            attributes = {"units": unit, "long_name": f"{words}, of periodic motions there"}
             variables[f"section_motion_{name}"] = (
                 ("section_motion",),
-                np.array(found),
-                attributes,
+                np.array([function(motion) for motion in study.section.motions]),
+                {"units": unit, "long_name": f"{what}, of periodic motions there"},
             )
     if study.cycles:
         variables |= _contacts(study.cycles) | _curves(study.curves)

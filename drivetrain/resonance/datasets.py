@@ -43,9 +43,11 @@ def resonance_dataset(study: ResonanceStudy) -> xr.Dataset:
     """Return response curves, special points and time sweeps.
 
     Dimensions `model` and `row` (padded with NaN), `harmonic`, `special`, `swept_model`,
-    `direction` and `sweep`.
+    `direction` and `sweep`. Empty where a study was stopped before its first response.
     """
     models = list(study.responses)
+    if not models:
+        return xr.Dataset(attrs=study_attributes(study))
     tables = [_rows(study.responses[model]) for model in models]
     variables: Variables = {}
     for name, (unit, words) in _ROW.items():
@@ -143,7 +145,7 @@ def _moduli(multipliers: NDArray[np.complex128]) -> Array:
 
 def _padded(tables: list[Array], shape: tuple[int, ...] = ()) -> Array:
     """Stack arrays of different length, filled up with NaN."""
-    longest = max((len(table) for table in tables), default=0)
+    longest = max([1, *(len(table) for table in tables)])  # NetCDF 3 has no empty dimensions
     padded = np.full((len(tables), longest, *shape), np.nan)
     for row, table in zip(padded, tables, strict=True):
         row[: len(table)] = table
@@ -173,7 +175,7 @@ def _special_points(responses: dict[str, Response]) -> Variables:
                 "special_segment": np.array([float(number) for number, _, _ in points]),
             }
         )
-    longest = max((len(row) for row in kinds), default=0)
+    longest = max([1, *(len(row) for row in kinds)])
     names = np.array([[*row, *[""] * (longest - len(row))] for row in kinds], dtype="U32")
     variables: Variables = {
         "special_kind": (

@@ -177,7 +177,9 @@ def _keep_motions(study: ResonanceStudy, observe: Callable[[float], None]) -> No
 def _cut(study: ResonanceStudy, observe: Callable[[float], None]) -> None:
     response = study.responses["two_dof"]
     relative = richest_frequency(response, study.settings)
-    study.section = poincare_section(response, study.settings, relative)
+    section = poincare_section(response, study.settings, relative)
+    if section.x.size and section.motions:
+        study.section = section
     observe(1.0)
 
 

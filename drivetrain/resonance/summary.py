@@ -44,7 +44,8 @@ class ModelSummary:
 
 def summaries(dataset: xr.Dataset) -> list[ModelSummary]:
     """Return the main numbers of every model of a `resonance_dataset`."""
-    return [_summary(dataset, str(model)) for model in dataset["model"].values]
+    models = dataset["model"].values if "model" in dataset else []
+    return [_summary(dataset, str(model)) for model in models]
 
 
 def _summary(dataset: xr.Dataset, model: str) -> ModelSummary:
