@@ -44,7 +44,7 @@ class ModelSummary:
 
 def summaries(dataset: xr.Dataset) -> list[ModelSummary]:
     """Return the main numbers of every model of a `resonance_dataset`."""
-    models = dataset["model"].values if "model" in dataset else []
+    models: Array | list[str] = dataset["model"].values if "model" in dataset else []
     return [_summary(dataset, str(model)) for model in models]
 
 
