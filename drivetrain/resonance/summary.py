@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _MOST_LISTED = 6
+_WRINKLE = 2e-3  # two folds in a row that are closer than this are one wrinkle
 _IN_RANGE = 2e-3  # of the range: a branch that ends closer to its limit has reached it
 
 
@@ -56,8 +57,8 @@ def _summary(dataset: xr.Dataset, model: str) -> ModelSummary:
     path = _path(branches)
     special = _special(part)
     remarks = [
-        f"branch {int(branch['segment'][0]) + 1} ended at {place:.3f} of the natural frequency: "
-        "no motion was found beyond."
+        f"branch {int(branch['segment'][0]) + 1} was followed no further than {place:.3f} of the "
+        "natural frequency."
         for branch in branches
         if _ends_within(place := float(branch["relative_frequency"][-1]), dataset.attrs)
         and not dataset.attrs["interrupted"]
@@ -88,21 +89,44 @@ def _path(branches: list[xr.Dataset]) -> xr.Dataset:
     """Return one path over the range: the branch from its start, then that to its end."""
     if len(branches) == 1:
         return branches[0]
-    return xr.concat([branches[0], branches[1].isel(row=slice(None, None, -1))], dim="row")
+    back = branches[1].isel(row=slice(None, None, -1))
+    return xr.concat(
+        [branches[0], back], "row", data_vars="minimal", coords="minimal", compat="override"
+    )
 
 
 def _special(part: xr.Dataset) -> list[tuple[str, float]]:
     single = {float(branch["segment"][0]) for branch in single_branches(part)}
+    kept = part.isel(special=main_special(part))
     return [
         (str(kind), float(place))
         for kind, place, number in zip(
-            part["special_kind"].values,
-            part["special_relative_frequency"].values,
-            part["special_segment"].values,
+            kept["special_kind"].values,
+            kept["special_relative_frequency"].values,
+            kept["special_segment"].values,
             strict=True,
         )
-        if kind not in ("", "exchange") and float(number) in single
+        if float(number) in single
     ]
+
+
+def main_special(part: xr.Dataset) -> NDArray[np.intp]:
+    """Return the special points of a model without exchanges and without narrow pairs of folds.
+
+    Where impacts pass from one step of the integrator to the next, a branch near a fold has
+    wrinkles: two folds in a row at nearly one frequency.
+    """
+    kinds = part["special_kind"].values
+    places = part["special_relative_frequency"].values
+    kept: list[int] = []
+    for number in np.flatnonzero((kinds != "") & (kinds != "exchange")):
+        last = kept[-1] if kept else number
+        pair = kinds[last] == kinds[number] == "fold"
+        if kept and pair and abs(places[number] - places[last]) < _WRINKLE:
+            kept.pop()
+        else:
+            kept.append(int(number))
+    return np.array(kept, dtype=np.intp)
 
 
 def _ends_within(place: float, limits: dict[str, float]) -> bool:

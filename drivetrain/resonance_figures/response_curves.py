@@ -20,6 +20,7 @@ from drivetrain.figures.style import (
     new_figure,
 )
 from drivetrain.resonance.settings import MODELS
+from drivetrain.resonance.summary import main_special
 
 Array = NDArray[np.float64]
 
@@ -102,6 +103,7 @@ def response_curves(dataset: xr.Dataset) -> Any:
 
 
 def _mark_special(ax: Any, part: xr.Dataset) -> None:
+    part = part.isel(special=main_special(part))
     for kind, x, y in zip(
         part["special_kind"].values,
         part["special_relative_frequency"].values,

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from drivetrain.resonance import ResonanceSettings, study_resonance
 from drivetrain.resonance.cycle_dataset import cycle_dataset
 from drivetrain.resonance.datasets import resonance_dataset
 from drivetrain.resonance.measures import mesh_harmonics, rate_over_period
 from drivetrain.resonance.response import Response, follow_response
-from drivetrain.resonance.summary import summaries
+from drivetrain.resonance.summary import main_special, summaries
 from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
@@ -224,3 +225,13 @@ def test_harmonics_of_a_known_series():
 def test_settings_out_of_range_are_refused(changes):
     with pytest.raises(ParameterError):
         dry(**changes)
+
+
+def test_wrinkles_of_a_branch_are_not_listed_as_folds():
+    kinds = ["fold", "exchange", "fold", "fold", "fold", "period doubling", ""]
+    places = [0.96, 0.96, 0.8201, 0.8202, 0.81, 0.9, np.nan]
+    part = xr.Dataset(
+        {"special_kind": ("special", kinds), "special_relative_frequency": ("special", places)}
+    )
+    # the pair 1e-4 apart goes, the exchange says nothing new, the last place is empty
+    assert main_special(part).tolist() == [0, 4, 5]
