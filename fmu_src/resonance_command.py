@@ -69,6 +69,14 @@ def resonance(
     frequencies: Annotated[
         int, typer.Option(help="Frequencies of each response curve.", metavar="N")
     ] = 200,
+    load_at: Annotated[
+        float | None,
+        typer.Option(
+            help="Also follow the response over the pinion torque, at this mesh over natural "
+            "frequency: load.nc and its figure.",
+            metavar="RELATIVE",
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_resonance"),
     quick: Annotated[
         bool,
@@ -99,8 +107,13 @@ def resonance(
             last=last,
             frequencies=frequencies,
         )
+        if load_at is not None:
+            check_within("--load-at", load_at, 0.05, 3.0, "", "0.9 shows the bistable range.")
         finished = console_resonance(
-            console, settings=quick_settings(settings) if quick else settings, out=out
+            console,
+            settings=quick_settings(settings) if quick else settings,
+            out=out,
+            load_at=load_at,
         )
     except KeyboardInterrupt:
         logger.warning("Stopped while results were written; %s may be incomplete.", out)

@@ -14,15 +14,19 @@ from rich.table import Table
 from drivetrain.resonance import MODELS, ResonanceSettings, Stage, study_resonance
 from drivetrain.resonance.cycle_dataset import cycle_dataset
 from drivetrain.resonance.datasets import resonance_dataset
+from drivetrain.resonance.load_response import load_response
 from drivetrain.resonance.summary import ModelSummary, summaries
 from drivetrain.resonance_figures import save_resonance_figures
+from drivetrain.resonance_figures.load_curves import load_curves
 from fmu_src.progress_bar import progress_bar
 
 logger = logging.getLogger("gearlube")
 _PARTS = 1000  # of the progress bar
 
 
-def console_resonance(console: Console, *, settings: ResonanceSettings, out: Path) -> bool:
+def console_resonance(
+    console: Console, *, settings: ResonanceSettings, out: Path, load_at: float | None
+) -> bool:
     """Run a study, write datasets and figures to `out`; return False if it was stopped."""
     began = time.monotonic()
     out.mkdir(parents=True, exist_ok=True)
@@ -38,6 +42,11 @@ def console_resonance(console: Console, *, settings: ResonanceSettings, out: Pat
         _write(response, out / "resonance.nc")
         _write(cycle, out / "cycle.nc")
         save_resonance_figures(response, cycle, out / "figures")
+        if load_at is not None and not study.interrupted:
+            bar.update(task, description="load")
+            load = load_response(settings, load_at)
+            _write(load, out / "load.nc")
+            load_curves(load).savefig(out / "figures" / "load_response.png", dpi=150)
     found = summaries(response)
     if found:
         console.print(_table(found))

@@ -1,0 +1,51 @@
+"""The response over the pinion torque as a dataset."""
+
+import numpy as np
+import pytest
+
+from drivetrain.resonance import ResonanceSettings, load_response
+from drivetrain.resonance_figures.load_curves import load_curves
+from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
+from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
+from gearlube_core.periodic import solve_periodic
+
+STEPS = 64
+
+
+@pytest.fixture(scope="module")
+def response():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(load_response, "SPAN", (0.9, 1.1))
+        patch.setattr(load_response, "_STEPS", STEPS)
+        return load_response.load_response(ResonanceSettings(), 0.5)
+
+
+def test_every_variable_says_its_unit_and_meaning(response):
+    for variable in response.data_vars.values():
+        assert variable.attrs["units"]
+        assert variable.attrs["long_name"]
+
+
+def test_rows_span_the_torques_asked_for(response):
+    for form in ("two_dof", "one_dof"):
+        torque = response["torque"].sel(form=form).dropna("row").values
+        assert torque[0] == pytest.approx(55.0)
+        assert torque[-1] == pytest.approx(45.0)
+
+
+def test_amplitude_is_that_of_the_motion_at_the_same_speed_and_torque(response):
+    parameters = ResonanceSettings(pinion_torque=55.0).parameters("two_dof")
+    nominal = HypoidTorsional(ResonanceSettings().parameters("two_dof"))
+    speed = nominal.pinion_speed(0.5 * nominal.natural_frequency)
+    problem = PeriodProblem(parameters, steps_per_mesh_period=STEPS)
+    motion = solve_periodic(problem.equations(), problem.initial_guess(speed), speed)
+    expected = np.ptp(problem.orbit(motion.unknowns, speed).x)
+    # both solved to 1e-9 of the deflection
+    found = response["peak_to_peak"].sel(form="two_dof").values[0]
+    assert found == pytest.approx(expected, rel=1e-6)
+
+
+def test_figure_shows_both_forms(response):
+    upper, lower = load_curves(response).axes
+    assert len(upper.get_legend().get_texts()) == 2
+    assert lower.get_xlabel().endswith("[N·m]")
