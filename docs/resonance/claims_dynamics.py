@@ -128,7 +128,8 @@ def first_order(evidence: Evidence) -> Verdict:
         judge(0.35 < ours < 0.65),
         " / ".join(f"{value:.2f}" for value in theirs),
         judge(all(inside), any(inside)),
-        "1-DOF over 2-DOF; one motion alone exists at 1.0, no branch to choose",
+        "1-DOF over 2-DOF, of the one motion that repeats with the mesh; with a mismatch others of "
+        "several mesh periods coexist",
     )
 
 

@@ -146,10 +146,11 @@ def start_table(starts: Sequence[Start]) -> str:
     """Return where starts lead."""
     names = list(dict.fromkeys(start.name for start in starts))
     rows = []
-    for mismatch in dict.fromkeys(start.mismatch for start in starts):
-        found = [next(s for s in starts if (s.mismatch, s.name) == (mismatch, n)) for n in names]
-        rows.append([f"{100.0 * mismatch:g}", *(f"{UM * s.peak_to_peak:.2f}" for s in found)])
-    return table(["d, %", *names], rows)
+    for case in dict.fromkeys((start.relative, start.mismatch) for start in starts):
+        found = [start for start in starts if (start.relative, start.mismatch) == case]
+        sizes = [f"{UM * start.peak_to_peak:.2f} ({start.periods or 'none'})" for start in found]
+        rows.append([f"{case[0]:g}", f"{100.0 * case[1]:g}", *sizes])
+    return table(["w/w_n", "d, %", *names], rows)
 
 
 def agreement_table(found: Sequence[Agreement]) -> str:

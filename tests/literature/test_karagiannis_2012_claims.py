@@ -16,7 +16,7 @@ from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
-from gearlube_core.dynamics.hypoid_torsional.time_sweep import time_sweep
+from gearlube_core.dynamics.hypoid_torsional.time_sweep import settle_load, time_sweep
 from gearlube_core.periodic import follow
 
 
@@ -199,3 +199,22 @@ def test_18_the_cold_film_is_warmer_than_the_41_degc_printed():
     rise = loaded(lubricated(0.3)[0], "rise_effective")
     assert np.all((rise > 0.005 * 313.15) & (rise < 0.05 * 313.15))
     assert rise.max() > 5.0
+
+
+def test_with_a_mismatch_motions_of_two_mesh_periods_coexist_at_resonance():
+    """From the paper's x = 0 the pair does not settle on the motion that repeats with the mesh."""
+    parameters = reconstructed(0.002)
+    model = HypoidTorsional(parameters)
+    rows, p = model.rows(256), model.kernel_parameters
+    speed = model.pinion_speed(model.natural_frequency)
+    y = model.initial_state(speed)
+    y[0] = -75.0
+    load = settle_load(y, 40, model.mean_load_torque, speed, rows, p)
+    record = np.zeros((4 * 256, N_RECORD))
+    march(y, 0, 600, load, speed, rows, p, record[:0])
+    march(y, 600, 4, load, speed, rows, p, record)
+    periods = record[:, 1].reshape(4, 256)
+    swing = np.ptp(periods)
+    assert np.max(np.abs(periods[2:] - periods[:2])) < 0.01 * swing
+    assert np.max(np.abs(periods[1:] - periods[:-1])) > 0.1 * swing
+    assert swing > 2e6 * np.ptp(periodic_orbit(parameters, 1.0).x)
