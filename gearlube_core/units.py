@@ -24,11 +24,6 @@ def kmh_to_ms(speed_kmh: float) -> float:
     return speed_kmh / 3.6
 
 
-def ms_to_kmh(speed: float) -> float:
-    """Return the speed [km/h] of `speed` [m/s]."""
-    return speed * 3.6
-
-
 def rpm_to_rads(speed_rpm: float) -> float:
     """Return the angular speed [rad/s] of `speed_rpm` [1/min]."""
     return speed_rpm * math.pi / 30.0
