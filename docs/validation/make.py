@@ -32,9 +32,10 @@ HypoidAxle.fmu: 20 to 100 km/h, preloads 2500 and 6000 N, road load and a slow s
 paper. *Consistent* is the default; *as printed* has the paper's signs in eq. (1) c-h and its
 friction formulas, eq. (11)-(19), as printed. A claim that does not hold is left standing as such.
 
-The mesh data are those of tooth contact analysis from the machine settings
-([tooth_contact.md](tooth_contact.md)), which also says how much the settings that the papers leave out
-move them. The mesh is a spring tangent at its load.
+The mesh data are those of tooth contact analysis from the machine settings; the page on
+[tooth contact](tooth_contact.md) says how much the settings that the papers leave out move them. The
+mesh is a spring tangent at its load. The claims of Karagiannis et al. 2012 stand in
+[resonance.md](resonance.md).
 
 | # | Claim | Printed in | Tolerance | Consistent | Verdict | As printed | Verdict |
 |---|---|---|---|---|---|---|---|
