@@ -98,7 +98,7 @@ TAIL = """
 
    print(*setting_report(file), sep="\\n")
    for change in suggest_settings(file):
-       print(change)    # pinion.machine.sliding_base_mm from 21.647 to 20.649 mm
+       print(change)  # pinion.machine.sliding_base_mm from 21.647 to 20.649 mm
    ```
 
    A plane that misses by tenths of a millimetre is most often one sign read the other way; a

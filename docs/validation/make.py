@@ -33,8 +33,8 @@ paper. *Consistent* is the default; *as printed* has the paper's signs in eq. (1
 friction formulas, eq. (11)-(19), as printed. A claim that does not hold is left standing as such.
 
 The mesh data are those of tooth contact analysis from the machine settings; the page on
-[tooth contact](tooth_contact.md) says how much the settings that the papers leave out move them. The
-mesh is a spring tangent at its load. The claims of Karagiannis et al. 2012 stand in
+[tooth contact](tooth_contact.md) says how much the settings that the papers leave out move them.
+The mesh is a spring tangent at its load. The claims of Karagiannis et al. 2012 stand in
 [resonance.md](resonance.md).
 
 | # | Claim | Printed in | Tolerance | Consistent | Verdict | As printed | Verdict |
