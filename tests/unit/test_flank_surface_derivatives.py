@@ -25,7 +25,11 @@ def test_derivatives_are_those_of_the_points_and_normals(flank, name):
     step = np.zeros(3)
     step[("u", "th", "ph").index(name)] = h = 1e-6
     if name == "ph" and not flank.motion.generated:
-        return  # a form-cut flank has no cradle motion: there `meshing` is ph itself
+        # a form-cut flank has no cradle motion: its equation of meshing is ph = 0
+        turned = cut_state(flank.motion, *(at + 0.3 * step / h))
+        assert (turned.meshing, turned.meshing_ph) == (0.3, 1.0)
+        assert turned.r_ph == (0.0, 0.0, 0.0)
+        return
     state = cut_state(flank.motion, *at)
     ahead, behind = cut_state(flank.motion, *(at + step)), cut_state(flank.motion, *(at - step))
 
