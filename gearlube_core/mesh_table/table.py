@@ -103,7 +103,7 @@ class MeshTable:
 
     Notes
     -----
-    k_t, chi and pressure_max are kept for reading; the dynamics does not use them.
+    chi and pressure_max are kept for reading; the dynamics does not use them.
 
     References
     ----------
