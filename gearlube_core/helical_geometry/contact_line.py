@@ -1,0 +1,129 @@
+"""Contact lines of a helical pair on the plane of contact, clipped to it: kernels.
+
+Frame of He et al. 2007 fig. 1: the plane is tangent to both base cylinders; x runs along the line
+of action from the pinion's tangent point, z along the axes with its origin at mid-face. A line
+is named by X, its x on the face z = +W/2 as if the plane were unbounded; it lies at
+
+    x = X - (W/2 - z) tan(b)
+
+and moves with dX = r_bp dphi_p. Contact exists for A <= x <= D, |z| <= W/2.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlube_core.jit import kernel
+
+
+class ContactPlane(NamedTuple):
+    """The plane of contact; all floats, SI."""
+
+    A: float  # x where contact starts: tip of the gear [m]
+    D: float  # x where contact ends: tip of the pinion [m]
+    P: float  # x of the pitch line [m]
+    W: float  # face width [m]
+    x_g: float  # x of the gear's tangent point [m]
+    pitch: float  # transverse base pitch [m]
+    sin_b: float  # of the base helix angle [1]
+    cos_b: float
+    r_bp: float  # base radii [m]
+    r_bg: float
+
+
+class LineSegment(NamedTuple):
+    """The part of a contact line inside the plane; empty where z_high <= z_low."""
+
+    z_low: float  # [m]
+    z_high: float
+    x_low: float  # at z_low [m]
+    x_high: float  # at z_high [m]
+
+
+@kernel
+def line_count(plane: ContactPlane) -> int:
+    """Return how many lines may be in contact at once: the total contact ratio, rounded up."""
+    travel = plane.D - plane.A + plane.W * plane.sin_b / plane.cos_b
+    return int(math.ceil(travel / plane.pitch - 1.0e-12))
+
+
+@kernel
+def line_position(phase: float, pair: int, plane: ContactPlane) -> float:
+    """Return X of line `pair` at a mesh phase.
+
+    X_i = A + (phi - floor(phi) + i) lambda
+
+    Parameters
+    ----------
+    phase
+        Mesh phase [mesh periods]: r_bp times pinion rotation over base pitch; any number. At
+        zero, line 0 enters at A.
+    pair
+        i = 0, 1, ...: lines by age; i of `line_count` lines can touch.
+    plane
+        Plane of contact.
+
+    Returns
+    -------
+    float
+        [m].
+
+    Notes
+    -----
+    Source: He et al. 2007 eq. (23).
+    """
+    return plane.A + (phase - math.floor(phase) + pair) * plane.pitch
+
+
+@kernel
+def clip_line(X: float, plane: ContactPlane) -> LineSegment:
+    """Return the segment of line X inside the plane of contact.
+
+    Parameters
+    ----------
+    X
+        Of the line, on the face z = +W/2 [m].
+    plane
+        Any pair, any contact ratio; spur gears (b = 0) carry over the whole face at once.
+
+    Returns
+    -------
+    LineSegment
+        x rises with z.
+
+    Notes
+    -----
+    Replaces the eight zones of He et al. 2007 eq. (24) and the three cases of Jamali 2015
+    sec. 2.2.1.
+    """
+    half = 0.5 * plane.W
+    tan_b = plane.sin_b / plane.cos_b
+    z_low, z_high = -half, half
+    if tan_b > 0.0:
+        z_low = max(z_low, half - (X - plane.A) / tan_b)
+        z_high = min(z_high, half - (X - plane.D) / tan_b)
+    elif X < plane.A or X > plane.D:
+        z_high = z_low
+    if z_high <= z_low:
+        return LineSegment(z_low, z_low, X, X)
+    return LineSegment(z_low, z_high, X - (half - z_low) * tan_b, X - (half - z_high) * tan_b)
+
+
+@kernel
+def segment_length(segment: LineSegment, plane: ContactPlane) -> float:
+    """Return the length of a segment along the line [m]."""
+    return max(0.0, segment.z_high - segment.z_low) / plane.cos_b
+
+
+@kernel
+def pitch_crossing(X: float, segment: LineSegment, plane: ContactPlane) -> float:
+    """Return z where a segment crosses the pitch line [m], moved to its nearer end otherwise.
+
+    Sliding reverses there. Below it (towards z_low) the pinion's dedendum slides.
+    """
+    tan_b = plane.sin_b / plane.cos_b
+    if tan_b <= 0.0:
+        return segment.z_low if X >= plane.P else segment.z_high
+    z = 0.5 * plane.W - (X - plane.P) / tan_b
+    return min(max(z, segment.z_low), segment.z_high)
