@@ -45,7 +45,7 @@ class LineSegment(NamedTuple):
 def line_count(plane: ContactPlane) -> int:
     """Return how many lines may be in contact at once: the total contact ratio, rounded up."""
     travel = plane.D - plane.A + plane.W * plane.sin_b / plane.cos_b
-    return int(math.ceil(travel / plane.pitch - 1.0e-12))
+    return math.ceil(travel / plane.pitch - 1.0e-12)
 
 
 @kernel

@@ -80,7 +80,7 @@ class HelicalPair:
         smallest = self.pinion_base_radius + self.gear_base_radius
         check_within(
             "centre_distance", self.centre_distance, 1.0001 * smallest, 1.3 * smallest, "m",
-            "It must exceed the sum of the base radii; near the sum of the reference radii is usual.",
+            "It must exceed the sum of the base radii, by about 10 percent.",
         )  # fmt: skip
         for member in ("pinion", "gear"):
             tip, root = (
@@ -153,17 +153,17 @@ class HelicalPair:
 
     @property
     def contact_start(self) -> float:
-        """x of A, where the gear's tip enters the line of action [m] from the pinion's tangent."""
+        """Where the gear's tip enters the line of action: x of A [m]."""
         return self.tangent_length - math.sqrt(self.gear_tip_radius**2 - self.gear_base_radius**2)
 
     @property
     def contact_end(self) -> float:
-        """x of D, where the pinion's tip leaves the line of action [m]."""
+        """Where the pinion's tip leaves the line of action: x of D [m]."""
         return math.sqrt(self.pinion_tip_radius**2 - self.pinion_base_radius**2)
 
     @property
     def pitch_point(self) -> float:
-        """x of P [m]: the radius of curvature of both flanks' pinion side at the pitch line."""
+        """Where sliding reverses: x of P [m], also the pinion's transverse radius there."""
         return self.pinion_base_radius * math.tan(self.working_pressure_angle)
 
     @property
