@@ -1,0 +1,227 @@
+"""Modifications of helical and spur flanks: material removed from the true involute helicoids.
+
+Removal is measured in the transverse plane, normal to the profile: along the line of action. In
+the direction normal to the flank it is that times cos(beta_b).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearlube_core.checks import check_finite, check_positive, check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.involute import InvoluteFlank, involute_flank
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
+
+_METRES = "Give metres, not micrometres."
+_LARGEST = 1.0e-3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Crown:
+    """Axial crown of one flank, parabolic from |z| = F_o outwards.
+
+    z_c' = c_r ((|z| - F_o)/(F/2 - F_o))^2
+
+    Parameters
+    ----------
+    amount : float
+        c_r, at both face edges [m]; 0 to 1 mm.
+    start : float
+        F_o, from mid-face [m]; at least 0, less than half the face width.
+
+    Raises
+    ------
+    ParameterError
+        A field out of range.
+
+    Notes
+    -----
+    Source: Jamali 2015 eq. (4.3), (4.4) before their factor cos(beta_b). (4.4) puts the lower
+    half's start at -F_o, so both halves are one formula in |z|.
+    """
+
+    amount: float
+    start: float
+
+    def __post_init__(self) -> None:
+        check_within("amount", self.amount, 0.0, _LARGEST, "m", _METRES)
+        check_within("start", self.start, 0.0, 1.0, "m", _METRES)
+
+    def removal(self, z: ArrayLike, face_width: float) -> NDArray[np.float64]:
+        """Return the removal [m] at z [m] from mid-face, any shape; goes on past the faces."""
+        depth = np.maximum(np.abs(np.asarray(z, dtype=float)) - self.start, 0.0)
+        return np.asarray(self.amount * (depth / (0.5 * face_width - self.start)) ** 2)
+
+    def curvature_radius(self, face_width: float, base_helix_angle: float) -> float:
+        """Return the radius of curvature along the contact line [m], where the crown has begun.
+
+        R_y = (F/2 - F_o)^2/(2 c_r cos^3(beta_b))
+        """
+        check_positive("amount", self.amount, "m", "A crown of zero has no curvature.")
+        half = 0.5 * face_width - self.start
+        return half**2 / (2.0 * self.amount * math.cos(base_helix_angle) ** 3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlankModification:
+    """Everything that makes one member's flank differ from an involute helicoid.
+
+    Parameters
+    ----------
+    tip_relief : TipRelief or PowerTipRelief or None
+    crown : Crown or None
+    lead_slope : float
+        f_Hbeta over the face width [m]: the removal at z = +W/2 less that at -W/2, zero at
+        mid-face. Positive values open the gap towards +z, on either member.
+    profile_slope : float
+        f_Halpha over the active profile [m]: the removal at its tip end less that at its root
+        end, zero in the middle of its roll length. Positive values open the gap at this member's
+        tip; ISO 1328-1 counts material there, the opposite sign.
+
+    Raises
+    ------
+    ParameterError
+        A slope larger than 1 mm or not finite.
+    """
+
+    tip_relief: TipRelief | PowerTipRelief | None = None
+    crown: Crown | None = None
+    lead_slope: float = 0.0
+    profile_slope: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("lead_slope", "profile_slope"):
+            value = check_finite(name, getattr(self, name), "m", _METRES)
+            check_within(name, value, -_LARGEST, _LARGEST, "m", _METRES)
+
+    def removal(self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank) -> NDArray[np.float64]:
+        """Return the transverse removal [m].
+
+        Parameters
+        ----------
+        roll
+            Roll length of the point [m].
+        z
+            From mid-face [m]; shapes broadcast.
+        flank
+            The member's.
+
+        Returns
+        -------
+        array
+            [m], of the broadcast shape.
+        """
+        roll, z = np.broadcast_arrays(np.asarray(roll, dtype=float), np.asarray(z, dtype=float))
+        total = np.zeros(roll.shape)
+        if self.tip_relief is not None:
+            total += self.tip_relief.removal(flank.radius(roll), flank.tip_radius)
+        if self.crown is not None:
+            total += self.crown.removal(z, flank.face_width)
+        if self.lead_slope != 0.0:
+            total += self.lead_slope * z / flank.face_width
+        if self.profile_slope != 0.0:
+            middle = 0.5 * (flank.roll_low + flank.roll_high)
+            total += self.profile_slope * (roll - middle) / (flank.roll_high - flank.roll_low)
+        return total
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModifiedPair:
+    """A gear pair with modified flanks.
+
+    Parameters
+    ----------
+    pair : HelicalPair
+    pinion, gear : FlankModification
+        Plain flanks by default.
+
+    Raises
+    ------
+    ParameterError
+        Crown that starts outside the face, or relief that starts inside the base circle.
+    """
+
+    pair: HelicalPair
+    pinion: FlankModification = FlankModification()
+    gear: FlankModification = FlankModification()
+
+    def __post_init__(self) -> None:
+        half = 0.5 * self.pair.face_width
+        for member in ("pinion", "gear"):
+            modification: FlankModification = getattr(self, member)
+            flank = involute_flank(self.pair, member)
+            crown, relief = modification.crown, modification.tip_relief
+            if crown is not None and not crown.start < half:
+                raise ParameterError(
+                    f"{member}.crown.start must be below half the face width, {half:g} m, "
+                    f"got {crown.start:g} m. {_METRES}"
+                )
+            if relief is not None and relief.extent > flank.tip_radius - flank.base_radius:
+                raise ParameterError(
+                    f"{member}.tip_relief.extent must end above the base circle, at most "
+                    f"{flank.tip_radius - flank.base_radius:g} m, got {relief.extent:g} m. "
+                    "Shorten the relief."
+                )
+
+    @property
+    def pinion_flank(self) -> InvoluteFlank:
+        """The pinion's involute."""
+        return involute_flank(self.pair, "pinion")
+
+    @property
+    def gear_flank(self) -> InvoluteFlank:
+        """The gear's involute."""
+        return involute_flank(self.pair, "gear")
+
+    @property
+    def contact_start(self) -> float:
+        """Where the gear's relief ends and unrelieved contact starts: x [m]."""
+        return self.pair.tangent_length - _relief_start(self.gear, self.gear_flank)
+
+    @property
+    def contact_end(self) -> float:
+        """Where the pinion's relief begins: x [m]."""
+        return _relief_start(self.pinion, self.pinion_flank)
+
+    def pinion_removal(self, roll: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
+        """Return the pinion's transverse removal [m] at roll length and z [m]."""
+        return self.pinion.removal(roll, z, self.pinion_flank)
+
+    def gear_removal(self, roll: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
+        """Return the gear's transverse removal [m] at its roll length and z [m]."""
+        return self.gear.removal(roll, z, self.gear_flank)
+
+    def removal(self, x: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
+        """Return the transverse removal of both flanks at points of the plane of contact.
+
+        Parameters
+        ----------
+        x
+            Along the line of action from the pinion's tangent point [m].
+        z
+            From mid-face [m]; shapes broadcast.
+
+        Returns
+        -------
+        array
+            [m]: how much later than unmodified flanks the point comes into contact.
+        """
+        x = np.asarray(x, dtype=float)
+        return self.pinion_removal(x, z) + self.gear_removal(self.pair.tangent_length - x, z)
+
+    def normal_removal(self, x: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
+        """Return the same normal to the flanks [m]: times cos(beta_b)."""
+        return np.asarray(self.removal(x, z) * math.cos(self.pair.base_helix_angle))
+
+
+def _relief_start(modification: FlankModification, flank: InvoluteFlank) -> float:
+    relief = modification.tip_relief
+    if relief is None:
+        return flank.roll_high
+    return float(flank.roll(flank.tip_radius - relief.extent))
