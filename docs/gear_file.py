@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from gearlube_core.flank_surface.field_notes import FieldNote, field_notes
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.flank_surface.tooth import Tooth
 from gearlube_core.flank_surface.tooth_solid import Solid, gear_solid
+from gearlube_core.input_file.field_notes import FieldNote, field_notes
 from gearlube_core.tooth_contact.pair import FlankPair
 from gearlube_core.tooth_contact.placement import Placement
 

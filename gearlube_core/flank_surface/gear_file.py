@@ -7,16 +7,13 @@ of the docs and the error messages come from these models.
 from __future__ import annotations
 
 import math
-import tomllib
-from importlib.resources import files
-from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
 from gearlube_core.blank.hypoid_blank import HypoidBlank, MemberBlank
-from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.field_notes import field_notes, sentence
+from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
@@ -36,11 +33,7 @@ Fields = Annotated[tuple[Text, ...], Field(strict=False)]
 Origin = Literal["table", "inferred", "completed"]
 
 
-class _Section(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
-
-
-class Cutter(_Section):
+class Cutter(Section):
     """Blades of one member's cutter head; angles are named after the flank that they cut."""
 
     point_radius_mm: Length = Field(
@@ -76,7 +69,7 @@ class Cutter(_Section):
     )
 
 
-class FormateMachine(_Section):
+class FormateMachine(Section):
     """Machine settings of a form-cut (not generated) gear."""
 
     machine_root_angle_deg: ConeAngle = Field(
@@ -96,7 +89,7 @@ class FormateMachine(_Section):
     )
 
 
-class GeneratorMachine(_Section):
+class GeneratorMachine(Section):
     """Machine settings of a pinion generated with cutter tilt.
 
     The cradle stands in for the gear: with all crowning taken away, its axis is the gear axis.
@@ -131,7 +124,7 @@ class GeneratorMachine(_Section):
     ratio_of_roll: RollRatio = Field(description="Rotation of the work per rotation of the cradle")
 
 
-class Member(_Section):
+class Member(Section):
     """Blank of one member; apexes count positive beyond the crossing point of the axes."""
 
     teeth: int = Field(ge=3, le=400, description="Number of teeth")
@@ -164,7 +157,7 @@ class Gear(Member):
     machine: FormateMachine
 
 
-class Pair(_Section):
+class Pair(Section):
     """How the members stand to each other; axes at 90 degrees."""
 
     offset_mm: PairOffset = Field(description="Distance of the axes (pinion offset)")
@@ -175,13 +168,15 @@ class Pair(_Section):
     )
 
 
-class HypoidGearFile(_Section):
+class HypoidGearFile(InputFile):
     """A hypoid gear pair as a workshop describes it.
 
     References
     ----------
     Karagiannis et al. 2012, Table 1, for the names of the settings.
     """
+
+    package: ClassVar[str] = "gearlube_core.flank_surface"
 
     name: Text = Field(description="What reports and plots call the pair")
     source: Text = Field(description="Where the numbers are from")
@@ -225,53 +220,11 @@ class HypoidGearFile(_Section):
             )
         return self
 
-    @classmethod
-    def from_toml(cls, path: str | Path) -> HypoidGearFile:
-        """Read a gear file; raise ParameterError that names every field that is wrong."""
-        try:
-            data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
-            raise ParameterError(f"{path} is not a readable TOML file: {reason}.") from None
-        return cls.from_data(data, str(path))
-
-    @classmethod
-    def named(cls, name: str) -> HypoidGearFile:
-        """Return a gear file that ships with the package, e.g. "mohammadpour_2015"."""
-        resource = files("gearlube_core.flank_surface") / "data" / f"{name}.toml"
-        if not resource.is_file():
-            raise ParameterError(f"No gear file is called {name!r}. Shipped: mohammadpour_2015.")
-        return cls.from_data(tomllib.loads(resource.read_text(encoding="utf-8")), name)
-
-    @classmethod
-    def from_data(cls, data: dict[str, Any], where: str) -> HypoidGearFile:
-        """Return the gear file of parsed TOML `data`; `where` names it in errors."""
-        try:
-            return cls.model_validate(data)
-        except ValidationError as reason:
-            notes = field_notes(cls)
-            lines = [sentence(error, notes) for error in reason.errors()]
-            raise ParameterError(
-                f"{where} has {len(lines)} wrong field(s). " + " ".join(lines)
-            ) from None
-
     def origin(self, field: str) -> Origin:
         """Return where the value of a dotted field, e.g. "gear.cutter.blade_groups", is from."""
         if field in self.completed:
             return "completed"
         return "inferred" if field in self.inferred else "table"
-
-    def varied(self, changes: dict[str, Any]) -> HypoidGearFile:
-        """Return a copy with dotted fields changed, checked as a file is."""
-        data = self.model_dump(exclude_none=True)
-        for field, value in changes.items():
-            *sections, key = field.split(".")
-            section = data
-            for part in sections:
-                section = section[part]
-            section[key] = value
-            if value is None:
-                del section[key]
-        return self.from_data(data, f"{self.name} varied")
 
     def blank(self) -> HypoidBlank:
         """Return the blank of the pair, in SI units."""

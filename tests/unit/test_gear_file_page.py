@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 
 from docs.gear_file import page
-from gearlube_core.flank_surface.field_notes import field_notes
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.input_file.field_notes import field_notes
 
 FOLDER = Path(__file__).parents[2] / "docs"
 PAGE = (FOLDER / "gear_file.md").read_text(encoding="utf-8")

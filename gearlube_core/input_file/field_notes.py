@@ -8,7 +8,21 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
-_UNITS = {"_mm": "mm", "_deg": "deg"}
+_UNITS = {  # of names; where two endings fit, the first counts
+    "_rad_s": "rad/s",
+    "_n_per_um": "N/um",
+    "_kn_per_rad": "kN/rad",
+    "_knm_per_rad": "kN.m/rad",
+    "_mm": "mm",
+    "_um": "um",
+    "_deg": "deg",
+    "_kg": "kg",
+    "_kg_mm2": "kg.mm2",
+    "_n_m": "N.m",
+    "_pa_s": "Pa.s",
+    "_per_gpa": "1/GPa",
+    "_mpa": "MPa",
+}
 
 
 class FieldNote(NamedTuple):
@@ -54,11 +68,12 @@ def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]
     notes: list[tuple[str, FieldNote]] = []
     for key, entry in schema["properties"].items():
         name = f"{prefix}{key}"
-        if "$ref" in entry:
-            section = sections[entry["$ref"].rsplit("/", 1)[1]]
+        options = entry.get("anyOf", [])
+        value = next((one for one in options if one.get("type") != "null"), entry)
+        if "$ref" in value:
+            section = sections[value["$ref"].rsplit("/", 1)[1]]
             notes += _walk(section, sections, f"{name}.")
             continue
-        value = next((one for one in entry.get("anyOf", []) if one["type"] != "null"), entry)
         note = FieldNote(
             name=name,
             kind=_kind(value),
@@ -77,6 +92,7 @@ def _kind(value: Any) -> str:
         "integer": "whole number",
         "string": "text",
         "array": "list of texts",
+        "object": "table of texts",
     }
     return names[value["type"]]
 
@@ -92,6 +108,6 @@ def _default(entry: Any) -> str:
     if "default" not in entry:
         return ""
     value = entry["default"]
-    if value is None or value == []:
+    if value is None or value in ([], {}):
         return "none"
     return f"{value:g}" if isinstance(value, float) else str(value)

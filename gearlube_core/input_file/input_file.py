@@ -1,0 +1,75 @@
+"""What every input file can do: be read from TOML, be varied, and name each wrong field."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, ClassVar, Self
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import field_notes, sentence
+
+
+class Section(BaseModel):
+    """A section of an input file: no unknown fields, no conversion of types."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+
+class InputFile(Section):
+    """A whole input file; each kind of file adds its fields."""
+
+    package: ClassVar[str]  # whose folder data/ holds the shipped files
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a file; raise ParameterError that names every field that is wrong."""
+        try:
+            data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
+            raise ParameterError(f"{path} is not a readable TOML file: {reason}.") from None
+        return cls.from_data(data, str(path))
+
+    @classmethod
+    def shipped(cls) -> tuple[str, ...]:
+        """Return the names of the files that ship with the package."""
+        entries = (files(cls.package) / "data").iterdir()
+        return tuple(sorted(e.name[:-5] for e in entries if e.name.endswith(".toml")))
+
+    @classmethod
+    def named(cls, name: str) -> Self:
+        """Return a file that ships with the package, by its name."""
+        if name not in cls.shipped():
+            raise ParameterError(
+                f"No gear file is called {name!r}. Shipped: {', '.join(cls.shipped())}."
+            )
+        resource = files(cls.package) / "data" / f"{name}.toml"
+        return cls.from_data(tomllib.loads(resource.read_text(encoding="utf-8")), name)
+
+    @classmethod
+    def from_data(cls, data: dict[str, Any], where: str) -> Self:
+        """Return the file of parsed TOML `data`; `where` names it in errors."""
+        try:
+            return cls.model_validate(data)
+        except ValidationError as reason:
+            notes = field_notes(cls)
+            lines = [sentence(error, notes) for error in reason.errors()]
+            raise ParameterError(
+                f"{where} has {len(lines)} wrong field(s). " + " ".join(lines)
+            ) from None
+
+    def varied(self, changes: dict[str, Any]) -> Self:
+        """Return a copy with dotted fields changed, checked as a file is; None takes one away."""
+        data = self.model_dump(exclude_none=True)
+        for field, value in changes.items():
+            *sections, key = field.split(".")
+            section = data
+            for part in sections:
+                section = section.setdefault(part, {})
+            section[key] = value
+            if value is None:
+                del section[key]
+        return self.from_data(data, f"{data.get('name', 'The file')} varied")
