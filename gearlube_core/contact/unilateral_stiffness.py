@@ -5,7 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube_core.checks import check_within
-from gearlube_core.contact.unilateral_problem import UnilateralProblem, UnilateralSolution
+from gearlube_core.contact.unilateral_problem import (
+    Array,
+    UnilateralProblem,
+    UnilateralSolution,
+)
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 
@@ -47,6 +51,22 @@ def tangent_stiffness(
     Exact for a smooth gap up to the discretisation: as the loaded area grows, its edge carries no
     pressure, so the moving edge adds nothing to first order.
     """
+    forces = tangent_forces(problem, solution, tolerance=tolerance, max_iterations=max_iterations)
+    return float(np.where(solution.touching, problem.arm, 0.0) @ forces)
+
+
+def tangent_forces(
+    problem: UnilateralProblem,
+    solution: UnilateralSolution,
+    *,
+    tolerance: float = 1e-4,
+    max_iterations: int = 1000,
+) -> Array:
+    """Return y = df/d(delta) of `tangent_stiffness`, cell by cell [N/rad], shape (n,).
+
+    Parameters and errors as there. Local values are less smooth than their sum: cells at the edge
+    of the contact share the singularity of a flat punch.
+    """
     check_within("tolerance", tolerance, 1e-12, 1e-1)
     loaded = solution.touching
     if not loaded.any():
@@ -63,7 +83,7 @@ def tangent_stiffness(
         scaled = np.divide(residual, arm, out=np.zeros(arm.size), where=loaded)
         square = float(scaled @ scaled)
         if square <= limit:
-            return float(arm @ y)
+            return np.asarray(y)
         direction = scaled + (square / square_before) * direction
         probe = np.divide(direction, arm, out=np.zeros(arm.size), where=loaded)
         product = np.where(loaded, problem.compliance(probe), 0.0)

@@ -8,16 +8,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import block_diag, csr_array, hstack
+from scipy.sparse import csr_array, hstack
 
 from gearlube_core.checks import check_positive, check_within
-from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.strip_compliance import StripCompliance
-from gearlube_core.contact.unilateral import solve_torque
-from gearlube_core.contact.unilateral_problem import UnilateralProblem, UnilateralSolution
-from gearlube_core.contact.unilateral_stiffness import tangent_stiffness
+from gearlube_core.contact.unilateral_problem import UnilateralSolution
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.tooth_compliance.flank_compliance import FlankCompliance, interpolation_weights
+from gearlube_core.tooth_compliance.coupled_strips import (
+    CoupledStrip,
+    PairStiffness,
+    solve_coupled,
+)
+from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
 from gearlube_core.tooth_contact.gap_map import GapMap, gap_map
 from gearlube_core.tooth_contact.pair import FlankPair
 from gearlube_core.tooth_contact.placed_flank import tooth_position
@@ -52,23 +53,6 @@ class LoadedSettings:
         check_within("cells_across", self.cells_across, 8, 256)
         check_within("cells_along", self.cells_along, 8, 512)
         check_within("tolerance", self.tolerance, 1e-10, 1e-3)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PairStiffness:
-    """Elastic data of a flank pair.
-
-    Parameters
-    ----------
-    pinion, gear : FlankCompliance
-        Bending and base of the teeth (image part).
-    contact_modulus : float
-        E* [Pa], both bodies.
-    """
-
-    pinion: FlankCompliance
-    gear: FlankCompliance
-    contact_modulus: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -243,67 +227,54 @@ class MeshPosition:
         stiffness: PairStiffness,
         settings: LoadedSettings,
     ) -> tuple[LoadedState, UnilateralSolution]:
-        cells = [strip for _, strip in strips]
-        shapes = block_diag([_weights(self.pair, strip, stiffness) for strip in cells], "csr")
-        one = block_diag([stiffness.pinion.image, stiffness.gear.image]).toarray()
-        compliance = StripCompliance(
-            [_half_space(strip, stiffness.contact_modulus) for strip in cells],
-            csr_array(shapes),
-            block_diag([one] * len(cells)).toarray(),
+        solved = solve_coupled(
+            [_coupled(self.pair, strip, stiffness) for _, strip in strips],
+            stiffness,
+            torque,
+            settings.tolerance,
         )
-        problem = UnilateralProblem(
-            compliance=compliance,
-            gap=np.concatenate([strip.gap.ravel() for strip in cells]),
-            arm=np.concatenate([np.where(strip.usable, strip.arm, 1.0).ravel() for strip in cells]),
-            cell_area=np.concatenate([strip.area.ravel() for strip in cells]),
-        )
-        solution = solve_torque(problem, torque, tolerance=settings.tolerance)
-        tangent = tangent_stiffness(problem, solution)
-        size = settings.cells_across * settings.cells_along
         pairs = []
-        for i, (phase, strip) in enumerate(strips):
-            part = slice(i * size, (i + 1) * size)
-            forces = solution.forces[part].reshape(strip.gap.shape)
-            pressure = solution.pressure[part].reshape(strip.gap.shape)
+        for (phase, strip), forces, pressure in zip(
+            strips, solved.forces, solved.pressure, strict=True
+        ):
             pairs.append(
                 LoadedPair(phase, strip, forces, pressure, float(np.nansum(forces * strip.arm)))
             )
-        unloaded = float(np.min(problem.gap / problem.arm))
         state = LoadedState(
             phase=self.phase,
             torque=torque,
-            rotation=solution.rotation,
-            unloaded_rotation=min(unloaded, self.unloaded_rotation),
+            rotation=solved.solution.rotation,
+            unloaded_rotation=min(solved.first_rotation, self.unloaded_rotation),
             gear_torque=float(sum(np.nansum(p.forces * p.strip.gear_arm) for p in pairs)),
-            strain_energy=solution.strain_energy,
-            tangent=tangent,
+            strain_energy=solved.solution.strain_energy,
+            tangent=solved.tangent,
             pairs=tuple(pairs),
-            iterations=solution.outcome.iterations,
+            iterations=solved.solution.outcome.iterations,
         )
-        return state, solution
+        return state, solved.solution
 
 
 def _angles(pair: FlankPair, phase: float) -> tuple[float, float]:
     return phase * pair.gear_pitch, phase * pair.pinion_pitch
 
 
-def _half_space(strip: Strip, contact_modulus: float) -> HalfSpaceConvolution:
-    nx, ny = strip.gap.shape
-    return HalfSpaceConvolution(love_coefficients(*strip.cell, nx, ny, contact_modulus))
-
-
-def _weights(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> csr_array:
-    """Return the weights of the cells on the hats of pinion and gear, (cells, hats of both)."""
+def _coupled(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> CoupledStrip:
+    usable = strip.usable
     parts = []
     for flank, parameters, compliance in (
         (pair.pinion, strip.pinion_parameters, stiffness.pinion),
         (pair.gear, strip.gear_parameters, stiffness.gear),
     ):
         s, t = tooth_position(flank, flank.sample_parameters(parameters).r)
-        usable = strip.usable
         s, t = np.where(usable, s, 0.5), np.where(usable, t, 0.5)
         parts.append(interpolation_weights(s, t, compliance))
-    return csr_array(hstack(parts))
+    return CoupledStrip(
+        cell=strip.cell,
+        gap=strip.gap,
+        arm=np.where(usable, strip.arm, 1.0),
+        area=strip.area,
+        weights=csr_array(hstack(parts)),
+    )
 
 
 def _touches_side(pair: LoadedPair) -> bool:

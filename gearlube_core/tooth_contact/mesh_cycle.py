@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import zipfile
-from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -14,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.checks import check_within
+from gearlube_core.contact.resumable_records import Record, RecordStore, resumable_records
 from gearlube_core.errors import ParameterError
 from gearlube_core.flank_surface.flank import Side
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
@@ -26,10 +24,8 @@ from gearlube_core.tooth_contact.loaded_contact import (
 from gearlube_core.tooth_contact.pair import FlankPair
 from gearlube_core.tooth_contact.placed_flank import tooth_position
 from gearlube_core.tooth_contact.placement import ALIGNED, Misalignment
-from gearlube_core.worker_pool import single_threaded, worker_pool
 
 Array = NDArray[np.float64]
-Record = dict[str, Array]
 
 SIDES: tuple[Side, ...] = ("drive", "coast")
 PAIRS_BESIDE = 2  # tooth pairs looked at before and after the one at the mesh phase
@@ -179,20 +175,18 @@ def run_cycle(
         When a position finds no equilibrium.
     """
     tasks = [(side, float(phase)) for side in SIDES for phase in settings.phases]
-    key = _key(file, stiffness, settings)
     found: dict[tuple[Side, float], Record] = {}
-    for side, phase in tasks:
-        record = _stored(store, key, side, phase)
-        if record is not None:
-            found[side, phase] = record
-    missing = [task for task in tasks if task not in found]
-    done = len(found)
-    for side, phase, record in _computed(file, stiffness, settings, missing, jobs):
-        found[side, phase] = record
-        _keep(store, key, side, phase, record)
-        done += 1
-        if observer is not None:
-            observer(CycleProgress(done, len(tasks), side, phase))
+    for task, record in resumable_records(
+        tasks,
+        _name,
+        _position,
+        RecordStore(store, _key(file, stiffness, settings)),
+        prepare=_prepare,
+        arguments=(file, stiffness, settings),
+        jobs=jobs,
+        new=lambda task, done: observer and observer(CycleProgress(done, len(tasks), *task)),
+    ):
+        found[task] = record
     return {
         side: {
             name: np.stack([found[side, float(phase)][name] for phase in settings.phases])
@@ -200,35 +194,6 @@ def run_cycle(
         }
         for side in SIDES
     }
-
-
-def _computed(
-    file: HypoidGearFile,
-    stiffness: dict[Side, PairStiffness],
-    settings: CycleSettings,
-    tasks: list[tuple[Side, float]],
-    jobs: int | None,
-) -> Iterator[tuple[Side, float, Record]]:
-    jobs = min(jobs or os.cpu_count() or 1, len(tasks)) if tasks else 0
-    if jobs <= 1:
-        _prepare(file, stiffness, settings)
-        for side, phase in tasks:
-            with single_threaded():
-                record = _position(side, phase)
-            yield side, phase, record
-        return
-    with worker_pool(jobs, _prepare, (file, stiffness, settings)) as pool:
-        waiting: dict[Future[Record], tuple[Side, float]] = {
-            pool.submit(_position, side, phase): (side, phase) for side, phase in tasks
-        }
-        try:
-            while waiting:
-                finished, _ = wait(waiting, return_when=FIRST_COMPLETED)
-                for future in finished:
-                    side, phase = waiting.pop(future)
-                    yield side, phase, future.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
 
 
 _work: dict[str, object] = {}  # what every position of a run shares, set once in each process
@@ -244,7 +209,8 @@ def _prepare(
     _work["settings"] = settings
 
 
-def _position(side: Side, phase: float) -> Record:
+def _position(task: tuple[Side, float]) -> Record:
+    side, phase = task
     pairs, stiffness = _work["pairs"], _work["stiffness"]
     return position_record(pairs[side], phase, stiffness[side], _work["settings"])  # type: ignore[index, arg-type]
 
@@ -262,26 +228,5 @@ def _key(
     return digest.hexdigest()[:16]
 
 
-def _path(store: Path, key: str, side: Side, phase: float) -> Path:
-    return store / f"{key}_{side}_{phase:.6f}.npz"
-
-
-def _stored(store: Path | None, key: str, side: Side, phase: float) -> Record | None:
-    if store is None:
-        return None
-    try:
-        with np.load(_path(store, key, side, phase), allow_pickle=False) as stored:
-            return {name: stored[name] for name in stored.files}
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile):
-        return None
-
-
-def _keep(store: Path | None, key: str, side: Side, phase: float, record: Record) -> None:
-    if store is None:
-        return
-    store.mkdir(parents=True, exist_ok=True)
-    path = _path(store, key, side, phase)
-    partial = path.with_suffix(".part")
-    with partial.open("wb") as file:
-        np.savez(file, **record)  # type: ignore[arg-type]
-    os.replace(partial, path)
+def _name(task: tuple[Side, float]) -> str:
+    return f"{task[0]}_{task[1]:.6f}"
