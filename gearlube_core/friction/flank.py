@@ -4,81 +4,15 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.contact.greenwood_tripp_1971 import (
-    SurfaceParameters,
-    asperity_area_factor,
-    asperity_integrals,
-    asperity_load_factor,
-)
-from gearlube_core.contact.greenwood_tripp_as_printed import f_2_as_printed, f_5_2_as_printed
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.film.chittenden_1985 import central_film_thickness
-from gearlube_core.friction.evans_johnson_1986 import (
-    solid_resistance,
-    surface_heating_number,
-    viscous_friction_coefficient,
-)
-from gearlube_core.friction.flank_data import AS_PRINTED, ContactGeometry, FlankState
+from gearlube_core.friction.flank_data import ContactGeometry, FlankState
+from gearlube_core.friction.mixed_friction import SPEED_FLOOR, mixed_friction
 from gearlube_core.jit import kernel
 from gearlube_core.materials.solid import SolidParameters
 from gearlube_core.rheology.lubricant_state import LubricantState
 
-# Film and pressure of an unloaded or resting flank are those at these floors
-LOAD_FLOOR = 1.0e-3  # N
-SPEED_FLOOR = 1.0e-6  # m/s
-BOUNDARY_SPEED = 1.0e-3  # m/s, boundary friction builds up over this sliding speed
-_SATURATION = 20.0  # tanh is 1 in double precision above
-_FLASH_FACTOR = 8.0 * math.sqrt(2.0) / (3.0 * math.pi)
-_STILL_FACTOR = 16.0 / (9.0 * math.pi**3)  # s^2 Ks^2/A
-
-
-@kernel
-def contact_temperature_rise(
-    heat_flux: float,
-    film_thickness: float,
-    area: float,
-    resistance: float,
-    conductivity: float,
-    solid_conductivity: float,
-) -> float:
-    """Return the mean temperature of the film over that of the oil.
-
-    dT = q (1/m^2 + 1/s^2)^(-1/2) + q h/(12 K)
-    m = (4/3) (1/2) [2 b/(pi Ks rho cs U)]^(1/2),  b = (16/pi) p R_e/E'
-    s = (1/2) (8/3 pi) (A/pi)^(1/2)/Ks
-
-    Parameters
-    ----------
-    heat_flux
-        Friction power per contact area q [W/m2].
-    film_thickness
-        h [m].
-    area
-        Contact area A [m2].
-    resistance
-        r of `solid_resistance` [m2 K/W]; m = 8 sqrt(2)/(3 pi) r.
-    conductivity, solid_conductivity
-        K of the lubricant and Ks of the solids [W/(m K)].
-
-    Returns
-    -------
-    float
-        dT [K].
-
-    Notes
-    -----
-    m is the mean flash temperature of a uniform band source of half width b moving over a
-    half-space, half of the heat to each surface. b is the half width of a line contact with
-    mean pressure p; that of an ellipse under the same mean pressure is 7 % smaller (circle) to
-    18 % larger (slender), 4 to 9 % in m. s is the stationary limit, a uniform round source of
-    the same area, and only matters below a Peclet number of about 5. The last term is the mean
-    over a film heated uniformly across its thickness.
-    Source: Jaeger 1942 for m, Carslaw and Jaeger 1959 sec. 8.2 for s, joined as by Tian and
-    Kennedy 1994.
-    """
-    m = _FLASH_FACTOR * resistance
-    m_over_s_squared = m * m * solid_conductivity * solid_conductivity / (_STILL_FACTOR * area)
-    surface = m / math.sqrt(1.0 + m_over_s_squared)
-    return heat_flux * (surface + film_thickness / (12.0 * conductivity))
+LOAD_FLOOR = 1.0e-3  # N, film and pressure of an unloaded flank are those at this floor
 
 
 @kernel
@@ -133,58 +67,26 @@ def flank_friction(
     F = max(load, 0.0)
     F_film = max(F, LOAD_FLOOR)
     speed = max(abs(entrainment_speed), SPEED_FLOOR)
-    slip = abs(sliding_speed)
-    reduced_modulus = 2.0 * solid.contact_modulus
-    effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity
     R_e = geometry.R_e
-
     p = geometry.pressure_coefficient * math.exp(math.log(F_film) / 3.0)
-    area = F / p
     h = central_film_thickness(
-        R_e, geometry.side_flow, lubricant.eta0, lubricant.alpha, speed, F_film, reduced_modulus
-    )
-    film_ratio = h / surface.sigma
-    load_factor = asperity_load_factor(surface)
-    if form == AS_PRINTED:
-        beta = 1.0
-        W_a = load_factor * reduced_modulus * area * f_5_2_as_printed(film_ratio)
-        A_a = asperity_area_factor(surface) * area * f_2_as_printed(film_ratio)
-        W_a = min(W_a, F)
-        F_viscous = F
-    else:
-        beta = lubricant.beta
-        F_2, F_5_2 = asperity_integrals(film_ratio)
-        W_a = load_factor * solid.contact_modulus * area * F_5_2
-        A_a = asperity_area_factor(surface) * area * F_2
-        W_a = min(W_a, F)
-        F_viscous = F - W_a
-
-    resistance = solid_resistance(R_e, p, speed, reduced_modulus, effusivity_squared)
-    zeta = surface_heating_number(h, lubricant.conductivity, resistance)
-    mu = viscous_friction_coefficient(
-        h,
-        p,
-        slip,
+        R_e,
+        geometry.side_flow,
         lubricant.eta0,
         lubricant.alpha,
-        beta,
-        lubricant.tau0,
-        lubricant.conductivity,
-        zeta,
+        speed,
+        F_film,
+        2.0 * solid.contact_modulus,
     )
-    f_v = mu * F_viscous
-    f_b = lubricant.tau_l0 * A_a + lubricant.gamma * W_a
-    f_b = max(f_b, 0.0)  # the printed area integral is negative from a film ratio of 2 on
-    build_up = slip / BOUNDARY_SPEED
-    if build_up < _SATURATION:
-        f_b *= math.tanh(build_up)
-    friction = f_v + f_b
-    dT = contact_temperature_rise(
-        friction * slip * p / F_film,
+    friction = mixed_friction(
+        F, F_film, p, h, speed, abs(sliding_speed), R_e, F_film / p, lubricant, surface, solid, form
+    )
+    return FlankState(
         h,
-        F_film / p,
-        resistance,
-        lubricant.conductivity,
-        solid.conductivity,
+        h / surface.sigma,
+        friction.viscous_friction,
+        friction.boundary_friction,
+        friction.friction_coefficient,
+        friction.temperature_rise,
+        p,
     )
-    return FlankState(h, film_ratio, f_v, f_b, friction / F_film, dT, p)

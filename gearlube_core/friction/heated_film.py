@@ -11,12 +11,12 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     asperity_integrals,
     asperity_load_factor,
 )
-from gearlube_core.friction.flank import BOUNDARY_SPEED
 from gearlube_core.friction.johnson_greenwood_1980 import (
     CONVERGED,
     NOT_CONVERGED,
     thermal_eyring_film_near,
 )
+from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED
 from gearlube_core.friction.thermal_eyring_data import ThermalEyringOil
 from gearlube_core.jit import kernel
 from gearlube_core.materials.viscosity_constants import ROELANDS_LOG_VISCOSITY

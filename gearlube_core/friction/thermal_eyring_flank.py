@@ -11,7 +11,7 @@ from gearlube_core.film.grubin_1949 import (
     inlet_heating_factor,
 )
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
-from gearlube_core.friction.flank import LOAD_FLOOR, SPEED_FLOOR, contact_temperature_rise
+from gearlube_core.friction.flank import LOAD_FLOOR
 from gearlube_core.friction.flank_data import ContactGeometry
 from gearlube_core.friction.heated_film import (
     SEARCH_ITERATIONS,
@@ -20,6 +20,7 @@ from gearlube_core.friction.heated_film import (
     next_trial,
 )
 from gearlube_core.friction.johnson_greenwood_1980 import NOT_CONVERGED, thermal_newtonian_stress
+from gearlube_core.friction.mixed_friction import SPEED_FLOOR, contact_temperature_rise
 from gearlube_core.friction.thermal_eyring_data import (
     EFFECTIVE,
     INLET_SHEAR_HEATING,

@@ -13,7 +13,7 @@ from gearlube_core.contact import (
 )
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.film import chittenden_1985
-from gearlube_core.friction import evans_johnson_1986, flank, flank_data
+from gearlube_core.friction import evans_johnson_1986, flank, flank_data, mixed_friction
 from gearlube_core.materials.lubricant import Lubricant
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.rheology import eyring_1936, roelands_1966, walther_1931
@@ -65,7 +65,7 @@ CASES: list[tuple[Any, tuple[Any, ...]]] = [
         (4e-7, 7e8, 2.0, 0.02, 2e-8, 0.03, 2e6, 0.14, 0.1),
     ),
     (flank_data.contact_geometry, (0.011, 0.6, 0.4, 1.15e11)),
-    (flank.contact_temperature_rise, (1e8, 4e-7, 1.7e-6, 4.6e-7, 0.14, 46.0)),
+    (mixed_friction.contact_temperature_rise, (1e8, 4e-7, 1.7e-6, 4.6e-7, 0.14, 46.0)),
 ]
 for _form in (flank_data.CONSISTENT, flank_data.AS_PRINTED):
     for _operation in (

@@ -1,0 +1,200 @@
+"""Mixed friction of a contact whose film and pressure are known: asperities, traction, heat.
+
+One kernel for contacts of any shape. Loads, friction forces and areas are those of the whole
+contact, or of a line contact per unit length of the line.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlube_core.contact.greenwood_tripp_1971 import (
+    SurfaceParameters,
+    asperity_area_factor,
+    asperity_integrals,
+    asperity_load_factor,
+)
+from gearlube_core.contact.greenwood_tripp_as_printed import f_2_as_printed, f_5_2_as_printed
+from gearlube_core.friction.evans_johnson_1986 import (
+    solid_resistance,
+    surface_heating_number,
+    viscous_friction_coefficient,
+)
+from gearlube_core.friction.flank_data import AS_PRINTED
+from gearlube_core.jit import kernel
+from gearlube_core.materials.solid import SolidParameters
+from gearlube_core.rheology.lubricant_state import LubricantState
+
+SPEED_FLOOR = 1.0e-6  # m/s, film and heat of a resting contact are those at this floor
+BOUNDARY_SPEED = 1.0e-3  # m/s, boundary friction builds up over this sliding speed
+_SATURATION = 20.0  # tanh is 1 in double precision above
+_FLASH_FACTOR = 8.0 * math.sqrt(2.0) / (3.0 * math.pi)
+_STILL_FACTOR = 16.0 / (9.0 * math.pi**3)  # s^2 Ks^2/A
+
+
+class MixedFriction(NamedTuple):
+    """Friction of a contact, or of a line per unit length; all floats, SI, no negative number."""
+
+    viscous_friction: float  # [N] or [N/m]
+    boundary_friction: float  # [N] or [N/m]
+    friction_coefficient: float  # total friction over load [1]
+    temperature_rise: float  # mean of the film over the oil [K]
+
+
+@kernel
+def contact_temperature_rise(
+    heat_flux: float,
+    film_thickness: float,
+    area: float,
+    resistance: float,
+    conductivity: float,
+    solid_conductivity: float,
+) -> float:
+    """Return the mean temperature of the film over that of the oil.
+
+    dT = q (1/m^2 + 1/s^2)^(-1/2) + q h/(12 K)
+    m = (4/3) (1/2) [2 b/(pi Ks rho cs U)]^(1/2),  b = (16/pi) p R_e/E'
+    s = (1/2) (8/3 pi) (A/pi)^(1/2)/Ks
+
+    Parameters
+    ----------
+    heat_flux
+        Friction power per contact area q [W/m2].
+    film_thickness
+        h [m].
+    area
+        Of a round heat source that stands for the contact at rest, A [m2].
+    resistance
+        r of `solid_resistance` [m2 K/W]; m = 8 sqrt(2)/(3 pi) r.
+    conductivity, solid_conductivity
+        K of the lubricant and Ks of the solids [W/(m K)].
+
+    Returns
+    -------
+    float
+        dT [K].
+
+    Notes
+    -----
+    m is the mean flash temperature of a uniform band source of half width b moving over a
+    half-space, half of the heat to each surface. b is the half width of a line contact with
+    mean pressure p; that of an ellipse under the same mean pressure is 7 % smaller (circle) to
+    18 % larger (slender), 4 to 9 % in m. s is the stationary limit, a uniform round source of
+    the same area, and only matters below a Peclet number of about 5. The last term is the mean
+    over a film heated uniformly across its thickness.
+    Source: Jaeger 1942 for m, Carslaw and Jaeger 1959 sec. 8.2 for s, joined as by Tian and
+    Kennedy 1994.
+    """
+    m = _FLASH_FACTOR * resistance
+    m_over_s_squared = m * m * solid_conductivity * solid_conductivity / (_STILL_FACTOR * area)
+    surface = m / math.sqrt(1.0 + m_over_s_squared)
+    return heat_flux * (surface + film_thickness / (12.0 * conductivity))
+
+
+@kernel
+def mixed_friction(
+    load: float,
+    film_load: float,
+    mean_pressure: float,
+    film_thickness: float,
+    speed: float,
+    slip: float,
+    R_e: float,
+    still_area: float,
+    lubricant: LubricantState,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+) -> MixedFriction:
+    """Return friction and temperature of a contact with a known film.
+
+    consistent:  f_v = mu (F - W_a),  f_b = tau_l0 A_a + gamma W_a,  0 <= W_a <= F
+    as printed:  f_v = mu F, with E' in W_a, beta = 1 1/K in mu and the printed F_2, F_5/2
+
+    Parameters
+    ----------
+    load
+        F, not negative [N], or per unit length [N/m].
+    film_load
+        The load that film and pressure belong to, F or its floor [N] or [N/m].
+    mean_pressure
+        p of `film_load` [Pa]; the contact area is F/p [m2] or [m].
+    film_thickness
+        Central film h [m].
+    speed
+        Mean surface speed, above zero [m/s].
+    slip
+        Magnitude of the sliding speed [m/s].
+    R_e
+        Relative radius of curvature along entrainment [m].
+    still_area
+        Of the round heat source that replaces the contact at rest [m2].
+    lubricant
+        Lubricant at oil temperature.
+    surface
+        Roughness of the pair.
+    solid
+        Elastic and thermal data of the pair.
+    form
+        CONSISTENT = 0 or AS_PRINTED = 1.
+
+    Returns
+    -------
+    MixedFriction
+        The friction coefficient refers to `film_load`.
+
+    Notes
+    -----
+    Range: that of `plateau_stress_ratio` and `asperity_load`. See `flank_friction` for what the
+    two forms share and where they part.
+    Source: Mohammadpour et al. 2015 eq. (11)-(19) and erratum notes of the parts.
+    """
+    reduced_modulus = 2.0 * solid.contact_modulus
+    effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity
+    area = load / mean_pressure
+    film_ratio = film_thickness / surface.sigma
+    load_factor = asperity_load_factor(surface)
+    if form == AS_PRINTED:
+        beta = 1.0
+        W_a = load_factor * reduced_modulus * area * f_5_2_as_printed(film_ratio)
+        A_a = asperity_area_factor(surface) * area * f_2_as_printed(film_ratio)
+        W_a = min(W_a, load)
+        F_viscous = load
+    else:
+        beta = lubricant.beta
+        F_2, F_5_2 = asperity_integrals(film_ratio)
+        W_a = load_factor * solid.contact_modulus * area * F_5_2
+        A_a = asperity_area_factor(surface) * area * F_2
+        W_a = min(W_a, load)
+        F_viscous = load - W_a
+
+    resistance = solid_resistance(R_e, mean_pressure, speed, reduced_modulus, effusivity_squared)
+    zeta = surface_heating_number(film_thickness, lubricant.conductivity, resistance)
+    mu = viscous_friction_coefficient(
+        film_thickness,
+        mean_pressure,
+        slip,
+        lubricant.eta0,
+        lubricant.alpha,
+        beta,
+        lubricant.tau0,
+        lubricant.conductivity,
+        zeta,
+    )
+    f_v = mu * F_viscous
+    f_b = lubricant.tau_l0 * A_a + lubricant.gamma * W_a
+    f_b = max(f_b, 0.0)  # the printed area integral is negative from a film ratio of 2 on
+    build_up = slip / BOUNDARY_SPEED
+    if build_up < _SATURATION:
+        f_b *= math.tanh(build_up)
+    friction = f_v + f_b
+    dT = contact_temperature_rise(
+        friction * slip * mean_pressure / film_load,
+        film_thickness,
+        still_area,
+        resistance,
+        lubricant.conductivity,
+        solid.conductivity,
+    )
+    return MixedFriction(f_v, f_b, friction / film_load, dT)
