@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 _UNITS = {  # of names; where two endings fit, the first counts
-    "_rad_s": "rad/s",
+    "_rpm": "rpm",
     "_n_per_um": "N/um",
     "_kn_per_rad": "kN/rad",
     "_knm_per_rad": "kN.m/rad",
@@ -51,7 +51,7 @@ def sentence(error: Any, notes: dict[str, FieldNote]) -> str:
     field = ".".join(str(part) for part in error["loc"])
     kind, note = error["type"], notes.get(field)
     if kind == "value_error":
-        return f"{error['ctx']['error']}."
+        return f"{f'{field}: ' if field else ''}{error['ctx']['error']}."
     if kind == "missing":
         return f"{field} is missing{f': {note.meaning}' if note else ''}."
     if kind == "extra_forbidden":
@@ -98,6 +98,8 @@ def _kind(value: Any) -> str:
 
 
 def _limits(value: Any) -> str:
+    if "enum" in value:
+        return " or ".join(value["enum"])
     low, above, high = (value.get(k) for k in ("minimum", "exclusiveMinimum", "maximum"))
     if high is None:
         return ""

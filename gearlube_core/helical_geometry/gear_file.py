@@ -1,0 +1,209 @@
+"""The gear file of a helical or spur pair: geometry, flanks and bodies in engineers' units."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_body import GearBody, SupportStiffness
+from gearlube_core.helical_geometry.gear_file_sections import (
+    Bearing,
+    DampingRatios,
+    Flank,
+    Member,
+    Oil,
+    Operation,
+    Pair,
+)
+from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
+from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.units import DEGREE, MILLIMETRE
+
+Text = Annotated[str, Field(min_length=1)]
+Origin = Literal["table", "inferred", "completed"]
+Role = Literal["pinion", "gear"]
+_MICROMETRE = 1e-6  # m
+_STEEL = 7850.0  # kg/m3
+_FULL_DEPTH = 2.25  # normal modules; ISO 53: addendum 1, dedendum 1.25
+_ABSENT = {
+    "root_diameter_mm": "the basic rack's full depth, 2.25 normal modules, below the tip",
+    "body.mass_kg": "a steel disc of the root diameter and the face width",
+    "body.polar_inertia_kg_mm2": "a disc of the member's mass and the root diameter",
+    "body.diametral_inertia_kg_mm2": "a disc: J_z/2 + m W^2/12",
+}
+
+
+class HelicalGearFile(InputFile):
+    """A helical or spur gear pair as its source describes it.
+
+    Notes
+    -----
+    What a file leaves out is completed: roots from the basic rack, inertia as a steel disc.
+    `provenance` says of every field whether its source prints it.
+    """
+
+    package: ClassVar[str] = "gearlube_core.helical_geometry"
+
+    name: Text = Field(description="What reports and plots call the pair")
+    source: Text = Field(description="Where the numbers are from")
+    pair: Pair
+    pinion: Member
+    gear: Member
+    damping: DampingRatios = DampingRatios()
+    operation: Operation | None = None
+    oil: Oil | None = None
+    inferred: dict[Text, Text] = Field(
+        default={},
+        description="Dotted fields that the source implies without printing them, and how",
+    )
+    completed: dict[Text, Text] = Field(
+        default={},
+        description="Dotted fields or sections that the source lacks, and why they are so",
+    )
+
+    @model_validator(mode="after")
+    def _hangs_together(self) -> HelicalGearFile:
+        """Refuse what no field can see alone."""
+        known = field_notes(HelicalGearFile)
+        for field in (*self.inferred, *self.completed):
+            if not any(name == field or name.startswith(f"{field}.") for name in known):
+                raise ValueError(f"inferred or completed names {field!r}, which is not a field")
+        for role, member in (("pinion", self.pinion), ("gear", self.gear)):
+            if (member.bearing_1 is None) != (member.bearing_2 is None):
+                raise ValueError(f"{role} needs bearing_1 and bearing_2, or neither")
+            start, half = member.flank.crown_start_mm, 0.5 * self.pair.face_width_mm
+            if member.flank.crown_um > 0.0 and not start < half:
+                raise ValueError(
+                    f"{role}.flank.crown_start_mm must be below half of pair.face_width_mm, "
+                    f"{half:g} mm, got {start:g} mm"
+                )
+        try:
+            self.modified_pair()
+        except ParameterError as reason:
+            raise ValueError(f"In SI units: {str(reason).removesuffix('.')}") from None
+        return self
+
+    def helical_pair(self) -> HelicalPair:
+        """Return the macro geometry, in SI units."""
+        pair, cos = self.pair, math.cos(self.pair.helix_angle_deg * DEGREE)
+        angles = ((pair.normal_pressure_angle_deg, 1.0), (pair.transverse_pressure_angle_deg, cos))
+        tangent = next(math.tan(a * DEGREE) * factor for a, factor in angles if a is not None)
+        return HelicalPair(
+            name=self.name,
+            pinion_teeth=self.pinion.teeth,
+            gear_teeth=self.gear.teeth,
+            normal_module=self._normal_module,
+            normal_pressure_angle=math.atan(tangent),
+            helix_angle=pair.helix_angle_deg * DEGREE,
+            centre_distance=pair.centre_distance_mm * MILLIMETRE,
+            pinion_tip_radius=0.5 * self.pinion.tip_diameter_mm * MILLIMETRE,
+            gear_tip_radius=0.5 * self.gear.tip_diameter_mm * MILLIMETRE,
+            pinion_root_radius=self._root_radius(self.pinion),
+            gear_root_radius=self._root_radius(self.gear),
+            face_width=pair.face_width_mm * MILLIMETRE,
+            backlash=pair.backlash_mm * MILLIMETRE,
+        )
+
+    def modified_pair(self) -> ModifiedPair:
+        """Return the pair with its flank modifications but without facets, in SI units."""
+        return ModifiedPair(
+            pair=self.helical_pair(),
+            pinion=_modification(self.pinion.flank),
+            gear=_modification(self.gear.flank),
+        )
+
+    def body(self, role: Role) -> GearBody:
+        """Return inertia and supports of the "pinion" or the "gear", in SI units."""
+        member: Member = getattr(self, role)
+        width, root = self.pair.face_width_mm * MILLIMETRE, self._root_radius(member)
+        given = member.body
+        mass = given.mass_kg
+        if mass is None:
+            mass = _STEEL * math.pi * root**2 * width
+        polar = 0.5 * mass * root**2
+        if given.polar_inertia_kg_mm2 is not None:
+            polar = given.polar_inertia_kg_mm2 * MILLIMETRE**2
+        diametral = 0.5 * polar + mass * width**2 / 12.0
+        if given.diametral_inertia_kg_mm2 is not None:
+            diametral = given.diametral_inertia_kg_mm2 * MILLIMETRE**2
+        sides = ((1.0, member.bearing_1), (-1.0, member.bearing_2))
+        supports = tuple(_support(side, one) for side, one in sides if one is not None)
+        return GearBody(mass, polar, diametral, supports)
+
+    def origin(self, field: str) -> Origin:
+        """Return where the value of a dotted field, e.g. "pinion.body.mass_kg", is from."""
+        return self._provenance(field)[0]
+
+    def provenance(self, field: str) -> str:
+        """Return the origin of a dotted field with its sentence, if it has one."""
+        origin, sentence = self._provenance(field)
+        return f"{origin}: {sentence}" if sentence else origin
+
+    def _provenance(self, field: str) -> tuple[Origin, str]:
+        tags: tuple[tuple[Origin, dict[str, str]], ...] = (
+            ("completed", self.completed),
+            ("inferred", self.inferred),
+        )
+        for origin, named in tags:
+            for name, sentence in named.items():
+                if field == name or field.startswith(f"{name}."):
+                    return origin, sentence
+        role, _, rest = field.partition(".")
+        if role in ("pinion", "gear") and rest in _ABSENT:
+            value: object = getattr(self, role)
+            for part in rest.split("."):
+                value = getattr(value, part)
+            if value is None:
+                return "completed", _ABSENT[rest]
+        return "table", ""
+
+    @property
+    def _normal_module(self) -> float:
+        cos = math.cos(self.pair.helix_angle_deg * DEGREE)
+        modules = ((self.pair.normal_module_mm, 1.0), (self.pair.transverse_module_mm, cos))
+        return next(m * factor * MILLIMETRE for m, factor in modules if m is not None)
+
+    def _root_radius(self, member: Member) -> float:
+        if member.root_diameter_mm is not None:
+            return 0.5 * member.root_diameter_mm * MILLIMETRE
+        return 0.5 * member.tip_diameter_mm * MILLIMETRE - _FULL_DEPTH * self._normal_module
+
+
+def _modification(flank: Flank) -> FlankModification:
+    relief: TipRelief | PowerTipRelief | None = None
+    if flank.tip_relief_um > 0.0 and flank.tip_relief_depth_mm is not None:
+        amount, extent = flank.tip_relief_um * _MICROMETRE, flank.tip_relief_depth_mm * MILLIMETRE
+        if flank.tip_relief_form == "power":
+            beta = flank.tip_relief_exponent
+            relief = PowerTipRelief(amount=amount, extent=extent, beta=beta)
+        else:
+            relief = TipRelief(amount=amount, extent=extent, k=flank.tip_relief_parabola)
+    crown = None
+    if flank.crown_um > 0.0:
+        start = flank.crown_start_mm * MILLIMETRE
+        crown = Crown(amount=flank.crown_um * _MICROMETRE, start=start)
+    return FlankModification(
+        tip_relief=relief,
+        crown=crown,
+        lead_slope=flank.lead_slope_um * _MICROMETRE,
+        profile_slope=flank.profile_slope_um * _MICROMETRE,
+    )
+
+
+def _support(side: float, bearing: Bearing) -> SupportStiffness:
+    return SupportStiffness(
+        position=side * bearing.distance_mm * MILLIMETRE,
+        K_xx=bearing.stiffness_x_n_per_um / _MICROMETRE,
+        K_yy=bearing.stiffness_y_n_per_um / _MICROMETRE,
+        K_zz=bearing.stiffness_z_n_per_um / _MICROMETRE,
+        K_thx=bearing.tilt_x_knm_per_rad * 1e3,
+        K_thy=bearing.tilt_y_knm_per_rad * 1e3,
+        K_x_thy=bearing.coupling_x_kn_per_rad * 1e3,
+        K_y_thx=bearing.coupling_y_kn_per_rad * 1e3,
+    )

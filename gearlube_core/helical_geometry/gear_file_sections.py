@@ -1,0 +1,193 @@
+"""The sections of a helical gear file: every field's unit, meaning and range."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from gearlube_core.input_file.input_file import Section
+
+Teeth = Annotated[int, Field(ge=5, le=1000)]
+Module = Annotated[float, Field(ge=0.1, le=100.0, allow_inf_nan=False)]
+PressureAngle = Annotated[float, Field(ge=10.0, le=35.0, allow_inf_nan=False)]
+HelixAngle = Annotated[float, Field(ge=0.0, le=45.0, allow_inf_nan=False)]
+Length = Annotated[float, Field(gt=0.0, le=10000.0, allow_inf_nan=False)]
+Width = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
+Backlash = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False)]
+Removal = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
+Slope = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Exponent = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
+Start = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
+Facets = Annotated[int, Field(ge=0, le=10000)]
+Mass = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
+Inertia = Annotated[float, Field(gt=0.0, le=1e13, allow_inf_nan=False)]
+Stiffness = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
+Tilt = Annotated[float, Field(ge=0.0, le=1e9, allow_inf_nan=False)]
+Coupling = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
+Damping = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Torque = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
+Speed = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
+Viscosity = Annotated[float, Field(ge=1e-4, le=10.0, allow_inf_nan=False)]
+PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
+Stress = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
+
+
+class Pair(Section):
+    """What the members share; the module and the pressure angle normal or transverse."""
+
+    normal_module_mm: Module | None = Field(
+        default=None, description="Of the basic rack; give this or the transverse module"
+    )
+    transverse_module_mm: Module | None = Field(
+        default=None,
+        description="Reference diameter over teeth, 25.4 mm over the transverse diametral pitch",
+    )
+    normal_pressure_angle_deg: PressureAngle | None = Field(
+        default=None, description="Of the basic rack; give this or the transverse pressure angle"
+    )
+    transverse_pressure_angle_deg: PressureAngle | None = Field(
+        default=None, description="At the reference cylinder, in the transverse plane"
+    )
+    helix_angle_deg: HelixAngle = Field(description="At the reference cylinder; 0: spur gears")
+    centre_distance_mm: Length = Field(description="Between the parallel axes")
+    face_width_mm: Width = Field(description="Common to both members")
+    backlash_mm: Backlash = Field(default=0.0, description="Normal, along the line of action")
+
+    @model_validator(mode="after")
+    def _one_of_each(self) -> Pair:
+        for kind in ("module_mm", "pressure_angle_deg"):
+            names = (f"normal_{kind}", f"transverse_{kind}")
+            given = [name for name in names if getattr(self, name) is not None]
+            if len(given) != 1:
+                raise ValueError(
+                    f"exactly one of {names[0]} and {names[1]} must be given, got "
+                    f"{'both' if given else 'neither'}"
+                )
+        return self
+
+
+class Flank(Section):
+    """What is taken off one member's involute helicoids, in the transverse plane."""
+
+    tip_relief_um: Removal = Field(default=0.0, description="At the tip; 0: none")
+    tip_relief_depth_mm: Width | None = Field(
+        default=None, description="Radial distance from the start of the relief to the tip"
+    )
+    tip_relief_form: Literal["blended", "power"] = Field(
+        default="blended",
+        description="A parabola that goes on as its tangent, or a power of the depth",
+    )
+    tip_relief_parabola: Share = Field(
+        default=1.0,
+        description="k: parabolic share of the depth of a blended relief; 0 linear, 1 parabolic",
+    )
+    tip_relief_exponent: Exponent = Field(
+        default=2.0, description="Exponent beta of a power relief"
+    )
+    crown_um: Removal = Field(
+        default=0.0, description="c_r: axial crown at both face edges; 0: none"
+    )
+    crown_start_mm: Start = Field(
+        default=0.0, description="F_o: distance from mid-face where the crown begins"
+    )
+    lead_slope_um: Slope = Field(
+        default=0.0, description="Removal at the face z = +W/2 less that at z = -W/2"
+    )
+    profile_slope_um: Slope = Field(
+        default=0.0,
+        description="Removal at the tip end of the active profile less that at its root end",
+    )
+    facets: Facets = Field(
+        default=0,
+        description="n_f: facets along the path of contact that stand for the involute; 0: none",
+    )
+
+    @model_validator(mode="after")
+    def _relief_has_a_depth(self) -> Flank:
+        if self.tip_relief_um > 0.0 and self.tip_relief_depth_mm is None:
+            raise ValueError(
+                "tip_relief_depth_mm is missing; it must be above 0 mm where there is relief"
+            )
+        return self
+
+
+class Bearing(Section):
+    """Shaft and bearing on one side of a member, as springs at one place."""
+
+    distance_mm: Length = Field(
+        description="From mid-face; bearing 1 is on the side z > 0, bearing 2 on z < 0"
+    )
+    stiffness_x_n_per_um: Stiffness = Field(description="K_xx: along the line of action")
+    stiffness_y_n_per_um: Stiffness = Field(description="K_yy: off the line of action")
+    stiffness_z_n_per_um: Stiffness = Field(description="K_zz: axial")
+    tilt_x_knm_per_rad: Tilt = Field(default=0.0, description="K_thx,thx: against tilt about x")
+    tilt_y_knm_per_rad: Tilt = Field(default=0.0, description="K_thy,thy: against tilt about y")
+    coupling_x_kn_per_rad: Coupling = Field(
+        default=0.0, description="K_x,thy: force along x per tilt about y"
+    )
+    coupling_y_kn_per_rad: Coupling = Field(
+        default=0.0, description="K_y,thx: force along y per tilt about x"
+    )
+
+
+class Body(Section):
+    """Inertia of one member; what is absent is that of a steel disc of the root diameter."""
+
+    mass_kg: Mass | None = Field(default=None, description="Of the gear with what turns with it")
+    polar_inertia_kg_mm2: Inertia | None = Field(default=None, description="J_z: about the axis")
+    diametral_inertia_kg_mm2: Inertia | None = Field(
+        default=None, description="J_x = J_y; absent: J_z/2 + m W^2/12"
+    )
+
+
+class Member(Section):
+    """One gear."""
+
+    teeth: Teeth = Field(description="Number of teeth")
+    tip_diameter_mm: Length = Field(description="Over the tips")
+    root_diameter_mm: Length | None = Field(
+        default=None,
+        description="Absent: the tip diameter less 4.5 normal modules (full depth 2.25)",
+    )
+    flank: Flank = Flank()
+    body: Body = Body()
+    bearing_1: Bearing | None = None
+    bearing_2: Bearing | None = None
+
+    @model_validator(mode="after")
+    def _has_a_root(self) -> Member:
+        root, tip = self.root_diameter_mm, self.tip_diameter_mm
+        if root is not None and not root < tip:
+            raise ValueError(
+                f"root_diameter_mm must be below tip_diameter_mm, {tip:g} mm, got {root:g} mm"
+            )
+        return self
+
+
+class DampingRatios(Section):
+    """Modal damping, as shares of the critical."""
+
+    mesh: Damping = Field(default=0.05, description="Of the relative rotation against the mesh")
+    translation: Damping = Field(
+        default=0.05, description="Of each translation against its bearings"
+    )
+    tilt: Damping = Field(default=0.05, description="Of each tilt against its bearings")
+
+
+class Operation(Section):
+    """The operating point that the source studies."""
+
+    pinion_torque_n_m: Torque = Field(description="Drives the pinion")
+    pinion_speed_rpm: Speed = Field(description="In the drive direction")
+
+
+class Oil(Section):
+    """The lubricant that the source names."""
+
+    viscosity_pa_s: Viscosity = Field(description="eta_0: at ambient pressure and the bulk's heat")
+    pressure_viscosity_per_gpa: PressureViscosity = Field(description="alpha: at low pressure")
+    eyring_stress_mpa: Stress | None = Field(
+        default=None, description="tau_0: stress where shear thinning begins; absent: Newtonian"
+    )
