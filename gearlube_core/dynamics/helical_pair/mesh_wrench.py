@@ -1,0 +1,133 @@
+"""Compression of the flanks, line loads, and the forces that they exert: kernels.
+
+With y = (y0, y1) the strains of the plane of contact and p = x sin b + z cos b the coordinate along
+the contact lines, delta = y0 + p y1. Forces follow from five sums over the lines,
+
+    sums = (w, w p, r, r x, r z)  integrated over dl,  r = -mu w sign(v_s)
+
+of which the first two are the flank loads' and the others friction's. Everything that sets up
+forces or matrices of the mesh goes through `mesh_strain` and `wrench_of_sums`.
+"""
+
+from __future__ import annotations
+
+from gearlube_core.dynamics.helical_pair.contact_points import (
+    DENSITY,
+    LENGTH,
+    LOAD,
+    MU,
+    OFFSET,
+    SLIDING,
+    X,
+    Z,
+)
+from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, PairConstants
+from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.jit import kernel
+
+N_SUMS = 5
+
+
+@kernel
+def mesh_strain(q: Array, plane: ContactPlane) -> tuple[float, float]:
+    """Return y0 [m] and y1 [rad] of the compression delta = y0 + (x sin b + z cos b) y1.
+
+    Parameters
+    ----------
+    q : ndarray of shape (12,)
+        Displacements [m, rad], order of `COORDINATES`.
+
+    Notes
+    -----
+    He et al. 2007 eq. (4) with the sign reversed, so that compression is positive, as (7), (16)
+    and (21) need it: with the printed sign flanks that press attract each other.
+    """
+    c1 = (q[0] - q[6]) - (plane.r_bp * q[5] + plane.r_bg * q[11])
+    c2 = q[4] - q[10]
+    c3 = (q[2] - q[8]) + (plane.r_bp * q[3] + plane.r_bg * q[9]) - plane.x_g * q[10]
+    return plane.cos_b * c1 - plane.sin_b * c3, c2
+
+
+@kernel
+def line_loads(y0: float, y1: float, constants: PairConstants, points: Array, n: int) -> float:
+    """Fill the points' LOAD w [N/m] and return the stiffness k_m along the line of action [N/m].
+
+    Linear: w = k (delta - e). One-sided: w = k max(0, delta - e) on the drive flank, w =
+    -k max(0, -delta - backlash - e) on the back; k_m counts points that touch.
+
+    Notes
+    -----
+    k_m = cos(b)^2 sum of k dl. The back flanks are taken to touch along the drive flanks' lines,
+    which is right in size and direction along the line of action only.
+    """
+    plane = constants.plane
+    stiffness = 0.0
+    for i in range(n):
+        p = points[i, X] * plane.sin_b + points[i, Z] * plane.cos_b
+        delta = constants.mesh_sign * (y0 + p * y1)
+        pressed = delta - points[i, OFFSET]
+        if constants.one_sided > 0.0 and pressed < 0.0:
+            pressed = min(0.0, delta + constants.backlash + points[i, OFFSET])
+        points[i, LOAD] = points[i, DENSITY] * pressed
+        if constants.one_sided == 0.0 or pressed != 0.0:
+            stiffness += points[i, DENSITY] * points[i, LENGTH]
+    return stiffness * plane.cos_b * plane.cos_b
+
+
+@kernel
+def sign(value: float) -> float:
+    """Return -1, 0 or 1."""
+    return (1.0 if value > 0.0 else 0.0) - (1.0 if value < 0.0 else 0.0)
+
+
+@kernel
+def load_sums(c: PairConstants, points: Array, n: int, sums: Array) -> None:
+    """Integrate LOAD and MU over all lines into `sums`, shape (5,) [N, N.m, N, N.m, N.m].
+
+    One-sided contact has |w| for w in r, so that friction opposes sliding on the back flank too;
+    linear contact keeps the paper's w, also where a line pulls.
+    """
+    plane = c.plane
+    sums[:] = 0.0
+    for i in range(n):
+        x, z = points[i, X], points[i, Z]
+        w = points[i, LOAD] * points[i, LENGTH]
+        r = -points[i, MU] * (abs(w) if c.one_sided > 0.0 else w) * sign(points[i, SLIDING])
+        sums[0] += w
+        sums[1] += w * (x * plane.sin_b + z * plane.cos_b)
+        sums[2] += r
+        sums[3] += r * x
+        sums[4] += r * z
+
+
+@kernel
+def wrench_of_sums(sums: Array, plane: ContactPlane, wrench: Array) -> None:
+    """Fill the forces and moments on pinion and gear, shape (12,) [N, N.m].
+
+    Notes
+    -----
+    He et al. 2007 eq. (7), (16), (21) with x_g for the misprinted x_e, integrated.
+    """
+    w, wp, r, rx, rz = sums[0], sums[1], sums[2], sums[3], sums[4]
+    wrench[0] = -plane.cos_b * w
+    wrench[1] = r
+    wrench[2] = plane.sin_b * w
+    wrench[3] = plane.r_bp * plane.sin_b * w - rz
+    wrench[4] = -wp
+    wrench[5] = rx + plane.r_bp * plane.cos_b * w
+    wrench[6] = plane.cos_b * w
+    wrench[7] = -r
+    wrench[8] = -plane.sin_b * w
+    wrench[9] = plane.r_bg * plane.sin_b * w + rz
+    wrench[10] = wp - plane.x_g * plane.sin_b * w
+    wrench[11] = plane.x_g * r - rx + plane.r_bg * plane.cos_b * w
+
+
+@kernel
+def friction_power(points: Array, n: int) -> float:
+    """Return the power that friction takes from the pair [W]: sum of mu |w| |v_s| dl."""
+    power = 0.0
+    for i in range(n):
+        load = abs(points[i, LOAD]) * points[i, LENGTH]
+        power += points[i, MU] * load * abs(points[i, SLIDING])
+    return power

@@ -1,0 +1,187 @@
+"""Parameters of the helical pair, checked, in engineering words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+
+from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.dynamics.helical_pair.kernel_parameters import (
+    COORDINATES,
+    SIX_DOF,
+    MeshArrays,
+    PairConstants,
+    SupportArrays,
+)
+from gearlube_core.dynamics.helical_pair.packed_lines import pack_lines
+from gearlube_core.dynamics.helical_pair.shaft_support import ShaftSupport
+from gearlube_core.dynamics.helical_pair.supports import (
+    printed_support_stiffness,
+    support_damping,
+    support_stiffness,
+)
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.contact_line import line_count
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.mesh_table.line_mesh import LineMesh
+
+Form = Literal["twelve_dof", "six_dof"]
+Contact = Literal["linear", "one_sided"]
+Friction = Literal["off", "constant"]
+BearingMoments = Literal["consistent", "as_printed"]
+SupportDamping = Literal["total", "as_printed"]
+MeshSign = Literal["compression", "as_printed"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HelicalPairParameters:
+    """Everything that defines one pair at a mean torque.
+
+    Parameters
+    ----------
+    pair : HelicalPair
+        Macro geometry, backlash included.
+    mesh : LineMesh
+        Stiffness density and offset along the contact lines, read at `pinion_torque`.
+    pinion_torque : float
+        Mean driving torque [N.m]; the gear's is r_bg/r_bp times as large.
+    pinion_mass, gear_mass : float
+        [kg]
+    pinion_inertia, gear_inertia : float
+        About a diameter [kg m2].
+    pinion_polar_inertia, gear_polar_inertia : float
+        About the axis [kg m2].
+    pinion_support, gear_support : ShaftSupport
+    support_damping_ratio, mesh_damping_ratio : float
+        zeta [-].
+    friction : {"off", "constant"}
+    friction_coefficient : float
+        mu of "constant" [-].
+    form : {"twelve_dof", "six_dof"}
+        Six keeps u_x, u_y and th_z of both members and holds the rest.
+    contact : {"linear", "one_sided"}
+        Springs that also pull, as in the paper; or flanks that separate, with backlash.
+    line_divisions : int
+        Parts of a line, each with two quadrature points; one is exact for linear contact.
+    bearing_moments, support_damping, mesh_sign
+        The paper's equations where they run as printed: `printed_support_stiffness`,
+        `support.support_damping` per bearing, and the sign of eq. (4), which is unstable.
+
+    References
+    ----------
+    He et al. 2007.
+    """
+
+    pair: HelicalPair
+    mesh: LineMesh
+    pinion_torque: float
+    pinion_mass: float
+    pinion_inertia: float
+    pinion_polar_inertia: float
+    gear_mass: float
+    gear_inertia: float
+    gear_polar_inertia: float
+    pinion_support: ShaftSupport
+    gear_support: ShaftSupport
+    support_damping_ratio: float
+    mesh_damping_ratio: float
+    friction: Friction
+    friction_coefficient: float
+    form: Form = "twelve_dof"
+    contact: Contact = "linear"
+    line_divisions: int = 1
+    bearing_moments: BearingMoments = "consistent"
+    support_damping: SupportDamping = "total"
+    mesh_sign: MeshSign = "compression"
+
+    def __post_init__(self) -> None:
+        for name, options in (
+            ("friction", Friction), ("form", Form), ("contact", Contact),
+            ("bearing_moments", BearingMoments), ("support_damping", SupportDamping),
+            ("mesh_sign", MeshSign),
+        ):  # fmt: skip
+            check_option(name, getattr(self, name), get_args(options))
+        check_positive("pinion_torque", self.pinion_torque, "N.m")
+        for member in ("pinion", "gear"):
+            check_positive(f"{member}_mass", getattr(self, f"{member}_mass"), "kg")
+            for kind in ("inertia", "polar_inertia"):
+                check_positive(f"{member}_{kind}", getattr(self, f"{member}_{kind}"), "kg m2")
+        for name in ("support_damping_ratio", "mesh_damping_ratio"):
+            check_within(name, getattr(self, name), 0.0, 1.0, "1", "Five percent is usual.")
+        check_within("friction_coefficient", self.friction_coefficient, 0.0, 1.0, "1")
+        check_within("line_divisions", self.line_divisions, 1, 64)
+        self._check_mesh()
+
+    def _check_mesh(self) -> None:
+        pair, mesh = self.pair, self.mesh
+        if (mesh.pinion_teeth, mesh.gear_teeth) != (pair.pinion_teeth, pair.gear_teeth):
+            raise ParameterError(
+                f"mesh must belong to the pair of {pair.pinion_teeth} and {pair.gear_teeth} "
+                f"teeth, got {mesh.pinion_teeth} and {mesh.gear_teeth}. Compute it for this pair."
+            )
+        close = pair.base_pitch * (1.0 - 1e-9), pair.base_pitch * (1.0 + 1e-9)
+        check_within("mesh.base_pitch", mesh.base_pitch, *close, "m", "Compute it for this pair.")
+        check_within("mesh.lines", mesh.lines, line_count(pair.plane), 100, "", "Add lines.")
+        pack_lines(mesh, self.pinion_torque, 1)
+
+    @property
+    def mu(self) -> float:
+        """Constant coefficient of friction that the equations hold [-]."""
+        return self.friction_coefficient if self.friction == "constant" else 0.0
+
+    @property
+    def gear_torque(self) -> float:
+        """Mean load torque [N.m]: T_p r_bg/r_bp."""
+        return self.pinion_torque * self.pair.gear_base_radius / self.pair.pinion_base_radius
+
+    @property
+    def effective_mass(self) -> float:
+        """m_e of the relative rotation along the line of action [kg]."""
+        r_bp, r_bg = self.pair.pinion_base_radius, self.pair.gear_base_radius
+        return 1.0 / (r_bp**2 / self.pinion_polar_inertia + r_bg**2 / self.gear_polar_inertia)
+
+    def kernel_parameters(self) -> PairConstants:
+        """Return what the kernels take by value."""
+        return PairConstants(
+            plane=self.pair.plane,
+            m_p=self.pinion_mass,
+            J_p=self.pinion_inertia,
+            J_zp=self.pinion_polar_inertia,
+            m_g=self.gear_mass,
+            J_g=self.gear_inertia,
+            J_zg=self.gear_polar_inertia,
+            m_e=self.effective_mass,
+            zeta_mesh=self.mesh_damping_ratio,
+            T_p=self.pinion_torque,
+            T_g=self.gear_torque,
+            backlash=self.pair.backlash,
+            one_sided=float(self.contact == "one_sided"),
+            mesh_sign=1.0 if self.mesh_sign == "compression" else -1.0,
+        )
+
+    def mesh_arrays(self) -> MeshArrays:
+        """Return the contact lines at the mean torque."""
+        return pack_lines(self.mesh, self.pinion_torque, self.line_divisions)
+
+    def support_arrays(self) -> SupportArrays:
+        """Return the supports' matrices and which coordinates move."""
+        printed = self.bearing_moments == "as_printed"
+        stiffness = printed_support_stiffness if printed else support_stiffness
+        per_bearing = self.support_damping == "as_printed"
+        members = (
+            (self.pinion_support, self.pinion_mass, self.pinion_inertia),
+            (self.gear_support, self.gear_mass, self.gear_inertia),
+        )
+        held = self.form == "six_dof"
+        return SupportArrays(
+            stiffness=np.array([stiffness(support) for support, _, _ in members]),
+            damping=np.array(
+                [
+                    support_damping(support, mass, inertia, self.support_damping_ratio, per_bearing)
+                    for support, mass, inertia in members
+                ]
+            ),
+            free=np.array([float(not held or name in SIX_DOF) for name in COORDINATES]),
+        )
