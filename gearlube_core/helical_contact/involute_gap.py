@@ -1,0 +1,95 @@
+"""Distance of points beside the plane of contact from the two involutes, in the transverse plane.
+
+A point Q stands at (x, r_bp + y): y off the line of action. Both involutes touch at (x, r_bp).
+Turning an involute moves it evenly along its base tangents, so its distance from Q along the base
+tangent through Q is the base radius times the angle between them: exact at any y, and so beyond
+the ends of the line of action, where the tip edge of one member meets the other's flank.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearlube_core.helical_geometry.pair import HelicalPair
+
+Array = NDArray[np.float64]
+
+
+def roll_beside(x: ArrayLike, y: ArrayLike, base_radius: float) -> Array:
+    """Return the roll length of points Q [m], NaN inside the base circle.
+
+    rho = sqrt(x^2 + y (2 r_b + y))
+
+    Parameters
+    ----------
+    x
+        From the member's own tangent point [m].
+    y
+        Off the line of action, away from the member's axis [m]; shapes broadcast.
+    base_radius
+        [m]
+    """
+    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    square = x * x + y * (2.0 * base_radius + y)
+    return np.sqrt(np.where(square < 0.0, np.nan, square))
+
+
+def flank_distance(x: ArrayLike, y: ArrayLike, base_radius: float) -> Array:
+    """Return how far the involute that touches at x lies behind Q, along Q's base tangent [m].
+
+    S = r_b [atan(x/(r_b + y)) - atan(rho/r_b)] + rho - x,  about y^2/(2 x)
+
+    Parameters as in `roll_beside`; not negative, zero at y = 0.
+    """
+    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    roll = roll_beside(x, y, base_radius)
+    turned = np.arctan2(x, base_radius + y) - np.arctan2(roll, base_radius)
+    return np.asarray(base_radius * turned + roll - x)
+
+
+def tip_edge(x: ArrayLike, base_radius: float, tip_radius: float) -> Array:
+    """Return y of a member's tip edge while its involute touches at x [m].
+
+    y_e = -r_b (1 - cos(phi)) - x_a sin(phi),  phi = (x - x_a)/r_b,  x_a = sqrt(r_a^2 - r_b^2)
+
+    Zero where the line of action ends, negative beyond; x as in `roll_beside`.
+    """
+    end = np.sqrt(tip_radius**2 - base_radius**2)
+    turned = (np.asarray(x, dtype=float) - end) / base_radius
+    return np.asarray(-2.0 * base_radius * np.sin(0.5 * turned) ** 2 - end * np.sin(turned))
+
+
+class Engagement(NamedTuple):
+    """Where flanks meet across the line of action at x; arrays of one shape [m]."""
+
+    y: Array  # nearest points of the two tooth bodies: 0, or on a tip edge beyond A or D
+    pinion_arm: Array  # of the transverse force about the pinion's axis
+    gear_arm: Array
+
+
+def engagement(x: ArrayLike, pair: HelicalPair) -> Engagement:
+    """Return where along y the flanks at x of the (extended) line of action are closest.
+
+    Beyond D the pinion's tip edge meets the gear's flank, whose normal is a base tangent of the
+    gear: the gear's arm is its base radius, the pinion's is that of this tangent. Before A the
+    members change places.
+    """
+    x = np.asarray(x, dtype=float)
+    r_p, r_g = pair.pinion_base_radius, pair.gear_base_radius
+    over = tip_edge(x, r_p, pair.pinion_tip_radius)
+    under = -tip_edge(pair.tangent_length - x, r_g, pair.gear_tip_radius)
+    y = np.where(over < 0.0, over, np.where(under > 0.0, under, 0.0))
+    y = np.where(over < under, np.nan, y)  # rotated out of mesh altogether
+    pinion_arm = np.where(y < 0.0, _arm(x, y, pair.tangent_length - x, -y, r_p, r_g), r_p)
+    gear_arm = np.where(y > 0.0, _arm(pair.tangent_length - x, -y, x, y, r_g, r_p), r_g)
+    return Engagement(y, pinion_arm, gear_arm)
+
+
+def _arm(x: Array, y: Array, x_mate: Array, y_mate: Array, r: float, r_mate: float) -> Array:
+    """Return the arm about a member of its mate's base tangent through Q."""
+    turned = np.arctan2(roll_beside(x_mate, y_mate, r_mate), r_mate)
+    turned = turned - np.arctan2(x_mate, r_mate + y_mate)
+    return np.asarray((r + y) * np.cos(turned) - x * np.sin(turned))

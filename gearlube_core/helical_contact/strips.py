@@ -1,0 +1,232 @@
+"""Cells along the contact line of one tooth pair, on both sides of it and beyond its ends.
+
+A strip lies in the tangent plane of the flanks: its second axis runs along the contact line, its
+first off the line of action. Beyond the plane of contact its rows follow the tip edge that is
+nearest to the mate there, so that corner contact is met by cells like any other.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_contact.involute_gap import (
+    engagement,
+    flank_distance,
+    roll_beside,
+    tip_edge,
+)
+from gearlube_core.helical_geometry.modification import ModifiedPair
+
+Array = NDArray[np.float64]
+
+_SAMPLES = 801  # points across the face at which a line's gap is looked at
+_ON_EDGE = 1e-3  # cells: a centre on the tip edge counts as inside
+_FARTHEST = 0.5  # base pitches beyond A or D that are looked at
+_SHORTEST = 1e-5  # of the face width: shorter strips are left out
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StripSettings:
+    """How finely a strip is resolved.
+
+    Parameters
+    ----------
+    cells_across : int
+        Off the line of action; odd, so that one row of centres lies on the line or tip edge.
+    cells_along : int
+        Along the contact line.
+    """
+
+    cells_across: int = 31
+    cells_along: int = 48
+
+    def __post_init__(self) -> None:
+        check_within("cells_across", self.cells_across, 7, 255)
+        check_within("cells_along", self.cells_along, 6, 512)
+        if self.cells_across % 2 == 0:
+            raise ParameterError(
+                f"cells_across must be odd, got {self.cells_across}. Take {self.cells_across + 1}."
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class LineGap:
+    """Closest approach of two flanks along one contact line, without load.
+
+    Parameters
+    ----------
+    X : float
+        Position of the line on the face z = +W/2 [m].
+    z : ndarray of shape (n,)
+        Over the face [m].
+    gap : ndarray of shape (n,)
+        Normal gap [m] where the flanks come closest; inf beyond mesh.
+    arm : ndarray of shape (n,)
+        Closing per pinion rotation [m].
+    """
+
+    X: float
+    z: Array
+    gap: Array
+    arm: Array
+
+    @property
+    def touching_rotation(self) -> float:
+        """Pinion rotation to first touch [rad], inf if the line is out of reach."""
+        return float(np.min(self.gap / self.arm))
+
+    def extent(self, rotation: float) -> tuple[float, float] | None:
+        """Return the z between which `rotation` closes the gap [m], or None."""
+        over = self.gap - rotation * self.arm
+        inside = np.flatnonzero(over <= 0.0)
+        if not inside.size:
+            return None
+        return self._crossing(over, inside[0], -1), self._crossing(over, inside[-1], 1)
+
+    def _crossing(self, over: Array, inner: int, step: int) -> float:
+        outer = inner + step
+        if outer < 0 or outer >= self.z.size or not math.isfinite(over[outer]):
+            return float(self.z[inner])
+        share = over[inner] / (over[inner] - over[outer])
+        return float(self.z[inner] + share * (self.z[outer] - self.z[inner]))
+
+
+def line_gap(modified: ModifiedPair, X: float) -> LineGap:
+    """Return the gap along the line X, on and beyond the plane of contact."""
+    pair = modified.pair
+    z = np.linspace(-0.5, 0.5, _SAMPLES) * pair.face_width
+    x = _along_action(modified, X, z)
+    met = engagement(x, pair)
+    gap = _normal_gap(modified, x, met.y, z)
+    far = _FARTHEST * pair.base_pitch
+    beyond = (x < pair.contact_start - far) | (x > pair.contact_end + far) | ~np.isfinite(gap)
+    arm = np.where(beyond, 1.0, met.pinion_arm) * math.cos(pair.base_helix_angle)
+    return LineGap(X, z, np.where(beyond, np.inf, gap), arm)
+
+
+@dataclass(frozen=True, slots=True)
+class LineStrip:
+    """Cells of one tooth pair.
+
+    Parameters
+    ----------
+    line : int
+        Number of the contact line, as in `contact_line.line_position`; -1 comes next.
+    X : float
+        Position of the line [m].
+    cell : tuple of float
+        Sides of a cell off the line of action and along the line [m].
+    x, z : ndarray of shape (ny,)
+        Line of action and axial position of the rows [m].
+    y : ndarray of shape (nx, ny)
+        Off the line of action [m].
+    gap : ndarray of shape (nx, ny)
+        Normal, without load [m]; inf where a tooth is missing.
+    arm, gear_arm : ndarray of shape (ny,)
+        Of the normal forces about the axes [m].
+    pinion_roll, gear_roll : ndarray of shape (nx, ny)
+        Roll lengths [m].
+    """
+
+    line: int
+    X: float
+    cell: tuple[float, float]
+    x: Array
+    z: Array
+    y: Array
+    gap: Array
+    arm: Array
+    gear_arm: Array
+    pinion_roll: Array
+    gear_roll: Array
+
+    @property
+    def usable(self) -> NDArray[np.bool_]:
+        """Cells with both teeth, (nx, ny)."""
+        return np.isfinite(self.gap)
+
+
+def cut_strip(
+    modified: ModifiedPair,
+    line: int,
+    X: float,
+    extent: tuple[float, float],
+    half_width: float,
+    settings: StripSettings,
+) -> LineStrip | None:
+    """Return the strip of a line between two z, or None where it would be a point.
+
+    Parameters
+    ----------
+    modified
+        Gears and their modifications.
+    line, X
+        Number and position of the line.
+    extent
+        Lowest and highest z [m]; for spur gears too.
+    half_width
+        Off the line of action [m].
+    settings
+        Numbers of cells.
+    """
+    pair = modified.pair
+    low, high = extent
+    if high - low < _SHORTEST * pair.face_width:
+        return None
+    edges = np.linspace(low, high, settings.cells_along + 1)
+    z = 0.5 * (edges[1:] + edges[:-1])
+    x = _along_action(modified, X, z)
+    met = engagement(x, pair)
+    across = 2.0 * half_width / settings.cells_across
+    offset = (np.arange(settings.cells_across) - settings.cells_across // 2) * across
+    y = met.y + offset[:, None]
+    r_p, r_g = pair.pinion_base_radius, pair.gear_base_radius
+    outside = y > tip_edge(x, r_p, pair.pinion_tip_radius) + _ON_EDGE * across
+    outside |= -y > tip_edge(pair.tangent_length - x, r_g, pair.gear_tip_radius) + _ON_EDGE * across
+    gap = _normal_gap(modified, x, y, z)
+    cos_b = math.cos(pair.base_helix_angle)
+    return LineStrip(
+        line=line,
+        X=X,
+        cell=(across, (high - low) / settings.cells_along / cos_b),
+        x=x,
+        z=z,
+        y=y,
+        gap=np.where(outside | ~np.isfinite(gap), np.inf, gap),
+        arm=met.pinion_arm * cos_b,
+        gear_arm=met.gear_arm * cos_b,
+        pinion_roll=roll_beside(x, y, r_p),
+        gear_roll=roll_beside(pair.tangent_length - x, -y, r_g),
+    )
+
+
+def _along_action(modified: ModifiedPair, X: float, z: ArrayLike) -> Array:
+    pair = modified.pair
+    lag = 0.5 * pair.face_width - np.asarray(z, dtype=float)
+    return np.asarray(X - lag * math.tan(pair.base_helix_angle))
+
+
+def _normal_gap(modified: ModifiedPair, x: Array, y: Array, z: Array) -> Array:
+    """Return the gap normal to the flanks beside the line [m], NaN below a base circle."""
+    pair = modified.pair
+    total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
+    for base_radius, own_x, own_y, flank, removal in (
+        (pair.pinion_base_radius, x, y, modified.pinion_flank, modified.pinion_removal),
+        (
+            pair.gear_base_radius,
+            pair.tangent_length - x,
+            -y,
+            modified.gear_flank,
+            modified.gear_removal,
+        ),
+    ):
+        roll = roll_beside(own_x, own_y, base_radius)
+        total += flank_distance(own_x, own_y, base_radius)
+        total += removal(np.minimum(np.nan_to_num(roll), flank.roll_high), z)
+    return total * math.cos(pair.base_helix_angle)

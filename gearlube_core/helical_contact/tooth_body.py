@@ -1,0 +1,211 @@
+"""The teeth of a helical pair as finite-element bodies, and where contact stands on them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearlube_core.checks import check_option, check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.involute import MEMBERS, involute_flank
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, contact_modulus
+from gearlube_core.tooth_compliance.cache import cached_tooth_compliance
+from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
+from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
+from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
+from gearlube_core.worker_pool import worker_pool
+
+Array = NDArray[np.float64]
+
+# 30e6 psi, the usual steel of the rig of He et al. 2007, who do not print theirs
+STEEL_HE_2007 = replace(STEEL_MOHAMMADPOUR_2015, youngs_modulus=206.8e9)
+
+_GRID = (13, 33)  # flank points handed to the mesher, root to tip and face to face
+_CLEARANCE = 0.25  # normal modules over the root circle where the flank passes into its fillet
+_BELOW_CONTACT = 0.5  # of the way from the root to the lowest point of contact, at most
+_THINNEST = 0.1  # normal modules, tooth at its tip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HelicalBodySettings:
+    """The elastic body around a flank.
+
+    Parameters
+    ----------
+    base_depth_modules : float
+        Depth of the base block under the slot [normal modules].
+    neighbour_pitches : float
+        Plain rim beside the tooth's own pitch, on each side [pitches].
+    solid : Solid
+        Of both members.
+    condensation : CondensationSettings
+    """
+
+    base_depth_modules: float = 3.0
+    neighbour_pitches: float = 1.0
+    solid: Solid = STEEL_HE_2007
+    condensation: CondensationSettings = field(default_factory=CondensationSettings)
+
+    def __post_init__(self) -> None:
+        check_within("base_depth_modules", self.base_depth_modules, 0.5, 10.0, "modules")
+        check_within("neighbour_pitches", self.neighbour_pitches, 0.0, 3.0, "pitches")
+
+
+class ToothForm(NamedTuple):
+    """Transverse section of one member's tooth."""
+
+    base_radius: float  # [m]
+    start_radius: float  # where the flank begins over its fillet [m]
+    tip_radius: float  # [m]
+    root_radius: float  # [m]
+    base_half_angle: float  # half the tooth's thickness on the base circle [rad]
+
+
+def profile_shifts(pair: HelicalPair) -> tuple[float, float]:
+    """Return the profile shift coefficients x of pinion and gear, in normal modules [-].
+
+    x_1 + x_2 = (z_1 + z_2)(inv(alpha_w) - inv(alpha_t))/(2 tan(alpha_n)) follows from the centre
+    distance; addenda of one module split it: x_1 - x_2 = [(r_a1 - r_1) - (r_a2 - r_2)]/m_n.
+
+    Source: ISO 21771, sections 4 and 5.
+    """
+    rise = _involute(pair.working_pressure_angle) - _involute(pair.transverse_pressure_angle)
+    teeth = pair.pinion_teeth + pair.gear_teeth
+    total = teeth * rise / (2.0 * math.tan(pair.normal_pressure_angle))
+    addenda = [
+        tip - 0.5 * number * pair.transverse_module
+        for tip, number in (
+            (pair.pinion_tip_radius, pair.pinion_teeth),
+            (pair.gear_tip_radius, pair.gear_teeth),
+        )
+    ]
+    split = (addenda[0] - addenda[1]) / pair.normal_module
+    return 0.5 * (total + split), 0.5 * (total - split)
+
+
+def tooth_form(pair: HelicalPair, member: str) -> ToothForm:
+    """Return the transverse section of the teeth of the "pinion" or the "gear".
+
+    Thickness: that of the basic rack with the profile shifts, less half the backlash. The flank
+    begins a quarter of a normal module over the root circle, lower where contact begins lower.
+
+    Raises
+    ------
+    ParameterError
+        A pointed tooth.
+    """
+    check_option("member", member, MEMBERS)
+    k = MEMBERS.index(member)
+    teeth = (pair.pinion_teeth, pair.gear_teeth)[k]
+    flank = involute_flank(pair, member)
+    root = (pair.pinion_root_radius, pair.gear_root_radius)[k]
+    alpha_t = pair.transverse_pressure_angle
+    shift = profile_shifts(pair)[k]
+    half = (0.5 * math.pi + 2.0 * shift * math.tan(pair.normal_pressure_angle)) / teeth
+    half += _involute(alpha_t)
+    half -= 0.25 * pair.backlash / (math.cos(pair.base_helix_angle) * flank.base_radius)
+    lowest = float(flank.radius(flank.roll_low))
+    start = root + min(_CLEARANCE * pair.normal_module, _BELOW_CONTACT * (lowest - root))
+    form = ToothForm(flank.base_radius, start, flank.tip_radius, root, half)
+    land = 2.0 * flank.tip_radius * float(half_angle(form, flank.tip_radius))
+    if land < _THINNEST * pair.normal_module:
+        raise ParameterError(
+            f"the {member}'s teeth must be at least {_THINNEST:g} normal modules thick at their "
+            f"tip, got {1e3 * land:.3g} mm of {1e3 * pair.normal_module:.3g} mm. Reduce the tip "
+            "radius."
+        )
+    if start >= lowest:
+        raise ParameterError(
+            f"the {member}'s contact begins at {1e3 * lowest:.5g} mm, not above its root circle of "
+            f"{1e3 * root:.5g} mm. Reduce the root radius."
+        )
+    return form
+
+
+def half_angle(form: ToothForm, radius: ArrayLike) -> Array:
+    """Return half the angle that a tooth fills at a radius [m], [rad].
+
+    psi_b - inv(acos(r_b/r)). Below the base circle, where there is no involute, the flank goes on
+    radially.
+    """
+    roll = np.sqrt(np.maximum((np.asarray(radius) / form.base_radius) ** 2 - 1.0, 0.0))
+    return np.asarray(form.base_half_angle - (roll - np.arctan(roll)))
+
+
+def _involute(angle: float) -> float:
+    return math.tan(angle) - angle
+
+
+def tooth_body(pair: HelicalPair, member: str, settings: HelicalBodySettings) -> ToothGeometry:
+    """Return one tooth about its own axis, z; its left flank is the drive flank.
+
+    The pinion's tooth points towards +y, the gear's towards -y; t runs from z = -W/2 to +W/2 and s
+    evenly in the radius.
+    """
+    form = tooth_form(pair, member)
+    radius = np.linspace(form.start_radius, form.tip_radius, _GRID[0])[:, None]
+    z = np.linspace(-0.5, 0.5, _GRID[1]) * pair.face_width
+    up = 1.0 if member == "pinion" else -1.0
+    # both members follow the contact line towards +x where z rises
+    lead = z * math.tan(pair.base_helix_angle) / form.base_radius
+    half = half_angle(form, radius)
+
+    def points(side: float) -> Array:
+        angle = lead + side * half
+        shape = np.broadcast_shapes(angle.shape, z.shape)
+        return np.stack(
+            [radius * np.sin(angle), up * radius * np.cos(angle), np.broadcast_to(z, shape)], -1
+        )
+
+    return ToothGeometry(
+        left=points(up),
+        right=points(-up),
+        inward=np.stack([-np.sin(lead), -up * np.cos(lead), np.zeros_like(lead)], -1),
+        axis_point=np.zeros(3),
+        axis_direction=np.array([0.0, 0.0, 1.0]),
+        teeth=pair.pinion_teeth if member == "pinion" else pair.gear_teeth,
+        slot_depth=form.start_radius - form.root_radius,
+        base_depth=settings.base_depth_modules * pair.normal_module,
+        neighbour_pitches=settings.neighbour_pitches,
+    )
+
+
+def flank_position(form: ToothForm, roll: ArrayLike) -> Array:
+    """Return s [-] of points at roll lengths [m]: start of the flank 0, tip 1."""
+    radius = np.hypot(form.base_radius, np.asarray(roll, dtype=float))
+    return np.asarray((radius - form.start_radius) / (form.tip_radius - form.start_radius))
+
+
+def member_compliance(
+    pair: HelicalPair, member: str, settings: HelicalBodySettings, cache: Path | None = None
+) -> FlankCompliance:
+    """Return the compliance of a member's drive flank, from the cache where known."""
+    geometry = tooth_body(pair, member, settings)
+    drive, _ = cached_tooth_compliance(geometry, settings.solid, settings.condensation, cache)
+    return drive
+
+
+def pair_stiffness(
+    pair: HelicalPair,
+    settings: HelicalBodySettings,
+    *,
+    cache: Path | None = None,
+    jobs: int | None = None,
+) -> PairStiffness:
+    """Return the elastic data of the drive flanks; members in parallel unless `jobs` is 1."""
+    if jobs == 1:
+        drive = [member_compliance(pair, member, settings, cache) for member in MEMBERS]
+    else:
+        with worker_pool(len(MEMBERS)) as pool:
+            waiting = [
+                pool.submit(member_compliance, pair, member, settings, cache) for member in MEMBERS
+            ]
+            drive = [future.result() for future in waiting]
+    modulus = contact_modulus(settings.solid, settings.solid)
+    return PairStiffness(pinion=drive[0], gear=drive[1], contact_modulus=modulus)
