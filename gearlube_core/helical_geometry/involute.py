@@ -18,7 +18,7 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 
 MEMBERS = ("pinion", "gear")
 _Array = NDArray[np.float64]
-_NEWTON_STEPS = 4  # t is nearly linear in the square of the roll: three reach rounding
+_NEWTON_STEPS = 2  # t is linear in the square of the roll but for fourth powers of the turn
 
 
 class InvoluteFlank(NamedTuple):
@@ -76,9 +76,10 @@ def relative_position(
     """
     roll, other = np.asarray(roll, dtype=float), np.asarray(other, dtype=float)
     d = (other - roll) / base_radius
-    sin, half = np.sin(d), 2.0 * np.sin(0.5 * d) ** 2
-    t = other * sin - base_radius * half
-    return t, roll * half + base_radius * (sin - d * (1.0 - half))
+    sin_half = np.sin(0.5 * d)
+    sin, versine = 2.0 * sin_half * np.cos(0.5 * d), 2.0 * sin_half**2
+    t = other * sin - base_radius * versine
+    return t, roll * versine + base_radius * (sin - d * (1.0 - versine))
 
 
 def roll_at_tangent_distance(roll: ArrayLike, t: ArrayLike, base_radius: float) -> _Array:

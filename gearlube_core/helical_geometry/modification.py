@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.facets import check_facets, facet_depth
 from gearlube_core.helical_geometry.involute import InvoluteFlank, involute_flank
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
@@ -83,25 +84,29 @@ class FlankModification:
         f_Halpha over the active profile [m]: the removal at its tip end less that at its root
         end, zero in the middle of its roll length. Positive values open the gap at this member's
         tip; ISO 1328-1 counts material there, the opposite sign.
+    facets : int
+        n_f, over the active profile [-]; 0 leaves the profile smooth.
 
     Raises
     ------
     ParameterError
-        A slope larger than 1 mm or not finite.
+        A slope larger than 1 mm or not finite, a negative number of facets.
     """
 
     tip_relief: TipRelief | PowerTipRelief | None = None
     crown: Crown | None = None
     lead_slope: float = 0.0
     profile_slope: float = 0.0
+    facets: int = 0
 
     def __post_init__(self) -> None:
+        check_facets("facets", self.facets)
         for name in ("lead_slope", "profile_slope"):
             value = check_finite(name, getattr(self, name), "m", _METRES)
             check_within(name, value, -_LARGEST, _LARGEST, "m", _METRES)
 
     def removal(self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank) -> NDArray[np.float64]:
-        """Return the transverse removal [m].
+        """Return the transverse removal, down to the facets where there are any.
 
         Parameters
         ----------
@@ -117,6 +122,15 @@ class FlankModification:
         array
             [m], of the broadcast shape.
         """
+        total = self.smooth_removal(roll, z, flank)
+        if self.facets > 0:
+            total = total + facet_depth(roll, 0.0, roll, flank, self.facets)
+        return total
+
+    def smooth_removal(
+        self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank
+    ) -> NDArray[np.float64]:
+        """Return the same without the facets."""
         roll, z = np.broadcast_arrays(np.asarray(roll, dtype=float), np.asarray(z, dtype=float))
         total = np.zeros(roll.shape)
         if self.tip_relief is not None:

@@ -11,7 +11,12 @@ _AMOUNT, _EXTENT, _CROWN = 70e-6, 2e-3, 8e-6  # m, Jamali 2015 Table 4.1
 
 
 def jamali_2015(
-    design: str, *, k: float = 1.0, beta: float | None = None, crown_start: float = 0.0
+    design: str,
+    *,
+    k: float = 1.0,
+    beta: float | None = None,
+    crown_start: float = 0.0,
+    facets: int = 0,
 ) -> ModifiedPair:
     """Return design "a" or "b" of Jamali 2015 Table 4.1 with relief and crown on all flanks.
 
@@ -25,6 +30,8 @@ def jamali_2015(
         Given, the relief follows the power law (5.6) instead [-].
     crown_start
         F_o [m]; 0 is the default.
+    facets
+        n_f of chapter 6 on both flanks [-]; 0 is smooth.
 
     Returns
     -------
@@ -36,5 +43,6 @@ def jamali_2015(
     relief: TipRelief | PowerTipRelief = TipRelief(amount=_AMOUNT, extent=_EXTENT, k=k)
     if beta is not None:
         relief = PowerTipRelief(amount=_AMOUNT, extent=_EXTENT, beta=beta)
-    flank = FlankModification(tip_relief=relief, crown=Crown(amount=_CROWN, start=crown_start))
+    crown = Crown(amount=_CROWN, start=crown_start)
+    flank = FlankModification(tip_relief=relief, crown=crown, facets=facets)
     return ModifiedPair(pair=named_pair(f"jamali_2015_{design}"), pinion=flank, gear=flank)
