@@ -75,7 +75,7 @@ def test_an_unknown_option_is_refused_with_the_choices(option, choices):
 
 
 def test_an_unknown_oil_is_refused_with_the_oils_there_are():
-    with pytest.raises(ParameterError, match="of karagiannis_2012, mohammadpour_2015; got 'salad'"):
+    with pytest.raises(ParameterError, match="karagiannis_2012, mohammadpour_2015; got 'salad'"):
         mohammadpour_2015_axle(oil="salad")
 
 
