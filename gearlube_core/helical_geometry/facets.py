@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import (
     InvoluteFlank,
     involute_flank,
@@ -20,8 +21,11 @@ _ROOT_STEPS = 4  # the quartic's fourth power is 1e-4 of its linear term: two wo
 
 
 def check_facets(name: str, count: int) -> int:
-    """Return a number of facets; raise ParameterError outside 0 (smooth) to 10000."""
-    return int(check_within(name, count, 0, 10_000, "", "Zero leaves the flank smooth."))
+    """Return a whole number of facets; raise ParameterError outside 0 (smooth) to 10000."""
+    value = check_within(name, count, 0, 10_000, "", "Zero leaves the flank smooth.")
+    if value != int(value):
+        raise ParameterError(f"{name} must be a whole number, got {value:g}. Round it.")
+    return int(value)
 
 
 def facet_bounds(roll: ArrayLike, flank: InvoluteFlank, count: int) -> tuple[_Array, _Array]:

@@ -10,7 +10,7 @@ from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
-from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap, contact_line_gap
 
 
 def full_line(pair):
@@ -107,6 +107,45 @@ def test_parabola_misses_the_involute_by_its_third_order_term():
     # the helix adds terms of sin(b)^2 at the same order, below a tenth of it times tan(b)^2
     assert odd == pytest.approx(expected, rel=0.02)
     assert odd / (0.5 * (error[1] - error[2])) == pytest.approx(8.0, rel=0.01)
+
+
+@pytest.mark.parametrize("member", ["pinion", "gear"])
+def test_relief_widens_the_gap_on_the_side_of_the_tip(member):
+    # the tangent plane's x runs to the pinion's root and the gear's tip
+    modified = jamali_2015("a", k=0.5)
+    pair = modified.pair
+    on_line = modified.contact_end if member == "pinion" else modified.contact_start
+    X = on_line + full_line(pair) - pair.pitch_point
+    x = np.array([-3e-4, 3e-4])
+    removed = {}
+    for form in ("involute", "parabola"):
+        gap = UndeformedGap(modified=modified, form=form)
+        plain = UndeformedGap(modified=ModifiedPair(pair=pair), form=form)
+        removed[form] = gap.tooth_heights(member, x, 0.0, X) - plain.tooth_heights(
+            member, x, 0.0, X
+        )
+    tip, root = (0, 1) if member == "pinion" else (1, 0)
+    # the gap of 1 um shifts the section off mid-face, where 8 um of crown begin: (1e-5)^2 of them
+    assert removed["involute"][root] == pytest.approx(0.0, abs=1e-14)
+    # radius at the tip side: r^2 = r_b^2 + roll^2 grows by 2 r_b t
+    if member == "pinion":
+        tip_radius, r_b = pair.pinion_tip_radius, pair.pinion_base_radius
+    else:
+        tip_radius, r_b = pair.gear_tip_radius, pair.gear_base_radius
+    r = math.sqrt((tip_radius - 2e-3) ** 2 + 2.0 * r_b * 3e-4)
+    depth = (r - tip_radius + 2e-3) / 1e-3  # of the parabola, half the extent
+    expected = depth**2 * 70e-6 / 3.0 * math.cos(pair.base_helix_angle)
+    # terms of t^3 in r, 1e-4 of t, and the section's shift by the gap
+    assert removed["involute"][tip] == pytest.approx(expected, rel=5e-3)
+    assert removed["parabola"][tip] == pytest.approx(removed["involute"][tip], rel=1e-3)
+
+
+def test_relief_of_a_spur_pair_starts_nowhere_along_a_line():
+    pair = replace(named_pair("jamali_2015_a"), helix_angle=0.0, normal_module=4.5e-3 / 0.94206)
+    line = contact_line_gap(ModifiedPair(pair=pair), pair.pitch_point, np.array([0.0, 0.01]))
+    assert math.isnan(line.pinion_relief_start)
+    assert math.isnan(line.gear_relief_start)
+    assert np.all(line.gap == 0.0)
 
 
 @pytest.mark.parametrize("form", ["involute", "parabola"])
