@@ -1,9 +1,7 @@
-"""Distance of points beside the plane of contact from the two involutes, in the transverse plane.
+"""Where the teeth of a pair are closest, on the line of action and at tip edges beyond its ends.
 
-A point Q stands at (x, r_bp + y): y off the line of action. Both involutes touch at (x, r_bp).
-Turning an involute moves it evenly along its base tangents, so its distance from Q along the base
-tangent through Q is the base radius times the angle between them: exact at any y, and so beyond
-the ends of the line of action, where the tip edge of one member meets the other's flank.
+A point Q of the transverse plane stands at (x, r_bp + y): y off the line of action. Both involutes
+touch at (x, r_bp) or would, were the teeth longer.
 """
 
 from __future__ import annotations
@@ -35,19 +33,6 @@ def roll_beside(x: ArrayLike, y: ArrayLike, base_radius: float) -> Array:
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     square = x * x + y * (2.0 * base_radius + y)
     return np.sqrt(np.where(square < 0.0, np.nan, square))
-
-
-def flank_distance(x: ArrayLike, y: ArrayLike, base_radius: float) -> Array:
-    """Return how far the involute that touches at x lies behind Q, along Q's base tangent [m].
-
-    S = r_b [atan(x/(r_b + y)) - atan(rho/r_b)] + rho - x,  about y^2/(2 x)
-
-    Parameters as in `roll_beside`; not negative, zero at y = 0.
-    """
-    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-    roll = roll_beside(x, y, base_radius)
-    turned = np.arctan2(x, base_radius + y) - np.arctan2(roll, base_radius)
-    return np.asarray(base_radius * turned + roll - x)
 
 
 def tip_edge(x: ArrayLike, base_radius: float, tip_radius: float) -> Array:

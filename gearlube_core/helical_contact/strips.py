@@ -17,11 +17,11 @@ from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.involute_gap import (
     engagement,
-    flank_distance,
     roll_beside,
     tip_edge,
 )
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 
 Array = NDArray[np.float64]
 
@@ -103,7 +103,7 @@ def line_gap(modified: ModifiedPair, X: float) -> LineGap:
     z = np.linspace(-0.5, 0.5, _SAMPLES) * pair.face_width
     x = _along_action(modified, X, z)
     met = engagement(x, pair)
-    gap = _normal_gap(modified, x, met.y, z)
+    gap = _normal_gap(modified, X, met.y, z)
     far = _FARTHEST * pair.base_pitch
     beyond = (x < pair.contact_start - far) | (x > pair.contact_end + far) | ~np.isfinite(gap)
     arm = np.where(beyond, 1.0, met.pinion_arm) * math.cos(pair.base_helix_angle)
@@ -189,7 +189,7 @@ def cut_strip(
     r_p, r_g = pair.pinion_base_radius, pair.gear_base_radius
     outside = y > tip_edge(x, r_p, pair.pinion_tip_radius) + _ON_EDGE * across
     outside |= -y > tip_edge(pair.tangent_length - x, r_g, pair.gear_tip_radius) + _ON_EDGE * across
-    gap = _normal_gap(modified, x, y, z)
+    gap = _normal_gap(modified, X, y, z)
     cos_b = math.cos(pair.base_helix_angle)
     return LineStrip(
         line=line,
@@ -212,21 +212,7 @@ def _along_action(modified: ModifiedPair, X: float, z: ArrayLike) -> Array:
     return np.asarray(X - lag * math.tan(pair.base_helix_angle))
 
 
-def _normal_gap(modified: ModifiedPair, x: Array, y: Array, z: Array) -> Array:
-    """Return the gap normal to the flanks beside the line [m], NaN below a base circle."""
-    pair = modified.pair
-    total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
-    for base_radius, own_x, own_y, flank, removal in (
-        (pair.pinion_base_radius, x, y, modified.pinion_flank, modified.pinion_removal),
-        (
-            pair.gear_base_radius,
-            pair.tangent_length - x,
-            -y,
-            modified.gear_flank,
-            modified.gear_removal,
-        ),
-    ):
-        roll = roll_beside(own_x, own_y, base_radius)
-        total += flank_distance(own_x, own_y, base_radius)
-        total += removal(np.minimum(np.nan_to_num(roll), flank.roll_high), z)
-    return total * math.cos(pair.base_helix_angle)
+def _normal_gap(modified: ModifiedPair, X: float, y: Array, z: Array) -> Array:
+    """Return the gap normal to the flanks at y off the line X and axial position z [m]."""
+    along = z / math.cos(modified.pair.base_helix_angle)
+    return UndeformedGap(modified=modified).heights(-y, along, X)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import MEMBERS, involute_flank
+from gearlube_core.helical_geometry.iso_6336_stiffness import profile_shifts
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, contact_modulus
 from gearlube_core.tooth_compliance.cache import cached_tooth_compliance
@@ -65,28 +66,6 @@ class ToothForm(NamedTuple):
     tip_radius: float  # [m]
     root_radius: float  # [m]
     base_half_angle: float  # half the tooth's thickness on the base circle [rad]
-
-
-def profile_shifts(pair: HelicalPair) -> tuple[float, float]:
-    """Return the profile shift coefficients x of pinion and gear, in normal modules [-].
-
-    x_1 + x_2 = (z_1 + z_2)(inv(alpha_w) - inv(alpha_t))/(2 tan(alpha_n)) follows from the centre
-    distance; addenda of one module split it: x_1 - x_2 = [(r_a1 - r_1) - (r_a2 - r_2)]/m_n.
-
-    Source: ISO 21771, sections 4 and 5.
-    """
-    rise = _involute(pair.working_pressure_angle) - _involute(pair.transverse_pressure_angle)
-    teeth = pair.pinion_teeth + pair.gear_teeth
-    total = teeth * rise / (2.0 * math.tan(pair.normal_pressure_angle))
-    addenda = [
-        tip - 0.5 * number * pair.transverse_module
-        for tip, number in (
-            (pair.pinion_tip_radius, pair.pinion_teeth),
-            (pair.gear_tip_radius, pair.gear_teeth),
-        )
-    ]
-    split = (addenda[0] - addenda[1]) / pair.normal_module
-    return 0.5 * (total + split), 0.5 * (total - split)
 
 
 def tooth_form(pair: HelicalPair, member: str) -> ToothForm:

@@ -1,0 +1,118 @@
+"""Line meshes on disk: NetCDF 3 with units and provenance, as mesh tables are."""
+
+from __future__ import annotations
+
+import io
+import os
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from gearlube_core.errors import TableError
+from gearlube_core.mesh_table.line_mesh import LineMesh
+
+FORMAT = 1
+_MARK = "gearlube_line_mesh"
+_DIMS = ("torque", "phase", "line", "station")
+_UNITS = {
+    "torque": ("N.m", "pinion torque"),
+    "phase": ("1", "mesh phase"),
+    "station": ("1", "along a line, from z_low 0 to z_high 1"),
+    "density": ("N/m2", "tangent stiffness of the line load, normal to the flanks"),
+    "offset": ("m", "compression at which the tangent spring carries nothing"),
+}
+_ATTRIBUTES = ("name", "source", "pinion_teeth", "gear_teeth", "base_pitch")
+
+
+def write_line_mesh(mesh: LineMesh, path: str | Path) -> Path:
+    """Write `mesh` to a NetCDF file, atomically; return the path."""
+    dims = {"torque": ("torque",), "phase": ("phase",), "station": ("station",)}
+    dataset = xr.Dataset(
+        {
+            name: (
+                dims.get(name, _DIMS),
+                getattr(mesh, name),
+                {
+                    "units": unit,
+                    "long_name": text,
+                    "provenance": mesh.provenance.get(name, ""),
+                },
+            )
+            for name, (unit, text) in _UNITS.items()
+        },
+        attrs={_MARK: FORMAT, **{name: getattr(mesh, name) for name in _ATTRIBUTES}},
+    )
+    target = Path(path)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    partial = target.with_suffix(".part")
+    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
+    os.replace(partial, target)
+    return target
+
+
+def read_line_mesh(path: str | Path) -> LineMesh:
+    """Read a mesh written by `write_line_mesh`; raise TableError when it is none."""
+    try:
+        content = Path(path).read_bytes()
+    except OSError as reason:
+        raise TableError(
+            f"No line mesh can be read at {path}: {reason.strerror or reason}. "
+            "Give the file that write_line_mesh wrote."
+        ) from None
+    return line_mesh_from_bytes(content, str(path))
+
+
+def line_mesh_from_bytes(content: bytes, name: str) -> LineMesh:
+    """Return the line mesh in the content of a file; errors call the file `name`."""
+    try:
+        dataset = xr.load_dataset(io.BytesIO(content), engine="scipy")
+    except (OSError, ValueError, TypeError, IndexError) as reason:
+        lines = str(reason).strip().splitlines() or [type(reason).__name__]
+        raise TableError(
+            f"{name} is not a readable NetCDF 3 file: {lines[0].rstrip('.')}. Write it with "
+            "write_line_mesh, or from xarray with to_netcdf(path, engine='scipy')."
+        ) from None
+    _check_format(dataset, name)
+    missing = [key for key in _UNITS if key not in dataset.variables]
+    missing += [key for key in _ATTRIBUTES if key not in dataset.attrs]
+    if missing:
+        raise TableError(f"{name} lacks {', '.join(missing)}. Write it with write_line_mesh.")
+    for key, (unit, _) in _UNITS.items():
+        found = str(dataset[key].attrs.get("units", unit))
+        if found != unit:
+            raise TableError(f"{name}: {key} must be in {unit}, got {found}. Convert it.")
+    for key in ("density", "offset"):
+        if dataset[key].dims != _DIMS:
+            raise TableError(
+                f"{name}: {key} must have the dimensions {_DIMS}, got {dataset[key].dims}. "
+                "Transpose it."
+            )
+    arrays = {key: np.ascontiguousarray(dataset[key].values, dtype=np.float64) for key in _UNITS}
+    return LineMesh(
+        name=str(dataset.attrs["name"]),
+        source=str(dataset.attrs["source"]),
+        pinion_teeth=int(dataset.attrs["pinion_teeth"]),
+        gear_teeth=int(dataset.attrs["gear_teeth"]),
+        base_pitch=float(dataset.attrs["base_pitch"]),
+        provenance={
+            key: str(dataset[key].attrs["provenance"])
+            for key in _UNITS
+            if dataset[key].attrs.get("provenance")
+        },
+        **arrays,
+    )
+
+
+def _check_format(dataset: xr.Dataset, name: str) -> None:
+    found = dataset.attrs.get(_MARK)
+    if not isinstance(found, int | np.integer):
+        raise TableError(
+            f"{name} is not a gearlube line mesh. Give the file that write_line_mesh wrote."
+        )
+    if found != FORMAT:
+        age = "an older" if found < FORMAT else "a newer"
+        raise TableError(
+            f"{name} was written by {age} gearlube: a line mesh of format {found}, this one reads "
+            f"format {FORMAT}. Write it again with this version."
+        )
