@@ -47,6 +47,18 @@ def test_both_oils_share_the_slope_of_viscosity_with_temperature() -> None:
     assert Lubricant.named(names[0]).dynamic_viscosity(366.35) == pytest.approx(0.0171, rel=0.01)
 
 
+def test_ester_oil_of_the_helical_thesis_has_its_three_numbers_at_90_degc() -> None:
+    oil = Lubricant.named("jamali_2015")
+    state = lubricant_state(oil.parameters(), 363.15)
+    assert state.eta0 == pytest.approx(0.00625, rel=1e-12)
+    assert state.alpha == pytest.approx(13.3e-9, rel=1e-12)
+    assert state.tau0 == 10e6
+    # Z of eq. (3.4) with kappa = 63.15e-6 Pa s: 13.3/(5.1 ln(0.00625/63.15e-6))
+    assert oil.roelands_z == pytest.approx(0.5676, abs=5e-4)
+    # the temperature is not stated; the data sheet's 5.1 mm2/s at 100 degC was not used
+    assert lubricant_state(oil.parameters(), 373.15).nu == pytest.approx(5.1e-6, rel=0.015)
+
+
 def test_gear_steel_of_table_a4_has_115_gpa_contact_modulus() -> None:
     steel = STEEL_MOHAMMADPOUR_2015
     # 210 GPa/(2 (1 - 0.09))

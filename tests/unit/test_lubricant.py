@@ -17,8 +17,9 @@ def library_with(old: str, new: str, directory: Path) -> Path:
     return path
 
 
-def test_library_holds_the_oils_of_both_hypoid_papers() -> None:
-    assert {"karagiannis_2012", "mohammadpour_2015"} <= set(lubricant_names())
+def test_library_holds_the_oils_of_the_papers() -> None:
+    names = {"karagiannis_2012", "mohammadpour_2015", "jamali_2015"}
+    assert names <= set(lubricant_names())
 
 
 def test_every_datum_of_the_library_has_a_tag_and_a_source() -> None:
@@ -65,7 +66,7 @@ def test_a_slope_is_only_taken_from_an_oil_with_two_viscosities(tmp_path: Path) 
     path = library_with(
         'same_slope_as = ["karagiannis_2012"', 'same_slope_as = ["mohammadpour_2015"', tmp_path
     )
-    with pytest.raises(ParameterError, match="same_slope_as must be one of karagiannis_2012"):
+    with pytest.raises(ParameterError, match="same_slope_as must be one of .*karagiannis_2012"):
         Lubricant.from_toml(path, "mohammadpour_2015")
 
 
