@@ -24,7 +24,7 @@ class LayAngles(NamedTuple):
 
 
 def lay_angles(
-    s: ArrayLike, pair: HelicalPair, distance: float = 1e-3, form: str = "parabola"
+    s: ArrayLike, pair: HelicalPair, distance: float = 1e-3, form: str = "involute"
 ) -> LayAngles:
     """Return the angles of chords from A to the mark through A, at B a distance on.
 
@@ -39,7 +39,7 @@ def lay_angles(
     distance
         AB along the contact line [m]; the thesis takes 1 mm.
     form
-        "parabola" as printed or "involute", exact.
+        "involute", exact, or "parabola" as printed.
 
     Returns
     -------

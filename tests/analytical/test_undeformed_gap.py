@@ -6,6 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube_core.helical_geometry.facets import facet_bounds, parabola_distance
+from gearlube_core.helical_geometry.involute import involute_flank
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
@@ -205,3 +207,22 @@ def test_faceted_flank_is_the_chord_of_two_helicoid_points():
             # the section's fixed point
             found = float(gap.tooth_heights("pinion", x, y, X))
             assert found == pytest.approx(depth, rel=1e-5, abs=1e-12)
+
+
+def test_facet_ends_on_the_parabola_lie_at_their_radius():
+    roll, r_b = 0.0284, 0.0735
+    other = roll + np.array([-1e-2, -2e-3, 0.0, 2e-3, 8e-3])
+    t = parabola_distance(roll, other, r_b)
+    radius = np.hypot(r_b + t, roll - 0.5 * t**2 / roll)
+    # the fixed point gains (t/R)^3 a step
+    assert radius == pytest.approx(np.hypot(r_b, other), rel=1e-9)
+    assert np.abs(t).max() > 2e-3
+
+
+def test_facets_end_at_the_base_circle():
+    flank = involute_flank(named_pair("jamali_2015_a"), "pinion")
+    first, second = facet_bounds([1e-3, flank.roll_low, flank.roll_high - 1e-6], flank, 2)
+    arc = 0.5 * (flank.roll_high - flank.roll_low)
+    assert first == pytest.approx([0.0, flank.roll_low, flank.roll_low + arc], rel=1e-12)
+    assert second[0] == pytest.approx(flank.roll_low - arc, rel=1e-12)
+    assert second[1:] == pytest.approx(first[1:] + arc, rel=1e-12)

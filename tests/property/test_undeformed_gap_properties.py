@@ -79,12 +79,14 @@ def test_lead_slope_tilts_the_gap_by_the_stated_amount():
     pair = named_pair("jamali_2015_a")
     slope, cos_b = 15e-6, math.cos(pair.base_helix_angle)
     y = np.array([-0.5, 0.0, 0.5]) * pair.face_width / cos_b
-    for member in ("pinion", "gear"):
+    for member, side in (("pinion", 1.0), ("gear", -1.0)):
         modified = ModifiedPair(pair=pair, **{member: FlankModification(lead_slope=slope)})
         h = UndeformedGap(modified=modified).heights(0.0, y, middle_line(pair))
-        # the section shifts by sin(b) times the gap, along which the slope is 15 um in 44 mm
         expected = slope * cos_b * np.array([-0.5, 0.0, 0.5])
+        # the gap shifts its section along the line: its slope times sin(b), 1e-4 of itself
         assert h == pytest.approx(expected, rel=2e-4, abs=1e-15)
+        rate = slope * cos_b / pair.face_width * math.sin(pair.base_helix_angle)
+        assert h == pytest.approx(expected / (1.0 - side * rate), rel=1e-10, abs=1e-16)
 
 
 def test_equal_slopes_of_opposite_sign_leave_the_gap_flat():
