@@ -85,7 +85,8 @@ def test_relief_ends_where_equations_2_14_and_2_15_put_it():
     z_p = relief_on_path(HE.pinion_tip_radius, HE.pinion_base_radius, 1e-3)
     z_w = relief_on_path(HE.gear_tip_radius, HE.gear_base_radius, 1e-3)
     ends = HE.contact_start + z_w, HE.contact_end - z_p
-    assert (plane.A, plane.D) == pytest.approx(ends, rel=1e-12)
+    got = plane.A, plane.D
+    assert got == pytest.approx(ends, rel=1e-12)
     assert relief_on_path(0.05, 0.04, 0.0) == 0.0
 
 
