@@ -12,10 +12,10 @@ class SupportStiffness(NamedTuple):
     K_xx: float  # [N/m]
     K_yy: float
     K_zz: float
-    K_thx: float  # [N.m/rad]
-    K_thy: float
-    K_x_thy: float  # [N/rad]
-    K_y_thx: float
+    K_theta_x: float  # [N.m/rad]
+    K_theta_y: float
+    K_x_theta_y: float  # [N/rad]
+    K_y_theta_x: float
 
 
 class GearBody(NamedTuple):

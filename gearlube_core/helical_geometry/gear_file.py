@@ -111,7 +111,7 @@ class HelicalGearFile(InputFile):
         )
 
     def modified_pair(self) -> ModifiedPair:
-        """Return the pair with its flank modifications but without facets, in SI units."""
+        """Return the pair with its flank modifications, in SI units."""
         return ModifiedPair(
             pair=self.helical_pair(),
             pinion=_modification(self.pinion.flank),
@@ -193,6 +193,7 @@ def _modification(flank: Flank) -> FlankModification:
         crown=crown,
         lead_slope=flank.lead_slope_um * _MICROMETRE,
         profile_slope=flank.profile_slope_um * _MICROMETRE,
+        facets=flank.facets,
     )
 
 
@@ -202,8 +203,8 @@ def _support(side: float, bearing: Bearing) -> SupportStiffness:
         K_xx=bearing.stiffness_x_n_per_um / _MICROMETRE,
         K_yy=bearing.stiffness_y_n_per_um / _MICROMETRE,
         K_zz=bearing.stiffness_z_n_per_um / _MICROMETRE,
-        K_thx=bearing.tilt_x_knm_per_rad * 1e3,
-        K_thy=bearing.tilt_y_knm_per_rad * 1e3,
-        K_x_thy=bearing.coupling_x_kn_per_rad * 1e3,
-        K_y_thx=bearing.coupling_y_kn_per_rad * 1e3,
+        K_theta_x=bearing.tilt_x_knm_per_rad * 1e3,
+        K_theta_y=bearing.tilt_y_knm_per_rad * 1e3,
+        K_x_theta_y=bearing.coupling_x_kn_per_rad * 1e3,
+        K_y_theta_x=bearing.coupling_y_kn_per_rad * 1e3,
     )

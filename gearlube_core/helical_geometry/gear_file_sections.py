@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
@@ -130,6 +131,19 @@ class Bearing(Section):
     coupling_y_kn_per_rad: Coupling = Field(
         default=0.0, description="K_y,thx: force along y per tilt about x"
     )
+
+    @model_validator(mode="after")
+    def _gives_no_energy_away(self) -> Bearing:
+        for along, about in (("x", "y"), ("y", "x")):
+            stiffness = 1e3 * getattr(self, f"stiffness_{along}_n_per_um")  # kN/m
+            limit = math.sqrt(stiffness * getattr(self, f"tilt_{about}_knm_per_rad"))
+            coupling = getattr(self, f"coupling_{along}_kn_per_rad")
+            if abs(coupling) > limit:
+                raise ValueError(
+                    f"coupling_{along}_kn_per_rad must be within {0.0 - limit:.4g} to {limit:.4g} "
+                    f"kN/rad, got {coupling:.4g} kN/rad; or raise tilt_{about}_knm_per_rad"
+                )
+        return self
 
 
 class Body(Section):

@@ -78,6 +78,18 @@ def test_every_number_has_a_unit_or_needs_none_and_a_meaning(name):
             r"gear\.flank\.crown_start_mm must be below half of pair\.face_width_mm, 15\.875 mm",
         ),
         ({"gear.bearing_1": None}, "gear needs bearing_1 and bearing_2, or neither"),
+        (
+            {"gear.bearing_1.coupling_y_kn_per_rad": 9.0},
+            r"gear\.bearing_1: coupling_y_kn_per_rad must be within 0 to 0 kN/rad, got 9 kN/rad",
+        ),
+        (
+            {
+                "gear.bearing_1.stiffness_x_n_per_um": 100.0,
+                "gear.bearing_1.tilt_y_knm_per_rad": 10.0,
+                "gear.bearing_1.coupling_x_kn_per_rad": -1001.0,
+            },
+            "must be within -1000 to 1000 kN/rad, got -1001 kN/rad; or raise tilt_y_knm_per_rad",
+        ),
         ({"gear.flank.tip_relief_form": "cubic"}, "text, blended or power, got 'cubic'"),
         ({"pair.helix_angle": 20.0}, r"is it pair\.helix_angle_deg\?"),
         ({"pair.centre_distance_mm": 75.0}, "SI units: centre_distance must be within 0.08"),
@@ -171,6 +183,11 @@ def test_thesis_data_arrive_in_si():
         assert flank.tip_relief == TipRelief(amount=70e-6, extent=2e-3, k=1.0)
         assert flank.crown.amount == pytest.approx(8e-6, rel=1e-12)
         assert flank.crown.start == 0.0
+    assert JAMALI.varied({"gear.flank.facets": 20}).modified_pair().gear.facets == 20
+    sloped = {"pinion.flank.lead_slope_um": 5.0, "gear.flank.profile_slope_um": -3.0}
+    flanks = JAMALI.varied(sloped).modified_pair()
+    assert flanks.pinion.lead_slope == pytest.approx(5e-6, rel=1e-12)
+    assert flanks.gear.profile_slope == pytest.approx(-3e-6, rel=1e-12)
     power = JAMALI.varied(
         {"pinion.flank.tip_relief_form": "power", "pinion.flank.tip_relief_exponent": 4.0}
     ).modified_pair()
