@@ -159,7 +159,7 @@ def limited_stress_ratio(plateau: float, newtonian_ratio: float, exponent: float
     Heat only weakens a film, so no traction exceeds the isothermal one. Any finite input.
     """
     if plateau <= 0.0 or newtonian_ratio <= 0.0:
-        return 0.0
+        return 0.0 * newtonian_ratio  # zero, but for a sliding speed that is no number
     # asinh(x) > ln 2x: the cheap bound settles all but small sliding speeds
     if plateau <= math.log(newtonian_ratio) + exponent + _LN2:
         return plateau

@@ -9,7 +9,7 @@ from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.line_hertz import LARGEST_OVER_MEAN, line_mean_pressure
 from gearlube_core.friction.flank import flank_friction
-from gearlube_core.friction.flank_data import CONSISTENT, contact_geometry
+from gearlube_core.friction.flank_data import CONSISTENT, FlankState, contact_geometry
 from gearlube_core.friction.line_friction import LINE_LOAD_FLOOR, LineState, line_friction
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED
 from gearlube_core.materials.lubricant import Lubricant
@@ -25,7 +25,9 @@ SMOOTH = SurfaceParameters(sigma=0.02e-6, xi_beta_sigma=0.055, sigma_over_beta=0
 W, R, ROLLING, SLIDING = 1.4e5, 0.01, 2.0, 0.8
 
 
-def line(w: float, rolling: float, sliding: float, surface=SURFACE) -> LineState:
+def line(
+    w: float, rolling: float, sliding: float, surface: SurfaceParameters = SURFACE
+) -> LineState:
     return line_friction(w, R, rolling, sliding, OIL, surface, SOLID)
 
 
@@ -47,7 +49,9 @@ def test_a_long_ellipse_has_the_largest_pressure_of_a_line() -> None:
     assert a / b > 90.0
 
 
-def matching_flank(radius_ratio: float, sliding: float, surface: SurfaceParameters, p: float):
+def matching_flank(
+    radius_ratio: float, sliding: float, surface: SurfaceParameters, p: float
+) -> tuple[FlankState, float, LineState, float]:
     """An elliptical flank and the line with the same mean pressure; load of both."""
     geometry = contact_geometry(R, radius_ratio * R, 0.0, E_STAR)
     F = (p / geometry.pressure_coefficient) ** 3

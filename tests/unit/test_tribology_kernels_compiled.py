@@ -10,10 +10,17 @@ from gearlube_core.contact import (
     elliptical_hertz,
     greenwood_tripp_1971,
     greenwood_tripp_as_printed,
+    line_hertz,
 )
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.film import chittenden_1985
-from gearlube_core.friction import evans_johnson_1986, flank, flank_data, mixed_friction
+from gearlube_core.film import chittenden_1985, dowson_1968, dowson_toyoda_1979
+from gearlube_core.friction import (
+    evans_johnson_1986,
+    flank,
+    flank_data,
+    line_friction,
+    mixed_friction,
+)
 from gearlube_core.materials.lubricant import Lubricant
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.rheology import eyring_1936, roelands_1966, walther_1931
@@ -25,6 +32,8 @@ SURFACE = SurfaceParameters(0.5e-6, 0.055, 0.001)
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 GEOMETRY = flank_data.contact_geometry(0.011, 0.6, 0.4, SOLID.contact_modulus)
 FILM = (0.011, 0.99, 0.02, 2e-8, 3.0, 1000.0, 2.3e11)
+LINE_FILM = (0.011, 0.02, 2e-8, 3.0, 1.4e5, 2.3e11)
+MIXED = (1000.0, 1000.0, 7e8, 4e-7, 3.0, 2.0, 0.011, 1.7e-6)
 
 CASES: list[tuple[Any, tuple[Any, ...]]] = [
     (walther_1931.walther_viscosity, (7.4, 2.84, 350.0)),
@@ -55,6 +64,9 @@ CASES: list[tuple[Any, tuple[Any, ...]]] = [
     (chittenden_1985.minimum_film_geometry, (0.011, 0.6, 0.4)),
     (chittenden_1985.central_film_thickness, FILM),
     (chittenden_1985.minimum_film_thickness, FILM),
+    (dowson_toyoda_1979.line_film_thickness, LINE_FILM),
+    (dowson_1968.minimum_line_film_thickness, LINE_FILM),
+    (line_hertz.line_mean_pressure, (1.4e5, 0.011, 1.15e11)),
     (evans_johnson_1986.solid_resistance, (0.011, 7e8, 3.0, 2.3e11, 1.7e8)),
     (evans_johnson_1986.surface_heating_number, (4e-7, 0.14, 4.6e-7)),
     (evans_johnson_1986.plateau_stress_ratio, (4e-7, 7e8, 0.02, 2e-8, 0.03, 2e6, 0.14, 0.1)),
@@ -75,6 +87,14 @@ for _form in (flank_data.CONSISTENT, flank_data.AS_PRINTED):
         (-1.0, 2.0, 1.0),
     ):
         CASES.append((flank.flank_friction, (*_operation, GEOMETRY, STATE, SURFACE, SOLID, _form)))
+    CASES.append((mixed_friction.mixed_friction, (*MIXED, STATE, SURFACE, SOLID, _form)))
+for _line in (
+    (1.4e5, 0.011, 3.0, 2.0),
+    (1.4e5, 0.011, -3.0, -1e-4),
+    (0.0, 0.011, 0.0, 0.0),
+    (-1.0, 0.011, 2.0, 1.0),
+):
+    CASES.append((line_friction.line_friction, (*_line, STATE, SURFACE, SOLID)))
 
 
 @pytest.mark.parametrize(
@@ -97,3 +117,6 @@ def test_a_non_number_in_the_motion_is_not_hidden(position: int) -> None:
     )
     state = flank.flank_friction(load, rolling, sliding, GEOMETRY, STATE, SURFACE, SOLID, 0)
     assert np.isnan(state.viscous_friction)
+    line = line_friction.line_friction(load, 0.011, rolling, sliding, STATE, SURFACE, SOLID)
+    assert np.isnan(line.viscous_friction)
+    assert np.isnan(line.signed_coefficient)
