@@ -21,10 +21,11 @@ from gearlube_core.dynamics.helical_pair.mesh_moments import (
 from gearlube_core.dynamics.helical_pair.mesh_wrench import N_SUMS
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.jit import kernel
 
 RELATIVE = (*(name for name in COORDINATES if not name.startswith("th_z")), "psi")
 _KEPT = tuple(i for i, name in enumerate(COORDINATES) if not name.startswith("th_z"))
-_PHASES = 16  # at which the fastest motion and mean moments' breaks are looked for
+_PHASES = 16  # at which the fastest motion is looked for
 
 
 class LinearSystem(NamedTuple):
@@ -116,9 +117,16 @@ def moments_at(plane: ContactPlane, mesh: MeshArrays, mu: float, phase: Array) -
     """Return G and g at many phases, shape (phases, 5, 3); see `mesh_moments`."""
     points = np.empty((point_capacity(mesh), N_COLUMNS))
     moments = np.empty((phase.size, N_SUMS, 3))
-    for value, row in zip(phase, moments, strict=True):
-        phase_moments(float(value), 1.0, mu, plane, mesh, points, row)
+    _fill(plane, mesh, mu, phase, points, moments)
     return moments
+
+
+@kernel
+def _fill(
+    plane: ContactPlane, mesh: MeshArrays, mu: float, phase: Array, points: Array, moments: Array
+) -> None:
+    for i in range(phase.size):
+        phase_moments(phase[i], 1.0, mu, plane, mesh, points, moments[i])
 
 
 def mean_moments(plane: ContactPlane, mesh: MeshArrays, mu: float) -> Array:

@@ -18,15 +18,20 @@ from gearlube_core.dynamics.helical_pair.mesh_moments import phase_moments
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.jit import kernel
 
+_MERGED = 1e-10  # phases closer than this are one
 _INSIDE = 1e-9  # share of an interval by which its ends are moved inwards: the mesh may jump there
 
 
 class PeriodMarch(NamedTuple):
-    """States over a period are Phi(t) z0 + forced(t); z = (q, q')."""
+    """States over a period are Phi(t) z0 + forced(t); z = (q, q').
 
-    phase: Array  # of the samples, from 0, 1 left out, shape (N,)
-    transition: Array  # Phi, shape (N + 1, 2n, 2n), the last at phase 1
-    forced: Array  # response from rest, shape (N + 1, 2n)
+    Held at B phases: equally spaced ones and those at which the mesh has kinks or jumps.
+    """
+
+    phase: Array  # from 0 to 1, both included, shape (B,)
+    sample: np.ndarray  # rows that are equally spaced, from 0, 1 left out, shape (N,)
+    transition: Array  # Phi, shape (B, 2n, 2n)
+    forced: Array  # response from rest, shape (B, 2n)
     steps: int
 
 
@@ -62,21 +67,20 @@ def march_period(
     n = len(system.names)
     grid = np.arange(samples + 1) / samples
     breaks = np.sort(np.concatenate((grid, event_phases(system.plane, system.mesh))))
-    breaks = breaks[np.append(True, np.diff(breaks) > 1e-10)]
+    breaks = breaks[np.append(True, np.diff(breaks) > _MERGED)]
     oscillations = period * fastest_frequency(system) / (2.0 * math.pi)
     steps = np.ceil(np.diff(breaks) * oscillations * steps_per_oscillation).astype(np.int64)
     steps = np.maximum(steps, 1)
-    sample_of = np.full(breaks.size, -1, dtype=np.int64)
-    sample_of[np.searchsorted(breaks, grid - 0.5e-10)] = np.arange(samples + 1)
-    states = np.zeros((samples + 1, 2 * n, 2 * n + 1))
+    states = np.zeros((breaks.size, 2 * n, 2 * n + 1))
     work, sums = np.zeros((7, n, 2 * n + 1)), np.zeros((7, 2 * n + 1))
     _march(
-        states, work, sums, breaks, steps, sample_of, period, _entries(system.K), system.C,
+        states, work, sums, breaks, steps, period, _entries(system.K), system.C,
         _entries(system.E), _entries(system.W), system.f, system.mu, system.damping,
         system.variation, system.plane, system.mesh, system.mean,
         np.empty((point_capacity(system.mesh), N_COLUMNS)), np.empty((3, *system.mean.shape)),
     )  # fmt: skip
-    return PeriodMarch(grid[:-1], states[:, :, :-1], states[:, :, -1], int(steps.sum()))
+    sample = np.searchsorted(breaks, grid[:-1] - _MERGED)
+    return PeriodMarch(breaks, sample, states[:, :, :-1], states[:, :, -1], int(steps.sum()))
 
 
 @kernel
@@ -86,7 +90,6 @@ def _march(
     sums: Array,
     breaks: Array,
     steps: np.ndarray,
-    sample_of: np.ndarray,
     period: float,
     K: _Entries,
     C: Array,
@@ -102,7 +105,7 @@ def _march(
     points: Array,
     moments: Array,
 ) -> None:
-    """Fill `states` of shape (samples + 1, 2n, 2n + 1); the last column is the forced one."""
+    """Fill `states` of shape (B, 2n, 2n + 1); the last column is the forced one."""
     q, v, q_s, v_s, a, q_sum, v_sum = (
         work[0], work[1], work[2], work[3], work[4], work[5], work[6],
     )  # fmt: skip
@@ -111,12 +114,10 @@ def _march(
         q[i, i] = 1.0
         v[i, n + i] = 1.0
     for interval in range(steps.size + 1):
-        sample = sample_of[interval]
-        if sample >= 0:
-            for i in range(n):
-                for j in range(columns):
-                    states[sample, i, j] = q[i, j]
-                    states[sample, n + i, j] = v[i, j]
+        for i in range(n):
+            for j in range(columns):
+                states[interval, i, j] = q[i, j]
+                states[interval, n + i, j] = v[i, j]
         if interval == steps.size:
             break
         start, width = breaks[interval], breaks[interval + 1] - breaks[interval]

@@ -24,6 +24,8 @@ from gearlube_core.periodic.floquet import floquet_multipliers
 BEARING_FORCES = tuple(
     f"{kind}_{axis}{member}" for member in "pg" for kind in "FM" for axis in "xyz"
 )
+_INSIDE = 1e-9  # share of an interval
+_SETTLES = 1e-9  # decay a period below which a motion counts as free, by rounding
 COMPOSITES = ("delta_x", "delta_y", "delta_z")
 
 
@@ -170,7 +172,7 @@ def periodic_response(
     Raises
     ------
     ConvergenceError
-        A Floquet multiplier lies outside the unit circle: no motion settles there.
+        A Floquet multiplier lies on the unit circle or outside: no motion settles there.
 
     Notes
     -----
@@ -183,9 +185,9 @@ def periodic_response(
     period = 1.0 / parameters.pair.mesh_frequency(pinion_speed)
     march = march_period(system, period, settings.samples, settings.steps_per_oscillation)
     multipliers = floquet_multipliers(march.transition[-1])
-    if throw and not abs(multipliers[0]) < 1.0:
+    if throw and not abs(multipliers[0]) < 1.0 - _SETTLES:
         raise ConvergenceError(
-            f"the pair must be stable to have a steady state, got a Floquet multiplier of modulus "
+            "the pair must be stable to have a steady state, got a Floquet multiplier of modulus "
             f"{abs(multipliers[0]):.6g} at {pinion_speed:g} rad/s. Raise the damping ratios or "
             "move the speed; `instability_map` shows where it is stable."
         )
@@ -202,27 +204,39 @@ def _response(
 ) -> PeriodicResponse:
     n = len(system.names)
     start = np.linalg.solve(np.eye(2 * n) - march.transition[-1], march.forced[-1])
-    states = march.transition[:-1] @ start + march.forced[:-1]
+    states = march.transition @ start + march.forced
+    phase, samples = march.phase[march.sample], states[march.sample]
     places = [RELATIVE.index(name) for name in system.names]
-    displacement, rate = np.zeros((2, march.phase.size, len(RELATIVE)))
-    displacement[:, places], rate[:, places] = states[:, :n], states[:, n:]
-    moments = system_moments(system, march.phase)
-    strain = states[:, :n] @ system.E.T
-    sums = np.einsum("tij,tj->ti", moments[:, :, :2], strain) - moments[:, :, 2]
-    plane = system.plane
-    r, rx = sums[:, 2], sums[:, 3]
+    displacement, rate = np.zeros((2, phase.size, len(RELATIVE)))
+    displacement[:, places], rate[:, places] = samples[:, :n], samples[:, n:]
     return PeriodicResponse(
         parameters=parameters,
         pinion_speed=pinion_speed,
         period=period,
-        phase=march.phase,
+        phase=phase,
         displacement=displacement,
         rate=rate,
-        mesh_force=sums @ wrench_columns(plane).T,
+        mesh_force=_sums(system, phase, samples[:, :n]) @ wrench_columns(system.plane).T,
         multipliers=multipliers,
-        friction_torque=float(np.mean(rx - (plane.x_g * r - rx) * plane.r_bp / plane.r_bg)),
+        friction_torque=_mean_friction_torque(system, march.phase, states[:, :n]),
         steps=march.steps,
     )
+
+
+def _sums(system: LinearSystem, phase: Array, q: Array) -> Array:
+    """Return the line loads' sums of `mesh_wrench`, shape (phases, 5)."""
+    moments = system_moments(system, phase)
+    return np.asarray(np.einsum("tij,tj->ti", moments[:, :, :2], q @ system.E.T) - moments[:, :, 2])
+
+
+def _mean_friction_torque(system: LinearSystem, phase: Array, q: Array) -> float:
+    """Return the mean over the period by trapezoids that end where the mesh jumps [N.m]."""
+    plane, width, torques = system.plane, np.diff(phase), []
+    for end, inwards in ((slice(None, -1), _INSIDE), (slice(1, None), -_INSIDE)):
+        sums = _sums(system, phase[end] + inwards * width, q[end])
+        r, rx = sums[:, 2], sums[:, 3]
+        torques.append(rx - (plane.x_g * r - rx) * plane.r_bp / plane.r_bg)
+    return float(0.5 * np.sum(width * (torques[0] + torques[1])))
 
 
 def with_friction(parameters: HelicalPairParameters, mu: float) -> HelicalPairParameters:
