@@ -4,6 +4,7 @@ import dataclasses
 import math
 
 import pytest
+from scipy.optimize import brentq
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
@@ -56,6 +57,39 @@ def test_published_example_is_met():
     assert got.mesh / PER_MM_UM == pytest.approx(17.46485, rel=5e-4)
     assert got.lead / PER_MM_UM == pytest.approx(14.84512, rel=5e-4)
     assert got.outside == ()
+
+
+def test_shift_of_the_gear_enters_by_its_own_three_terms():
+    """23:113, 7 degrees, x = 0.313 and -0.071: q' added up by hand from a transcription.
+
+    0.04723 + 0.15551/23.48 + 0.25791/115.4 - 0.00635 x1 - 0.11654 x1/23.48 - 0.00193 x2
+    - 0.24188 x2/115.4 + 0.00529 x1^2 + 0.00182 x2^2 with the unrounded virtual teeth.
+    """
+    module, helix = 16e-3, math.radians(7.0)
+    radius, shifts = 0.5 * module / math.cos(helix), (0.313, -0.071)
+    alpha_t = math.atan(math.tan(math.radians(20.0)) / math.cos(helix))
+    involute = math.tan(alpha_t) - alpha_t
+    involute += 2.0 * sum(shifts) * math.tan(math.radians(20.0)) / 136
+    working = brentq(lambda a: math.tan(a) - a - involute, 0.1, 0.8)
+    pair = HelicalPair(
+        name="23:113",
+        pinion_teeth=23,
+        gear_teeth=113,
+        normal_module=module,
+        normal_pressure_angle=math.radians(20.0),
+        helix_angle=helix,
+        centre_distance=136 * radius * math.cos(alpha_t) / math.cos(working),
+        pinion_tip_radius=23 * radius + (1.0 + shifts[0]) * module,
+        gear_tip_radius=113 * radius + (1.0 + shifts[1]) * module,
+        pinion_root_radius=23 * radius - (1.4 - shifts[0]) * module,
+        gear_root_radius=113 * radius - (1.25 - shifts[1]) * module,
+        face_width=0.48,
+    )
+    got = iso_stiffness(pair, line_load=LOAD)
+    assert got.profile_shift == pytest.approx(shifts, abs=1e-9)
+    assert got.theoretical / PER_MM_UM == pytest.approx(18.7403, abs=1e-4)
+    assert rack_dedendum_of(pair) == pytest.approx((1.4, 1.25), rel=1e-9)
+    assert got.basic_rack_factor == pytest.approx(0.5 * (0.9 + 0.975), rel=1e-9)
 
 
 def test_density_of_the_paper_s_pair_closes_near_13_n_per_um_mm():
@@ -121,6 +155,7 @@ def test_limits_of_the_fit_that_a_pair_exceeds_are_named():
         gear_root_radius=pair.gear_root_radius + swap,
     )
     assert profile_shifts(swapped) == pytest.approx((0.045, 0.1), abs=1e-3)
+    assert rack_dedendum_of(swapped) == pytest.approx((1.4, 1.4), rel=1e-9)
     assert iso_stiffness(swapped, line_load=LOAD).outside == ("x1 >= x2, got 0.045 and 0.100",)
 
 
