@@ -62,7 +62,7 @@ def test_mean_total_length_is_contact_ratio_times_width_over_cosine(ratio):
 def test_pairs_in_contact_average_to_the_total_contact_ratio(ratio):
     pair = pair_of(ratio)
     plane, count = pair.plane, 0
-    assert line_count(plane) == math.ceil(ratio)  # rounding of a whole ratio adds no line
+    assert line_count(plane) == math.ceil(ratio)
     for phase in PHASES:
         for line in range(line_count(plane) + 1):
             touching = segment_length(clip_line(line_position(phase, line, plane), plane), plane)
@@ -70,6 +70,14 @@ def test_pairs_in_contact_average_to_the_total_contact_ratio(ratio):
             count += touching > 0.0
     # Each of the ends falls between two of 2000 phases.
     assert count / PHASES.size == pytest.approx(pair.total_contact_ratio, abs=1.1e-3)
+
+
+@pytest.mark.parametrize("error", [-1e-14, 0.0, 1e-14])
+def test_rounding_of_a_whole_contact_ratio_adds_no_line(error):
+    plane = HE.helical_pair().plane
+    travel = plane.D - plane.A + plane.W * plane.sin_b / plane.cos_b
+    assert line_count(plane._replace(pitch=travel / (5.0 + error * 5.0))) == 5
+    assert line_count(plane._replace(pitch=travel / 5.001)) == 6
 
 
 def test_length_is_constant_where_the_overlap_ratio_is_whole():
