@@ -17,7 +17,7 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
 )
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.helical_geometry.contact_line import ContactPlane
-from tests.helical_cases import loaded_points, random_state
+from tests.helical_dynamics_cases import loaded_points, random_state
 
 
 def _constants(q: np.ndarray, plane: ContactPlane) -> tuple[float, float, float]:

@@ -20,7 +20,7 @@ from gearlube_core.dynamics.helical_pair.linear_system import (
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.period_march import march_period
 from gearlube_core.periodic.floquet import floquet_multipliers
-from tests.helical_cases import spur_pair
+from tests.helical_dynamics_cases import spur_pair
 
 
 def _state_matrix(system: LinearSystem, moments: np.ndarray) -> np.ndarray:

@@ -16,7 +16,7 @@ from gearlube_core.dynamics.helical_pair.periodic_response import (
     harmonics,
     periodic_response,
 )
-from tests.helical_cases import SPEED, spur_pair, state_rates
+from tests.helical_dynamics_cases import SPEED, spur_pair, state_rates
 
 
 @pytest.mark.parametrize("case", [he_2007_pair, spur_pair])

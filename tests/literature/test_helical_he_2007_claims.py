@@ -25,7 +25,7 @@ from gearlube_core.dynamics.helical_pair.periodic_response import (
     periodic_response,
 )
 from gearlube_core.errors import ConvergenceError
-from tests.helical_cases import loaded_points, spur_pair
+from tests.helical_dynamics_cases import loaded_points, spur_pair
 
 
 @cache

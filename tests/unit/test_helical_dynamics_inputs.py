@@ -26,7 +26,7 @@ from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, per
 from gearlube_core.dynamics.helical_pair.shaft_support import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from tests.helical_cases import SPEED, random_state
+from tests.helical_dynamics_cases import SPEED, random_state
 
 
 @pytest.mark.parametrize(
@@ -34,7 +34,7 @@ from tests.helical_cases import SPEED, random_state
     [
         ("pinion_mass", 0.0, "pinion_mass must be above 0 kg"),
         ("friction_coefficient", 1.5, "friction_coefficient must be within 0 to 1"),
-        ("friction", "film", "friction must be one of"),
+        ("friction", "dry", "friction must be one of"),
         ("pair", named_pair("jamali_2015_a"), "mesh must belong to the pair of 33 and 34"),
         ("line_divisions", 0, "line_divisions must be within 1 to 64"),
         ("form", "three_dof", "form must be one of"),

@@ -85,6 +85,7 @@ def instability_map(
         Of the march over a period.
     """
     check_option("axis", axis, get_args(Axis))
+    check_option("parameters.friction", parameters.friction, ("off", "constant"))
     mesh_frequency = np.array(mesh_frequency, dtype=np.float64)
     values = np.array(values, dtype=np.float64)
     for frequency in mesh_frequency:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.dynamics.helical_pair.contact_points import N_COLUMNS, point_capacity
+from gearlube_core.dynamics.helical_pair.film_friction import FilmField, film_moments
 from gearlube_core.dynamics.helical_pair.kernel_parameters import COORDINATES, Array, MeshArrays
 from gearlube_core.dynamics.helical_pair.mesh_moments import (
     phase_moments,
@@ -46,6 +47,7 @@ class LinearSystem(NamedTuple):
     plane: ContactPlane
     mesh: MeshArrays
     mean: Array  # moments averaged over the mesh period at this mu, shape (5, 3)
+    film: FilmField | None  # friction in place of mu
 
 
 def relative_rows(parameters: HelicalPairParameters) -> Array:
@@ -64,7 +66,8 @@ def linear_system(parameters: HelicalPairParameters, variation: float = 1.0) -> 
     Parameters
     ----------
     parameters
-        `contact` is taken as linear: flanks that separate have no linear system.
+        `contact` is taken as linear: flanks that separate have no linear system. Film friction
+        is left out: it needs a motion, see `periodic_response`.
     variation
         Factor on the mesh's deviation from its mean over the period [-]; axis of instability maps.
     """
@@ -96,6 +99,7 @@ def linear_system(parameters: HelicalPairParameters, variation: float = 1.0) -> 
         plane=c.plane,
         mesh=mesh,
         mean=mean_moments(c.plane, mesh, parameters.mu),
+        film=None,
     )
 
 
@@ -140,7 +144,15 @@ def mean_moments(plane: ContactPlane, mesh: MeshArrays, mu: float) -> Array:
 
 
 def system_moments(system: LinearSystem, phase: Array) -> Array:
-    """Return the moments at many phases with the system's `variation`, shape (phases, 5, 3)."""
+    """Return the moments at many phases in [0, 1], shape (phases, 5, 3).
+
+    With the system's `variation`, which film friction has none of.
+    """
+    if system.film is not None:
+        points = np.empty((point_capacity(system.mesh), N_COLUMNS))
+        moments = np.empty((phase.size, N_SUMS, 3))
+        film_moments(phase, system.film, system.plane, system.mesh, points, moments)
+        return moments
     moments = moments_at(system.plane, system.mesh, system.mu, phase)
     return np.asarray(system.mean + system.variation * (moments - system.mean))
 

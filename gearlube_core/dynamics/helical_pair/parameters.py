@@ -8,6 +8,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.kernel_parameters import (
     COORDINATES,
     SIX_DOF,
@@ -29,7 +30,7 @@ from gearlube_core.mesh_table.line_mesh import LineMesh
 
 Form = Literal["twelve_dof", "six_dof"]
 Contact = Literal["linear", "one_sided"]
-Friction = Literal["off", "constant"]
+Friction = Literal["off", "constant", "film"]
 BearingMoments = Literal["consistent", "as_printed"]
 SupportDamping = Literal["total", "as_printed"]
 MeshSign = Literal["compression", "as_printed"]
@@ -56,9 +57,12 @@ class HelicalPairParameters:
     pinion_support, gear_support : ShaftSupport
     support_damping_ratio, mesh_damping_ratio : float
         zeta [-].
-    friction : {"off", "constant"}
+    friction : {"off", "constant", "film"}
+        None; Coulomb with one coefficient; mixed friction of the oil film at each point.
     friction_coefficient : float
         mu of "constant" [-].
+    film : FilmFriction, optional
+        Oil and surfaces of "film".
     form : {"twelve_dof", "six_dof"}
         Six keeps u_x, u_y and th_z of both members and holds the rest.
     contact : {"linear", "one_sided"}
@@ -89,6 +93,7 @@ class HelicalPairParameters:
     mesh_damping_ratio: float
     friction: Friction
     friction_coefficient: float
+    film: FilmFriction | None = None
     form: Form = "twelve_dof"
     contact: Contact = "linear"
     line_divisions: int = 1
@@ -112,6 +117,10 @@ class HelicalPairParameters:
             check_within(name, getattr(self, name), 0.0, 1.0, "1", "Five percent is usual.")
         check_within("friction_coefficient", self.friction_coefficient, 0.0, 1.0, "1")
         check_within("line_divisions", self.line_divisions, 1, 64)
+        if self.friction == "film" and self.film is None:
+            raise ParameterError(
+                'film must be given with friction "film", got None. Give a FilmFriction.'
+            )
         self._check_mesh()
 
     def _check_mesh(self) -> None:
@@ -128,7 +137,7 @@ class HelicalPairParameters:
 
     @property
     def mu(self) -> float:
-        """Constant coefficient of friction that the equations hold [-]."""
+        """Constant coefficient of friction [-]; zero with other friction."""
         return self.friction_coefficient if self.friction == "constant" else 0.0
 
     @property

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.checks import check_positive, check_within
+from gearlube_core.dynamics.helical_pair.film_friction import FilmConstants, FilmField
 from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
 from gearlube_core.dynamics.helical_pair.linear_system import (
     RELATIVE,
@@ -25,6 +26,8 @@ BEARING_FORCES = tuple(
     f"{kind}_{axis}{member}" for member in "pg" for kind in "FM" for axis in "xyz"
 )
 _INSIDE = 1e-9  # share of an interval
+_FILM_ITERATIONS = 30
+_FILM_TOLERANCE = 1e-6  # of the strains' swing
 _SETTLES = 1e-9  # decay a period below which a motion counts as free, by rounding
 COMPOSITES = ("delta_x", "delta_y", "delta_z")
 
@@ -156,7 +159,8 @@ def periodic_response(
 ) -> PeriodicResponse:
     """Return the periodic steady state at a pinion speed [rad/s].
 
-    z0 = (1 - M)^-1 z_forced with the monodromy matrix M, in relative coordinates.
+    z0 = (1 - M)^-1 z_forced with the monodromy matrix M, in relative coordinates. Film friction
+    follows the loads of the response itself; multipliers hold its coefficients fixed in phase.
 
     Parameters
     ----------
@@ -172,7 +176,8 @@ def periodic_response(
     Raises
     ------
     ConvergenceError
-        A Floquet multiplier lies on the unit circle or outside: no motion settles there.
+        A Floquet multiplier lies on the unit circle or outside: no motion settles there. Or film
+        friction and motion do not find each other.
 
     Notes
     -----
@@ -184,6 +189,10 @@ def periodic_response(
     system = linear_system(parameters)
     period = 1.0 / parameters.pair.mesh_frequency(pinion_speed)
     march = march_period(system, period, settings.samples, settings.steps_per_oscillation)
+    if parameters.film is not None and parameters.friction == "film":
+        system, march = _with_film(
+            system, march, parameters.film.constants(), pinion_speed, period, settings
+        )
     multipliers = floquet_multipliers(march.transition[-1])
     if throw and not abs(multipliers[0]) < 1.0 - _SETTLES:
         raise ConvergenceError(
@@ -194,6 +203,40 @@ def periodic_response(
     return _response(parameters, system, pinion_speed, period, march, multipliers)
 
 
+def _periodic_states(march: PeriodMarch) -> Array:
+    """Return the states that repeat, shape (B, 2n)."""
+    size = march.forced.shape[1]
+    start = np.linalg.solve(np.eye(size) - march.transition[-1], march.forced[-1])
+    return np.asarray(march.transition @ start + march.forced)
+
+
+def _with_film(
+    system: LinearSystem,
+    march: PeriodMarch,
+    film: FilmConstants,
+    pinion_speed: float,
+    period: float,
+    settings: ResponseSettings,
+) -> tuple[LinearSystem, PeriodMarch]:
+    """Return system and march whose friction is that of their own periodic motion.
+
+    Fixed-point iteration over the strain of the plane of contact, from no friction: friction moves
+    it by mu times small lever arms, and the coefficient follows the load weakly.
+    """
+    n = len(system.names)
+    strain = _periodic_states(march)[:, :n] @ system.E.T
+    for _ in range(_FILM_ITERATIONS):
+        system = system._replace(film=FilmField(film, pinion_speed, march.phase, strain))
+        march = march_period(system, period, settings.samples, settings.steps_per_oscillation)
+        before, strain = strain, _periodic_states(march)[:, :n] @ system.E.T
+        if np.all(np.abs(strain - before).max(axis=0) <= _FILM_TOLERANCE * np.ptp(strain, axis=0)):
+            return system, march
+    raise ConvergenceError(
+        f"film friction and motion must agree within {_FILM_ITERATIONS} iterations; they do not at "
+        f"{pinion_speed:g} rad/s. Raise the damping ratios or move the speed off a resonance."
+    )
+
+
 def _response(
     parameters: HelicalPairParameters,
     system: LinearSystem,
@@ -202,9 +245,7 @@ def _response(
     march: PeriodMarch,
     multipliers: np.ndarray[Any, np.dtype[np.complex128]],
 ) -> PeriodicResponse:
-    n = len(system.names)
-    start = np.linalg.solve(np.eye(2 * n) - march.transition[-1], march.forced[-1])
-    states = march.transition @ start + march.forced
+    n, states = len(system.names), _periodic_states(march)
     phase, samples = march.phase[march.sample], states[march.sample]
     places = [RELATIVE.index(name) for name in system.names]
     displacement, rate = np.zeros((2, phase.size, len(RELATIVE)))
