@@ -15,9 +15,9 @@ from gearlube_core.dynamics.helical_pair.separation_points import (
 )
 from gearlube_core.jit import kernel
 
-# rows 0 to 4 are the sums of `mesh_wrench`; the last is the stiffness that damps
-DAMPING = 5
-N_ROWS = 6
+# rows 0 to 4 are the sums of `mesh_wrench`; then per flank, drive and back, what damping needs
+FLANK_LOAD, FLANK_DAMPING = (5, 6), (7, 8)
+N_ROWS = 9
 VALUE, BY_Y0, BY_Y1, BY_TORQUE = range(4)
 N_BY = 4
 
@@ -41,8 +41,9 @@ def separating_sums(
     build_up
         Penetration over which a point's damping builds up [m].
     sums : ndarray of shape (N_ROWS, N_BY)
-        Written. Rows: w, w p, r, r x, r z, k min(1, penetration/build_up), all integrated over dl.
-        Columns: value, derivatives by y0, y1 and the pinion torque.
+        Written. Rows: w, w p, r, r x, r z, w of either flank, k min(1, penetration/build_up) of
+        either flank, all integrated over dl. Columns: value, derivatives by y0, y1 and the pinion
+        torque.
 
     Notes
     -----
@@ -54,9 +55,9 @@ def separating_sums(
     for i in range(n):
         p, k, e = points[i, ALONG], points[i, STIFFNESS], points[i, OFFSET]
         delta = y0 + p * y1
-        pressed, side = delta - e, 1.0
+        pressed, side, flank = delta - e, 1.0, 0
         if pressed < 0.0:
-            pressed, side = delta + backlash + e, -1.0
+            pressed, side, flank = delta + backlash + e, -1.0, 1
         if pressed * side <= 0.0:
             continue
         touching += k
@@ -80,5 +81,6 @@ def separating_sums(
             sums[2, by] += r * w
             sums[3, by] += r * w * x
             sums[4, by] += r * w * z
-            sums[DAMPING, by] += damping
+            sums[FLANK_LOAD[flank], by] += w
+            sums[FLANK_DAMPING[flank], by] += damping
     return touching

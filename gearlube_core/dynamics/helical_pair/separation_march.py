@@ -12,7 +12,8 @@ from gearlube_core.dynamics.helical_pair.separation_forces import (
     BY_TORQUE,
     BY_Y0,
     BY_Y1,
-    DAMPING,
+    FLANK_DAMPING,
+    FLANK_LOAD,
     N_ROWS,
     VALUE,
     separating_sums,
@@ -86,22 +87,26 @@ def separating_rates(
             a[i, last - 2] += system.f[i]
     add_product(-1.0, system.K, q, a)
     add_product(1.0, system.W, products[:_SUMS], a)
-    # the damper takes at most all of the elastic force away: flanks do not adhere
     psi, psi_rate = n - 1, v[n - 1, last]
     factor = system.damping / math.sqrt(total[0])
-    drag = factor * sums[DAMPING, VALUE] * psi_rate
-    limit = system.per_force * sums[0, VALUE]
-    if (limit >= 0.0 and drag > limit) or (limit <= 0.0 and drag < limit):
-        for j in range(columns):
-            a[psi, j] -= system.per_force * products[0, j]
-        drag = limit
-    else:
-        by_sum, by_rate = factor * psi_rate, factor * sums[DAMPING, VALUE]
-        for j in range(last):
-            a[psi, j] -= by_sum * products[DAMPING, j] + by_rate * v[psi, j]
-        a[psi, last] -= drag
-        if last > 0:
-            a[psi, last - 2] += 0.5 * drag * total[1] / total[0]
+    drag = 0.0
+    for flank in range(2):
+        row = FLANK_DAMPING[flank]
+        force = factor * sums[row, VALUE] * psi_rate
+        limit = system.per_force * sums[FLANK_LOAD[flank], VALUE]
+        # the damper takes at most all of a flank's load away: flanks do not adhere
+        if (flank == 0 and force > limit) or (flank == 1 and force < limit):
+            for j in range(last):
+                a[psi, j] -= system.per_force * products[FLANK_LOAD[flank], j]
+            force = limit
+        else:
+            by_sum, by_rate = factor * psi_rate, factor * sums[row, VALUE]
+            for j in range(last):
+                a[psi, j] -= by_sum * products[row, j] + by_rate * v[psi, j]
+            if last > 0:
+                a[psi, last - 2] += 0.5 * force * total[1] / total[0]
+        drag += force
+    a[psi, last] -= drag
     if last > 0:
         for i in range(n):
             a[i, last - 1] -= a[i, last] / speed

@@ -1,0 +1,137 @@
+"""The map of the pair with tooth separation: forces, derivatives, compiled code, inputs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from separation_cases import crowned_mesh, separating_pair
+
+from gearlube_core.dynamics.helical_pair import contact_points as at
+from gearlube_core.dynamics.helical_pair.contact_points import (
+    constant_friction,
+    contact_points,
+    point_capacity,
+)
+from gearlube_core.dynamics.helical_pair.linear_system import RELATIVE, relative_rows
+from gearlube_core.dynamics.helical_pair.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.rhs import pair_accelerations
+from gearlube_core.dynamics.helical_pair.separation_forces import (
+    N_BY,
+    N_ROWS,
+    separating_sums,
+)
+from gearlube_core.dynamics.helical_pair.separation_march import separating_rates
+from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
+from gearlube_core.errors import ParameterError
+
+COARSE = {"steps_per_mesh_period": 16}
+
+
+def _loaded_on_both_flanks():
+    """A pair with every complication, and states about half of which are out of contact."""
+    pair = separating_pair().pair
+    parameters = separating_pair(
+        mu=0.08,
+        zeta=0.05,
+        pair=replace(pair, backlash=8e-6),
+        mesh=crowned_mesh(pair, crown=4e-6, torque=(20.0, 300.0)),
+        line_divisions=3,
+    )
+    problem = SeparationProblem(parameters, **COARSE)
+    random = np.random.default_rng(3).standard_normal((6, problem.size))
+    return problem, problem.initial_guess() + 0.6 * problem.scales * random
+
+
+def test_derivatives_are_those_of_the_map():
+    problem, states = _loaded_on_both_flanks()
+    speed, torque = 0.7 * problem.natural_speed, 90.0
+    step, zero = 1e-8, np.zeros(problem.size)
+    starts = [(way, 0.0, 0.0) for way in np.diag(problem.scales)]
+    for z in states:
+        _, by_start, by_torque, by_speed = problem.flow(z, speed, torque)
+        assert problem.orbit(z, speed, torque).lift_off_share > 0.0
+        slopes = np.column_stack((by_start * problem.scales, by_speed * speed, by_torque * torque))
+        ways = [*starts, (zero, speed, 0.0), (zero, 0.0, torque)]
+        for slope, (dz, dw, dt) in zip(slopes.T / problem.scales, ways, strict=True):
+            up, down = (
+                problem.flow(z + s * dz, speed + s * dw, torque + s * dt)[0] for s in (step, -step)
+            )
+            numeric = (up - down) / (2.0 * step) / problem.scales
+            # rounding gives 1e-7; a kink within the step would show as 1e-3
+            assert np.abs(numeric - slope).max() < 1e-6 * max(1.0, np.abs(slope).max())
+
+
+def test_accelerations_are_those_of_the_twelve_coordinates():
+    """Against the kernels of the marching equations, whose forces are summed point by point."""
+    problem, states = _loaded_on_both_flanks()
+    p, n = problem.parameters, problem.size // 2
+    c, supports, mesh = p.kernel_parameters(), p.support_arrays(), p.mesh_arrays()
+    table = problem.table
+    points = np.empty((point_capacity(mesh), at.N_COLUMNS))
+    wrench, acceleration = np.zeros(12), np.zeros(12)
+    for step, z in enumerate(states):
+        phase = table.phase[step] + 0.5 * table.width[step]
+        q, v = z[:n, None].copy(), z[n:, None].copy()
+        a, rate = np.zeros((n, 1)), np.zeros((n, 1))
+        drag, touching = separating_rates(
+            q, v, p.pinion_torque, 1.0, table.points[step, 1], table.used[step, 1],
+            table.total[step, 1], problem.system, np.zeros((2, 1)), np.zeros((N_ROWS, 1)),
+            np.zeros((N_ROWS, N_BY)), a, rate,
+        )  # fmt: skip
+        rows = relative_rows(p)
+        # psi all in the pinion: only the sum counts
+        back = np.linalg.pinv(rows)
+        q12, v12 = back @ z[:n], back @ z[n:]
+        count = contact_points(phase, 1.0, c.plane, mesh, points)
+        constant_friction(p.mu, points, count)
+        k_m = line_loads(*mesh_strain(q12, c.plane), c, points, count)
+        pair_accelerations(
+            q12, v12, 0.0, c.T_p, c.T_g, c, supports, points, count, wrench, np.zeros(5),
+            acceleration,
+        )  # fmt: skip
+        expected = rows @ acceleration
+        expected[RELATIVE.index("psi")] -= drag
+        assert a[:, 0] == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())
+        assert touching * c.plane.cos_b**2 == pytest.approx(k_m, rel=1e-12)
+
+
+def test_compiled_sums_are_the_python_sums():
+    problem, states = _loaded_on_both_flanks()
+    n, table = problem.size // 2, problem.table
+    for z in states:
+        y0, y1 = problem._linear.E @ z[:n]
+        compiled, python = np.empty((2, N_ROWS, N_BY))
+        inputs = y0, y1, table.points[3, 1], table.used[3, 1], 8e-6, 5e-7
+        touching = separating_sums(*inputs, compiled)
+        assert separating_sums.py_func(*inputs, python) == pytest.approx(touching, rel=1e-14)
+        # additions may be contracted or reordered by the compiler
+        size = np.abs(python).max()
+        assert compiled == pytest.approx(python, rel=1e-10, abs=1e-14 * size)
+
+
+def test_no_step_spans_a_kink_and_all_steps_make_a_period():
+    problem = SeparationProblem(separating_pair(), **COARSE)
+    table = problem.table
+    assert table.width.sum() == pytest.approx(1.0, abs=1e-14)
+    assert table.phase[1:] == pytest.approx(np.cumsum(table.width)[:-1], abs=1e-14)
+    plane = problem.parameters.pair.plane
+    first_line_leaves = ((plane.D - plane.A) / plane.pitch) % 1.0
+    assert np.abs(table.phase - first_line_leaves).min() < 1e-9
+
+
+def test_linear_contact_is_refused_with_a_cure():
+    with pytest.raises(ParameterError, match="periodic_response"):
+        SeparationProblem(replace(separating_pair(), contact="linear"))
+
+
+def test_a_motion_that_runs_away_shows_as_not_finite():
+    problem = SeparationProblem(separating_pair(), **COARSE)
+    residual = problem.residual(1e6 * problem.scales, problem.natural_speed)[0]
+    assert np.isnan(residual).all()
+
+
+def test_torques_outside_the_mesh_levels_show_as_not_finite():
+    problem, states = _loaded_on_both_flanks()
+    equations = problem.over_torque(problem.natural_speed)
+    assert np.isnan(equations.residual(states[0], 301.0)[0]).all()
+    assert np.isfinite(equations.residual(states[0], 299.0)[0]).all()
