@@ -1,4 +1,4 @@
-"""Build HypoidAxle.fmu: `python build_fmu.py --out DIR [--check] [--page docs/fmu.md]`."""
+"""Build the FMUs: `python build_fmu.py --out DIR [--model M] [--check] [--page docs/fmu.md]`."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ import logging
 import sys
 from pathlib import Path
 
-from fmu_src.build import build_hypoid_axle
+from fmu_src.build import DEFINITIONS, MODELS, build_models
 from fmu_src.check import problems
 from fmu_src.documentation import update_page
-from fmu_src.hypoid_axle import DEFINITION
 from gearlube_core.errors import GearLubeError
 
 _LOGGER = logging.getLogger("build_fmu")
@@ -18,10 +17,19 @@ _LOGGER = logging.getLogger("build_fmu")
 
 def main(arguments: list[str] | None = None) -> int:
     """Build, check if asked to, and return the exit status."""
-    parser = argparse.ArgumentParser(description="Build HypoidAxle.fmu (FMI 2.0 co-simulation).")
-    parser.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="where to put it")
+    parser = argparse.ArgumentParser(
+        description="Build HypoidAxle.fmu and HelicalPair.fmu (FMI 2.0 co-simulation)."
+    )
+    parser.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="where to put them")
+    parser.add_argument("--model", choices=MODELS, help="build only this one")
     parser.add_argument(
-        "--mesh-table", type=Path, metavar="FILE", help="mesh table (.nc) of another gear pair"
+        "--mesh-table", type=Path, metavar="FILE", help="mesh table (.nc) of another hypoid pair"
+    )
+    parser.add_argument(
+        "--gear", type=Path, metavar="FILE", help="gear file (.toml) of another helical pair"
+    )
+    parser.add_argument(
+        "--line-mesh", type=Path, metavar="FILE", help="line mesh (.nc) of that helical pair"
     )
     parser.add_argument("--check", action="store_true", help="validate with fmpy and fmutool")
     parser.add_argument(
@@ -29,12 +37,15 @@ def main(arguments: list[str] | None = None) -> int:
     )
     options = parser.parse_args(arguments)
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stderr)
+    found: list[str] = []
     try:
-        path = build_hypoid_axle(options.out, options.mesh_table)
-        _LOGGER.info("built %s (%d kB)", path, path.stat().st_size // 1024)
-        if options.page:
-            update_page(options.page, DEFINITION)
-        found = problems(path) if options.check else []
+        for path in build_models(
+            options.out, options.model, options.mesh_table, options.gear, options.line_mesh
+        ):
+            _LOGGER.info("built %s (%d kB)", path, path.stat().st_size // 1024)
+            found += problems(path) if options.check else []
+        for definition in DEFINITIONS if options.page else ():
+            update_page(options.page, definition)
     except GearLubeError as error:
         _LOGGER.error("%s", error)
         return 2

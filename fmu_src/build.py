@@ -1,4 +1,4 @@
-"""Build HypoidAxle.fmu with pythonfmu, then complete what pythonfmu leaves out."""
+"""Build FMUs with pythonfmu, then complete what pythonfmu leaves out."""
 
 from __future__ import annotations
 
@@ -10,16 +10,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from fmu_src import helical_pair, hypoid_axle
 from fmu_src.archive import write_archive
 from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
-from fmu_src.hypoid_axle import DEFINITION, definition_with_table
 from fmu_src.identity import IDENTITY_FILE, guid_of, identity_text
 from fmu_src.model_description import model_description
-from gearlube_core.errors import GearLubeError
+from gearlube_core.checks import check_option
+from gearlube_core.errors import GearLubeError, ParameterError
 
+MODELS = ("hypoid-axle", "helical-pair")
+DEFINITIONS = (hypoid_axle.DEFINITION, helical_pair.DEFINITION)
 _HERE = Path(__file__).parent
 _HYPOID_AXLE_SCRIPT = _HERE / "hypoid_axle_slave.py"
+_HELICAL_PAIR_SCRIPT = _HERE / "helical_pair_slave.py"
 
 
 @contextmanager
@@ -85,5 +89,77 @@ def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None)
     -----
     The same sources give the same bytes. The file appears in one atomic move.
     """
-    definition = DEFINITION if mesh_table is None else definition_with_table(mesh_table)
+    definition = (
+        hypoid_axle.DEFINITION
+        if mesh_table is None
+        else hypoid_axle.definition_with_table(mesh_table)
+    )
     return _build(definition, _HYPOID_AXLE_SCRIPT, Path(out_dir))
+
+
+def build_helical_pair(
+    out_dir: str | Path,
+    gear: str | Path | None = None,
+    line_mesh: str | Path | None = None,
+) -> Path:
+    """Build HelicalPair.fmu in `out_dir` and return its path.
+
+    Parameters
+    ----------
+    out_dir : path
+    gear : path, optional
+        Gear file (TOML) of another pair, which the FMU then carries as gear.name = custom.
+    line_mesh : path, optional
+        Line mesh (NetCDF) of the carried pair; needs `gear`.
+
+    Raises
+    ------
+    GearLubeError
+        When a file is missing or wrong, or the two do not fit together.
+    """
+    definition = helical_pair.definition_with(gear, line_mesh)
+    return _build(definition, _HELICAL_PAIR_SCRIPT, Path(out_dir))
+
+
+def build_models(
+    out_dir: Path,
+    model: str | None = None,
+    mesh_table: Path | None = None,
+    gear: Path | None = None,
+    line_mesh: Path | None = None,
+) -> list[Path]:
+    """Build the FMUs asked for and return their paths.
+
+    Parameters
+    ----------
+    out_dir : path
+    model : {"hypoid-axle", "helical-pair"}, optional
+        By default the one that a file is given for; without files both.
+    mesh_table : path, optional
+        Goes into HypoidAxle.fmu.
+    gear, line_mesh : path, optional
+        Go into HelicalPair.fmu.
+
+    Raises
+    ------
+    ParameterError
+        A file for a model that is not built.
+    """
+    if model is not None:
+        check_option("--model", model, MODELS)
+    needs = {
+        "--mesh-table": (mesh_table, "hypoid-axle"),
+        "--gear": (gear, "helical-pair"),
+        "--line-mesh": (line_mesh, "helical-pair"),
+    }
+    given = {name: owner for name, (path, owner) in needs.items() if path is not None}
+    wanted = {model} if model else set(given.values()) or set(MODELS)
+    for name, owner in given.items():
+        if owner not in wanted:
+            raise ParameterError(f"{name} must come with --model {owner}, got {model}.")
+    paths = []
+    if "hypoid-axle" in wanted:
+        paths.append(build_hypoid_axle(out_dir, mesh_table))
+    if "helical-pair" in wanted:
+        paths.append(build_helical_pair(out_dir, gear, line_mesh))
+    return paths

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import shlex
 import sys
-import time
 from pathlib import Path
 from typing import Annotated
 
@@ -14,6 +13,7 @@ from rich.console import Console
 from rich.logging import RichHandler
 
 from fmu_src.arguments import speeds_from
+from fmu_src.build_command import build_fmu
 from fmu_src.contact_command import ContactCommand, contact
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from fmu_src.resonance_command import resonance
@@ -168,30 +168,7 @@ def sweep(
         raise typer.Exit(FAILED)
 
 
-@app.command("build-fmu")
-def build_fmu(
-    out: Annotated[Path, typer.Option(help="Folder that gets HypoidAxle.fmu.")] = Path(),
-    mesh_table: Annotated[
-        Path | None,
-        typer.Option(help="Mesh table (.nc) of another gear pair. Default: the one that ships."),
-    ] = None,
-) -> None:
-    """Build HypoidAxle.fmu (FMI 2.0 co-simulation)."""
-    from fmu_src.build import build_hypoid_axle
-
-    began = time.monotonic()
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        path = build_hypoid_axle(out, mesh_table)
-    except TableError as error:
-        logger.error("%s", error)
-        raise typer.Exit(BAD_ARGUMENT) from None
-    except (GearLubeError, OSError) as error:
-        logger.error("The FMU was not built: %s", error)
-        raise typer.Exit(FAILED) from None
-    logger.info("Built %s in %.1f s.", path, time.monotonic() - began)
-
-
+app.command("build-fmu")(build_fmu)
 app.command("contact", cls=ContactCommand)(contact)
 app.command("resonance")(resonance)
 

@@ -51,6 +51,8 @@ class Definition:
         (parameters by name, input values) -> initialised `Model`.
     stop_time, step_size : float
         Default experiment [s].
+    modules : tuple of str
+        Modules of this package that run inside this FMU and in no other.
     resources : mapping of str to bytes
         Files that the FMU carries for its model, by name.
     """
@@ -62,6 +64,7 @@ class Definition:
     start_model: Callable[[Mapping[str, Value], Sequence[float]], Model]
     stop_time: float
     step_size: float
+    modules: tuple[str, ...]
     resources: Mapping[str, bytes] = field(default_factory=dict)
 
     @cached_property

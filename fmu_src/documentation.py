@@ -12,7 +12,6 @@ from fmu_src.variable import Variable
 from gearlube_core.errors import ParameterError
 
 HEADINGS = ("Name", "Unit", "Shown in", "Start", "Range", "Description")
-_BEGIN, _END = "<!-- variables: begin -->", "<!-- variables: end -->"
 _TITLES = {"input": "Inputs", "parameter": "Parameters", "output": "Outputs"}
 
 
@@ -84,10 +83,11 @@ def index_html(definition: Definition) -> str:
 
 
 def update_page(path: Path, definition: Definition) -> None:
-    """Rewrite the tables between the two markers of the Markdown page at `path`."""
-    head, marker, rest = path.read_text(encoding="utf-8").partition(_BEGIN)
-    _, end, tail = rest.partition(_END)
-    if not (marker and end):
-        raise ParameterError(f"{path} must hold the lines {_BEGIN} and {_END}. Add them.")
-    page = f"{head}{_BEGIN}\n\n{variables_markdown(definition).strip()}\n\n{_END}{tail}"
+    """Rewrite the tables between the definition's two markers on the Markdown page at `path`."""
+    begin, end = (f"<!-- variables of {definition.name}: {what} -->" for what in ("begin", "end"))
+    head, found, rest = path.read_text(encoding="utf-8").partition(begin)
+    _, found_end, tail = rest.partition(end)
+    if not (found and found_end):
+        raise ParameterError(f"{path} must hold the lines {begin} and {end}. Add them.")
+    page = f"{head}{begin}\n\n{variables_markdown(definition).strip()}\n\n{end}{tail}"
     path.write_text(page, encoding="utf-8")

@@ -69,6 +69,7 @@ DEFINITION = Definition(
     start_model=start_axle,
     stop_time=0.1,
     step_size=1e-3,
+    modules=("hypoid_axle", "hypoid_axle_slave", "variables"),
 )
 
 

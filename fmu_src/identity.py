@@ -15,26 +15,32 @@ from fmu_src.wrapper import forget_search_path
 from gearlube_core.errors import ParameterError
 
 IDENTITY_FILE = "gearlube_identity.txt"
-# Modules that run inside the FMU; the rest of this package builds it or is the command line.
+# Modules that run inside every FMU, beside `Definition.modules`; the rest of this package builds
+# FMUs or is the command line.
 RUNTIME = (
-    "definition", "hypoid_axle", "hypoid_axle_slave", "identity", "model_description", "phase",
-    "registration", "slave_base", "state_bytes", "units", "values", "variable", "variables",
-    "warm_start", "wrapper",
+    "definition", "identity", "model_description", "phase", "registration", "slave_base",
+    "state_bytes", "units", "values", "variable", "variable_kinds", "warm_start", "wrapper",
 )  # fmt: skip
 _TEXT = {".py", ".toml"}
 _DATA = {".nc"}
 
 
 @cache
-def source_digest() -> bytes:
-    """Return SHA-256 over all sources and data that decide the results of an FMU."""
+def source_digest(modules: tuple[str, ...]) -> bytes:
+    """Return SHA-256 over all sources and data that decide the results of an FMU.
+
+    Parameters
+    ----------
+    modules : tuple of str
+        `Definition.modules`.
+    """
     core = Path(str(gearlube_core.__file__)).parent
     slave = Path(str(fmu_src.__file__)).parent
     files = {
         path.relative_to(core.parent).as_posix(): path
         for path in core.rglob("*")
         if path.suffix in _TEXT | _DATA
-    } | {f"{slave.name}/{module}.py": slave / f"{module}.py" for module in RUNTIME}
+    } | {f"{slave.name}/{module}.py": slave / f"{module}.py" for module in (*RUNTIME, *modules)}
     digest = hashlib.sha256()
     for name in sorted(files):
         content = files[name].read_bytes()
@@ -53,7 +59,7 @@ def interface_digest(definition: Definition) -> bytes:
 @cache
 def guid_of(definition: Definition) -> UUID:
     """Return the GUID: equal content has an equal GUID, on every machine."""
-    digest = hashlib.sha256(interface_digest(definition) + source_digest())
+    digest = hashlib.sha256(interface_digest(definition) + source_digest(definition.modules))
     for name in sorted(definition.resources):
         content = hashlib.sha256(definition.resources[name]).digest()
         digest.update(f"{name}\0".encode() + content)

@@ -31,7 +31,12 @@ class Unit:
 
 _ALL = (
     Unit(name="1"),
-    Unit(name="m", exponents={"m": 1}, display=(DisplayUnit(name="um", factor=1e6),)),
+    Unit(
+        name="m",
+        exponents={"m": 1},
+        display=(DisplayUnit(name="um", factor=1e6), DisplayUnit(name="mm", factor=1e3)),
+    ),
+    Unit(name="m/s", exponents={"m": 1, "s": -1}),
     Unit(
         name="rad",
         exponents={"rad": 1},
@@ -50,6 +55,11 @@ _ALL = (
         display=(DisplayUnit(name="kN", factor=1e-3),),
     ),
     Unit(name="N/m", exponents={"kg": 1, "s": -2}),
+    Unit(
+        name="N/m2",
+        exponents={"kg": 1, "m": -1, "s": -2},
+        display=(DisplayUnit(name="N/(mm.um)", factor=1e-9),),
+    ),
     Unit(name="N.m", exponents={"kg": 1, "m": 2, "s": -2}),
     Unit(name="J", exponents={"kg": 1, "m": 2, "s": -2}),
     Unit(name="W", exponents={"kg": 1, "m": 2, "s": -3}),

@@ -1,36 +1,73 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
 from fmpy import extract
+from fmu_cases import CASES, HYPOID_AXLE, Case
 from fmu_host import Host
 
-from fmu_src.build import build_hypoid_axle
+
+@pytest.fixture(scope="session", params=CASES, ids=lambda case: case.name)
+def case(request: pytest.FixtureRequest) -> Case:
+    """Each FMU in turn: the checklist is the same for all."""
+    return request.param
 
 
 @pytest.fixture(scope="session")
-def fmu_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_hypoid_axle(tmp_path_factory.mktemp("fmu"))
+def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Case], Path]:
+    return cache(lambda case: case.build(tmp_path_factory.mktemp("fmu")))
 
 
 @pytest.fixture(scope="session")
-def fmu_folder(fmu_path: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return Path(extract(str(fmu_path), str(tmp_path_factory.mktemp("extracted"))))
+def extracted(
+    built: Callable[[Case], Path], tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[Case], Path]:
+    def folder(case: Case) -> Path:
+        return Path(extract(str(built(case)), str(tmp_path_factory.mktemp("extracted"))))
+
+    return cache(folder)
+
+
+@pytest.fixture(scope="session")
+def fmu_path(built: Callable[[Case], Path], case: Case) -> Path:
+    return built(case)
+
+
+@pytest.fixture(scope="session")
+def fmu_folder(extracted: Callable[[Case], Path], case: Case) -> Path:
+    return extracted(case)
+
+
+@pytest.fixture(scope="session")
+def axle_path(built: Callable[[Case], Path]) -> Path:
+    """HypoidAxle.fmu, for what only an axle does."""
+    return built(HYPOID_AXLE)
+
+
+@pytest.fixture(scope="session")
+def axle_folder(extracted: Callable[[Case], Path]) -> Path:
+    return extracted(HYPOID_AXLE)
 
 
 @pytest.fixture
-def new_host(fmu_folder: Path) -> Iterator[Callable[[], Host]]:
+def host_of() -> Iterator[Callable[[Path], Host]]:
     hosts: list[Host] = []
 
-    def make() -> Host:
-        hosts.append(Host(fmu_folder))
+    def make(folder: Path) -> Host:
+        hosts.append(Host(folder))
         return hosts[-1]
 
     yield make
     for host in hosts:
         host.close()
+
+
+@pytest.fixture
+def new_host(host_of: Callable[[Path], Host], fmu_folder: Path) -> Callable[[], Host]:
+    return lambda: host_of(fmu_folder)
 
 
 @pytest.fixture

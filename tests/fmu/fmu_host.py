@@ -30,7 +30,7 @@ class Host:
             guid=guid or self.description.guid,
             unzipDirectory=str(directory),
             modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName="axle",
+            instanceName="pair",
         )
         self.slave.instantiate(callbacks=self._callbacks, loggingOn=logging_on)
         self.time = 0.0

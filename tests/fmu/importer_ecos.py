@@ -9,17 +9,17 @@ from ecospy.EcosParameterSet import EcosParameterSet
 
 def main(job: dict) -> list[float]:
     structure = EcosSimulationStructure()
-    structure.add_model("axle", job["fmu"])
+    structure.add_model("pair", job["fmu"])
     parameters = EcosParameterSet()
     for name, value in job["named_reals"].items():
-        parameters.add_real(f"axle::{name}", value)
+        parameters.add_real(f"pair::{name}", value)
     for name, value in job["named_integers"].items():
-        parameters.add_int(f"axle::{name}", value)
+        parameters.add_int(f"pair::{name}", value)
     structure.add_parameter_set("start", parameters)
     with EcosSimulation(structure=structure, step_size=job["step_size"]) as simulation:
         simulation.init(parameter_set="start")
         simulation.step(job["steps"])
-        return [simulation.get_real(f"axle::{name}") for name in job["names"]]
+        return [simulation.get_real(f"pair::{name}") for name in job["names"]]
 
 
 if __name__ == "__main__":

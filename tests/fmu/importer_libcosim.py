@@ -11,7 +11,7 @@ from libcosimpy.CosimSlave import CosimLocalSlave
 
 def main(job: dict) -> list[float]:
     execution = CosimExecution.from_step_size(step_size=round(job["step_size"] * 1e9))
-    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=job["fmu"], instance_name="axle"))
+    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=job["fmu"], instance_name="pair"))
     for reference, value in job["reals"]:
         execution.real_initial_value(slave, reference, value)
     for reference, value in job["integers"]:

@@ -10,13 +10,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from fmu_cases import CASES, Case
 
 from build_fmu import main
 from fmu_src import identity
 from fmu_src.archive import write_archive
-from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
-from fmu_src.hypoid_axle import DEFINITION
 
 
 def _digest(path: Path) -> str:
@@ -24,26 +23,26 @@ def _digest(path: Path) -> str:
 
 
 def test_two_builds_in_different_processes_are_equal_bit_for_bit(
-    fmu_path: Path, tmp_path: Path
+    case: Case, fmu_path: Path, tmp_path: Path
 ) -> None:
-    code = "import sys; from fmu_src.build import build_hypoid_axle as b; b(sys.argv[1])"
+    code = f"import sys; from fmu_src.build import {case.build.__name__} as b; b(sys.argv[1])"
     environment = os.environ | {"PYTHONHASHSEED": "4711", "TZ": "Pacific/Auckland"}
     subprocess.run([sys.executable, "-c", code, str(tmp_path)], env=environment, check=True)
-    assert _digest(tmp_path / "HypoidAxle.fmu") == _digest(fmu_path)
+    assert _digest(tmp_path / f"{case.name}.fmu") == _digest(fmu_path)
 
 
-def test_building_leaves_the_imports_of_the_process_alone(tmp_path: Path) -> None:
+def test_building_leaves_the_imports_of_the_process_alone(case: Case, tmp_path: Path) -> None:
     path_before = list(sys.path)
-    build_hypoid_axle(tmp_path)
+    case.build(tmp_path)
     assert sys.path == path_before
-    assert "hypoid_axle_slave" not in sys.modules
+    assert Path(case.script).stem not in sys.modules
 
 
-def test_a_build_replaces_the_file_and_leaves_nothing_else(tmp_path: Path) -> None:
-    (tmp_path / "HypoidAxle.fmu").write_bytes(b"old")
-    built = build_hypoid_axle(tmp_path)
+def test_a_build_replaces_the_file_and_leaves_nothing_else(case: Case, tmp_path: Path) -> None:
+    (tmp_path / f"{case.name}.fmu").write_bytes(b"old")
+    built = case.build(tmp_path)
     assert zipfile.is_zipfile(built)
-    assert [path.name for path in tmp_path.iterdir()] == ["HypoidAxle.fmu"]
+    assert [path.name for path in tmp_path.iterdir()] == [f"{case.name}.fmu"]
 
 
 def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
@@ -55,25 +54,26 @@ def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [target]
 
 
-def test_the_guid_follows_the_interface() -> None:
-    changed = replace(DEFINITION, variables=DEFINITION.variables[:-1])
-    assert identity.guid_of(changed) != identity.guid_of(DEFINITION)
+def test_the_guid_follows_the_interface(case: Case) -> None:
+    definition = case.definition
+    changed = replace(definition, variables=definition.variables[:-1])
+    assert identity.guid_of(changed) != identity.guid_of(definition)
 
 
-def test_the_guid_covers_every_module_that_runs_inside_the_fmu() -> None:
+def test_the_guid_covers_every_module_that_runs_inside_the_fmu(case: Case) -> None:
     code = (
-        "import sys, fmu_src.hypoid_axle_slave;"
+        f"import sys, fmu_src.{Path(case.script).stem};"
         "print(*sorted(m[8:] for m in sys.modules if m.startswith('fmu_src.')))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == sorted(identity.RUNTIME)
+    assert done.stdout.split() == sorted(identity.RUNTIME + case.definition.modules)
 
 
 def test_the_command_builds_and_checks(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level(logging.INFO):
         assert main(["--out", str(tmp_path), "--check"]) == 0
     assert "no problem found by fmpy and fmutool" in caplog.text
-    assert (tmp_path / "HypoidAxle.fmu").is_file()
+    assert {path.name for path in tmp_path.iterdir()} == {f"{case.name}.fmu" for case in CASES}
 
 
 def test_the_check_reports_an_output_without_unit(fmu_path: Path, tmp_path: Path) -> None:
@@ -87,12 +87,15 @@ def test_the_check_reports_an_output_without_unit(fmu_path: Path, tmp_path: Path
 
 
 def test_the_check_reports_an_output_missing_from_the_structure(
-    fmu_path: Path, tmp_path: Path
+    case: Case, fmu_path: Path, tmp_path: Path
 ) -> None:
     with zipfile.ZipFile(fmu_path) as archive:
         content = {name: archive.read(name) for name in archive.namelist()}
     xml = content["modelDescription.xml"]
-    content["modelDescription.xml"] = xml.replace(b'<Unknown index="18" dependencies="" />', b"", 1)
+    first = 1 + case.definition.references_of("output")[0]
+    unknown = f'<Unknown index="{first}" dependencies="" />'.encode()
+    assert unknown in xml
+    content["modelDescription.xml"] = xml.replace(unknown, b"", 1)
     broken = tmp_path / "broken.fmu"
     write_archive(broken, content)
     found = problems(broken)

@@ -9,16 +9,13 @@ from xml.etree import ElementTree
 
 import fmpy
 import pytest
+from fmu_cases import Case
 from lxml import etree
 
 from fmu_src.check import fmpy_problems, fmutool_problems
 from fmu_src.documentation import variables_markdown
-from fmu_src.hypoid_axle import DEFINITION
-from fmu_src.variables import HYPOID_AXLE
-from gearlube_core.dynamics.hypoid_axle import OUTPUT_NAMES
 
 ROOT = Path(__file__).parents[2]
-SNAPSHOT = Path(__file__).with_name("value_references.json")
 
 # exponents of kg, m, s, K, rad, written down from the definitions of the units
 DIMENSIONS = {
@@ -27,9 +24,11 @@ DIMENSIONS = {
     "rad": (0, 0, 0, 0, 1),
     "rad/s": (0, 0, -1, 0, 1),
     "rad/s2": (0, 0, -2, 0, 1),
+    "m/s": (0, 1, -1, 0, 0),
     "Hz": (0, 0, -1, 0, 0),
     "N": (1, 1, -2, 0, 0),
     "N/m": (1, 0, -2, 0, 0),
+    "N/m2": (1, -1, -2, 0, 0),
     "N.m": (1, 2, -2, 0, 0),
     "J": (1, 2, -2, 0, 0),
     "W": (1, 2, -3, 0, 0),
@@ -64,27 +63,32 @@ def test_the_command_fmutool_check_is_content(fmu_path: Path) -> None:
     assert "compliant with FMI-2.0" in done.stdout + done.stderr
 
 
-def test_names_and_value_references_are_those_of_the_first_release() -> None:
-    released = json.loads(SNAPSHOT.read_text())
-    present = [[reference, v.name, v.type] for reference, v in enumerate(HYPOID_AXLE)]
+def test_names_and_value_references_are_those_of_the_first_release(case: Case) -> None:
+    released = json.loads(Path(__file__).with_name(case.snapshot).read_text())
+    table = case.definition.variables
+    present = [[reference, v.name, v.type] for reference, v in enumerate(table)]
     assert present[: len(released)] == released
-    assert len(present) == len(released), "append the new variables to value_references.json"
+    assert len(present) == len(released), f"append the new variables to {case.snapshot}"
 
 
-def test_every_output_of_the_model_is_an_output_of_the_fmu() -> None:
-    outputs = [v.name for v in HYPOID_AXLE if v.causality == "output"]
-    assert outputs == list(OUTPUT_NAMES)
+def test_every_output_of_the_model_is_an_output_of_the_fmu(case: Case) -> None:
+    outputs = [v.name for v in case.definition.variables if v.causality == "output"]
+    assert outputs == list(case.definition.output_names)
+    assert len(outputs) == len(case.direct(0))
 
 
-def test_every_real_has_a_unit_of_the_right_dimensions(description: ElementTree.Element) -> None:
+def test_every_real_has_a_unit_of_the_right_dimensions(
+    description: ElementTree.Element, case: Case
+) -> None:
     defined = {
         unit.get("name"): tuple(
             int(unit.find("BaseUnit").get(base, "0")) for base in ("kg", "m", "s", "K", "rad")
         )
         for unit in description.iter("Unit")
     }
-    assert defined == DIMENSIONS
-    assert {real.get("unit") for real in description.iter("Real")} == set(DIMENSIONS)
+    used = {name: DIMENSIONS[name] for name in DIMENSIONS if name not in case.units_unused}
+    assert defined == used
+    assert {real.get("unit") for real in description.iter("Real")} == set(used)
 
 
 @pytest.mark.parametrize(
@@ -105,18 +109,16 @@ def test_display_units_convert_as_people_expect(
     assert converted == pytest.approx(shown, rel=1e-14, abs=1e-12)  # rounding of the decimals
 
 
-def test_quantities_are_shown_in_workshop_units() -> None:
-    shown = {v.name: v.display_unit for v in HYPOID_AXLE}
-    assert shown["oil.temperature"] == "degC"
-    assert shown["pinion.speed"] == "rpm"
-    assert shown["mesh.dte"] == "um"
-    assert shown["bearing.preload"] == "kN"
+def test_quantities_are_shown_in_workshop_units(case: Case) -> None:
+    shown = {v.name: v.display_unit for v in case.definition.variables}
+    assert {name: shown[name] for name in case.display} == case.display
 
 
-def test_every_variable_is_described_and_every_physical_range_is_closed() -> None:
-    assert all(v.description for v in HYPOID_AXLE)
-    assert len({v.description for v in HYPOID_AXLE}) == len(HYPOID_AXLE)
-    for variable in HYPOID_AXLE:
+def test_every_variable_is_described_and_every_physical_range_is_closed(case: Case) -> None:
+    table = case.definition.variables
+    assert all(v.description for v in table)
+    assert len({v.description for v in table}) == len(table)
+    for variable in table:
         if variable.causality != "output":
             low, high = variable.range
             assert low <= variable.start <= high
@@ -151,14 +153,16 @@ def test_the_capabilities_are_declared(description: ElementTree.Element) -> None
     assert description.find("DefaultExperiment") is not None
 
 
-def test_the_archive_holds_documentation_licences_and_icon_but_no_physics(fmu_path: Path) -> None:
+def test_the_archive_holds_documentation_licences_and_icon_but_no_physics(
+    fmu_path: Path, case: Case
+) -> None:
     with zipfile.ZipFile(fmu_path) as archive:
         names = set(archive.namelist())
         documentation = archive.read("documentation/index.html").decode()
-    assert {"model.png", "modelDescription.xml", "binaries/linux64/HypoidAxle.so"} <= names
+    assert {"model.png", "modelDescription.xml", f"binaries/linux64/{case.name}.so"} <= names
     assert sum(name.startswith("documentation/licenses/") for name in names) == 2
-    assert [name for name in names if name.endswith(".py")] == ["resources/hypoid_axle_slave.py"]
-    assert all(variable.name in documentation for variable in HYPOID_AXLE)
+    assert [name for name in names if name.endswith(".py")] == [f"resources/{case.script}"]
+    assert all(variable.name in documentation for variable in case.definition.variables)
 
 
 def test_no_path_of_the_building_machine_is_inside(fmu_path: Path) -> None:
@@ -168,6 +172,6 @@ def test_no_path_of_the_building_machine_is_inside(fmu_path: Path) -> None:
     assert [path for path in machine if path.encode() in content] == []
 
 
-def test_the_page_about_the_fmu_shows_the_present_variables() -> None:
+def test_the_page_about_the_fmu_shows_the_present_variables(case: Case) -> None:
     page = (ROOT / "docs" / "fmu.md").read_text()
-    assert variables_markdown(DEFINITION).strip() in page
+    assert variables_markdown(case.definition).strip() in page

@@ -13,51 +13,49 @@ from typing import Any
 
 import pytest
 from fmpy import simulate_fmu
-
-from fmu_src.hypoid_axle import DEFINITION, start_axle
+from fmu_cases import Case
 
 H = 2.0**-9  # s; exact in binary and a whole number of nanoseconds, as libcosim counts
 STEPS = 16
-REALS = {
-    "pinion.torque": 80.0,
-    "wheel.torque": 200.0,
-    "oil.temperature": 333.15,
-    "bearing.preload": 4000.0,
-    "pinion.speed_start": 150.0,
-}
-INTEGERS = {"solver.steps_per_mesh_period": 128}
-NAMES = [name for name in DEFINITION.output_names if name != "mesh.separated"]
 
 
 @pytest.fixture(scope="module")
-def expected() -> list[float]:
+def names(case: Case) -> list[str]:
+    return [
+        v.name for v in case.definition.variables if v.causality == "output" and v.type == "Real"
+    ]
+
+
+@pytest.fixture(scope="module")
+def expected(case: Case, names: list[str]) -> list[float]:
     """The model in Python, without FMI."""
+    definition = case.definition
     parameters = {
-        v.name: v.decoded(v.start) for v in DEFINITION.variables if v.causality == "parameter"
+        v.name: v.decoded(v.start) for v in definition.variables if v.causality == "parameter"
     }
-    values = REALS | INTEGERS
+    values = case.reals | case.integers
     parameters |= {name: values[name] for name in parameters.keys() & values.keys()}
-    inputs = [REALS[name] for name in ("pinion.torque", "wheel.torque", "oil.temperature")]
-    axle = start_axle(parameters, inputs)
+    inputs = [case.reals[name] for name in ("pinion.torque", "wheel.torque", "oil.temperature")]
+    model = definition.start_model(parameters, inputs)
     for _ in range(STEPS):
-        axle.step(H, *inputs)
-    outputs = dict(zip(DEFINITION.output_names, axle.outputs.tolist(), strict=True))
-    return [outputs[name] for name in NAMES]
+        model.step(H, *inputs)
+    outputs = dict(zip(definition.output_names, model.outputs.tolist(), strict=True))
+    return [outputs[name] for name in names]
 
 
 @pytest.fixture(scope="module")
-def job(fmu_path: Path) -> str:
-    references = DEFINITION.references
+def job(case: Case, fmu_path: Path, names: list[str]) -> str:
+    references = case.definition.references
     content: dict[str, Any] = {
         "fmu": str(fmu_path),
         "step_size": H,
         "steps": STEPS,
-        "reals": [(references[name], value) for name, value in REALS.items()],
-        "integers": [(references[name], value) for name, value in INTEGERS.items()],
-        "references": [references[name] for name in NAMES],
-        "named_reals": REALS,
-        "named_integers": INTEGERS,
-        "names": NAMES,
+        "reals": [(references[name], value) for name, value in case.reals.items()],
+        "integers": [(references[name], value) for name, value in case.integers.items()],
+        "references": [references[name] for name in names],
+        "named_reals": case.reals,
+        "named_integers": case.integers,
+        "names": names,
     }
     return json.dumps(content)
 
@@ -75,15 +73,17 @@ def _run(script: str, job: str, environment: dict[str, str]) -> list[float]:
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def test_fmpy_gives_the_numbers_of_the_model(fmu_path: Path, expected: list[float]) -> None:
+def test_fmpy_gives_the_numbers_of_the_model(
+    case: Case, fmu_path: Path, names: list[str], expected: list[float]
+) -> None:
     result = simulate_fmu(
         str(fmu_path),
         stop_time=STEPS * H,
         output_interval=H,
-        start_values=REALS | INTEGERS,
-        output=NAMES,
+        start_values=case.reals | case.integers,
+        output=names,
     )
-    assert [float(result[name][-1]) for name in NAMES] == expected
+    assert [float(result[name][-1]) for name in names] == expected
 
 
 def test_libcosim_gives_the_numbers_of_the_model(job: str, expected: list[float]) -> None:
@@ -96,13 +96,15 @@ def test_ecos_gives_the_numbers_of_the_model(job: str, expected: list[float]) ->
     assert _run("importer_ecos.py", job, {"LD_LIBRARY_PATH": search}) == expected
 
 
-def test_without_gearlube_the_fmu_says_what_is_missing(fmu_path: Path, tmp_path: Path) -> None:
+def test_without_gearlube_the_fmu_says_what_is_missing(
+    case: Case, fmu_path: Path, tmp_path: Path
+) -> None:
     with zipfile.ZipFile(fmu_path) as archive:
-        script = archive.read("resources/hypoid_axle_slave.py").decode()
-    (tmp_path / "hypoid_axle_slave.py").write_text(script)
+        script = archive.read(f"resources/{case.script}").decode()
+    (tmp_path / case.script).write_text(script)
     done = subprocess.run(
         [sys.executable, "-I", "-S", "-c", script], capture_output=True, text=True, check=False
     )
     assert done.returncode != 0
-    assert "HypoidAxle.fmu needs the Python package gearlube where it runs" in done.stderr
+    assert f"{case.name}.fmu needs the Python package gearlube where it runs" in done.stderr
     assert "pip install gearlube" in done.stderr

@@ -6,15 +6,17 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from fmu_cases import Case
 from fmu_host import DISCARD, OK, Host
 
 
-def test_reset_gives_a_fresh_instance(new_host: Callable[[], Host]) -> None:
+def test_reset_gives_a_fresh_instance(case: Case, new_host: Callable[[], Host]) -> None:
     used, fresh = new_host(), new_host()
-    used.start(bearing__preload=5000.0, oil__name=2, pinion__torque=90.0)
+    used.start(**case.changed, pinion__torque=90.0)
     used.step(count=4)
     used.slave.reset()
-    assert used.get("bearing.preload", "oil.name", "pinion.torque") == [2500.0, 1, 60.0]
+    names = [*case.changed, "pinion.torque"]
+    assert used.get(*names) == [case.start(name) for name in names]
     for host in (used, fresh):
         assert host.start() == OK
         assert host.step(count=4) == OK
@@ -30,8 +32,8 @@ def test_reset_heals_an_instance_that_failed(host: Host) -> None:
     assert host.step() == OK
 
 
-def test_two_instances_in_turn_equal_two_alone(new_host: Callable[[], Host]) -> None:
-    settings = ({"bearing__preload": 1000.0}, {"bearing__preload": 6000.0, "oil__name": 2})
+def test_two_instances_in_turn_equal_two_alone(case: Case, new_host: Callable[[], Host]) -> None:
+    settings = ({}, case.changed)
     alone = []
     for values in settings:
         host = new_host()
@@ -82,13 +84,16 @@ def test_a_simulation_may_start_at_any_time(new_host: Callable[[], Host]) -> Non
     assert later.outputs() == at_zero.outputs()
 
 
-def test_parameters_may_be_set_inside_initialisation_mode(new_host: Callable[[], Host]) -> None:
+def test_parameters_may_be_set_inside_initialisation_mode(
+    case: Case, new_host: Callable[[], Host]
+) -> None:
     before, inside = new_host(), new_host()
-    before.start(bearing__preload=6000.0)
+    changed = {case.real: case.changed[case.real]}
+    before.start(**changed)
     inside.slave.setupExperiment()
     inside.slave.enterInitializationMode()
     assert inside.get("bearing[1].force.x") != before.get("bearing[1].force.x")
-    inside.set(bearing__preload=6000.0)
+    inside.set(**changed)
     assert inside.get("bearing[1].force.x") == before.get("bearing[1].force.x")
     inside.slave.exitInitializationMode()
     assert inside.outputs() == before.outputs()
@@ -98,7 +103,7 @@ def test_outputs_hold_until_the_next_step(host: Host) -> None:
     host.start()
     host.step()
     held = host.outputs()
-    host.set(pinion__torque=80.0)
+    host.set(pinion__torque=81.0)
     assert host.outputs() == held
     assert host.step() == OK
     assert host.outputs() != held
@@ -112,11 +117,12 @@ def test_the_first_step_does_not_wait_for_a_compiler(host: Host) -> None:
     assert time.perf_counter() - begin < 0.1
 
 
-def test_the_log_tells_what_the_axle_was_initialised_with(host: Host) -> None:
-    host.start(oil__name=2)
+def test_the_log_tells_what_the_model_was_initialised_with(case: Case, host: Host) -> None:
+    host.start(**{case.option: 2})
     event = host.messages("logEvents")
-    assert "oil.name = karagiannis_2012" in event
-    assert "bearing.preload = 2500.0" in event
+    literals = dict(case.enumerations())[case.option]
+    assert f"{case.option} = {literals[1]}" in event
+    assert f"{case.real} = {case.start(case.real)}" in event
 
 
 def test_outputs_stay_readable_after_terminate(host: Host) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -53,16 +53,8 @@ def other_folder(other_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> P
 
 
 @pytest.fixture
-def other_host(other_folder: Path) -> Iterator[Callable[[], Host]]:
-    hosts: list[Host] = []
-
-    def make() -> Host:
-        hosts.append(Host(other_folder))
-        return hosts[-1]
-
-    yield make
-    for host in hosts:
-        host.close()
+def other_host(host_of: Callable[[Path], Host], other_folder: Path) -> Callable[[], Host]:
+    return lambda: host_of(other_folder)
 
 
 def test_the_fmu_computes_with_its_own_table_bit_for_bit(other_host: Callable[[], Host]) -> None:
@@ -143,9 +135,9 @@ def test_a_damaged_table_in_the_archive_is_refused(other_fmu: Path, tmp_path: Pa
 
 
 def test_states_of_two_tables_do_not_mix(
-    other_host: Callable[[], Host], new_host: Callable[[], Host]
+    other_host: Callable[[], Host], host_of: Callable[[Path], Host], axle_folder: Path
 ) -> None:
-    shipped, other = new_host(), other_host()
+    shipped, other = host_of(axle_folder), other_host()
     for host in (shipped, other):
         assert host.start() == OK
     assert other.restore(shipped.save(), 0.0) == FATAL
@@ -221,9 +213,9 @@ def test_the_commands_pass_the_table_on(
 
 
 def test_a_table_beside_an_fmu_is_refused(
-    table: Path, fmu_path: Path, caplog: pytest.LogCaptureFixture
+    table: Path, axle_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    options = ["sweep", "--mesh-table", str(table), "--fmu", str(fmu_path)]
+    options = ["sweep", "--mesh-table", str(table), "--fmu", str(axle_path)]
     assert CliRunner().invoke(cli.app, options).exit_code == cli.BAD_ARGUMENT
     assert "--mesh-table must not be given with --fmu" in caplog.text
 

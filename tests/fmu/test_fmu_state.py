@@ -6,17 +6,26 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from fmu_cases import Case
 from fmu_host import FATAL, OK, Host
 
-from fmu_src.hypoid_axle import DEFINITION
 from fmu_src.identity import guid_of
 
-SETTINGS = {"bearing__preload": 4000.0, "oil__name": 2, "pinion__speed_start": 150.0}
-MODAL = SETTINGS | {"mesh__damping": 2}
+
+@pytest.fixture(params=["default", "changed", "last"])
+def settings(case: Case, request: pytest.FixtureRequest) -> dict[str, float]:
+    """Options by their defaults, away from them, and each at its last legal literal."""
+    if request.param == "default":
+        return {}
+    if request.param == "changed":
+        return case.changed
+    last = {name: len(literals) for name, literals in case.enumerations()}
+    return last | {"gear.name": 3} if "gear.name" in last else last  # custom needs a gear file
 
 
-@pytest.mark.parametrize("settings", [SETTINGS, MODAL])
-def test_a_restored_state_continues_bit_for_bit(host: Host, settings: dict[str, float]) -> None:
+def test_a_restored_state_continues_bit_for_bit(
+    case: Case, host: Host, settings: dict[str, float]
+) -> None:
     host.start(**settings)
     host.step(count=5)
     state, time, outputs = host.save(), host.time, host.outputs()
@@ -25,14 +34,13 @@ def test_a_restored_state_continues_bit_for_bit(host: Host, settings: dict[str, 
     expected = host.outputs()
     assert host.restore(state, time) == OK
     assert host.outputs() == outputs
-    assert host.get("pinion.torque") == [60.0]
+    assert host.get("pinion.torque") == [case.torques[0]]
     host.set(pinion__torque=90.0)
     host.step(count=5)
     assert host.outputs() == expected
     host.slave.freeFMUstate(state)
 
 
-@pytest.mark.parametrize("settings", [SETTINGS, MODAL])
 def test_a_state_saved_in_one_process_continues_in_another(
     host: Host, fmu_folder: Path, tmp_path: Path, settings: dict[str, float]
 ) -> None:
@@ -54,21 +62,25 @@ def test_a_state_saved_in_one_process_continues_in_another(
     assert done.stdout.split() == [repr(value) for value in host.outputs()]
 
 
-def test_a_state_moves_to_an_instance_with_other_parameters(new_host: Callable[[], Host]) -> None:
+def test_a_state_moves_to_an_instance_with_other_parameters(
+    case: Case, new_host: Callable[[], Host]
+) -> None:
     first, second = new_host(), new_host()
-    first.start(**SETTINGS)
+    first.start(**case.changed)
     first.step(count=3)
-    second.start(bearing__preload=1000.0)
+    second.start()
     state = second.slave.deSerializeFMUstate(first.slave.serializeFMUstate(first.save()))
     assert second.restore(state, first.time) == OK
-    assert second.get("bearing.preload", "oil.name") == [4000.0, 2]
+    assert second.get(*case.changed) == list(case.changed.values())
     first.step(count=3)
     second.step(count=3)
     assert second.outputs() == first.outputs()
 
 
-def test_a_state_saved_before_initialisation_can_still_be_initialised(host: Host) -> None:
-    host.set(bearing__preload=4000.0)
+def test_a_state_saved_before_initialisation_can_still_be_initialised(
+    case: Case, host: Host
+) -> None:
+    host.set(**case.changed)
     state = host.save()
     host.start()
     host.step(count=2)
@@ -83,29 +95,34 @@ def _damaged(content: bytes) -> bytes:
     return content[:-1] + bytes([content[-1] ^ 1])
 
 
-def _of_another_fmu(content: bytes) -> bytes:
-    guid = guid_of(DEFINITION).bytes
-    assert guid in content
-    return content.replace(guid, bytes(16))
-
-
 @pytest.mark.parametrize(
     ("spoil", "reason"),
     [
         (_damaged, "damaged"),
-        (_of_another_fmu, "must come from the FMU with GUID"),
         (lambda content: content[:20], "not written by a gearlube FMU"),
         (lambda content: b"x" + content, "not written by a gearlube FMU"),
         (lambda content: content[:8] + b"\x63" + content[9:], "must have format 1, got 99"),
     ],
 )
 def test_a_spoilt_state_is_refused_and_nothing_changes(
-    host: Host, spoil: Callable[[bytes], bytes], reason: str
+    case: Case, host: Host, spoil: Callable[[bytes], bytes], reason: str
 ) -> None:
-    host.start(**SETTINGS)
+    host.start(**case.changed)
     host.step(count=2)
+    _refused(host, spoil(host.slave.serializeFMUstate(host.save())), reason)
+
+
+def test_a_state_of_another_fmu_is_refused_and_nothing_changes(case: Case, host: Host) -> None:
+    host.start(**case.changed)
+    host.step(count=2)
+    content = host.slave.serializeFMUstate(host.save())
+    guid = guid_of(case.definition).bytes
+    assert guid in content
+    _refused(host, content.replace(guid, bytes(16)), "must come from the FMU with GUID")
+
+
+def _refused(host: Host, content: bytes, reason: str) -> None:
     before = host.outputs()
-    content = spoil(host.slave.serializeFMUstate(host.save()))
     assert host.restore(host.slave.deSerializeFMUstate(content), host.time) == FATAL
     assert reason in host.messages("logStatusFatal")
     assert host.outputs() == before

@@ -16,8 +16,8 @@ SHORT = {"settling_time": 0.15, "record_time": 0.15, "cage_turns": 0.9}
 
 
 @pytest.fixture(scope="module", params=["vehicle", "hold"])
-def point(request, fmu_folder):
-    return run_point(fmu_folder, 60.0, 2500.0, SweepSettings(driver=request.param, **SHORT))
+def point(request, axle_folder):
+    return run_point(axle_folder, 60.0, 2500.0, SweepSettings(driver=request.param, **SHORT))
 
 
 def test_point_finishes_at_the_speed_asked_for(point):
@@ -74,8 +74,8 @@ def test_mean_load_of_three_tooth_pairs_is_the_mean_mesh_force(point):
     assert float(total) == pytest.approx(float(point["mesh_force_mean"]), rel=1e-2)
 
 
-def test_gear_mesh_alone_drives_the_axle_without_an_engine(fmu_folder):
-    point = run_point(fmu_folder, 60.0, 2500.0, SweepSettings(driver="hold", **SHORT))
+def test_gear_mesh_alone_drives_the_axle_without_an_engine(axle_folder):
+    point = run_point(axle_folder, 60.0, 2500.0, SweepSettings(driver="hold", **SHORT))
     order, amplitude = point["order"].values, point["dte_spectrum"].values
     mesh = np.abs(order / 13.0 - np.round(order / 13.0)) < 1e-9
     assert amplitude[~mesh].max() < 0.05 * amplitude[mesh][1:].max()
@@ -91,37 +91,37 @@ def test_higher_preload_raises_every_bearing_mode_by_the_power_of_one_twentieth(
     assert modes[1] / modes[0] == pytest.approx((6000.0 / 2500.0) ** 0.05, rel=5e-3)
 
 
-def test_point_outside_the_range_of_the_fmu_is_a_row_with_its_message(fmu_folder):
-    point = run_point(fmu_folder, 60.0, -100.0, SweepSettings(driver="hold", **SHORT))
+def test_point_outside_the_range_of_the_fmu_is_a_row_with_its_message(axle_folder):
+    point = run_point(axle_folder, 60.0, -100.0, SweepSettings(driver="hold", **SHORT))
     assert int(point["status"]) == 0
     assert "preload" in str(point["message"].values)
     assert "-100" in str(point["message"].values)
     assert float(point["speed_kmh"]) == 60.0
 
 
-def test_unknown_option_is_refused_with_the_choices(fmu_folder):
+def test_unknown_option_is_refused_with_the_choices(axle_folder):
     with (
-        FmuAxle(fmu_folder, CHANNELS) as axle,
+        FmuAxle(axle_folder, CHANNELS) as axle,
         pytest.raises(ParameterError, match="consistent, as_printed; got 'wrong'"),
     ):
         axle.set_parameters({"model.equations": "wrong"})
 
 
-def test_unknown_parameter_is_refused(fmu_folder):
+def test_unknown_parameter_is_refused(axle_folder):
     with (
-        FmuAxle(fmu_folder, CHANNELS) as axle,
+        FmuAxle(axle_folder, CHANNELS) as axle,
         pytest.raises(ParameterError, match=r"no parameter 'model\.colour'"),
     ):
         axle.set_parameters({"model.colour": 1.0})
 
 
-def test_missing_channel_is_refused_before_the_fmu_is_loaded(fmu_folder):
+def test_missing_channel_is_refused_before_the_fmu_is_loaded(axle_folder):
     with pytest.raises(ParameterError, match=r"mesh\.noise is missing"):
-        FmuAxle(fmu_folder, [*CHANNELS, "mesh.noise"])
+        FmuAxle(axle_folder, [*CHANNELS, "mesh.noise"])
 
 
-def test_refused_step_carries_the_message_of_the_fmu(fmu_folder):
-    with FmuAxle(fmu_folder, CHANNELS) as axle:
+def test_refused_step_carries_the_message_of_the_fmu(axle_folder):
+    with FmuAxle(axle_folder, CHANNELS) as axle:
         axle.set_parameters({"pinion.speed_start": 100.0})
         axle.initialise(30.0, 80.0, 368.15)
         axle.step(1e-4, 30.0, 80.0)
@@ -130,13 +130,13 @@ def test_refused_step_carries_the_message_of_the_fmu(fmu_folder):
 
 
 @pytest.mark.slow
-def test_printed_equations_lose_contact_where_the_consistent_ones_keep_it(fmu_folder):
+def test_printed_equations_lose_contact_where_the_consistent_ones_keep_it(axle_folder):
     # With the printed sign of the mesh force, the lateral motion gains energy and ends in a limit
     # cycle with loss of contact near 1.7-1.9 kHz; with the consistent sign there is none.
     settings = {"driver": "hold", "settling_time": 0.3, "record_time": 0.2}
     printed = run_point(
-        fmu_folder, 100.0, 2500.0, SweepSettings(equations="as_printed", **settings)
+        axle_folder, 100.0, 2500.0, SweepSettings(equations="as_printed", **settings)
     )
-    consistent = run_point(fmu_folder, 100.0, 2500.0, SweepSettings(**settings))
+    consistent = run_point(axle_folder, 100.0, 2500.0, SweepSettings(**settings))
     assert int(printed["separation"]) >= 1
     assert int(consistent["separation"]) == 0

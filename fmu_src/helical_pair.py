@@ -1,0 +1,174 @@
+"""HelicalPair.fmu: the helical pair of `gearlube_core`, told in FMI names."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from pathlib import Path
+from typing import Any
+
+from fmu_src.definition import Definition, Value
+from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
+from fmu_src.slave_base import CoSimulationSlave
+from gearlube_core.dynamics.helical_pair.gear_march import helical_march
+from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
+from gearlube_core.dynamics.helical_pair.output_names import OUTPUT_NAMES
+from gearlube_core.errors import GearLubeError, ParameterError, TableError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes
+
+GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU's resources
+
+ARGUMENTS = {
+    "friction.model": "friction",
+    "friction.coefficient": "friction_coefficient",
+    "oil.name": "oil",
+    "flank.roughness_rms": "roughness_rms",
+    "mesh.backlash": "backlash",
+    "mesh.stiffness_density": "stiffness_density",
+    "mesh.damping_ratio": "mesh_damping_ratio",
+    "support.damping_ratio": "support_damping_ratio",
+    "support.radial_stiffness": "radial_stiffness",
+    "support.axial_stiffness": "axial_stiffness",
+    "support.bearing_distance": "bearing_distance",
+    "model.form": "form",
+    "solver.steps_per_mesh_period": "steps_per_mesh_period",
+    "solver.steps_per_highest_period": "steps_per_highest_period",
+    "friction.updates_per_mesh_period": "friction_updates_per_mesh_period",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CarriedPair:
+    """The gear pair that an FMU carries."""
+
+    gear: HelicalGearFile
+    line_mesh: LineMesh | None = None
+
+
+def start_pair(
+    parameters: Mapping[str, Value], inputs: Sequence[float], carried: CarriedPair | None = None
+) -> HelicalPairModel:
+    """Return an initialised pair.
+
+    Parameters
+    ----------
+    parameters : mapping
+        Value of every FMI parameter, enumerations by literal.
+    inputs : sequence of float
+        pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
+    carried : CarriedPair, optional
+        What gear.name = custom stands for.
+    """
+    arguments: dict[str, Any] = {ARGUMENTS[n]: v for n, v in parameters.items() if n in ARGUMENTS}
+    name = str(parameters["gear.name"])
+    if name != CUSTOM:
+        gear = HelicalGearFile.named(name)
+    elif carried is not None:
+        gear = carried.gear
+        arguments["line_mesh"] = carried.line_mesh
+    else:
+        raise ParameterError(
+            "gear.name must be one of the pairs that ship with gearlube, got custom: this FMU "
+            "carries no gear file. Build one with `gearlube build-fmu --gear FILE`."
+        )
+    pair = HelicalPairModel(helical_march(gear, **arguments))
+    pinion_torque, wheel_torque, oil_temperature = inputs
+    pair.initialise(
+        pinion_speed=float(parameters["pinion.speed_start"]),
+        pinion_torque=pinion_torque,
+        wheel_torque=wheel_torque,
+        oil_temperature=oil_temperature,
+    )
+    return pair
+
+
+DEFINITION = Definition(
+    name="HelicalPair",
+    description="Lubricated helical or spur gear pair on elastic bearings: "
+    "contact lines, film, sliding friction, losses, transmission error and bearing forces",
+    variables=HELICAL_PAIR,
+    output_names=OUTPUT_NAMES,
+    start_model=start_pair,
+    stop_time=0.1,
+    step_size=1e-3,
+    modules=("helical_pair", "helical_pair_slave", "helical_variables"),
+)
+
+
+def definition_with(gear: str | Path | None, line_mesh: str | Path | None = None) -> Definition:
+    """Return the definition of the FMU that carries a gear file, and its line mesh if given.
+
+    Raises
+    ------
+    ParameterError
+        The gear file is missing or wrong, or a line mesh comes without one.
+    TableError
+        The line mesh is missing, wrong or of another pair.
+    """
+    if gear is None:
+        if line_mesh is not None:
+            raise ParameterError("--line-mesh must come with the --gear file of its pair.")
+        return DEFINITION
+    content = _read(gear, "gear file")
+    mesh = b"" if line_mesh is None else _read(line_mesh, "line mesh")
+    try:
+        return _definition_with(content, mesh)
+    except TableError as error:
+        raise TableError(f"{line_mesh}: {error}") from None
+    except GearLubeError as error:
+        raise ParameterError(f"{gear}: {error}") from None
+
+
+def _read(path: str | Path, what: str) -> bytes:
+    try:
+        return Path(path).read_bytes()
+    except OSError as reason:
+        text = f"No {what} can be read at {path}: {reason.strerror or reason}."
+        raise (ParameterError if what == "gear file" else TableError)(text) from None
+
+
+@cache
+def _definition_with(content: bytes, mesh: bytes) -> Definition:
+    """Return the one definition with these files: what is kept by definition is kept once."""
+    try:
+        data = tomllib.loads(content.decode())
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
+        raise ParameterError(f"It is not a readable TOML file: {reason}.") from None
+    gear = HelicalGearFile.from_data(data, "The gear file")
+    pair = gear.helical_pair()
+    line_mesh = line_mesh_from_bytes(mesh, "the line mesh") if mesh else None
+    try:
+        helical_march(gear, line_mesh=line_mesh)
+    except ParameterError as error:
+        if line_mesh is None:
+            raise
+        raise TableError(str(error)) from None
+    starts = {
+        "gear.name": 1.0 + HELICAL_PAIR[DEFINITION.references["gear.name"]].literals.index(CUSTOM),
+        "mesh.backlash": pair.backlash,
+    }
+    of_mesh = f", line mesh {line_mesh.name}" if line_mesh else ""
+    return replace(
+        DEFINITION,
+        description=f"{DEFINITION.description}; gear file {gear.name} "
+        f"({pair.pinion_teeth}/{pair.gear_teeth} teeth){of_mesh}",
+        variables=tuple(replace(v, start=starts.get(v.name, v.start)) for v in HELICAL_PAIR),
+        start_model=partial(start_pair, carried=CarriedPair(gear=gear, line_mesh=line_mesh)),
+        resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}),
+    )
+
+
+class HelicalPair(CoSimulationSlave):
+    """FMI 2.0 co-simulation slave of the helical pair of He et al. (2007)."""
+
+    @staticmethod
+    def definition_of(resources: Path) -> Definition:
+        """Return the definition with the files in `resources`, or the plain one."""
+        gear, mesh = resources / GEAR_FILE, resources / LINE_MESH_FILE
+        if not gear.is_file():
+            return DEFINITION
+        return definition_with(gear, mesh if mesh.is_file() else None)

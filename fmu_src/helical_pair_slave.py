@@ -1,0 +1,21 @@
+"""The script inside HelicalPair.fmu. It holds no physics: it finds the installed gearlube.
+
+pythonfmu imports this file and then runs its source once more at each instantiation. A class
+statement here would make a new class each time, so the class is imported.
+"""
+
+import sys
+
+try:
+    from fmu_src.helical_pair import HelicalPair
+    from fmu_src.wrapper import give_reference
+except ImportError as error:
+    raise ImportError(
+        "HelicalPair.fmu needs the Python package gearlube where it runs, "
+        f"not found in {sys.prefix} (Python {sys.version.split()[0]}): {error}. "
+        "Install it there with `pip install gearlube`, or add its environment to PYTHONPATH."
+    ) from error
+
+__all__ = ["HelicalPair"]
+
+give_reference(globals())

@@ -1,0 +1,161 @@
+"""The variables of HelicalPair.fmu: the one list that everything else is made from.
+
+The value reference of a variable is its place in `HELICAL_PAIR`. Released references never change:
+append new variables at the end, never insert, reorder or remove.
+"""
+
+from __future__ import annotations
+
+from fmu_src.variable import Variable
+from fmu_src.variable_kinds import count, input_, option, output, parameter
+
+CUSTOM = "custom"
+
+_INPUTS = (
+    input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives",
+           start=225.97, minimum=-1e5, maximum=1e5, nominal=100.0),
+    input_("wheel.torque", "N.m", "Load torque on the gear shaft; positive resists forward motion",
+           start=280.2028, minimum=-1e5, maximum=1e5, nominal=100.0),
+    input_("oil.temperature", "K", "Bulk oil temperature", display_unit="degC",
+           start=333.15, minimum=273.15, maximum=423.15, nominal=300.0),
+)  # fmt: skip
+
+_PARAMETERS = (
+    option("gear.name", "Gear pair; custom is the gear file that the FMU carries",
+           "he_2007", "jamali_2015_a", "jamali_2015_b", CUSTOM, start="he_2007"),
+    parameter("pinion.speed_start", "rad/s", "Speed of the pinion at the start",
+              display_unit="rpm", start=104.71975511965977, minimum=-5e3, maximum=5e3,
+              nominal=100.0),
+    option("friction.model", "Flank friction: mixed film at every contact point, or Coulomb",
+           "film", "constant", "off", start="film"),
+    parameter("friction.coefficient", "1", "Coefficient of friction when friction.model = constant",
+              start=0.05, minimum=0.0, maximum=1.0, nominal=0.1),
+    option("oil.name", "Lubricant",
+           "mohammadpour_2015", "karagiannis_2012", start="mohammadpour_2015"),
+    parameter("flank.roughness_rms", "m", "Composite root-mean-square roughness of the flanks",
+              display_unit="um", start=0.5e-6, minimum=1e-9, maximum=2e-5, nominal=1e-6),
+    parameter("mesh.backlash", "m", "Normal backlash along the line of action",
+              display_unit="um", start=100e-6, minimum=0.0, maximum=2e-3, nominal=1e-4),
+    parameter("mesh.stiffness_density", "N/m2",
+              "Stiffness per length of contact line; 0 takes that of the gear, or of ISO 6336-1",
+              display_unit="N/(mm.um)", start=0.0, minimum=0.0, maximum=1e12, nominal=1e10),
+    parameter("mesh.damping_ratio", "1", "Damping ratio of the relative rotation",
+              start=0.05, minimum=0.0, maximum=1.0, nominal=0.1),
+    parameter("support.damping_ratio", "1", "Damping ratio of every motion on its bearings",
+              start=0.05, minimum=0.0, maximum=1.0, nominal=0.1),
+    parameter("support.radial_stiffness", "N/m",
+              "Radial stiffness of both bearings of a shaft together; 0 takes that of the gear",
+              start=0.0, minimum=0.0, maximum=1e12, nominal=1e9),
+    parameter("support.axial_stiffness", "N/m",
+              "Axial stiffness of both bearings of a shaft together; 0 takes that of the gear",
+              start=0.0, minimum=0.0, maximum=1e12, nominal=1e9),
+    parameter("support.bearing_distance", "m",
+              "Distance of each bearing from mid-face; 0 takes that of the gear",
+              display_unit="mm", start=0.0, minimum=0.0, maximum=10.0, nominal=0.1),
+    option("model.form", "Degrees of freedom; six hold axial motion and tilt",
+           "twelve_dof", "six_dof", start="twelve_dof"),
+    count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 64, 16, 4096),
+    count("solver.steps_per_highest_period",
+          "Integration steps in one period of the highest natural frequency", 8, 6, 4096),
+    count("friction.updates_per_mesh_period",
+          "How often in a mesh period the friction of the film is computed anew", 16, 4, 4096),
+)  # fmt: skip
+
+
+def _motion() -> tuple[Variable, ...]:
+    members = (("pinion", "pinion"), ("wheel", "gear"))
+    angle = [output(f"{m}.angle", "rad", f"Rotation of the {w}", display_unit="deg")
+             for m, w in members]  # fmt: skip
+    speed = [output(f"{m}.speed", "rad/s", f"Speed of the {w}", 100.0, "rpm") for m, w in members]
+    acceleration = [output(f"{m}.acceleration", "rad/s2", f"Angular acceleration of the {w}", 1e3)
+                    for m, w in members]  # fmt: skip
+    return (*angle, *speed, *acceleration)
+
+
+_MESH = (
+    output("mesh.dte", "m",
+           "Dynamic transmission error along the line of action, deflection of the shafts included;"
+           " positive with the drive flanks pressed", 1e-5, "um"),
+    output("mesh.load", "N", "Load normal to the flanks, of the drive less the coast flanks",
+           1e3, "kN"),
+    *(output(f"mesh.force.{axis}", "N", f"Force of the flanks on the pinion along {axis}",
+             1e3, "kN") for axis in "xyz"),
+    Variable(name="mesh.separated", type="Boolean", causality="output",
+             description="True while no flank is in contact"),
+    Variable(name="mesh.coast_contact", type="Boolean", causality="output",
+             description="True while coast flanks are in contact"),
+    output("mesh.stiffness", "N/m", "Mesh stiffness along the line of action of what touches", 1e8),
+    output("mesh.frequency", "Hz", "Mesh frequency: pinion teeth times revolutions", 100.0),
+    output("mesh.film_thickness_min", "m", "Thinnest central film of all contact lines",
+           1e-6, "um"),
+)  # fmt: skip
+
+
+def _line(i: int) -> tuple[Variable, ...]:
+    line = f"of contact line {i}"
+    return (
+        output(f"line[{i}].load", "N", f"Normal load {line}", 1e3, "kN"),
+        output(f"line[{i}].length", "m", f"Length {line} in the plane of contact", 1e-2, "mm"),
+        output(f"line[{i}].film_thickness_min", "m", f"Thinnest central film {line}", 1e-6, "um"),
+        output(f"line[{i}].film_thickness_mean", "m", f"Mean central film {line}", 1e-6, "um"),
+        output(f"line[{i}].film_ratio", "1", f"Thinnest film over composite roughness {line}"),
+        output(f"line[{i}].friction_coefficient", "1", f"Mean friction coefficient {line}", 0.05),
+        output(f"line[{i}].sliding_speed", "m/s", f"Mean sliding speed {line}"),
+        output(f"line[{i}].temperature", "K", f"Mean film temperature {line}", 300.0, "degC"),
+    )
+
+
+_LOSSES = (
+    output("friction.power_loss", "W", "Flank friction loss", 100.0),
+    output("damping.power_loss", "W", "Loss in mesh damping", 10.0),
+    output("bearing.power_loss", "W", "Loss in the damping of the bearings", 10.0),
+    output("efficiency", "1", "Efficiency of the gear mesh, mean over the communication step"),
+    output("pair.efficiency", "1", "Efficiency with all losses, mean over the communication step"),
+)
+
+
+def _displacements() -> tuple[Variable, ...]:
+    return tuple(
+        variable
+        for member, word in (("pinion", "pinion"), ("wheel", "gear"))
+        for variable in (
+            *(output(f"{member}.displacement.{axis}", "m",
+                     f"Displacement of the {word} along {axis}", 1e-5, "um") for axis in "xyz"),
+            *(output(f"{member}.tilt.{axis}", "rad", f"Tilt of the {word} about {axis}", 1e-4,
+                     "deg") for axis in "xy"),
+        )
+    )  # fmt: skip
+
+
+def _bearing(j: int) -> tuple[Variable, ...]:
+    where = f"bearing {j}"
+    return tuple(
+        output(f"bearing[{j}].force.{axis}", "N", f"Force on the shaft along {axis}, {where}",
+               1e3, "kN")
+        for axis in "xyz"
+    )  # fmt: skip
+
+
+_ENERGIES = tuple(
+    output(f"energy.{name}", "J", words, 100.0)
+    for name, words in (
+        ("pinion_work", "Work of the pinion torque on the pair since initialisation"),
+        ("wheel_work", "Work of the pair against the wheel torque since initialisation"),
+        ("friction", "Heat of flank friction since initialisation"),
+        ("mesh_damping", "Heat of mesh damping since initialisation"),
+        ("bearing_damping", "Heat of the bearings' damping since initialisation"),
+        ("stored", "Kinetic and elastic energy in the pair"),
+    )
+)
+
+HELICAL_PAIR: tuple[Variable, ...] = (
+    *_INPUTS,
+    *_PARAMETERS,
+    *_motion(),
+    *_MESH,
+    *(variable for i in (1, 2, 3, 4, 5, 6) for variable in _line(i)),
+    *_LOSSES,
+    *_displacements(),
+    *(variable for j in (1, 2, 3, 4) for variable in _bearing(j)),
+    *_ENERGIES,
+)

@@ -1,0 +1,47 @@
+"""Short forms of the variables that the tables are made of."""
+
+from __future__ import annotations
+
+from fmu_src.variable import Variable
+
+
+def input_(name: str, unit: str, description: str, **limits: float | str) -> Variable:
+    """Return a Real input."""
+    return Variable(
+        name=name, type="Real", causality="input", unit=unit, description=description,
+        **limits,  # type: ignore[arg-type]
+    )  # fmt: skip
+
+
+def parameter(name: str, unit: str, description: str, **limits: float | str) -> Variable:
+    """Return a Real parameter."""
+    return Variable(
+        name=name, type="Real", causality="parameter", unit=unit, description=description,
+        **limits,  # type: ignore[arg-type]
+    )  # fmt: skip
+
+
+def option(name: str, description: str, *literals: str, start: str) -> Variable:
+    """Return an enumeration that a model option is chosen with."""
+    return Variable(
+        name=name, type="Enumeration", causality="parameter", description=description,
+        start=1 + literals.index(start), literals=literals,
+    )  # fmt: skip
+
+
+def count(name: str, description: str, start: int, minimum: int, maximum: int) -> Variable:
+    """Return an Integer parameter."""
+    return Variable(
+        name=name, type="Integer", causality="parameter", description=description,
+        start=start, minimum=minimum, maximum=maximum,
+    )  # fmt: skip
+
+
+def output(
+    name: str, unit: str, description: str, nominal: float = 1.0, display_unit: str = ""
+) -> Variable:
+    """Return a Real output."""
+    return Variable(
+        name=name, type="Real", causality="output", unit=unit, description=description,
+        nominal=nominal, display_unit=display_unit,
+    )  # fmt: skip

@@ -1,0 +1,166 @@
+"""Friction of the film at the points of the contact lines: kernels."""
+
+from __future__ import annotations
+
+import math
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.helical_pair.line_sums import GAUSS, pair_slot
+from gearlube_core.dynamics.helical_pair.march_constants import MarchConstants
+from gearlube_core.dynamics.helical_pair.march_rates import (
+    FlankView,
+    coast_view,
+    drive_view,
+    touches,
+)
+from gearlube_core.dynamics.helical_pair.state import (
+    FLANK_POINTS,
+    MU,
+    POINTS_PER_LINE,
+    REFRESHED,
+    W_P,
+)
+from gearlube_core.friction.line_friction import LineState, line_friction
+from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
+from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.jit import kernel
+from gearlube_core.rheology.lubricant_state import LubricantState
+
+
+@kernel
+def point_load(
+    g: float,
+    at_line: float,
+    phase: float,
+    line: int,
+    density: NDArray[float64],
+    offset: NDArray[float64],
+    station: NDArray[float64],
+    lines: int,
+) -> float:
+    """Return w [N/m] at a fraction of a line where the compression is `g` [m]."""
+    n_s = station.size
+    n_phase = density.size // (lines * n_s)
+    at_phase = (phase - math.floor(phase)) * n_phase
+    row = min(int(at_phase), n_phase - 1)
+    part = at_phase - row
+    here = (row * lines + line) * n_s
+    after = here + lines * n_s
+    if row == n_phase - 1:
+        after = (line + 1) * n_s if line + 1 < lines else here
+    c = 0
+    while c < n_s - 2 and at_line > station[c + 1]:
+        c += 1
+    t = (at_line - station[c]) / (station[c + 1] - station[c])
+    k_here = density[here + c] + t * (density[here + c + 1] - density[here + c])
+    k_after = density[after + c] + t * (density[after + c + 1] - density[after + c])
+    e_here = offset[here + c] + t * (offset[here + c + 1] - offset[here + c])
+    e_after = offset[after + c] + t * (offset[after + c + 1] - offset[after + c])
+    k = k_here + part * (k_after - k_here)
+    e = e_here + part * (e_after - e_here)
+    return max(k * (g - e), 0.0)
+
+
+@kernel
+def line_point(
+    view: FlankView,
+    line: int,
+    place: int,
+    pinion_speed: float,
+    density: NDArray[float64],
+    offset: NDArray[float64],
+    station: NDArray[float64],
+    lubricant: LubricantState,
+    p: MarchConstants,
+) -> tuple[float, float, float, LineState]:
+    """Return load [N/m], length [m], sliding speed [m/s] and film at point `place` of a line.
+
+    `place` counts the two Gauss points before the pitch line, then the two after it. The length
+    is that of line the point stands for, zero where there is none.
+    """
+    plane = p.motion.flanks.plane
+    lines = int(p.motion.flanks.lines)
+    X = plane.A + (view.phase - math.floor(view.phase) + line) * plane.pitch
+    segment = clip_line(X, plane)
+    crossing = pitch_crossing(X, segment, plane)
+    z_start = segment.z_low if place < 2 else crossing
+    z_end = crossing if place < 2 else segment.z_high
+    share = GAUSS if place % 2 == 0 else 1.0 - GAUSS
+    z = z_start + share * (z_end - z_start)
+    x = X - (0.5 * plane.W - z) * plane.sin_b / plane.cos_b
+    length = max(z_end - z_start, 0.0) * 0.5 / plane.cos_b
+    if length == 0.0:
+        return 0.0, 0.0, 0.0, LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    g = view.a + view.tilt * (z * plane.cos_b + x * plane.sin_b)
+    at_line = (z - segment.z_low) / (segment.z_high - segment.z_low)
+    load = point_load(g, at_line, view.phase, line, density, offset, station, lines)
+    motion = line_kinematics(x, pinion_speed, plane)
+    state = line_friction(
+        load,
+        motion.R,
+        motion.entrainment,
+        motion.sliding,
+        lubricant,
+        p.surface,
+        p.solid,
+    )
+    return load, length, motion.sliding, state
+
+
+@kernel
+def refresh_flank(
+    view: FlankView,
+    at: int,
+    s: NDArray[float64],
+    density: NDArray[float64],
+    offset: NDArray[float64],
+    station: NDArray[float64],
+    lubricant: LubricantState,
+    p: MarchConstants,
+) -> None:
+    """Compute the friction coefficients of one flank anew; they start at `s[at]`."""
+    lines = int(p.motion.flanks.lines)
+    for line in range(lines):
+        slot = at + POINTS_PER_LINE * pair_slot(view.phase, line, lines)
+        for place in range(POINTS_PER_LINE):
+            s[slot + place] = line_point(
+                view, line, place, abs(s[W_P]), density, offset, station, lubricant, p
+            )[3].friction_coefficient
+
+
+@kernel
+def refresh_mark(drive: FlankView, coast: FlankView, offset_low: float, p: MarchConstants) -> float:
+    """Return a number that changes when friction is due: with the phase and with the contact."""
+    count = math.floor(drive.phase * p.refreshes)
+    mark = 4.0 * count
+    if touches(drive, offset_low, p.motion.flanks):
+        mark += 1.0
+    if touches(coast, offset_low, p.motion.flanks):
+        mark += 2.0
+    return mark
+
+
+@kernel
+def refresh_friction(
+    s: NDArray[float64],
+    density: NDArray[float64],
+    offset: NDArray[float64],
+    station: NDArray[float64],
+    offset_low: float,
+    lubricant: LubricantState,
+    p: MarchConstants,
+) -> None:
+    """Compute the friction coefficients in the state anew if they are due."""
+    flanks = p.motion.flanks
+    drive = drive_view(s, flanks)
+    coast = coast_view(s, flanks)
+    mark = refresh_mark(drive, coast, offset_low, p)
+    if mark == s[REFRESHED]:
+        return
+    s[REFRESHED] = mark
+    if touches(drive, offset_low, p.motion.flanks):
+        refresh_flank(drive, MU, s, density, offset, station, lubricant, p)
+    if touches(coast, offset_low, p.motion.flanks):
+        refresh_flank(coast, MU + FLANK_POINTS, s, density, offset, station, lubricant, p)

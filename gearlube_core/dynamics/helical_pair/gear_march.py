@@ -1,0 +1,162 @@
+"""The marching model of a gear file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from gearlube_core.checks import check_within
+from gearlube_core.dynamics.helical_pair.march_parameters import (
+    Body,
+    Form,
+    Friction,
+    HelicalMarchParameters,
+)
+from gearlube_core.dynamics.helical_pair.shaft_support import Bearing, ShaftSupport
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.contact_line import line_count
+from gearlube_core.helical_geometry.gear_body import SupportStiffness
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
+from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness, stiffness_density
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
+
+_LINEAR_LOAD = 1e5  # N/m, 100 N/mm: from here on ISO 6336-1 has a stiffness without load
+
+
+def uniform_mesh(pair: HelicalPair, density: float = 0.0) -> LineMesh:
+    """Return one stiffness density [N/m2] along all lines; zero takes that of ISO 6336-1."""
+    source = "given"
+    if density == 0.0:
+        source = "ISO 6336-1 mean mesh stiffness over mean line length"
+        density = stiffness_density(iso_stiffness(pair, line_load=_LINEAR_LOAD).mesh, pair)
+    return uniform_line_mesh(
+        name=f"{pair.name}, constant density",
+        source=source,
+        pinion_teeth=pair.pinion_teeth,
+        gear_teeth=pair.gear_teeth,
+        base_pitch=pair.base_pitch,
+        lines=int(line_count(pair.plane)),
+        density=density,
+    )
+
+
+def helical_march(
+    gear: HelicalGearFile,
+    *,
+    line_mesh: LineMesh | None = None,
+    stiffness_density: float = 0.0,
+    backlash: float | None = None,
+    friction: Friction = "film",
+    friction_coefficient: float = 0.05,
+    oil: str = "mohammadpour_2015",
+    roughness_rms: float = 0.5e-6,
+    mesh_damping_ratio: float = 0.05,
+    support_damping_ratio: float = 0.05,
+    radial_stiffness: float = 0.0,
+    axial_stiffness: float = 0.0,
+    bearing_distance: float = 0.0,
+    form: Form = "twelve_dof",
+    steps_per_mesh_period: int = 64,
+    steps_per_highest_period: int = 8,
+    friction_updates_per_mesh_period: int = 16,
+) -> HelicalMarchParameters:
+    """Return the marching model of a gear file.
+
+    Parameters
+    ----------
+    gear : HelicalGearFile
+        Geometry, bodies and bearings.
+    line_mesh : LineMesh, optional
+        Stiffness along its contact lines; by default one density.
+    stiffness_density : float
+        That density [N/m2], before `line_mesh`; 0: `line_mesh`, or that of ISO 6336-1.
+    backlash : float, optional
+        Normal [m]; by default that of the file.
+    oil : str
+        Name in the lubricant library.
+    radial_stiffness, axial_stiffness : float
+        Of both bearings of a member together [N/m]; 0: those of the file.
+    bearing_distance : float
+        From mid-face to each bearing [m]; 0: that of the file.
+
+    See `HelicalMarchParameters` for the other parameters.
+
+    Raises
+    ------
+    ParameterError
+        A value out of range, a mesh of another pair, or no bearings anywhere.
+    """
+    for name, value, high, unit in (
+        ("stiffness_density", stiffness_density, 1e12, "N/m2"),
+        ("radial_stiffness", radial_stiffness, 1e12, "N/m"),
+        ("axial_stiffness", axial_stiffness, 1e12, "N/m"),
+        ("bearing_distance", bearing_distance, 10.0, "m"),
+    ):
+        check_within(name, value, 0.0, high, unit, "0 takes the value of the gear file.")
+    pair = gear.helical_pair()
+    if stiffness_density > 0.0 or line_mesh is None:
+        line_mesh = uniform_mesh(pair, stiffness_density)
+
+    def body(role: Role) -> Body:
+        given = gear.body(role)
+        return Body(
+            mass=given.mass,
+            inertia=given.diametral_inertia,
+            polar_inertia=given.polar_inertia,
+            support=_support(
+                given.supports, radial_stiffness, axial_stiffness, bearing_distance, role
+            ),
+        )
+
+    return HelicalMarchParameters(
+        pair=pair,
+        mesh=line_mesh,
+        pinion=body("pinion"),
+        gear=body("gear"),
+        backlash=pair.backlash if backlash is None else backlash,
+        friction=friction,
+        friction_coefficient=friction_coefficient,
+        oil=Lubricant.named(oil),
+        roughness_rms=roughness_rms,
+        mesh_damping_ratio=mesh_damping_ratio,
+        support_damping_ratio=support_damping_ratio,
+        form=form,
+        steps_per_mesh_period=steps_per_mesh_period,
+        steps_per_highest_period=steps_per_highest_period,
+        friction_updates_per_mesh_period=friction_updates_per_mesh_period,
+    )
+
+
+def _support(
+    given: tuple[SupportStiffness, ...], radial: float, axial: float, distance: float, role: Role
+) -> ShaftSupport:
+    """Return the file's bearings with what is not zero in their place."""
+    if not given:
+        if 0.0 in (radial, axial, distance):
+            raise ParameterError(
+                f"the {role} must have bearings, the gear file {role}.bearing_1 is missing. "
+                "Add them, or give radial and axial stiffness and the bearings' distance."
+            )
+        blank = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        given = blank, blank
+    bearings = []
+    for side, one in zip((1.0, -1.0), given, strict=True):
+        bearing = Bearing(
+            position=one.position,
+            K_xx=one.K_xx,
+            K_yy=one.K_yy,
+            K_zz=one.K_zz,
+            K_theta_x=one.K_theta_x,
+            K_theta_y=one.K_theta_y,
+            K_x_theta_y=one.K_x_theta_y,
+            K_y_theta_x=one.K_y_theta_x,
+        )
+        if radial > 0.0:
+            bearing = replace(bearing, K_xx=0.5 * radial, K_yy=0.5 * radial)
+        if axial > 0.0:
+            bearing = replace(bearing, K_zz=0.5 * axial)
+        if distance > 0.0:
+            bearing = replace(bearing, position=side * distance)
+        bearings.append(bearing)
+    return ShaftSupport(first=bearings[0], second=bearings[1])
