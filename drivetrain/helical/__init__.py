@@ -1,0 +1,1 @@
+"""Studies of helical and spur gear pairs: geometry and dynamics as datasets."""
