@@ -83,6 +83,27 @@ def test_shaft_in_rigid_pinned_bearings_has_the_stiffness_of_eq_25() -> None:
     assert K[2, 2] == pytest.approx(axial, rel=tolerance)
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_shaft_between_body_and_clamping_bearing_is_a_beam_clamped_at_both_ends(
+    side: float,
+) -> None:
+    """12EI/l^3, 6EI/l^2, 4EI/l at the body's end, the bearing held against everything."""
+    length, shaft = 0.06, ShaftEnds(radius=0.012, youngs_modulus=2.07e11)
+    rigid = Bearing(
+        position=side * length, K_xx=1e13, K_yy=1e13, K_zz=1e13, K_theta_x=1e11, K_theta_y=1e11
+    )
+    none = Bearing(position=-side * length, K_xx=0.0, K_yy=0.0, K_zz=0.0)
+    first, second = (rigid, none) if side > 0.0 else (none, rigid)
+    K = support_stiffness(ShaftSupport(first=first, second=second, shaft=shaft))
+    EI, tolerance = shaft.bending, 1e-4  # bearings are stiff, not rigid
+    assert K[0, 0] == pytest.approx(12.0 * EI / length**3, rel=tolerance)
+    assert K[1, 1] == pytest.approx(12.0 * EI / length**3, rel=tolerance)
+    assert K[0, 4] == pytest.approx(side * 6.0 * EI / length**2, rel=tolerance)
+    assert K[1, 3] == pytest.approx(-side * 6.0 * EI / length**2, rel=tolerance)
+    assert K[3, 3] == pytest.approx(4.0 * EI / length, rel=tolerance)
+    assert K[4, 4] == pytest.approx(4.0 * EI / length, rel=tolerance)
+
+
 @pytest.mark.parametrize("series", ["beam", "term_by_term"])
 def test_shaft_ends_soften_and_vanish_when_stiff(series: str) -> None:
     soft = symmetric_support(

@@ -10,15 +10,22 @@ import pytest
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.dynamics.helical_pair.contact_points import (
+    DENSITY,
     LENGTH,
     LOAD,
+    MU,
     N_COLUMNS,
     SLIDING,
     X,
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
+from gearlube_core.dynamics.helical_pair.film_friction import (
+    FilmField,
+    FilmFriction,
+    film_coefficients,
+    film_moments,
+)
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.instability_map import instability_map
 from gearlube_core.dynamics.helical_pair.mesh_wrench import line_loads, mesh_strain
@@ -99,6 +106,23 @@ def test_film_friction_excites_as_a_constant_coefficient_of_the_same_loss_does()
     # same loss; the film's coefficient passes through zero at the pitch line, Coulomb's jumps
     assert np.all((ratio > 0.5) & (ratio < 2.0))
     assert math.isclose(film.signal("psi").mean(), alike.signal("psi").mean(), rel_tol=2e-3)
+
+
+def test_friction_between_known_phases_is_that_of_the_strain_between() -> None:
+    parameters = _film_pair()
+    plane, mesh, film = parameters.pair.plane, parameters.mesh_arrays(), _FILM.constants()
+    points, moments = np.zeros((point_capacity(mesh), N_COLUMNS)), np.zeros((3, 5, 3))
+    strain = np.array([[4e-6, 1e-5], [1.2e-5, -3e-5], [8e-6, 0.0]])
+    field = FilmField(film, SPEED, np.array([0.0, 0.4, 1.0]), strain)
+    phases = np.array([0.1, 0.4, 0.7])
+    film_moments(phases, field, plane, mesh, points, moments)
+    between = ((6e-6, 0.0), (1.2e-5, -3e-5), (1e-5, -1.5e-5))
+    for phase, (y0, y1), filled in zip(phases, between, moments, strict=True):
+        n = contact_points(float(phase), SPEED, plane, mesh, points)
+        film_coefficients(y0, y1, SPEED, plane, film, points, n)
+        opposing = -np.sign(points[:n, SLIDING]) * points[:n, MU]
+        expected = np.sum(opposing * points[:n, DENSITY] * points[:n, LENGTH])
+        assert filled[2, 0] == pytest.approx(expected, rel=1e-10)
 
 
 def test_film_needs_its_data_and_instability_maps_refuse_it() -> None:

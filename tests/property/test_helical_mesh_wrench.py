@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +22,7 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh_moments import mesh_stiffness_matrix
 from gearlube_core.dynamics.helical_pair.mesh_wrench import friction_power
+from gearlube_core.dynamics.helical_pair.rhs import mesh_damping
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from tests.helical_dynamics_cases import (
     SPEED,
@@ -145,6 +147,35 @@ def test_flanks_neither_pull_nor_touch_within_the_backlash_and_then_touch_at_the
         assert wrench[0] == pytest.approx(force, rel=1e-9, abs=1e-12)
         assert (k_m > 0.0) == (expected != 0.0)
         assert friction_power(points, len(points)) >= 0.0
+
+
+def test_offsets_widen_the_gap_on_both_sides() -> None:
+    base = replace(he_2007_pair(0.0), contact="one_sided")
+    offset = 5e-6
+    parameters = replace(
+        base, mesh=replace(base.mesh, offset=np.full_like(base.mesh.offset, offset))
+    )
+    plane, q = base.pair.plane, np.zeros(12)
+    first, last = offset, -base.pair.backlash - offset
+    for delta, pressed in ((first - 1e-6, 0.0), (first + 1e-6, 1e-6), (last + 1e-6, 0.0),
+                           (last - 1e-6, -1e-6)):  # fmt: skip
+        q[0] = delta / plane.cos_b
+        points, _, _ = loaded_points(parameters, 0.6, q)
+        assert np.allclose(points[:, LOAD], pressed * 1.316e10, rtol=1e-9, atol=1e-6)
+
+
+def test_damping_turns_against_the_relative_rotation_and_never_makes_flanks_adhere() -> None:
+    c = he_2007_pair(0.0).kernel_parameters()
+    one_sided = c._replace(one_sided=1.0)
+    k_m, rate = 5.8e8, 0.01
+    full = 0.1 * math.sqrt(c.m_e * k_m) * rate  # 2 zeta sqrt(m_e k_m) d(psi)/dt, zeta 5 percent
+    for sense in (1.0, -1.0):  # psi grows as flanks part
+        assert mesh_damping(k_m, 1e6, sense * rate, c) == pytest.approx(sense * full, rel=1e-12)
+        assert mesh_damping(k_m, 1e6, sense * rate, one_sided) == pytest.approx(sense * full)
+    assert mesh_damping(k_m, 3.0, rate, c) == pytest.approx(full)  # linear flanks may pull
+    assert mesh_damping(k_m, 3.0, rate, one_sided) == 3.0  # drive flanks parting
+    assert mesh_damping(k_m, -3.0, -rate, one_sided) == -3.0  # back flanks parting
+    assert mesh_damping(k_m, 0.0, rate, one_sided) == 0.0
 
 
 def test_lines_keep_their_data_through_the_change_of_period() -> None:
