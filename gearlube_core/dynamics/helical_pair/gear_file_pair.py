@@ -1,0 +1,94 @@
+"""From a gear file to the parameters of the pair's vibration."""
+
+from __future__ import annotations
+
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.shaft_support import Bearing, ShaftSupport
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.contact_line import line_count
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
+
+
+def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
+    """Return the bearings of the "pinion" or the "gear" on a rigid shaft.
+
+    Raises
+    ------
+    ParameterError
+        The file has no bearings.
+    """
+    springs = file.body(role).supports
+    if len(springs) != 2:
+        raise ParameterError(
+            f"{role} must have two bearings to vibrate in, the gear file has {len(springs)}. Add "
+            f"[{role}.bearing_1] and [{role}.bearing_2]."
+        )
+    first, second = (Bearing(**spring._asdict()) for spring in springs)
+    return ShaftSupport(first=first, second=second)
+
+
+def gear_file_pair(
+    file: HelicalGearFile,
+    mesh: LineMesh,
+    pinion_torque: float,
+    mu: float,
+    pair: HelicalPair | None = None,
+) -> HelicalPairParameters:
+    """Return the vibrating pair of a gear file, with linear contact.
+
+    Parameters
+    ----------
+    file
+        With bearings, and one damping ratio for translation and tilt.
+    mesh
+        Contact lines of the pair.
+    pinion_torque
+        [N.m]
+    mu
+        Constant coefficient of friction [-].
+    pair
+        Another geometry with the same bodies and bearings.
+
+    Raises
+    ------
+    ParameterError
+        The file lacks bearings, or its damping ratios of translation and tilt differ.
+    """
+    if file.damping.translation != file.damping.tilt:
+        raise ParameterError(
+            "damping.tilt must equal damping.translation, the model has one ratio for both; got "
+            f"{file.damping.tilt:g} and {file.damping.translation:g}. Give one value."
+        )
+    pinion, gear = file.body("pinion"), file.body("gear")
+    return HelicalPairParameters(
+        pair=file.helical_pair() if pair is None else pair,
+        mesh=mesh,
+        pinion_torque=pinion_torque,
+        pinion_mass=pinion.mass,
+        pinion_inertia=pinion.diametral_inertia,
+        pinion_polar_inertia=pinion.polar_inertia,
+        gear_mass=gear.mass,
+        gear_inertia=gear.diametral_inertia,
+        gear_polar_inertia=gear.polar_inertia,
+        pinion_support=gear_file_support(file, "pinion"),
+        gear_support=gear_file_support(file, "gear"),
+        support_damping_ratio=file.damping.translation,
+        mesh_damping_ratio=file.damping.mesh,
+        friction="constant",
+        friction_coefficient=mu,
+    )
+
+
+def constant_density_mesh(pair: HelicalPair, density: float, source: str) -> LineMesh:
+    """Return one stiffness density [N/m2] along all contact lines: He et al. 2007 eq. (2)."""
+    return uniform_line_mesh(
+        name=f"{pair.name}, constant density",
+        source=source,
+        pinion_teeth=pair.pinion_teeth,
+        gear_teeth=pair.gear_teeth,
+        base_pitch=pair.base_pitch,
+        lines=int(line_count(pair.plane)),
+        density=density,
+    )
