@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from separation_cases import separated_motion, separating_pair
+from separation_cases import separated_motion, separating_pair, spur_geometry
 
 from gearlube_core.dynamics.helical_pair import contact_points as at
 from gearlube_core.dynamics.helical_pair.contact_points import (
@@ -13,6 +13,7 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
     contact_points,
     point_capacity,
 )
+from gearlube_core.dynamics.helical_pair.he_2007 import STIFFNESS_DENSITY
 from gearlube_core.dynamics.helical_pair.linear_system import linear_system, relative_rows
 from gearlube_core.dynamics.helical_pair.mesh_wrench import line_loads, mesh_strain
 from gearlube_core.dynamics.helical_pair.periodic_response import (
@@ -29,6 +30,7 @@ from gearlube_core.dynamics.helical_pair.separation_march import (
 )
 from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
 from gearlube_core.dynamics.helical_pair.separation_system import relative_masses
+from gearlube_core.dynamics.helical_pair.shaft_support import symmetric_support
 from gearlube_core.periodic.shooting import solve_periodic
 
 
@@ -171,3 +173,50 @@ def test_impacts_with_damping_create_no_energy():
     assert energy[-1] < 0.9 * energy[0]
     # the integrator's error in one step at a kink, see the test above
     assert np.diff(energy).max() < 1e-6 * energy[0]
+
+
+def test_a_spur_pair_in_stiff_bearings_is_the_oscillator_with_a_gap():
+    """m x'' + c g x' + k(t) max(x, 0) = F: one line or two, as the contact ratio of 1.49 has it.
+
+    Kahraman and Singh 1990 and 1991 study this oscillator. Integrated here by DOP853.
+    """
+    stiff = symmetric_support(K_xx=1e13, K_yy=1e13, K_zz=1e13, distance=0.05)
+    parameters = separating_pair(
+        zeta=0.05, pair=spur_geometry(), form="six_dof", pinion_support=stiff, gear_support=stiff
+    )
+    problem, speed, motion = separated_motion(parameters, steps_per_mesh_period=1024)
+    pair, mass = parameters.pair, parameters.effective_mass
+    orbit = problem.orbit(motion.unknowns, speed)
+    assert orbit.separation_share > 0.1
+    assert motion.stable
+    per_line = STIFFNESS_DENSITY * pair.face_width
+    load = parameters.pinion_torque / pair.pinion_base_radius
+    period = 1.0 / pair.mesh_frequency(speed)
+
+    def oscillator(k):
+        def rates(_, s):
+            elastic = k * max(s[0], 0.0)
+            build_up = min(1.0, max(s[0], 0.0) / 0.5e-6)
+            damping = 2.0 * 0.05 * np.sqrt(mass * k) * build_up * s[1]
+            return s[1], (load - max(elastic + damping, 0.0)) / mass
+
+        return rates
+
+    two = (pair.transverse_contact_ratio - 1.0) * period
+    state = -np.array([motion.unknowns[problem.size // 2 - 1], motion.unknowns[-1]])
+    errors = []
+    for k, span in ((2.0 * per_line, (0.0, two)), (per_line, (two, period))):
+        times = np.linspace(*span, 200)
+        history = solve_ivp(
+            oscillator(k), span, state, method="DOP853", rtol=1e-8, atol=1e-13, t_eval=times,
+            max_step=period / 200,
+        )  # fmt: skip
+        state = history.y[:, -1]
+        march = np.interp(times / period, orbit.phase, -orbit.delta_z, period=1.0)
+        errors.append(np.abs(march - history.y[0]).max())
+    # bearings leave 1e-4 of the mesh's softness; between samples the record is interpolated
+    assert max(errors) < 1e-3 * orbit.peak_to_peak
+    # at this damping the damper is held back where flanks part
+    pull = orbit.damping_force - orbit.flank_force
+    assert pull.max() <= 1e-9 * orbit.flank_force.max()
+    assert np.count_nonzero((np.abs(pull) < 1e-6) & (orbit.contact_share > 0.0)) > 2

@@ -59,7 +59,8 @@ class SeparationProblem:
     periods : int
         Mesh periods in one period of the motion.
     steps_per_mesh_period : int
-        Time steps, at least; none spans a kink or jump of the mesh.
+        Time steps, at least; none spans a kink or jump of the mesh. Lines of spur pairs touch all
+        at once: 512 keep their branches free of corners.
     damping_build_up : float
         Penetration over which a point's share of mesh damping builds up [m].
 
