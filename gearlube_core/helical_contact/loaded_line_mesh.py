@@ -84,8 +84,8 @@ def line_mesh(modified: ModifiedPair, settings: CycleSettings, cycle: Record) ->
         density=density.swapaxes(0, 1),
         offset=offset.swapaxes(0, 1),
         provenance={
-            "density": "computed: tangent of the loaded contact under even closing; up to "
+            "density": "inferred: tangent of the loaded contact under even closing; up to "
             f"{100.0 * corner.max():.2g} % corner contact spread over all lines",
-            "offset": "computed: from first contact of the mesh cycle",
+            "offset": "inferred: from first contact of the mesh cycle",
         },
     )

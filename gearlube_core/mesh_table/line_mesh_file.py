@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
 FORMAT = 1
+SHIPPED_PREFIX = "line_mesh_"  # of the shipped files' names
 _MARK = "gearlube_line_mesh"
 _DIMS = ("torque", "phase", "line", "station")
 _UNITS = {
@@ -61,6 +63,14 @@ def read_line_mesh(path: str | Path) -> LineMesh:
             "Give the file that write_line_mesh wrote."
         ) from None
     return line_mesh_from_bytes(content, str(path))
+
+
+def named_line_mesh(name: str) -> LineMesh:
+    """Return a shipped line mesh by name: he_2007."""
+    resource = files("gearlube_core.mesh_table") / "data" / f"{SHIPPED_PREFIX}{name}.nc"
+    if not resource.is_file():
+        raise TableError(f"No line mesh of the name {name!r} is shipped. Known: he_2007.")
+    return line_mesh_from_bytes(resource.read_bytes(), resource.name)
 
 
 def line_mesh_from_bytes(content: bytes, name: str) -> LineMesh:
