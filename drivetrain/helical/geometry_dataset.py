@@ -50,9 +50,9 @@ def geometry_dataset(
     pinion_speed : float
         [rad/s]
     lines : array_like, shape (n,)
-        X of the contact lines whose gap and sliding are shown [m], see `contact_line`; the one
-        in the middle of the list also shows crown, facets and equal relief. Left out, three lie
-        in the cycle where Jamali 2015 puts his.
+        X of the contact lines whose gap and sliding are shown [m], on the face z = +W/2;
+        the one in the middle of the list also shows crown, facets and, if it meets any, relief.
+        Left out, three lie in the cycle where Jamali 2015 puts his.
     steel_modulus : float
         E* of the teeth [Pa]; only the half-width of the contact depends on it.
 
@@ -97,7 +97,7 @@ def geometry_dataset(
             "overlap_ratio": p.overlap_ratio,
             "torque": torque,
             "pinion_speed": pinion_speed,
-            "left_out": " ".join(_left_out(modified)),
+            "left_out": " ".join(_left_out(modified, variables)),
         },
     )
 
@@ -163,12 +163,13 @@ def _check_lines(X: NDArray[np.float64], modified: ModifiedPair) -> None:
         )
 
 
-def _left_out(modified: ModifiedPair) -> list[str]:
+def _left_out(modified: ModifiedPair, variables: Variables) -> list[str]:
     """Return a sentence for each group of variables that this pair lacks."""
     members = (modified.pinion, modified.gear)
     relief = any(member.tip_relief is not None for member in members)
     sentences = []
-    if modified.pair.base_helix_angle <= 0.0:
+    helical = modified.pair.base_helix_angle > 0.0
+    if not helical:
         sentences.append(
             "Spur pair: nothing varies along its contact lines but crown and slope, so their "
             "sliding, relief and lay are left out."
@@ -180,6 +181,8 @@ def _left_out(modified: ModifiedPair) -> list[str]:
             "Tip relief leaves positions without unrelieved contact: loads shared by unrelieved "
             "length are left out."
         )
+    if relief and helical and "relief_line" not in variables:
+        sentences.append("No shown line meets tip relief: lines of equal relief are left out.")
     if all(member.crown is None for member in members):
         sentences.append("No crown: its forms are left out.")
     return sentences

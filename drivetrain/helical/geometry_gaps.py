@@ -57,7 +57,7 @@ def gap_variables(modified: ModifiedPair, X: Array, torque: float, modulus: floa
         _along_lines(modified, X, y),
         _crown_forms(modified, middle, x, y),
         _facets(modified, middle, x),
-        _equal_relief(modified, middle, y),
+        _equal_relief(modified, X, y),
     ):
         variables |= part.variables
         coordinates |= part.coordinates
@@ -133,7 +133,10 @@ def _crown_forms(modified: ModifiedPair, X: float, x: Array, y: Array) -> Part:
             ),
             "surface_gap": described(
                 ("surface_x", "surface_y"), np.where(touching, surface, np.nan), "m",
-                "gap about the middle line, crowns from a quarter of the face off its middle",
+                "gap about the middle line, crowns beginning at surface_crown_start",
+            ),
+            "surface_crown_start": described(
+                (), SURFACE_CROWN_START, "1", "start of the crown over face width in surface_gap"
             ),
         },
         {
@@ -165,26 +168,35 @@ def _facets(modified: ModifiedPair, X: float, x: Array) -> Part:
     )
 
 
-def _equal_relief(modified: ModifiedPair, X: float, y: Array) -> Part:
-    """Return lines of equal tip relief on the tangent plane of the middle line."""
-    members = _relieved_members(modified)
+def _equal_relief(modified: ModifiedPair, X: Array, y: Array) -> Part:
+    """Return lines of equal tip relief, each member's about a line that it relieves."""
     pair = modified.pair
-    if not members or pair.base_helix_angle <= 0.0:
+    if pair.base_helix_angle <= 0.0:
         return Part({}, {})
     cos_b = math.cos(pair.base_helix_angle)
-    removals, lines = [], []
-    for member in members:
+    members, shown, removals, lines = [], [], [], []
+    for member in _relieved_members(modified):
+        number = _line_in_relief(modified, member, X, y)
+        if number is None:
+            continue
         relief, tip = getattr(modified, member).tip_relief, involute_flank(pair, member).tip_radius
         radii = tip - relief.extent * np.linspace(1.0, 0.0, _RELIEF_LINES)
+        members.append(member)
+        shown.append(number + 1)
         removals.append(relief.removal(radii, tip) * cos_b)
-        lines.append(equal_radius_line(radii[:, None], y[None, :], X, pair, member))
+        lines.append(equal_radius_line(radii[:, None], y[None, :], float(X[number]), pair, member))
+    if not members:
+        return Part({}, {})
     levels = ("relieved", "level")
     return Part(
         {
             "relief_removal": described(levels, np.array(removals), "m", "tip relief, normal"),
             "relief_line": described(
                 (*levels, "y"), np.array(lines), "m",
-                "x of a line of equal tip relief on the tangent plane of the middle line",
+                "x of a line of equal tip relief on the tangent plane of relief_line_shown",
+            ),
+            "relief_line_shown": described(
+                ("relieved",), np.array(shown), "1", "shown contact line that meets the relief"
             ),
         },
         {
@@ -195,6 +207,15 @@ def _equal_relief(modified: ModifiedPair, X: float, y: Array) -> Part:
             ),
         },
     )  # fmt: skip
+
+
+def _line_in_relief(modified: ModifiedPair, member: str, X: Array, y: Array) -> int | None:
+    """Return which line, near the middle of the list if it can be, meets a member's relief."""
+    for number in sorted(range(X.size), key=lambda n: abs(n - X.size // 2)):
+        start = getattr(contact_line_gap(modified, float(X[number]), y), f"{member}_relief_start")
+        if y[0] < start < y[-1]:
+            return number
+    return None
 
 
 def _relieved_members(modified: ModifiedPair) -> list[str]:

@@ -152,10 +152,11 @@ def path_variables(pair: HelicalPair, pinion_speed: float) -> Part:
         for member in ("pinion", "gear"):
             text = f"angle between contact line and grinding marks of the {member}"
             chord = np.where(inside, getattr(chords, member), np.nan)
-            variables[f"lay_{member}"] = described(path, chord, "rad", f"{text}, chord of 1 mm")
+            variables[f"lay_{member}"] = described(path, chord, "rad", f"{text}, by a chord")
             variables[f"lay_{member}_limit"] = described(
                 path, getattr(limits, member), "rad", f"{text}, where they cross"
             )
+        variables["lay_chord"] = described((), _CHORD, "m", "chord along the contact line")
     text = "along the line of action, past the pitch line"
     return Part(variables, {"s": described(path, s, "m", text)})
 

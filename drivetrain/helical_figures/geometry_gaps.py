@@ -60,7 +60,8 @@ def _surface(ax: Any, dataset: xr.Dataset) -> None:
     ax.view_init(elev=28, azim=-62)
     ax.locator_params(axis="y", nbins=4)
     ax.set(xlabel="$y$ [mm]", ylabel="$x$ [mm]", zlabel="gap [µm]")
-    ax.set_title(f"{pair_name(dataset)}: gap, $F_o$ = 0.25 $F$", fontsize=9.5, y=0.98)
+    start = float(dataset["surface_crown_start"])
+    ax.set_title(f"{pair_name(dataset)}: gap, $F_o$ = {start:g} $F$", fontsize=9.5, y=0.98)
 
 
 def relief_gaps(datasets: Sequence[xr.Dataset]) -> Any:
@@ -77,7 +78,7 @@ def relief_gaps(datasets: Sequence[xr.Dataset]) -> Any:
                     0.02, 0.04, f"$k$ = {k:g}, {word} relief", transform=ax.transAxes,
                     fontsize=9,
                 )  # fmt: skip
-                ax.set_ylim(-1.0, MICRO * _HIGHEST_GAP + 8.0)
+                ax.set_ylim(-4.0, MICRO * (_HIGHEST_GAP + 2 * _OFFSET))
             axes[-1, column].set_xlabel(_ALONG)
         for ax in axes[:, 0]:
             ax.set_ylabel("gap, each line 4 µm higher [µm]")
@@ -100,7 +101,7 @@ def _line_gaps(ax: Any, dataset: xr.Dataset, k: float) -> None:
             start = MILLI * float(dataset[f"{member}_relief_start"].sel(shown=number))
             if y[0] <= start <= y[-1]:
                 ax.plot(
-                    start, np.interp(start, y, crown) + offset, "o", color=colour, mfc="white",
+                    start, np.interp(start, y, gap) + offset, "o", color=colour, mfc="white",
                     ms=6.0, zorder=5,
                 )  # fmt: skip
     ax.set_xlim(y[0], y[-1])
@@ -116,8 +117,8 @@ def equal_relief(datasets: Sequence[xr.Dataset]) -> Any:
             _relief_lines(ax, dataset, member)
         axes[0].set_ylabel(_ALONG)
         figure.suptitle(
-            "Lines of equal tip relief on the tangent plane of the middle line;\n"
-            "heavy: start of relief, dotted: contact line; x is stretched",
+            "Lines of equal tip relief on the tangent plane of a contact line;\n"
+            "heavy: start of relief, dotted: the contact line; x is stretched",
             fontsize=11.5,
         )
     return figure
@@ -132,9 +133,8 @@ def _relief_lines(ax: Any, dataset: xr.Dataset, member: str) -> None:
         ax.plot(lines[row], y, color=VERMILLION if first else BLUE, lw=2.8 if first else 1.0)
     ax.axvline(0.0, color="black", lw=1.0, ls=":")
     width = x[-1]
-    middle = dataset["shown"].values[dataset["shown"].size // 2]
-    start = MILLI * float(dataset[f"{member}_relief_start"].sel(shown=middle))
-    # where it crosses the contact line, or the end of the face nearest to there
+    number = int(part["relief_line_shown"])
+    start = MILLI * float(dataset[f"{member}_relief_start"].sel(shown=number))
     at = np.clip(start, y[0] + _HALF_CHORD, y[-1] - _HALF_CHORD)
     lean = np.ptp(np.interp([at - _HALF_CHORD, at + _HALF_CHORD], y, lines[0])) / (2 * _HALF_CHORD)
     reach = width / lean
@@ -146,8 +146,9 @@ def _relief_lines(ax: Any, dataset: xr.Dataset, member: str) -> None:
     ax.set(xlim=(-width, width), ylim=(low, high), xlabel=_ACROSS)
     for row in range(2, removal.size, 2):
         _label_line(ax, lines[row], y, f"{removal[row]:.1f} µm", (low, high), width)
+    angle = np.degrees(np.arctan(lean))
     ax.set_title(
-        f"{pair_name(dataset)}\n{member}: {np.degrees(np.arctan(lean)):.1f}° to $y$", fontsize=9.5
+        f"{pair_name(dataset)}\n{member}, line {number}: {angle:.1f}° to $y$", fontsize=9.5
     )
     ax.grid(visible=False)
 

@@ -71,12 +71,12 @@ def _loads(ax: Any, part: xr.Dataset, s_i: Any) -> None:
         color=GREEN,
         label="load normal to the flanks, $T_1/(r_{b1}\\cos\\beta_b)$ shared",
     )
-    text = f"up to {normal.max():.1f} kN"
+    text = f"up to {normal.max():.3g} kN"
     if not np.allclose(normal, thesis):
         ax.plot(
             s_i, thesis, color=PURPLE, ls="--", label="load as in Jamali 2015, $T_1/r_{b1}$ shared"
         )
-        text += f" normal to the flanks, {thesis.max():.1f} kN as in Jamali 2015"
+        text += f" normal to the flanks, {thesis.max():.3g} kN as in Jamali 2015"
     ax.text(0.5, 0.97, text, transform=ax.transAxes, ha="center", va="top", fontsize=8.5)
 
 

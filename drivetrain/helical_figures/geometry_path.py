@@ -105,5 +105,6 @@ def lay_angles(datasets: Sequence[xr.Dataset]) -> Any:
             ratio.set_ylabel("$\\zeta$ [-]", color=GREEN)
         axes[0, 0].set_ylabel("angle of the marks to the contact line [°]")
         legend_below(figure, axes[0, :1], 3)
-        figure.suptitle("Lay: grinding marks seen along a chord of 1 mm", fontsize=11.5)
+        chord = MILLI * float(datasets[0]["lay_chord"])
+        figure.suptitle(f"Lay: grinding marks seen along a chord of {chord:g} mm", fontsize=11.5)
     return figure
