@@ -35,6 +35,7 @@ ARGUMENTS = {
     "support.axial_stiffness": "axial_stiffness",
     "support.bearing_distance": "bearing_distance",
     "model.form": "form",
+    "model.equations": "equations",
     "solver.steps_per_mesh_period": "steps_per_mesh_period",
     "solver.steps_per_highest_period": "steps_per_highest_period",
     "friction.updates_per_mesh_period": "friction_updates_per_mesh_period",

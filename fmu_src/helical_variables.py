@@ -54,6 +54,8 @@ _PARAMETERS = (
               display_unit="mm", start=0.0, minimum=0.0, maximum=10.0, nominal=0.1),
     option("model.form", "Degrees of freedom; six hold axial motion and tilt",
            "twelve_dof", "six_dof", start="twelve_dof"),
+    option("model.equations", "Equations of motion: with the work of moving lines, or the paper's",
+           "consistent", "he_2007", start="consistent"),
     count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 64, 16, 4096),
     count("solver.steps_per_highest_period",
           "Integration steps in one period of the highest natural frequency", 8, 6, 4096),

@@ -7,14 +7,14 @@ import math
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.dynamics.helical_pair.line_sums import GAUSS, pair_slot
-from gearlube_core.dynamics.helical_pair.march_constants import MarchConstants
-from gearlube_core.dynamics.helical_pair.march_rates import (
+from gearlube_core.dynamics.helical_pair.flank_views import (
     FlankView,
     coast_view,
     drive_view,
     touches,
 )
+from gearlube_core.dynamics.helical_pair.line_sums import GAUSS, pair_slot
+from gearlube_core.dynamics.helical_pair.march_constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.state import (
     FLANK_POINTS,
     MU,

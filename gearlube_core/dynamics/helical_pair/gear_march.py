@@ -7,6 +7,7 @@ from dataclasses import replace
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.march_parameters import (
     Body,
+    Equations,
     Form,
     Friction,
     HelicalMarchParameters,
@@ -57,6 +58,7 @@ def helical_march(
     axial_stiffness: float = 0.0,
     bearing_distance: float = 0.0,
     form: Form = "twelve_dof",
+    equations: Equations = "consistent",
     steps_per_mesh_period: int = 64,
     steps_per_highest_period: int = 8,
     friction_updates_per_mesh_period: int = 16,
@@ -122,6 +124,7 @@ def helical_march(
         mesh_damping_ratio=mesh_damping_ratio,
         support_damping_ratio=support_damping_ratio,
         form=form,
+        equations=equations,
         steps_per_mesh_period=steps_per_mesh_period,
         steps_per_highest_period=steps_per_highest_period,
         friction_updates_per_mesh_period=friction_updates_per_mesh_period,

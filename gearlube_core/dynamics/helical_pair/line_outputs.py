@@ -8,9 +8,9 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.dynamics.helical_pair.film_refresh import line_point
+from gearlube_core.dynamics.helical_pair.flank_views import FlankView
 from gearlube_core.dynamics.helical_pair.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march_constants import MarchConstants
-from gearlube_core.dynamics.helical_pair.march_rates import FlankView
 from gearlube_core.dynamics.helical_pair.output_names import (
     LINES_AT,
     LINES_MAX,

@@ -42,6 +42,7 @@ class FlankConstants(NamedTuple):
     coast_phase: float  # phase of drive flank plus phase of coast flank [mesh periods]
     turn_cos: float  # cosine and sine of twice the angle of the line of centres against y
     turn_sin: float
+    line_work: float  # 1: lines that move under load exchange work with the pinion; 0: none
     lines: float  # contact lines in the line mesh
 
 

@@ -26,6 +26,7 @@ from gearlube_core.mesh_table.line_mesh import LineMesh
 
 Form = Literal["twelve_dof", "six_dof"]
 Friction = Literal["film", "constant", "off"]
+Equations = Literal["consistent", "he_2007"]
 
 XI_BETA_SIGMA = 0.055  # [-], Mohammadpour et al. 2015, text below eq. (17)
 SIGMA_OVER_BETA = 0.001  # [-], ditto
@@ -97,6 +98,9 @@ class HelicalMarchParameters:
         [-]
     form : {"twelve_dof", "six_dof"}
         Six keeps x, y and rotation of both members and holds the rest.
+    equations : {"consistent", "he_2007"}
+        Whether the pinion feels that loaded springs enter, leave and change, as the balance of
+        energy asks, or not, as in the paper; about 1e-4 of the mesh torque, see `line_sums`.
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
     friction_updates_per_mesh_period : int
@@ -120,6 +124,7 @@ class HelicalMarchParameters:
     mesh_damping_ratio: float = 0.05
     support_damping_ratio: float = 0.05
     form: Form = "twelve_dof"
+    equations: Equations = "consistent"
     steps_per_mesh_period: int = 64
     steps_per_highest_period: int = 8
     friction_updates_per_mesh_period: int = 16
@@ -127,6 +132,7 @@ class HelicalMarchParameters:
     def __post_init__(self) -> None:
         check_option("friction", self.friction, get_args(Friction))
         check_option("form", self.form, get_args(Form))
+        check_option("equations", self.equations, get_args(Equations))
         check_within("backlash", self.backlash, 0.0, 2e-3, "m", "100 um is 1e-4 m.")
         check_within("friction_coefficient", self.friction_coefficient, 0.0, 1.0)
         check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
@@ -183,6 +189,7 @@ class HelicalMarchParameters:
             coast_phase=self.coast_phase,
             turn_cos=(height**2 - plane.x_g**2) / square,
             turn_sin=2.0 * plane.x_g * height / square,
+            line_work=1.0 if self.equations == "consistent" else 0.0,
             lines=float(self.mesh.lines),
         )
         return MarchConstants(

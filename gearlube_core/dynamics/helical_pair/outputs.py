@@ -7,18 +7,17 @@ import math
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.dynamics.helical_pair.flank_views import (
+    coast_view,
+    drive_view,
+    friction_direction,
+)
+from gearlube_core.dynamics.helical_pair.flank_wrench import flank_wrench, turned_wrench
 from gearlube_core.dynamics.helical_pair.line_outputs import write_lines
 from gearlube_core.dynamics.helical_pair.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march_constants import MarchConstants, SupportConstants
 from gearlube_core.dynamics.helical_pair.march_mesh import mesh_at_torque
-from gearlube_core.dynamics.helical_pair.march_rates import (
-    coast_view,
-    drive_view,
-    flank_wrench,
-    friction_direction,
-    march_rates,
-    turned_wrench,
-)
+from gearlube_core.dynamics.helical_pair.march_rates import march_rates
 from gearlube_core.dynamics.helical_pair.output_names import (
     BEARINGS_AT,
     DISPLACEMENTS_AT,
