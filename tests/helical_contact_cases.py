@@ -51,12 +51,13 @@ EQUAL = replace(
 )
 
 _folder = tempfile.TemporaryDirectory()
+TEETH_CACHE = Path(_folder.name)  # of this session
 
 
 @cache
 def coarse_stiffness(pair: HelicalPair) -> PairStiffness:
     """Return finite-element teeth, solved once in a session."""
-    return pair_stiffness(pair, COARSE_BODY, cache=Path(_folder.name), jobs=1)
+    return pair_stiffness(pair, COARSE_BODY, cache=TEETH_CACHE, jobs=1)
 
 
 def stiff_teeth(modulus: float) -> PairStiffness:

@@ -30,7 +30,11 @@ _UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {
     "corner_share": (_STATE, "1", "part of the pinion torque outside the plane of contact"),
     "relief_length": (_LINE, "m", "loaded length in tip relief or beyond the plane of contact"),
     "loaded_length": (_LINE, "m", "loaded length of a line"),
-    "pressure_max": (_LINE, "Pa", "highest pressure; at tip edges it rises with finer cells"),
+    "pressure_max": (
+        _LINE,
+        "Pa",
+        "highest pressure; at tip and side edges it rises with finer cells",
+    ),
     "line_load": ((*_LINE, "station"), "N/m", "normal force per length of the line"),
     "gear_torque": (_STATE, "N.m", "torque on the gear"),
     "strain_energy": (_STATE, "J", "strain energy"),

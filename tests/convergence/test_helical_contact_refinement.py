@@ -11,7 +11,7 @@ from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_s
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
-from tests.helical_contact_cases import HE_2007, TORQUE, coarse_stiffness, relieved
+from tests.helical_contact_cases import HE_2007, TEETH_CACHE, TORQUE, coarse_stiffness, relieved
 
 PLAIN = ModifiedPair(pair=HE_2007)
 REFINED = LoadedSettings(strips=StripSettings(cells_across=61, cells_along=96))
@@ -61,7 +61,7 @@ def test_finer_teeth_change_stiffness_by_less_than_one_percent(finer):
     found = [
         stiffnesses(
             PLAIN,
-            pair_stiffness(HE_2007, HelicalBodySettings(condensation=c), jobs=2),
+            pair_stiffness(HE_2007, HelicalBodySettings(condensation=c), cache=TEETH_CACHE, jobs=2),
             LoadedSettings(),
             phases,
         )
