@@ -1,0 +1,199 @@
+"""HelicalPair.fmu with the gear file, and the line mesh, of another pair."""
+
+from __future__ import annotations
+
+import logging
+import zipfile
+from collections.abc import Callable
+from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import extract
+from fmu_cases import HELICAL_PAIR, H, helical
+from fmu_host import FATAL, OK, Host
+from typer.testing import CliRunner
+
+import build_fmu
+from fmu_src import cli, identity
+from fmu_src.build import build_helical_pair, build_models
+from fmu_src.check import problems
+from fmu_src.helical_pair import DEFINITION, GEAR_FILE, LINE_MESH_FILE, definition_with
+from gearlube_core.dynamics.helical_pair.gear_march import uniform_mesh
+from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
+from gearlube_core.errors import ParameterError, TableError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
+
+CUSTOM = 4  # of gear.name
+
+
+@pytest.fixture(scope="module")
+def gear_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Other bearings and backlash than any shipped pair."""
+    shipped = files("gearlube_core.helical_geometry") / "data" / "jamali_2015_a.toml"
+    text = (
+        shipped.read_text()
+        .replace("700.507", "900")
+        .replace("backlash_mm = 0.1", "backlash_mm = 0.06")
+    )
+    path = tmp_path_factory.mktemp("gear") / "my_pair.toml"
+    path.write_text(text.replace('name = "jamali_2015_a"', 'name = "my_pair"'))
+    return path
+
+
+@pytest.fixture(scope="module")
+def line_mesh(gear_file: Path) -> Path:
+    plain = uniform_mesh(HelicalGearFile.from_toml(gear_file).helical_pair())
+    phase = np.arange(8) / 8.0
+    wave = 1e-6 * (1.0 + np.sin(2.0 * np.pi * phase))
+    shape = (1, 8, plain.lines, 1)
+    mesh = replace(
+        plain,
+        name="breathing",
+        phase=phase,
+        density=np.full(shape, plain.density.max()),
+        offset=np.broadcast_to(wave[None, :, None, None], shape),
+        provenance={"density": "made up", "offset": "made up"},
+    )
+    return write_line_mesh(mesh, gear_file.with_name("my_mesh.nc"))
+
+
+@pytest.fixture(scope="module")
+def fmu(gear_file: Path, line_mesh: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_helical_pair(tmp_path_factory.mktemp("fmu"), gear_file, line_mesh)
+
+
+@pytest.fixture(scope="module")
+def folder(fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return Path(extract(str(fmu), str(tmp_path_factory.mktemp("extracted"))))
+
+
+def test_the_fmu_computes_with_its_own_pair_bit_for_bit(
+    folder: Path, host_of: Callable[[Path], Host], gear_file: Path, line_mesh: Path
+) -> None:
+    host = host_of(folder)
+    assert host.get("gear.name", "mesh.backlash") == [CUSTOM, 0.06e-3]
+    torques = 900.0, 900.0 * 34 / 33
+    assert host.start(pinion__torque=torques[0], wheel__torque=torques[1]) == OK
+    assert host.step(H, 5) == OK
+    assert host.messages("logStatusWarning") == ""
+    carried = definition_with(gear_file, line_mesh)
+    parameters = {
+        v.name: v.decoded(v.start) for v in carried.variables if v.causality == "parameter"
+    }
+    pair = carried.start_model(parameters, [*torques, 333.15])
+    for _ in range(5):
+        pair.step(H, *torques, 333.15)
+    assert host.outputs() == pair.outputs.tolist()
+    # not the numbers of the shipped pair, nor those without the mesh
+    gear = HelicalGearFile.from_toml(gear_file)
+    plain = definition_with(gear_file).start_model(parameters, [*torques, 333.15])
+    assert isinstance(plain, HelicalPairModel)
+    assert plain.parameters.gear.support.first.K_xx == pytest.approx(900e6)
+    assert plain.parameters.pair == gear.helical_pair()
+    assert plain.outputs[6] != pair.outputs[6]
+
+
+def test_the_shipped_pairs_are_still_inside(folder: Path, host_of: Callable[[Path], Host]) -> None:
+    host = host_of(folder)
+    assert host.start(gear__name=1, mesh__backlash=100e-6, oil__temperature=333.15) == OK
+    assert host.step(H) == OK
+    assert host.outputs() == HELICAL_PAIR.direct(1)
+
+
+def test_an_fmu_without_a_gear_file_refuses_custom(
+    extracted: Callable[..., Path], host_of: Callable[[Path], Host]
+) -> None:
+    host = host_of(extracted(HELICAL_PAIR))
+    assert host.start(gear__name=CUSTOM) == FATAL
+    assert "carries no gear file" in host.messages("logStatusFatal")
+    assert "gearlube build-fmu --gear" in host.messages("logStatusFatal")
+
+
+def test_the_fmu_is_sound_and_carries_the_files_to_the_byte(
+    fmu: Path, gear_file: Path, line_mesh: Path, folder: Path
+) -> None:
+    assert problems(fmu) == []
+    with zipfile.ZipFile(fmu) as archive:
+        assert archive.read(f"resources/{GEAR_FILE}") == gear_file.read_bytes()
+        assert archive.read(f"resources/{LINE_MESH_FILE}") == line_mesh.read_bytes()
+    text = (folder / "modelDescription.xml").read_text()
+    assert "gear file my_pair (33/34 teeth), line mesh breathing" in text
+    assert [name for name in DEFINITION.references if f'name="{name}"' not in text] == []
+
+
+def test_the_guid_follows_the_content_of_the_files(gear_file: Path, line_mesh: Path) -> None:
+    definitions = (
+        DEFINITION, definition_with(gear_file), definition_with(gear_file, line_mesh),
+    )  # fmt: skip
+    assert len({identity.guid_of(d) for d in definitions}) == 3
+    copy = gear_file.with_name("copy.toml")
+    copy.write_bytes(gear_file.read_bytes())
+    assert identity.guid_of(definition_with(copy)) == identity.guid_of(definitions[1])
+
+
+def test_wrong_files_are_named(gear_file: Path, line_mesh: Path, tmp_path: Path) -> None:
+    bad = tmp_path / "bad.toml"
+    bad.write_text("name = 3")
+    for path, message in (
+        (tmp_path / "absent.toml", "No gear file can be read at"),
+        (bad, r"bad\.toml: The gear file has"),
+        (line_mesh, "not a readable TOML file"),
+    ):
+        with pytest.raises(ParameterError, match=message):
+            definition_with(path)
+    with pytest.raises(ParameterError, match="--line-mesh must come with the --gear file"):
+        definition_with(None, line_mesh)
+    with pytest.raises(TableError, match=r"bad\.toml"):
+        definition_with(gear_file, bad)
+    with pytest.raises(TableError, match="No line mesh can be read"):
+        definition_with(gear_file, tmp_path / "absent.nc")
+    other = write_line_mesh(helical().mesh, tmp_path / "he.nc")
+    with pytest.raises(TableError, match=r"he\.nc: mesh must belong to the pair of 33 and 34"):
+        definition_with(gear_file, other)
+
+
+def test_the_commands_build_what_is_asked_for(
+    gear_file: Path, line_mesh: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    files_given = ["--gear", str(gear_file), "--line-mesh", str(line_mesh)]
+    run = CliRunner().invoke
+    assert run(cli.app, ["build-fmu", *files_given, "--out", str(tmp_path / "a")]).exit_code == 0
+    assert [path.name for path in (tmp_path / "a").iterdir()] == ["HelicalPair.fmu"]
+    with caplog.at_level(logging.INFO):
+        assert build_fmu.main([*files_given, "--out", str(tmp_path / "b")]) == 0
+    built = [(tmp_path / name / "HelicalPair.fmu").read_bytes() for name in "ab"]
+    assert built[0] == built[1]
+    one = ["build-fmu", "--model", "hypoid-axle", "--out", str(tmp_path / "c")]
+    assert run(cli.app, one).exit_code == 0
+    assert [path.name for path in (tmp_path / "c").iterdir()] == ["HypoidAxle.fmu"]
+    names = sorted(path.name for path in build_models(tmp_path / "d"))
+    assert names == ["HelicalPair.fmu", "HypoidAxle.fmu"]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--model", "spur"], "--model must be one of hypoid-axle, helical-pair"),
+        (["--model", "hypoid-axle", "--gear", "GEAR"], "--gear must come with --model helical"),
+        (["--line-mesh", "MESH"], "--line-mesh must come with the --gear file"),
+        (["--gear", "MESH"], "not a readable TOML file"),
+    ],
+)
+def test_options_that_do_not_fit_are_refused_before_anything_is_written(
+    options: list[str],
+    message: str,
+    gear_file: Path,
+    line_mesh: Path,
+    tmp_path: Path,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    places = {"GEAR": str(gear_file), "MESH": str(line_mesh)}
+    arguments = [places.get(option, option) for option in options]
+    result = CliRunner().invoke(cli.app, ["build-fmu", *arguments, "--out", str(tmp_path)])
+    assert result.exit_code == cli.BAD_ARGUMENT
+    assert message in caplog.text
+    assert list(tmp_path.iterdir()) == []
