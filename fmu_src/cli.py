@@ -16,6 +16,7 @@ from fmu_src.arguments import speeds_from
 from fmu_src.build_command import build_fmu
 from fmu_src.contact_command import ContactCommand, contact
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from fmu_src.helical_command import HelicalCommand, helical
 from fmu_src.resonance_command import resonance
 from fmu_src.spread_values import SpreadingCommand
 from gearlube_core import __version__
@@ -32,7 +33,7 @@ _DEFAULT_PRELOADS = (2500.0, 6000.0)
 
 app = typer.Typer(
     name="gearlube",
-    help="Lubricated hypoid axles: tooth contact, FMU, speed sweeps and their report.",
+    help="Lubricated gears: tooth contact, vibration, FMUs, speed sweeps and their report.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_show_locals=False,
@@ -171,6 +172,7 @@ def sweep(
 app.command("build-fmu")(build_fmu)
 app.command("contact", cls=ContactCommand)(contact)
 app.command("resonance")(resonance)
+app.command("helical", cls=HelicalCommand)(helical)
 
 
 def main() -> None:

@@ -1,0 +1,171 @@
+"""Branches of motions with backlash and tooth separation over speed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from drivetrain.helical.labels import Variables
+from drivetrain.helical.stability import LIGHT_DAMPING
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.periodic_response import periodic_response
+from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
+from gearlube_core.periodic import follow
+
+DIVISIONS = 2  # parts of a line that can lift off by themselves
+RANGE = (0.3, 1.3)  # mesh frequency over that of the mesh's own mode
+_ROW = {
+    "speed": ("rad/s", "pinion speed"),
+    "relative_frequency": ("1", "mesh frequency over that of the mesh's own mode"),
+    "peak_to_peak": ("m", "dynamic transmission error, peak to peak"),
+    "separation_share": ("1", "share of the time without any contact"),
+    "lift_off_share": ("1", "share of the time in which part of the lines is off"),
+    "stable": ("1", "1 stable, 0 unstable, NaN no row"),
+}
+
+
+def separation_dataset(
+    parameters: HelicalPairParameters,
+    speeds: int,
+    observe: Callable[[float], None] = lambda share: None,
+) -> xr.Dataset:
+    """Return branches of periodic motions with one-sided contact, and linear ones beside them.
+
+    Parameters
+    ----------
+    parameters : HelicalPairParameters
+        With constant friction; their contact is replaced by flanks that separate.
+    speeds : int
+        Rows asked for; a branch adds its own between them.
+    observe : callable
+        Told the share that is done [-].
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions `damping` (the pair's ratio, and `LIGHT_DAMPING` where that is lower), `row`
+        along the branch, padded with NaN, `linear_speed`, `special`.
+    """
+    ratios = [parameters.mesh_damping_ratio]
+    if ratios[0] > LIGHT_DAMPING:
+        ratios.append(LIGHT_DAMPING)
+    found: list[dict[str, Any]] = []
+    for ratio in ratios:
+
+        def tell(share: float) -> None:
+            observe((len(found) + share) / len(ratios))
+
+        damped = replace(parameters, mesh_damping_ratio=ratio, support_damping_ratio=ratio)
+        found.append(_branch(damped, speeds, tell))
+    length = max(one["speed"].size for one in found)
+    specials = max(len(one["special"]) for one in found)
+    variables: Variables = {
+        name: (
+            ("damping", "row"),
+            np.stack([_padded(one[name], length) for one in found]),
+            {"units": unit, "long_name": words},
+        )
+        for name, (unit, words) in _ROW.items()
+    }
+    variables["linear_peak_to_peak"] = (
+        ("damping", "linear_speed"),
+        np.stack([one["linear"] for one in found]),
+        {"units": "m", "long_name": "transmission error with springs that also pull"},
+    )
+    for name, at, unit, words in (
+        ("special_speed", 1, "rad/s", "speed of a fold or bifurcation"),
+        ("special_peak_to_peak", 2, "m", "transmission error there, peak to peak"),
+    ):
+        values = [_padded(np.array([s[at] for s in one["special"]]), specials) for one in found]
+        variables[name] = (
+            ("damping", "special"),
+            np.stack(values),
+            {"units": unit, "long_name": words},
+        )
+    kinds = [[s[0] for s in one["special"]] for one in found]
+    variables["special_kind"] = (
+        ("damping", "special"),
+        np.array([row + [""] * (specials - len(row)) for row in kinds], dtype="U24").reshape(
+            len(found), specials
+        ),
+        {"units": "", "long_name": "what it is"},
+    )
+    dataset = xr.Dataset(
+        variables,
+        coords={
+            "damping": (
+                "damping",
+                np.array(ratios),
+                {"units": "1", "long_name": "damping ratio of mesh and supports"},
+            ),
+            "linear_speed": (
+                "linear_speed",
+                found[0]["linear_speed"],
+                {"units": "rad/s", "long_name": "pinion speed"},
+            ),
+        },
+    )
+    problem = found[0]["problem"]
+    dataset.attrs |= {
+        "mu": parameters.mu,
+        "line_divisions": DIVISIONS,
+        "endings": ", ".join(one["ending"] for one in found),
+        "natural_frequency": problem.natural_frequency,
+        "natural_frequency_units": "Hz",
+        "natural_speed": problem.natural_speed,
+        "natural_speed_units": "rad/s",
+        "backlash": parameters.pair.backlash,
+        "backlash_units": "m",
+    }
+    return dataset
+
+
+def _branch(
+    linear: HelicalPairParameters, speeds: int, tell: Callable[[float], None]
+) -> dict[str, Any]:
+    problem = SeparationProblem(replace(linear, contact="one_sided", line_divisions=DIVISIONS))
+    low, high = (share * problem.natural_speed for share in RANGE)
+    asked = np.linspace(low, high, speeds)
+    branch = follow(
+        problem.over_speed(),
+        problem.initial_guess(),
+        low,
+        limits=(low, high),
+        at=asked,
+        progress=lambda _, speed: tell((speed - low) / (high - low)),
+    )
+    if branch.ending == "interrupted":
+        raise KeyboardInterrupt
+    orbits = [
+        problem.orbit(z, float(speed))
+        for z, speed in zip(branch.unknowns, branch.parameter, strict=True)
+    ]
+    free = [periodic_response(linear, float(speed), throw=False) for speed in asked]
+    return {
+        "problem": problem,
+        "ending": branch.ending,
+        "speed": branch.parameter,
+        "relative_frequency": branch.parameter / problem.natural_speed,
+        "peak_to_peak": np.array([orbit.peak_to_peak for orbit in orbits]),
+        "separation_share": np.array([orbit.separation_share for orbit in orbits]),
+        "lift_off_share": np.array([orbit.lift_off_share for orbit in orbits]),
+        "stable": branch.stable.astype(float),
+        "linear_speed": asked,
+        "linear": np.array([np.ptp(response.signal("delta_z")) for response in free]),
+        "special": [
+            (
+                point.kind,
+                point.parameter,
+                problem.orbit(point.unknowns, point.parameter).peak_to_peak,
+            )
+            for point in branch.special
+        ],
+    }
+
+
+def _padded(values: np.ndarray, length: int) -> np.ndarray:
+    return np.pad(values.astype(float), (0, length - values.size), constant_values=np.nan)

@@ -1,0 +1,97 @@
+"""A study of a helical pair with messages, a progress bar and files."""
+
+from __future__ import annotations
+
+import logging
+import os
+import time
+from pathlib import Path
+
+import xarray as xr
+from rich.console import Console
+from rich.table import Table
+
+from drivetrain.helical.settings import HelicalSettings
+from drivetrain.helical.study import HelicalStudy, Stage, study_helical_pair
+from drivetrain.helical.summary import Row, summary_csv, summary_rows
+from drivetrain.helical_figures.catalogue import save_helical_figures
+from fmu_src.progress_bar import progress_bar
+from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
+
+logger = logging.getLogger("gearlube")
+_PARTS = 1000  # of the progress bar
+
+
+def console_helical(
+    console: Console,
+    *,
+    settings: HelicalSettings,
+    out: Path,
+    jobs: int | None,
+    command_line: str,
+) -> bool:
+    """Run a study, write datasets, summary and figures to `out`; return False if it was stopped."""
+    began = time.monotonic()
+    out.mkdir(parents=True, exist_ok=True)
+    with progress_bar(console) as bar:
+        task = bar.add_task("helical pair", total=_PARTS)
+
+        def observe(stage: Stage) -> None:
+            bar.update(task, completed=int(0.95 * _PARTS * stage.done), description=stage.name)
+
+        study = study_helical_pair(
+            settings, observe, store=out / "parts", jobs=jobs, command_line=command_line
+        )
+        bar.update(task, description="files and figures")
+        for name, dataset in study.datasets.items():
+            _write(dataset, out / f"{name}.nc")
+        if study.mesh is not None:
+            write_line_mesh(study.mesh, out / "line_mesh.nc")
+        rows = summary_rows(study)
+        _replace_text(out / "summary.csv", summary_csv(rows))
+        save_helical_figures(study.datasets, out / "figures")
+        bar.update(task, completed=_PARTS, description="done")
+    console.print(_table(study, rows))
+    for sentence in _doubts(study):
+        logger.warning("%s", sentence)
+    logger.info("Studied in %.1f s.", time.monotonic() - began)
+    logger.info("Results: %s, %s", out / "summary.csv", out / "figures")
+    return not study.interrupted
+
+
+def _write(dataset: xr.Dataset, path: Path) -> None:
+    partial = path.with_suffix(".part")
+    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
+    os.replace(partial, path)
+
+
+def _replace_text(path: Path, text: str) -> None:
+    partial = path.with_suffix(".part")
+    partial.write_text(text, encoding="utf-8")
+    os.replace(partial, path)
+
+
+def _table(study: HelicalStudy, rows: list[Row]) -> Table:
+    table = Table(title=f"{study.settings.file.name}: helical pair")
+    for heading in ("", "quantity", "value", "unit"):
+        table.add_column(heading, justify="right" if heading == "value" else "left")
+    topic = ""
+    for row in rows:
+        table.add_row(
+            "" if row.topic == topic else row.topic, row.quantity, f"{row.value:.4g}", row.unit
+        )
+        topic = row.topic
+    return table
+
+
+def _doubts(study: HelicalStudy) -> list[str]:
+    """Return what to be careful with, a sentence each."""
+    found, sentences = study.datasets, []
+    if study.settings.file.completed:
+        fields = ", ".join(study.settings.file.completed)
+        sentences.append(f"Not in the pair's source, completed: {fields}.")
+    if "contact" in found and found["contact"].attrs["iso_outside"] != "none":
+        sentences.append(f"ISO 6336-1 does not hold here: {found['contact'].attrs['iso_outside']}.")
+    if "sweep" in found and bool((found["sweep"]["stability_margin"] <= 0.0).any()):
+        sentences.append("Unstable within the speed sweep: rows without values in sweep.nc.")
+    return sentences
