@@ -14,7 +14,8 @@ from gearlube_core.dynamics.helical_pair.flank_views import (
     touches,
 )
 from gearlube_core.dynamics.helical_pair.line_sums import GAUSS, pair_slot
-from gearlube_core.dynamics.helical_pair.march_constants import MarchConstants
+from gearlube_core.dynamics.helical_pair.march_constants import FlankConstants, MarchConstants
+from gearlube_core.dynamics.helical_pair.march_mesh import LEAST_OFFSET, STATIONS_AT
 from gearlube_core.dynamics.helical_pair.state import (
     FLANK_POINTS,
     MU,
@@ -35,29 +36,32 @@ def point_load(
     at_line: float,
     phase: float,
     line: int,
-    density: NDArray[float64],
-    offset: NDArray[float64],
-    station: NDArray[float64],
-    lines: int,
+    data: NDArray[float64],
+    p: FlankConstants,
 ) -> float:
     """Return w [N/m] at a fraction of a line where the compression is `g` [m]."""
-    n_s = station.size
-    n_phase = density.size // (lines * n_s)
+    n_s = int(p.stations)
+    n_phase = int(p.phases)
+    lines = int(p.lines)
+    at_density = STATIONS_AT + n_s
+    to_offset = n_phase * lines * n_s
     at_phase = (phase - math.floor(phase)) * n_phase
     row = min(int(at_phase), n_phase - 1)
     part = at_phase - row
-    here = (row * lines + line) * n_s
+    here = at_density + (row * lines + line) * n_s
     after = here + lines * n_s
     if row == n_phase - 1:
-        after = (line + 1) * n_s if line + 1 < lines else here
+        after = at_density + (line + 1) * n_s if line + 1 < lines else here
     c = 0
-    while c < n_s - 2 and at_line > station[c + 1]:
+    while c < n_s - 2 and at_line > data[STATIONS_AT + c + 1]:
         c += 1
-    t = (at_line - station[c]) / (station[c + 1] - station[c])
-    k_here = density[here + c] + t * (density[here + c + 1] - density[here + c])
-    k_after = density[after + c] + t * (density[after + c + 1] - density[after + c])
-    e_here = offset[here + c] + t * (offset[here + c + 1] - offset[here + c])
-    e_after = offset[after + c] + t * (offset[after + c + 1] - offset[after + c])
+    t = (at_line - data[STATIONS_AT + c]) / (data[STATIONS_AT + c + 1] - data[STATIONS_AT + c])
+    k_here = data[here + c] + t * (data[here + c + 1] - data[here + c])
+    k_after = data[after + c] + t * (data[after + c + 1] - data[after + c])
+    here += to_offset
+    after += to_offset
+    e_here = data[here + c] + t * (data[here + c + 1] - data[here + c])
+    e_after = data[after + c] + t * (data[after + c + 1] - data[after + c])
     k = k_here + part * (k_after - k_here)
     e = e_here + part * (e_after - e_here)
     return max(k * (g - e), 0.0)
@@ -69,9 +73,7 @@ def line_point(
     line: int,
     place: int,
     pinion_speed: float,
-    density: NDArray[float64],
-    offset: NDArray[float64],
-    station: NDArray[float64],
+    data: NDArray[float64],
     lubricant: LubricantState,
     p: MarchConstants,
 ) -> tuple[float, float, float, LineState]:
@@ -81,7 +83,6 @@ def line_point(
     is that of line the point stands for, zero where there is none.
     """
     plane = p.motion.flanks.plane
-    lines = int(p.motion.flanks.lines)
     X = plane.A + (view.phase - math.floor(view.phase) + line) * plane.pitch
     segment = clip_line(X, plane)
     crossing = pitch_crossing(X, segment, plane)
@@ -95,7 +96,7 @@ def line_point(
         return 0.0, 0.0, 0.0, LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     g = view.a + view.tilt * (z * plane.cos_b + x * plane.sin_b)
     at_line = (z - segment.z_low) / (segment.z_high - segment.z_low)
-    load = point_load(g, at_line, view.phase, line, density, offset, station, lines)
+    load = point_load(g, at_line, view.phase, line, data, p.motion.flanks)
     motion = line_kinematics(x, pinion_speed, plane)
     state = line_friction(
         load,
@@ -114,9 +115,7 @@ def refresh_flank(
     view: FlankView,
     at: int,
     s: NDArray[float64],
-    density: NDArray[float64],
-    offset: NDArray[float64],
-    station: NDArray[float64],
+    data: NDArray[float64],
     lubricant: LubricantState,
     p: MarchConstants,
 ) -> None:
@@ -125,19 +124,21 @@ def refresh_flank(
     for line in range(lines):
         slot = at + POINTS_PER_LINE * pair_slot(view.phase, line, lines)
         for place in range(POINTS_PER_LINE):
-            s[slot + place] = line_point(
-                view, line, place, abs(s[W_P]), density, offset, station, lubricant, p
-            )[3].friction_coefficient
+            s[slot + place] = line_point(view, line, place, abs(s[W_P]), data, lubricant, p)[
+                3
+            ].friction_coefficient
 
 
 @kernel
-def refresh_mark(drive: FlankView, coast: FlankView, offset_low: float, p: MarchConstants) -> float:
+def refresh_mark(
+    drive: FlankView, coast: FlankView, least_offset: float, p: MarchConstants
+) -> float:
     """Return a number that changes when friction is due: with the phase and with the contact."""
     count = math.floor(drive.phase * p.refreshes)
     mark = 4.0 * count
-    if touches(drive, offset_low, p.motion.flanks):
+    if touches(drive, least_offset, p.motion.flanks):
         mark += 1.0
-    if touches(coast, offset_low, p.motion.flanks):
+    if touches(coast, least_offset, p.motion.flanks):
         mark += 2.0
     return mark
 
@@ -145,22 +146,20 @@ def refresh_mark(drive: FlankView, coast: FlankView, offset_low: float, p: March
 @kernel
 def refresh_friction(
     s: NDArray[float64],
-    density: NDArray[float64],
-    offset: NDArray[float64],
-    station: NDArray[float64],
-    offset_low: float,
+    data: NDArray[float64],
     lubricant: LubricantState,
     p: MarchConstants,
 ) -> None:
     """Compute the friction coefficients in the state anew if they are due."""
     flanks = p.motion.flanks
+    least_offset = data[LEAST_OFFSET]
     drive = drive_view(s, flanks)
     coast = coast_view(s, flanks)
-    mark = refresh_mark(drive, coast, offset_low, p)
+    mark = refresh_mark(drive, coast, least_offset, p)
     if mark == s[REFRESHED]:
         return
     s[REFRESHED] = mark
-    if touches(drive, offset_low, p.motion.flanks):
-        refresh_flank(drive, MU, s, density, offset, station, lubricant, p)
-    if touches(coast, offset_low, p.motion.flanks):
-        refresh_flank(coast, MU + FLANK_POINTS, s, density, offset, station, lubricant, p)
+    if touches(drive, least_offset, p.motion.flanks):
+        refresh_flank(drive, MU, s, data, lubricant, p)
+    if touches(coast, least_offset, p.motion.flanks):
+        refresh_flank(coast, MU + FLANK_POINTS, s, data, lubricant, p)

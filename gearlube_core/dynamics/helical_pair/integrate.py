@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.dynamics.helical_pair.film_refresh import refresh_friction
 from gearlube_core.dynamics.helical_pair.march_constants import MarchConstants
-from gearlube_core.dynamics.helical_pair.march_mesh import LOAD_FILTER_TIME, mesh_at_torque
+from gearlube_core.dynamics.helical_pair.march_mesh import mesh_at_torque
 from gearlube_core.dynamics.helical_pair.march_rates import march_rates
 from gearlube_core.dynamics.helical_pair.state import (
     LOAD_TORQUE,
@@ -32,6 +32,7 @@ NOT_FINITE = 1
 TOO_MANY_STEPS = 2
 
 MAX_STEPS = 1_000_000  # in one communication interval
+LOAD_FILTER_TIME = 0.02  # s, the load level follows the torque below the shafts' own motions
 DIVERGED = 0.1  # m along the line of action: teeth long broken
 
 
@@ -43,9 +44,7 @@ class StepControl(NamedTuple):
     highest_frequency: float  # Hz
 
 
-def work_size(phases_lines_stations: int) -> int:
-    """Return the length of the work array of `advance` and `write_outputs`."""
-    return N_STATE + 2 * N_ODE + 2 * phases_lines_stations
+WORK_SIZE = N_STATE + 2 * N_ODE  # work array of `advance` and `write_outputs`
 
 
 @kernel
@@ -64,11 +63,7 @@ def rk4_step(
     h: float,
     pinion_torque: float,
     wheel_torque: float,
-    density: NDArray[float64],
-    offset: NDArray[float64],
-    station: NDArray[float64],
-    offset_low: float,
-    constants: NDArray[float64],
+    data: NDArray[float64],
     stages: NDArray[float64],
 ) -> None:
     """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
@@ -79,27 +74,19 @@ def rk4_step(
     trial = stages[0:N_STATE]
     slope = stages[N_STATE : N_STATE + N_ODE]
     total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
-    march_rates(
-        s, pinion_torque, wheel_torque, density, offset, station, offset_low, constants, slope
-    )
+    march_rates(s, pinion_torque, wheel_torque, data, slope)
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    march_rates(
-        trial, pinion_torque, wheel_torque, density, offset, station, offset_low, constants, slope
-    )
+    march_rates(trial, pinion_torque, wheel_torque, data, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    march_rates(
-        trial, pinion_torque, wheel_torque, density, offset, station, offset_low, constants, slope
-    )
+    march_rates(trial, pinion_torque, wheel_torque, data, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    march_rates(
-        trial, pinion_torque, wheel_torque, density, offset, station, offset_low, constants, slope
-    )
+    march_rates(trial, pinion_torque, wheel_torque, data, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
 
@@ -114,8 +101,7 @@ def advance(
     levels: NDArray[float64],
     densities: NDArray[float64],
     offsets: NDArray[float64],
-    station: NDArray[float64],
-    constants: NDArray[float64],
+    data: NDArray[float64],
     control_values: NDArray[float64],
     work: NDArray[float64],
 ) -> int:
@@ -131,11 +117,13 @@ def advance(
         [N.m]
     oil_temperature : float
         [K]
-    levels, densities, offsets, station
-        Line mesh, see `march_mesh.MarchMesh`.
-    constants, control_values : ndarray
-        Flattened MarchConstants and StepControl.
-    work : ndarray of shape (work_size,)
+    levels, densities, offsets
+        Line mesh at all levels, see `march_mesh.MarchMesh`.
+    data : ndarray
+        Pair data; the mesh in it is brought to the present level.
+    control_values : ndarray
+        Flattened StepControl.
+    work : ndarray of shape (WORK_SIZE,)
 
     Returns
     -------
@@ -148,14 +136,10 @@ def advance(
     pinion torque with LOAD_FILTER_TIME. A change of level changes the springs' energy by what
     `energy.stored` shows.
     """
-    p: MarchConstants = tuple_from_array(constants, MarchConstants)
+    p: MarchConstants = tuple_from_array(data, MarchConstants)
     control: StepControl = tuple_from_array(control_values, StepControl)
-    size = densities.shape[1]
-    at_mesh = N_STATE + 2 * N_ODE
-    stages = work[0:at_mesh]
-    density = work[at_mesh : at_mesh + size]
-    offset = work[at_mesh + size : at_mesh + 2 * size]
-    offset_low = mesh_at_torque(s[LOAD_TORQUE], levels, densities, offsets, density, offset)
+    stages = work
+    mesh_at_torque(s[LOAD_TORQUE], levels, densities, offsets, data)
     oil = lubricant_state(p.oil, oil_temperature)
     wanted = duration * step_rate(p, control, s[W_P])
     if not wanted < MAX_STEPS:
@@ -169,21 +153,10 @@ def advance(
         stages[i] = s[i]
     for _ in range(steps):
         if p.friction_form > 0.0:
-            refresh_friction(s, density, offset, station, offset_low, oil, p)
+            refresh_friction(s, data, oil, p)
             for i in range(N_ODE, N_STATE):
                 stages[i] = s[i]
-        rk4_step(
-            s,
-            h,
-            pinion_torque,
-            wheel_torque,
-            density,
-            offset,
-            station,
-            offset_low,
-            constants,
-            stages,
-        )
+        rk4_step(s, h, pinion_torque, wheel_torque, data, stages)
     s[LOAD_TORQUE] += -math.expm1(-duration / LOAD_FILTER_TIME) * (
         abs(pinion_torque) - s[LOAD_TORQUE]
     )

@@ -27,9 +27,7 @@ def write_lines(
     mu_at: int,
     s: NDArray[float64],
     oil_temperature: float,
-    density: NDArray[float64],
-    offset: NDArray[float64],
-    station: NDArray[float64],
+    data: NDArray[float64],
     lubricant: LubricantState,
     p: MarchConstants,
     out: NDArray[float64],
@@ -53,7 +51,7 @@ def write_lines(
         thin = math.inf
         for place in range(POINTS_PER_LINE):
             load, length, sliding, state = line_point(
-                view, line, place, abs(s[W_P]), density, offset, station, lubricant, p
+                view, line, place, abs(s[W_P]), data, lubricant, p
             )
             length_sum += length
             if load > 0.0 and length > 0.0:

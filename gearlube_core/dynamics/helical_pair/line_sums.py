@@ -8,8 +8,10 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.dynamics.helical_pair.march_constants import FlankConstants
+from gearlube_core.dynamics.helical_pair.march_constants import MotionConstants
+from gearlube_core.dynamics.helical_pair.march_mesh import STATIONS_AT
 from gearlube_core.dynamics.helical_pair.state import POINTS_PER_LINE
+from gearlube_core.flat_tuples import tuple_from_array
 from gearlube_core.jit import kernel
 
 GAUSS = 0.21132486540518713  # (1 - 1/sqrt(3))/2: first of two points between 0 and 1
@@ -44,12 +46,9 @@ def line_sums(
     a: float,
     tilt: float,
     phase: float,
-    density: NDArray[float64],
-    offset: NDArray[float64],
-    station: NDArray[float64],
+    data: NDArray[float64],
     mu: NDArray[float64],
     mu_at: int,
-    p: FlankConstants,
 ) -> LineSums:
     """Return the sums over all lines of a flank.
 
@@ -63,15 +62,11 @@ def line_sums(
         th_yp - th_yg [rad].
     phase
         Mesh phase [mesh periods].
-    density, offset : ndarray of shape (phases * lines * stations,)
-        k [N/m2] and e [m], linear between phases and stations.
-    station : ndarray of shape (stations,)
-        From 0 to 1.
+    data : ndarray
+        Pair data, see `march_mesh`; density and offset are linear between phases and stations.
     mu : ndarray
         From `mu_at` on the coefficients of friction of every tooth pair at the Gauss points before
         and after the pitch line; linear between.
-    p
-        Constants of the flanks.
 
     Returns
     -------
@@ -84,18 +79,21 @@ def line_sums(
     balance: a spring that enters or leaves loaded takes or gives work, which the pinion feels as
     a torque -r_bp moving. It is about 1e-4 of the mesh torque and missing in He et al. 2007.
     """
+    motion: MotionConstants = tuple_from_array(data, MotionConstants)
+    p = motion.flanks
     plane = p.plane
     half = 0.5 * plane.W
     tan_b = p.tan_b
     inverse = p.inverse_tan_b
     lines = int(p.lines)
-    n_s = station.size
-    n_phase = density.size // (lines * n_s)
+    n_s = int(p.stations)
+    n_phase = int(p.phases)
+    at_density = STATIONS_AT + n_s
+    to_offset = n_phase * lines * n_s
     fraction = phase - math.floor(phase)
     row = min(int(fraction * n_phase), n_phase - 1)
     part = fraction * n_phase - row
-    per_X = n_phase / plane.pitch
-    per_cos = 1.0 / plane.cos_b
+    per_cos = p.per_cos_b
     slope = tilt * per_cos
     slot = pair_slot(phase, 0, lines)
     N = Nx = Nz = F = Fx = Fz = energy = moving = stiffness = 0.0
@@ -124,26 +122,26 @@ def line_sums(
         if span <= 0.0:
             continue
         base = a + tilt * plane.sin_b * (X - half * tan_b)
-        here = (row * lines + i) * n_s
+        here = at_density + (row * lines + i) * n_s
         after = here + lines * n_s
         if row == n_phase - 1:  # the line is the next older one when the phase starts anew
-            after = (i + 1) * n_s if i + 1 < lines else here
+            after = at_density + (i + 1) * n_s if i + 1 < lines else here
         N_line = Nz_line = F_line = Fz_line = energy_line = 0.0
         for c in range(n_s - 1):
-            t_a = station[c]
-            t_size = station[c + 1] - t_a
+            t_a = data[STATIONS_AT + c]
+            t_size = data[STATIONS_AT + c + 1] - t_a
             z_a = z_low + t_a * span
             width = t_size * span
-            k_a = density[here + c]
-            k_b = density[here + c + 1]
-            e_a = offset[here + c]
-            e_b = offset[here + c + 1]
+            k_a = data[here + c]
+            k_b = data[here + c + 1]
+            e_a = data[here + to_offset + c]
+            e_b = data[here + to_offset + c + 1]
             dk_a = dk_b = de_a = de_b = 0.0
             if n_phase > 1:
-                dk_a = density[after + c] - k_a
-                dk_b = density[after + c + 1] - k_b
-                de_a = offset[after + c] - e_a
-                de_b = offset[after + c + 1] - e_b
+                dk_a = data[after + c] - k_a
+                dk_b = data[after + c + 1] - k_b
+                de_a = data[after + to_offset + c] - e_a
+                de_b = data[after + to_offset + c + 1] - e_b
                 k_a += part * dk_a
                 k_b += part * dk_b
                 e_a += part * de_a
@@ -183,6 +181,7 @@ def line_sums(
                 stiffness += weight * (k_1 + k_2)
                 energy_line += load_1 * g_1 + load_2 * g_2
                 if n_phase > 1:
+                    per_X = n_phase / plane.pitch
                     moving -= load_1 * (de_a + t_1 * (de_b - de_a)) * per_X
                     moving -= load_2 * (de_a + t_2 * (de_b - de_a)) * per_X
                     stiffening = (dk_a + t_1 * (dk_b - dk_a)) * g_1 * g_1

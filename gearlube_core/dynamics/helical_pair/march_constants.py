@@ -36,6 +36,7 @@ class FlankConstants(NamedTuple):
 
     plane: ContactPlane
     tan_b: float
+    per_cos_b: float  # 1/cos(b)
     inverse_tan_b: float  # 0 for spur gears
     damping: float  # 2 zeta sqrt(m_e) cos(b): over sqrt(stiffness normal to flanks) [sqrt(kg)]
     backlash: float  # normal [m]
@@ -44,6 +45,8 @@ class FlankConstants(NamedTuple):
     turn_sin: float
     line_work: float  # 1: lines that move under load exchange work with the pinion; 0: none
     lines: float  # contact lines in the line mesh
+    phases: float  # mesh phases in it
+    stations: float  # places along a line in it
 
 
 class MotionConstants(NamedTuple):

@@ -22,7 +22,6 @@ from gearlube_core.dynamics.helical_pair.state import (
     W_P,
 )
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.flat_tuples import flatten
 from gearlube_core.rheology.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
@@ -40,12 +39,14 @@ class MarchRates:
     ----------
     constants : MarchConstants
     mesh : MarchMesh
+    data : ndarray
+        Pair data; the mesh in it follows the state.
     """
 
-    def __init__(self, constants: MarchConstants, mesh: MarchMesh) -> None:
+    def __init__(self, constants: MarchConstants, mesh: MarchMesh, data: Array) -> None:
         self.constants = constants
         self.mesh = mesh
-        self._flat = flatten(constants)
+        self._data = data
         motion = constants.motion
         mobilities = [
             value
@@ -55,21 +56,11 @@ class MarchRates:
         self.free: NDArray[np.intp] = np.flatnonzero(np.array(mobilities) > 0.0)
         self.mobility: Array = np.array(mobilities)[self.free]
 
-    def at_load(self, torque: float) -> tuple[Array, Array, float]:
-        """Return density, offset and least offset at a filtered torque [N.m]."""
-        mesh = self.mesh
-        density, offset = np.zeros((2, mesh.density.shape[1]))
-        least = mesh_at_torque(torque, mesh.torque, mesh.density, mesh.offset, density, offset)
-        return density, offset, least
-
     def at(self, state: Array, pinion_torque: float, wheel_torque: float) -> Array:
         """Return d/dt of the integrated states, shape (N_ODE,), at a state of shape (N_STATE,)."""
         slope = np.zeros(N_ODE)
-        density, offset, least = self.at_load(state[LOAD_TORQUE])
-        march_rates(
-            state, pinion_torque, wheel_torque, density, offset, self.mesh.station, least,
-            self._flat, slope,
-        )  # fmt: skip
+        mesh_at_torque(state[LOAD_TORQUE], *self.mesh, self._data)
+        march_rates(state, pinion_torque, wheel_torque, self._data, slope)
         return slope
 
     def refresh(self, state: Array, oil_temperature: float) -> None:
@@ -77,8 +68,8 @@ class MarchRates:
         if self.constants.friction_form > 0.0:
             state[REFRESHED] = -1.0
             oil = lubricant_state(self.constants.oil, oil_temperature)
-            density, offset, least = self.at_load(state[LOAD_TORQUE])
-            refresh_friction(state, density, offset, self.mesh.station, least, oil, self.constants)
+            mesh_at_torque(state[LOAD_TORQUE], *self.mesh, self._data)
+            refresh_friction(state, self._data, oil, self.constants)
 
 
 def settle(

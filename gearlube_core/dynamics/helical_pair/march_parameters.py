@@ -14,6 +14,7 @@ from gearlube_core.dynamics.helical_pair.march_constants import (
     MotionConstants,
     SupportConstants,
 )
+from gearlube_core.dynamics.helical_pair.march_mesh import all_stations
 from gearlube_core.dynamics.helical_pair.output_names import LINES_MAX
 from gearlube_core.dynamics.helical_pair.shaft_support import ShaftSupport
 from gearlube_core.dynamics.helical_pair.supports import support_damping, support_stiffness
@@ -183,6 +184,7 @@ class HelicalMarchParameters:
         flanks = FlankConstants(
             plane=plane,
             tan_b=tan_b,
+            per_cos_b=1.0 / plane.cos_b,
             inverse_tan_b=1.0 / tan_b if tan_b > 0.0 else 0.0,
             damping=2.0 * self.mesh_damping_ratio * math.sqrt(self.effective_mass) * plane.cos_b,
             backlash=self.backlash,
@@ -191,6 +193,8 @@ class HelicalMarchParameters:
             turn_sin=2.0 * plane.x_g * height / square,
             line_work=1.0 if self.equations == "consistent" else 0.0,
             lines=float(self.mesh.lines),
+            phases=float(self.mesh.phase.size),
+            stations=float(all_stations(self.mesh).size),
         )
         return MarchConstants(
             motion=MotionConstants(

@@ -22,6 +22,7 @@ from gearlube_core.dynamics.helical_pair.flank_wrench import (
 )
 from gearlube_core.dynamics.helical_pair.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march_constants import MotionConstants, SupportConstants
+from gearlube_core.dynamics.helical_pair.march_mesh import LEAST_OFFSET
 from gearlube_core.dynamics.helical_pair.state import (
     BEARING_DAMPING,
     FLANK_POINTS,
@@ -78,11 +79,7 @@ def march_rates(
     s: NDArray[float64],
     pinion_torque: float,
     wheel_torque: float,
-    density: NDArray[float64],
-    offset: NDArray[float64],
-    station: NDArray[float64],
-    offset_low: float,
-    constants: NDArray[float64],
+    data: NDArray[float64],
     ds: NDArray[float64],
 ) -> None:
     """Write d/dt of the N_ODE integrated states into `ds`.
@@ -92,13 +89,8 @@ def march_rates(
     s : ndarray of shape (N_STATE,)
     pinion_torque, wheel_torque
         [N.m]
-    density, offset, station
-        Line mesh at the present load, see `line_sums`.
-    offset_low
-        Smallest offset [m].
-    constants : ndarray
-        Flattened MarchConstants; as an array, since a call with so many floats costs more than the
-        work in it.
+    data : ndarray
+        Pair data, see `march_mesh`.
     ds : ndarray of shape (N_ODE,)
 
     Notes
@@ -107,7 +99,7 @@ def march_rates(
     of the pinion; flanks press, never pull. Products of rotation and tilt (gyroscopic terms) are
     left out as in the paper. Mesh damping as in `rhs.mesh_damping`, for either flank by itself.
     """
-    motion: MotionConstants = tuple_from_array(constants, MotionConstants)
+    motion: MotionConstants = tuple_from_array(data, MotionConstants)
     p = motion.flanks
     plane = p.plane
     w_p = s[W_P]
@@ -117,18 +109,16 @@ def march_rates(
     F_x = F_y = F_z = M_px = M_py = M_pz = M_gx = M_gy = M_gz = 0.0
     heat = damping = moving = 0.0
     drive = drive_view(s, p)
-    if touches(drive, offset_low, p):
-        sums = line_sums(drive.a, drive.tilt, drive.phase, density, offset, station, s, MU, p)
+    if touches(drive, data[LEAST_OFFSET], p):
+        sums = line_sums(drive.a, drive.tilt, drive.phase, data, s, MU)
         F_x, F_y, F_z, M_px, M_py, M_pz, M_gx, M_gy, M_gz = flank_wrench(sums, direction, p)
         heat = friction_heat(sums, direction, s, p)
         viscous = p.damping * math.sqrt(sums.stiffness) * psi_rate
         damping = max(viscous, -plane.cos_b * sums.N)
         moving = p.line_work * sums.moving
-    if coast_near(s, offset_low, p):
+    if coast_near(s, data[LEAST_OFFSET], p):
         coast = coast_view(s, p)
-        sums = line_sums(
-            coast.a, coast.tilt, coast.phase, density, offset, station, s, MU + FLANK_POINTS, p
-        )
+        sums = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
         w = turned_wrench(flank_wrench(sums, -direction, p), p)
         F_x += w.F_x
         F_y += w.F_y

@@ -12,8 +12,8 @@ from gearlube_core.dynamics.helical_pair.integrate import (
     NOT_FINITE,
     OK,
     TOO_MANY_STEPS,
+    WORK_SIZE,
     StepControl,
-    work_size,
 )
 from gearlube_core.dynamics.helical_pair.march_constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march_equilibrium import (
@@ -21,7 +21,7 @@ from gearlube_core.dynamics.helical_pair.march_equilibrium import (
     natural_frequencies,
     settle,
 )
-from gearlube_core.dynamics.helical_pair.march_mesh import pack_march_mesh
+from gearlube_core.dynamics.helical_pair.march_mesh import pack_march_mesh, pair_data
 from gearlube_core.dynamics.helical_pair.march_parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.output_names import N_OUTPUTS
 from gearlube_core.dynamics.helical_pair.outputs import write_outputs
@@ -77,9 +77,9 @@ class HelicalPairModel:
         self.parameters = parameters
         self.constants: MarchConstants = parameters.constants()
         self.mesh = pack_march_mesh(parameters.mesh)
-        self._rates = MarchRates(self.constants, self.mesh)
+        self._data = pair_data(self.constants, parameters.mesh)
+        self._rates = MarchRates(self.constants, self.mesh, self._data)
         self._oil_range = parameters.oil.temperature_low, parameters.oil.temperature_high
-        self._flat_constants = flatten(self.constants)
         self._bearings = np.concatenate(
             [
                 bearing_shares(body, parameters.support_damping_ratio)
@@ -89,7 +89,7 @@ class HelicalPairModel:
         self._state = np.zeros(N_STATE)
         self._trial = np.zeros(N_STATE)
         self._outputs = np.zeros(N_OUTPUTS)
-        self._work = np.zeros(work_size(self.mesh.density.shape[1]))
+        self._work = np.zeros(WORK_SIZE)
         self._control_values = flatten(StepControl(0.0, 0.0, 1.0))
         self._inputs = np.zeros(_N_INPUTS)
         self.outputs: Array = self._outputs.view()
@@ -174,7 +174,7 @@ class HelicalPairModel:
             wheel_torque,
             oil_temperature,
             *self.mesh,
-            self._flat_constants,
+            self._data,
             self._bearings,
             self._control_values,
             self._work,
@@ -270,7 +270,7 @@ class HelicalPairModel:
             wheel_torque,
             oil_temperature,
             *self.mesh,
-            self._flat_constants,
+            self._data,
             self._bearings,
             self._work,
             self._outputs,

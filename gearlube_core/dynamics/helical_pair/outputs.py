@@ -34,7 +34,6 @@ from gearlube_core.dynamics.helical_pair.state import (
     N_ENERGIES,
     N_LATERAL,
     N_ODE,
-    N_STATE,
     PHI_G,
     PHI_P,
     PINION_WORK,
@@ -118,8 +117,7 @@ def write_outputs(
     levels: NDArray[float64],
     densities: NDArray[float64],
     offsets: NDArray[float64],
-    station: NDArray[float64],
-    constants: NDArray[float64],
+    data: NDArray[float64],
     bearings: NDArray[float64],
     work: NDArray[float64],
     out: NDArray[float64],
@@ -129,32 +127,16 @@ def write_outputs(
     `bearings` has shape (N_BEARINGS * BEARING_FIELDS,); other arguments as in
     `integrate.advance`.
     """
-    p: MarchConstants = tuple_from_array(constants, MarchConstants)
-    size = densities.shape[1]
-    at_mesh = N_STATE + 2 * N_ODE
+    p: MarchConstants = tuple_from_array(data, MarchConstants)
     rates = work[0:N_ODE]
-    density = work[at_mesh : at_mesh + size]
-    offset = work[at_mesh + size : at_mesh + 2 * size]
-    offset_low = mesh_at_torque(s[LOAD_TORQUE], levels, densities, offsets, density, offset)
-    march_rates(
-        s, pinion_torque, wheel_torque, density, offset, station, offset_low, constants, rates
-    )
+    mesh_at_torque(s[LOAD_TORQUE], levels, densities, offsets, data)
+    march_rates(s, pinion_torque, wheel_torque, data, rates)
     flanks = p.motion.flanks
     plane = flanks.plane
     drive = drive_view(s, flanks)
     coast = coast_view(s, flanks)
-    on_drive = line_sums(drive.a, drive.tilt, drive.phase, density, offset, station, s, MU, flanks)
-    on_coast = line_sums(
-        coast.a,
-        coast.tilt,
-        coast.phase,
-        density,
-        offset,
-        station,
-        s,
-        MU + FLANK_POINTS,
-        flanks,
-    )
+    on_drive = line_sums(drive.a, drive.tilt, drive.phase, data, s, MU)
+    on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
     direction = friction_direction(s[W_P])
     force = flank_wrench(on_drive, direction, flanks)
     back = turned_wrench(flank_wrench(on_coast, -direction, flanks), flanks)
@@ -177,9 +159,7 @@ def write_outputs(
     oil = lubricant_state(p.oil, oil_temperature)
     view = drive if on_drive.N >= on_coast.N else coast
     mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
-    out[MESH_AT + 9] = write_lines(
-        view, mu_at, s, oil_temperature, density, offset, station, oil, p, out
-    )
+    out[MESH_AT + 9] = write_lines(view, mu_at, s, oil_temperature, data, oil, p, out)
     write_losses(s, rates, out)
     for i in range(N_LATERAL):
         out[DISPLACEMENTS_AT + i] = s[U_P + i]
