@@ -1,0 +1,170 @@
+"""One grid of a point contact: its gap, deflection, residual and linearised operator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
+from gearlube_core.ehl.lubricant import EhlLubricant, fill_properties
+from gearlube_core.ehl.point_stencil import (
+    NEIGHBOURS,
+    StencilParameters,
+    apply_derivatives,
+    reynolds_derivatives,
+    reynolds_residual,
+)
+from gearlube_core.ehl.problem import PointContactProblem
+from gearlube_core.ehl.scaling import PointScales
+from gearlube_core.ehl.settings import WEDGE_WEIGHTS
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+@dataclass(slots=True)
+class FilmState:
+    """Pressure and what follows from it on one grid, in units of `PointScales`."""
+
+    pressure: Array
+    approach: float  # h_0
+    film: Array
+    mass: Array  # rho h
+    density: Array
+    viscosity: Array
+    density_slope: Array
+    viscosity_slope: Array
+    mobility_x: Array
+    mobility_y: Array
+    residual: Array
+    load_error: float  # what the pressure lacks, relative to the load
+
+    @property
+    def free(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
+        """Return where the Reynolds equation holds: pressure, or a residual that calls for it."""
+        return (self.pressure > 0.0) | (self.residual > 0.0)
+
+
+@dataclass(slots=True)
+class Linearisation:
+    """Derivatives of the residual on one grid at a state."""
+
+    by_pressure: Array  # (7, ny, nx)
+    by_film: Array  # (7, ny, nx)
+    by_approach: Array  # (ny, nx)
+    free: np.ndarray[Any, np.dtype[np.bool_]]
+    result: Array = field(repr=False)
+
+
+class PointLevel:
+    """Grid of shape (ny, nx) with the discrete equations of a problem."""
+
+    def __init__(
+        self, problem: PointContactProblem, scales: PointScales, shape: tuple[int, int], wedge: str
+    ) -> None:
+        self.shape = ny, nx = shape
+        self.scales = scales
+        nodes = (ny, nx) if scales.swap else (nx, ny)
+        x = np.linspace(*problem.x_limits, nodes[0])
+        y = np.linspace(*problem.y_limits, nodes[1])
+        gap = np.broadcast_to(problem.gap(x[:, None], y[None, :]), nodes)
+        self.gap = scales.inward(np.asarray(gap, dtype=np.float64) / scales.film)
+        step_x, step_y = x[1] - x[0], y[1] - y[0]
+        if scales.swap:
+            step_x, step_y = step_y, step_x
+        self.dx, self.dy = step_x / scales.length, step_y / scales.length
+        u, v = (abs(component) / scales.speed for component in problem.entrainment)
+        if scales.swap:
+            u, v = v, u
+        self.oil: EhlLubricant = scales.oil(problem.lubricant)
+        self.modulus = problem.contact_modulus * scales.film / (scales.pressure * scales.length)
+        self.coefficients = love_coefficients(self.dy, self.dx, ny, nx, 1.0) * (
+            self.dx * self.dy / self.modulus
+        )
+        self.deflection = HalfSpaceConvolution(self.coefficients)
+        here, upstream, downstream = WEDGE_WEIGHTS[wedge]
+        self.stencil = StencilParameters(
+            poiseuille_x=scales.mobility / self.dx**2,
+            poiseuille_y=scales.mobility / self.dy**2,
+            wedge_x=u / self.dx,
+            wedge_y=v / self.dy,
+            here=here,
+            upstream=upstream,
+            downstream=downstream,
+            squeeze=0.0,
+        )
+        self.source = np.zeros(shape)
+        self.cell = self.dx * self.dy
+
+    def film(self, pressure: Array, approach: float) -> Array:
+        """Return h = h_0 + h_u + deflection, shape (ny, nx)."""
+        return self.deflection(pressure) + self.gap + approach
+
+    def state(self, pressure: Array, approach: float, film: Array | None = None) -> FilmState:
+        """Return the state at a pressure, zero on the border, and an approach."""
+        if film is None:
+            film = self.film(pressure, approach)
+        viscosity, viscosity_slope, density, density_slope = np.empty((4, *self.shape))
+        fill_properties(
+            self.oil,
+            pressure.ravel(),
+            viscosity.ravel(),
+            viscosity_slope.ravel(),
+            density.ravel(),
+            density_slope.ravel(),
+        )
+        mass = density * film
+        mobility = density * np.maximum(film, 0.0) ** 3 / viscosity
+        residual = np.empty(self.shape)
+        reynolds_residual(self.stencil, pressure, mass, mobility, mobility, self.source, residual)
+        load_error = (self.scales.load - self.cell * float(pressure.sum())) / self.scales.load
+        return FilmState(
+            pressure,
+            approach,
+            film,
+            mass,
+            density,
+            viscosity,
+            density_slope,
+            viscosity_slope,
+            mobility,
+            mobility,
+            residual,
+            load_error,
+        )
+
+    def linearise(
+        self, state: FilmState, free: np.ndarray[Any, np.dtype[np.bool_]] | None = None
+    ) -> Linearisation:
+        """Return the derivatives of the residual at a state; flow factors are held."""
+        free = state.free if free is None else free
+        by_pressure = np.empty((NEIGHBOURS, *self.shape))
+        by_film = np.empty((NEIGHBOURS, *self.shape))
+        reynolds_derivatives(
+            self.stencil,
+            state.pressure,
+            state.mobility_x,
+            state.mobility_y,
+            state.density_slope / state.density - state.viscosity_slope / state.viscosity,
+            3.0 / np.maximum(state.film, 1e-30),
+            state.density_slope * state.film,
+            state.density,
+            free,
+            by_pressure,
+            by_film,
+        )
+        return Linearisation(
+            by_pressure, by_film, by_film.sum(axis=0), free, np.empty(self.shape)
+        )
+
+    def apply(self, linear: Linearisation, pressure: Array, approach: float) -> Array:
+        """Return the change of the residual under changes of pressure and approach.
+
+        The result is overwritten by the next call with the same `linear`.
+        """
+        film = self.deflection(pressure)
+        apply_derivatives(linear.by_pressure, linear.by_film, pressure, film, linear.result)
+        if approach != 0.0:
+            linear.result += approach * linear.by_approach
+        return linear.result

@@ -1,0 +1,61 @@
+"""Transfer of nodal fields between two grids over one rectangle."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+def linear_interpolation(coarse: int, fine: int) -> Array:
+    """Return the matrix, shape (fine, coarse), of linear interpolation along one side."""
+    position = np.linspace(0.0, coarse - 1.0, fine)
+    left = np.minimum(position.astype(int), coarse - 2)
+    weight = position - left
+    matrix = np.zeros((fine, coarse))
+    rows = np.arange(fine)
+    matrix[rows, left] = 1.0 - weight
+    matrix[rows, left + 1] += weight
+    return matrix
+
+
+def cubic_interpolation(coarse: int, fine: int) -> Array:
+    """Return the matrix, shape (fine, coarse), of cubic interpolation along one side."""
+    position = np.linspace(0.0, coarse - 1.0, fine)
+    first = np.clip(position.astype(int) - 1, 0, coarse - 4)
+    t = position - first
+    matrix = np.zeros((fine, coarse))
+    rows = np.arange(fine)
+    for k in range(4):
+        others = [m for m in range(4) if m != k]
+        product = np.ones(fine)
+        for m in others:
+            product *= (t - m) / (k - m)
+        matrix[rows, first + k] += product
+    return matrix
+
+
+class Transfer:
+    """Between a fine and a coarse grid of shapes (ny, nx)."""
+
+    def __init__(self, fine: tuple[int, int], coarse: tuple[int, int]) -> None:
+        self._linear = [linear_interpolation(c, f) for c, f in zip(coarse, fine, strict=True)]
+        self._cubic = [cubic_interpolation(c, f) for c, f in zip(coarse, fine, strict=True)]
+        self._restriction = []
+        for matrix in self._linear:
+            weights = matrix.T
+            self._restriction.append(weights / weights.sum(axis=1, keepdims=True))
+
+    def down(self, values: Array) -> Array:
+        """Return weighted means of nodal values around each coarse node."""
+        return np.asarray(self._restriction[0] @ values @ self._restriction[1].T)
+
+    def up(self, values: Array) -> Array:
+        """Return coarse values on the fine grid, linear between nodes."""
+        return np.asarray(self._linear[0] @ values @ self._linear[1].T)
+
+    def up_smoothly(self, values: Array) -> Array:
+        """Return coarse values on the fine grid, cubic between nodes."""
+        return np.asarray(self._cubic[0] @ values @ self._cubic[1].T)

@@ -1,0 +1,224 @@
+"""A lubricated point contact: gap, motion, load, oil, solids and the domain of the film."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_finite, check_positive, check_within
+from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.ehl.lubricant import EhlLubricant, pressure_viscosity
+from gearlube_core.errors import ParameterError
+from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+Gap = Callable[[Array, Array], Array]
+
+_MOST_NODES = 2049  # along one side; 2049 x 2049 need about 3 GiB
+
+
+@dataclass(frozen=True, slots=True)
+class EllipticParaboloid:
+    """Gap of two solids with principal radii along x and y.
+
+    h_u = x^2/(2 R_x) + y^2/(2 R_y)
+
+    Parameters
+    ----------
+    R_x, R_y
+        Relative radii of curvature [m], positive.
+    """
+
+    R_x: float
+    R_y: float
+
+    def __post_init__(self) -> None:
+        check_positive("R_x", self.R_x, "m")
+        check_positive("R_y", self.R_y, "m")
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """Return the gap [m] at points (x, y) [m]."""
+        return np.asarray(x * x / (2.0 * self.R_x) + y * y / (2.0 * self.R_y))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PointContactProblem:
+    """Steady film between two solids over a rectangle, pressure zero on its border.
+
+    d/dx(rho h^3/(12 eta) dp/dx) + d/dy(rho h^3/(12 eta) dp/dy) = d(u rho h)/dx + d(v rho h)/dy,
+    h = h_0 + h_u(x, y) + 1/(pi E*) int p/r,  int p = W,  p >= 0
+
+    Parameters
+    ----------
+    gap
+        h_u(x, y) [m] of the undeformed solids, up to a constant; takes arrays, returns the like.
+    entrainment
+        Mean surface velocity (u, v) [m/s] along x and y; not both zero.
+    load
+        W [N].
+    contact_modulus
+        E* [Pa]; half of E' = 2 E*.
+    lubricant
+        Oil; its Eyring stress is not used here.
+    x_limits, y_limits
+        Domain [m].
+    nodes
+        Number of nodes along x and along y, border included: 17 to 2049.
+    hertz
+        Radius that sets the scales and the start, if the gap is close to a paraboloid.
+
+    Raises
+    ------
+    ParameterError
+        An input is out of range.
+    """
+
+    gap: Gap
+    entrainment: tuple[float, float]
+    load: float
+    contact_modulus: float
+    lubricant: EhlLubricant
+    x_limits: tuple[float, float]
+    y_limits: tuple[float, float]
+    nodes: tuple[int, int]
+    hertz: EllipticParaboloid
+
+    def __post_init__(self) -> None:
+        for axis, speed in zip("xy", self.entrainment, strict=True):
+            check_finite(f"entrainment along {axis}", speed, "m/s")
+        check_positive("entrainment", math.hypot(*self.entrainment), "m/s", "Squeeze needs time.")
+        check_positive("load", self.load, "N")
+        check_within(
+            "contact_modulus", self.contact_modulus, 1e5, 1e13, "Pa", "115 GPa is 1.15e11 Pa."
+        )
+        for axis, limits in (("x", self.x_limits), ("y", self.y_limits)):
+            low = check_finite(f"{axis}_limits[0]", limits[0], "m")
+            check_positive(f"{axis}_limits[1] - {axis}_limits[0]", limits[1] - low, "m")
+        for axis, count in zip("xy", self.nodes, strict=True):
+            if not 17 <= count <= _MOST_NODES:
+                raise ParameterError(
+                    f"nodes along {axis} must be within 17 to {_MOST_NODES}, got {count}."
+                )
+
+    @property
+    def x(self) -> Array:
+        """Return the nodes along x [m], shape (nx,)."""
+        return np.linspace(*self.x_limits, self.nodes[0])
+
+    @property
+    def y(self) -> Array:
+        """Return the nodes along y [m], shape (ny,)."""
+        return np.linspace(*self.y_limits, self.nodes[1])
+
+    @property
+    def hertz_contact(self) -> tuple[float, float, float]:
+        """Return the dry semi-axes along x and y [m] and the largest pressure [Pa]."""
+        a_x, a_y, mean = hertz_ellipse(
+            self.hertz.R_x, self.hertz.R_y, self.contact_modulus, self.load
+        )
+        return a_x, a_y, 1.5 * mean
+
+    def with_nodes(self, nx: int, ny: int) -> PointContactProblem:
+        """Return the same problem on another grid."""
+        return replace(self, nodes=(nx, ny))
+
+
+def expected_film(problem: PointContactProblem) -> float:
+    """Return a central film [m] to start from: the larger of elastic and rigid estimates.
+
+    Elastic: Chittenden et al. 1985. Rigid: what an isoviscous film between rigid paraboloids
+    needs to carry the load, within a factor of 2.
+    """
+    R_x, R_y = problem.hertz.R_x, problem.hertz.R_y
+    u, v = (abs(speed) for speed in problem.entrainment)
+    psi = math.atan2(v, u)
+    if R_x > R_y:
+        R_x, R_y, psi = R_y, R_x, 0.5 * math.pi - psi
+    R_e, side_flow = film_geometry(R_x, R_y, psi)
+    oil, speed = problem.lubricant, math.hypot(u, v)
+    alpha = max(pressure_viscosity(oil), 2.0 / problem.contact_modulus)
+    elastic = central_film_thickness(
+        R_e, side_flow, oil.eta0, alpha, speed, problem.load, 2.0 * problem.contact_modulus
+    )
+    # Kapitza 1955: W = 4.44 phi eta u R_e sqrt(2 R_s R_e/h)/..., kept to its scaling
+    R_s = R_x * R_y / R_e
+    phi = 1.0 / (1.0 + 2.0 * R_e / (3.0 * R_s))
+    lift = 8.0 * math.sqrt(2.0) * phi * oil.eta0 * speed * math.sqrt(R_s) * R_e / problem.load
+    rigid = lift * lift
+    return max(elastic, rigid)
+
+
+def elliptical_contact(
+    *,
+    R_x: float,
+    R_y: float,
+    entrainment: tuple[float, float],
+    load: float,
+    contact_modulus: float,
+    lubricant: EhlLubricant,
+    nodes: tuple[int, int] = (129, 129),
+    inlet: float | None = None,
+    outlet: float | None = None,
+    side: float | None = None,
+) -> PointContactProblem:
+    """Return the problem of two smooth solids on a domain that floods the inlet.
+
+    Parameters
+    ----------
+    R_x, R_y
+        Relative radii of curvature along x and y [m].
+    entrainment, load, contact_modulus, lubricant, nodes
+        As in `PointContactProblem`.
+    inlet, outlet, side
+        Extent of the domain upstream, downstream and to the sides, in semi-axes of the dry
+        contact along the same axis [1]. By default as far as the film needs.
+
+    Returns
+    -------
+    PointContactProblem
+        Centred on the dry contact.
+
+    Notes
+    -----
+    The default inlet lies where the undeformed gap is 20 central films, never closer
+    than 2.5 semi-axes; the sides and the outlet follow likewise.
+    """
+    shape = EllipticParaboloid(R_x, R_y)
+    problem = PointContactProblem(
+        gap=shape,
+        entrainment=entrainment,
+        load=load,
+        contact_modulus=contact_modulus,
+        lubricant=lubricant,
+        x_limits=(-1.0, 1.0),
+        y_limits=(-1.0, 1.0),
+        nodes=nodes,
+        hertz=shape,
+    )
+    a_x, a_y, _ = problem.hertz_contact
+    film = expected_film(problem)
+    speed = math.hypot(*entrainment)
+    limits = []
+    for component, radius, semi_axis in (
+        (entrainment[0], R_x, a_x),
+        (entrainment[1], R_y, a_y),
+    ):
+        flooded = semi_axis + math.sqrt(2.0 * radius * 20.0 * film) if inlet is None else 0.0
+        upstream = max(2.5 * semi_axis, flooded) if inlet is None else inlet * semi_axis
+        spread = max(2.0 * semi_axis, 0.6 * flooded) if side is None else side * semi_axis
+        exit_reach = max(1.5 * semi_axis, 0.3 * flooded) if outlet is None else outlet * semi_axis
+        share = component / speed  # 0: across the motion, 1: along it
+        along = (
+            (-upstream, exit_reach) if share > 0.0 else (-exit_reach, upstream)
+        )
+        weight = min(1.0, 2.0 * abs(share))
+        limits.append(
+            tuple(
+                weight * edge + (1.0 - weight) * math.copysign(spread, edge) for edge in along
+            )
+        )
+    return replace(problem, x_limits=limits[0], y_limits=limits[1])

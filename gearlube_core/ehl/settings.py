@@ -1,0 +1,51 @@
+"""Settings of the point-contact solver."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gearlube_core.checks import check_option, check_within
+from gearlube_core.errors import ParameterError
+
+# weights of rho h at a face: upstream node, second node upstream, node downstream
+WEDGE_WEIGHTS = {
+    "upwind-1": (1.0, 0.0, 0.0),
+    "upwind-2": (1.5, -0.5, 0.0),
+    "central": (0.5, 0.0, 0.5),
+    "quick": (0.75, -0.125, 0.375),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PointSolverSettings:
+    """How a point contact is solved and when it counts as solved.
+
+    Parameters
+    ----------
+    wedge
+        Stencil of d(rho h): `upwind-1`, `upwind-2`, `central` or `quick`.
+    tolerance
+        Limit of the flow residual: sum over the nodes of what flows in but not out, over the
+        flow through the width of the dry contact at the central film [1].
+    load_tolerance
+        Limit of the relative error of the load [1].
+    newton_steps
+        Most Newton steps on one grid.
+    krylov_steps
+        Most iterations of one linear solution.
+    """
+
+    wedge: str = "upwind-2"
+    tolerance: float = 1e-6
+    load_tolerance: float = 1e-6
+    newton_steps: int = 60
+    krylov_steps: int = 40
+
+    def __post_init__(self) -> None:
+        check_option("wedge", self.wedge, WEDGE_WEIGHTS)
+        check_within("tolerance", self.tolerance, 1e-11, 1e-2)
+        check_within("load_tolerance", self.load_tolerance, 1e-11, 1e-2)
+        for name in ("newton_steps", "krylov_steps"):
+            count = getattr(self, name)
+            if not 1 <= count <= 1000:
+                raise ParameterError(f"{name} must be within 1 to 1000, got {count}.")
