@@ -218,6 +218,6 @@ def quick_settings(settings: HelicalSettings) -> HelicalSettings:
         positions=min(settings.positions, 8),
         stability_columns=min(settings.stability_columns, 40),
         stability_rows=min(settings.stability_rows, 7),
-        separation_speeds=min(settings.separation_speeds, 24),
+        separation_speeds=min(settings.separation_speeds, 60),
         body=replace(settings.body, condensation=_COARSE),
     )
