@@ -9,12 +9,17 @@ from numpy.typing import NDArray
 
 from gearlube_core.dynamics.helical_pair.flank_views import (
     FlankView,
+    coast_near,
     coast_view,
     drive_view,
     touches,
 )
 from gearlube_core.dynamics.helical_pair.line_sums import GAUSS, pair_slot
-from gearlube_core.dynamics.helical_pair.march_constants import FlankConstants, MarchConstants
+from gearlube_core.dynamics.helical_pair.march_constants import (
+    FlankConstants,
+    MarchConstants,
+    MotionConstants,
+)
 from gearlube_core.dynamics.helical_pair.march_mesh import LEAST_OFFSET, STATIONS_AT
 from gearlube_core.dynamics.helical_pair.state import (
     FLANK_POINTS,
@@ -23,11 +28,15 @@ from gearlube_core.dynamics.helical_pair.state import (
     REFRESHED,
     W_P,
 )
+from gearlube_core.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.friction.line_friction import LineState, line_friction
 from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.jit import kernel
 from gearlube_core.rheology.lubricant_state import LubricantState
+
+# place of MarchConstants.refreshes in the pair data
+REFRESHES_AT = count_floats(MotionConstants) + MarchConstants._fields.index("refreshes") - 1
 
 
 @kernel
@@ -130,36 +139,28 @@ def refresh_flank(
 
 
 @kernel
-def refresh_mark(
-    drive: FlankView, coast: FlankView, least_offset: float, p: MarchConstants
-) -> float:
-    """Return a number that changes when friction is due: with the phase and with the contact."""
-    count = math.floor(drive.phase * p.refreshes)
-    mark = 4.0 * count
-    if touches(drive, least_offset, p.motion.flanks):
-        mark += 1.0
-    if touches(coast, least_offset, p.motion.flanks):
-        mark += 2.0
-    return mark
-
-
-@kernel
 def refresh_friction(
-    s: NDArray[float64],
-    data: NDArray[float64],
-    lubricant: LubricantState,
-    p: MarchConstants,
-) -> None:
-    """Compute the friction coefficients in the state anew if they are due."""
-    flanks = p.motion.flanks
-    least_offset = data[LEAST_OFFSET]
+    s: NDArray[float64], data: NDArray[float64], lubricant: LubricantState
+) -> bool:
+    """Compute the friction coefficients in the state anew if they are due; return whether.
+
+    They are due so many times in a mesh period, and when a flank comes into contact or leaves it.
+    `data` are the pair data, see `march_mesh`.
+    """
+    motion: MotionConstants = tuple_from_array(data, MotionConstants)
+    flanks = motion.flanks
     drive = drive_view(s, flanks)
-    coast = coast_view(s, flanks)
-    mark = refresh_mark(drive, coast, least_offset, p)
+    mark = 4.0 * math.floor(drive.phase * data[REFRESHES_AT])
+    if touches(drive, data[LEAST_OFFSET], flanks):
+        mark += 1.0
+    if coast_near(s, data[LEAST_OFFSET], flanks):
+        mark += 2.0
     if mark == s[REFRESHED]:
-        return
+        return False
     s[REFRESHED] = mark
-    if touches(drive, least_offset, p.motion.flanks):
+    p: MarchConstants = tuple_from_array(data, MarchConstants)
+    if touches(drive, data[LEAST_OFFSET], flanks):
         refresh_flank(drive, MU, s, data, lubricant, p)
-    if touches(coast, least_offset, p.motion.flanks):
-        refresh_flank(coast, MU + FLANK_POINTS, s, data, lubricant, p)
+    if coast_near(s, data[LEAST_OFFSET], flanks):
+        refresh_flank(coast_view(s, flanks), MU + FLANK_POINTS, s, data, lubricant, p)
+    return True

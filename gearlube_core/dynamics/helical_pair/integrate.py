@@ -152,8 +152,7 @@ def advance(
     for i in range(N_STATE):
         stages[i] = s[i]
     for _ in range(steps):
-        if p.friction_form > 0.0:
-            refresh_friction(s, data, oil, p)
+        if p.friction_form > 0.0 and refresh_friction(s, data, oil):
             for i in range(N_ODE, N_STATE):
                 stages[i] = s[i]
         rk4_step(s, h, pinion_torque, wheel_torque, data, stages)

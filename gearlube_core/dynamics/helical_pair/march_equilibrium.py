@@ -69,7 +69,7 @@ class MarchRates:
             state[REFRESHED] = -1.0
             oil = lubricant_state(self.constants.oil, oil_temperature)
             mesh_at_torque(state[LOAD_TORQUE], *self.mesh, self._data)
-            refresh_friction(state, self._data, oil, self.constants)
+            refresh_friction(state, self._data, oil)
 
 
 def settle(
