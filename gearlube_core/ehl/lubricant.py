@@ -136,6 +136,36 @@ def thermal_viscosity(oil: EhlLubricant, p: float, temperature: float) -> float:
 
 
 @kernel
+def cooling_factor(oil: EhlLubricant, temperature: float) -> float:
+    """Return t^(-S0), t = (T - 138)/(T0 - 138), of the law of Houpert [1]; T [K]."""
+    t = (temperature - GLASS_TEMPERATURE) / (oil.temperature - GLASS_TEMPERATURE)
+    return math.exp(-oil.S0 * math.log(t))
+
+
+@kernel
+def thermal_log_slope(oil: EhlLubricant, p: float, cooling: float) -> tuple[float, float]:
+    """Return ln(eta/eta0) and its slope with pressure at a cooling factor.
+
+    Parameters
+    ----------
+    oil
+        Lubricant data.
+    p
+        Gauge pressure [Pa].
+    cooling
+        `cooling_factor` of the temperature [1]; 1 at the reference temperature.
+
+    Returns
+    -------
+    tuple of float
+        ln(eta/eta0) [1] and d ln eta/dp [1/Pa], without the linear tail of `viscosity`.
+    """
+    growth = _pressure_exponent(oil, p)
+    log_eta = oil.log_ratio * (cooling * growth + cooling - 1.0)
+    return log_eta, oil.log_ratio * cooling * _pressure_exponent_slope(oil, p)
+
+
+@kernel
 def density(oil: EhlLubricant, p: float) -> float:
     """Return the density at the reference temperature.
 

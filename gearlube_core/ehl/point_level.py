@@ -96,6 +96,16 @@ class PointLevel:
         )
         self.source = np.zeros(shape)
         self.cell = self.dx * self.dy
+        self._dense: Array | None = None
+
+    def dense_deflection(self) -> Array:
+        """Return the matrix of deflection per unit pressure, shape (ny nx, ny nx)."""
+        if self._dense is None:
+            rows, columns = (n.ravel() for n in np.indices(self.shape))
+            self._dense = self.coefficients[
+                abs(rows[:, None] - rows), abs(columns[:, None] - columns)
+            ]
+        return self._dense
 
     def film(self, pressure: Array, approach: float) -> Array:
         """Return h = h_0 + h_u + deflection, shape (ny, nx)."""

@@ -7,62 +7,60 @@ from typing import Any
 import numpy as np
 from scipy.linalg.lapack import sgbtrf, sgbtrs
 
-from gearlube_core.ehl.point_level import Linearisation, PointLevel
+from gearlube_core.ehl.point_galerkin import SparseOperator
+from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.jit import kernel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 REACH = 4  # nodes over which the local deflection acts to each side
 _BELOW = REACH + 2  # the far upstream neighbour
-_ABOVE = REACH + 1
+_ABOVE = REACH + 2
 _SPECTRUM = 512
 
 
 @kernel
 def fill_rows(
-    by_pressure: np.ndarray,
-    by_film: np.ndarray,
+    start: np.ndarray,
+    column: np.ndarray,
+    entry: np.ndarray,
     free: np.ndarray,
     local: np.ndarray,
     across: np.ndarray,
     band: np.ndarray,
 ) -> None:
-    """Fill the LAPACK band of all rows, uncoupled from each other.
+    """Fill the LAPACK band of all rows of nodes, uncoupled from each other.
 
     Parameters
     ----------
-    by_pressure, by_film : ndarray, shape (7, ny, nx)
-        Derivatives of the residual.
+    start, column, entry : ndarray
+        Compressed rows of the operator.
     free : ndarray of bool, shape (ny, nx)
         Other nodes get the identity.
     local : ndarray, shape (REACH + 1,)
         Deflection at a distance along the row per unit pressure.
-    across : ndarray, shape (7,)
-        Share of the local deflection that each neighbour sees.
+    across : ndarray, shape (5,)
+        Share of it that neighbours 0 to 4 rows away see.
     band : ndarray, shape (ny nx, 2 _BELOW + _ABOVE + 1)
         Result, transposed band storage; zero on entry.
     """
-    _, ny, nx = by_pressure.shape
+    ny, nx = free.shape
     diagonal = _BELOW + _ABOVE
-    shift = (0, -1, 1, -2, 0, 0, 0)
     for j in range(ny):
         for i in range(nx):
             row = j * nx + i
             if not free[j, i]:
                 band[row, diagonal] = 1.0
                 continue
-            for k in range(4):
-                column = i + shift[k]
-                if 0 <= column < nx and free[j, column]:
-                    band[row + shift[k], diagonal - shift[k]] += by_pressure[k, j, i]
-            for k in range(7):
-                slope = by_film[k, j, i] * across[k]
-                if slope == 0.0:
-                    continue
+            for k in range(start[row], start[row + 1]):
+                jj = column[k] // nx
+                ii = column[k] - jj * nx
+                if jj == j and free[jj, ii]:
+                    band[row + ii - i, diagonal - ii + i] += entry[k].real
+                slope = entry[k].imag * across[min(abs(jj - j), 4)]
                 for m in range(-REACH, REACH + 1):
-                    offset = shift[k] + m
-                    column = i + offset
-                    if 0 <= column < nx and free[j, column]:
+                    offset = ii - i + m
+                    if 0 <= i + offset < nx and free[j, i + offset]:
                         band[row + offset, diagonal - offset] += slope * local[abs(m)]
 
 
@@ -79,16 +77,16 @@ def local_deflection(level: PointLevel, wave_number: float) -> Array:
 class RowSmoother:
     """Factored rows of one linearisation; float32 is enough for a preconditioner."""
 
-    def __init__(self, level: PointLevel, linear: Linearisation, damping: float) -> None:
+    def __init__(self, level: PointLevel, operator: SparseOperator, damping: float) -> None:
         ny, nx = level.shape
         wave_number = max(0.55 * np.pi / level.dy, 0.35 * np.pi / level.dx)
-        phase = np.cos(min(wave_number * level.dy, np.pi / 2))
-        across = np.array([1.0, 1.0, 1.0, 1.0, phase, phase, np.cos(2.0 * np.arccos(phase))])
+        across = np.cos(min(wave_number * level.dy, 0.55 * np.pi) * np.arange(5.0))
         band = np.zeros((ny * nx, 2 * _BELOW + _ABOVE + 1), dtype=np.float32)
         fill_rows(
-            linear.by_pressure,
-            linear.by_film,
-            linear.free,
+            operator.matrix.indptr,
+            operator.matrix.indices,
+            operator.matrix.data,
+            operator.free,
             local_deflection(level, wave_number),
             across,
             band,
@@ -96,7 +94,7 @@ class RowSmoother:
         self._factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)
         self._shape = level.shape
         self._damping = damping
-        self._free = linear.free
+        self._free = operator.free
 
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.sparse import csr_matrix, kron
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -47,6 +48,8 @@ class Transfer:
         for matrix in self._linear:
             weights = matrix.T
             self._restriction.append(weights / weights.sum(axis=1, keepdims=True))
+        self.interpolation: csr_matrix = kron(*self._linear, format="csr")
+        self.restriction: csr_matrix = kron(*self._restriction, format="csr")
 
     def down(self, values: Array) -> Array:
         """Return weighted means of nodal values around each coarse node."""

@@ -1,0 +1,74 @@
+"""Multigrid cycle for the linearised point contact: line solutions and a direct coarse grid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point_coarse import CoarseSolution
+from gearlube_core.ehl.point_galerkin import coarse_operator, sparse_operator
+from gearlube_core.ehl.point_level import Linearisation, PointLevel
+from gearlube_core.ehl.point_smoother import RowSmoother
+from gearlube_core.ehl.point_transfer import Transfer
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_DAMPING = 0.8
+_MOSTLY_FREE = 0.5  # share of free fine nodes around a free coarse node
+
+
+@dataclass(slots=True)
+class Hierarchy:
+    """Grids from the coarsest to the finest and the transfers between neighbours."""
+
+    levels: Sequence[PointLevel]
+    transfers: Sequence[Transfer]  # between level k + 1 and k
+
+    def below(self, count: int) -> Hierarchy:
+        """Return the first `count` grids."""
+        return Hierarchy(self.levels[:count], self.transfers[: count - 1])
+
+
+class MultigridCycle:
+    """One V-cycle as an approximate inverse; linearisations on all grids follow from the finest.
+
+    Pressure and approach are found together: the load is an equation of every grid and is met on
+    the coarsest.
+    """
+
+    def __init__(self, hierarchy: Hierarchy, linear: Linearisation) -> None:
+        self._levels = hierarchy.levels
+        self._transfers = hierarchy.transfers
+        self._smoothers: list[RowSmoother] = []
+        operator = sparse_operator(self._levels[-1], linear)
+        self._operators = [operator]
+        for k in range(len(self._levels) - 1, 0, -1):
+            self._smoothers.insert(0, RowSmoother(self._levels[k], operator, _DAMPING))
+            operator = coarse_operator(operator, self._transfers[k - 1])
+            self._operators.insert(0, operator)
+        self._direct = CoarseSolution(self._levels[0], operator)
+
+    def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
+        """Return pressure, shape (ny, nx), and approach that cancel most of a residual."""
+        return self._cycle(len(self._levels) - 1, residual, load_residual)
+
+    def _cycle(self, k: int, residual: Array, load_residual: float) -> tuple[Array, float]:
+        if k == 0:
+            return self._direct(residual, load_residual)
+        level, operator, smoother = self._levels[k], self._operators[k], self._smoothers[k - 1]
+        transfer = self._transfers[k - 1]
+        pressure = smoother(residual)
+        share = level.cell / level.scales.load
+        rest = residual - operator.apply(level, pressure, 0.0)
+        coarse, approach = self._cycle(
+            k - 1, transfer.down(rest), load_residual - share * float(pressure.sum())
+        )
+        correction = transfer.up(coarse)
+        correction[~operator.free] = 0.0
+        pressure = pressure + correction
+        rest = residual - operator.apply(level, pressure, approach)
+        pressure += smoother(rest)
+        return pressure, approach
