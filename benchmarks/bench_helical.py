@@ -1,91 +1,170 @@
-"""Cost of the helical pair's periodic response.
+"""Cost of a helical pair: `python -m pytest benchmarks/bench_helical.py --benchmark-only`.
 
-`python -m pytest benchmarks/bench_helical.py --benchmark-only` times single responses;
-`python -m benchmarks.bench_helical` the grid of friction and speed, on 1 and 2 processes, and logs
-the accuracy of the default resolution.
+`python -m benchmarks.bench_helical` prints what is no plain timing: the sweep of 30 coefficients of
+friction by 60 speeds on two processes, a loaded mesh period, and ratios within one process.
 """
 
 from __future__ import annotations
 
 import logging
-import math
+import os
+import statistics
 import time
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
-import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
+from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
-from gearlube_core.dynamics.helical_pair.harmonic_grid import harmonic_grid
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, he_2007_pair
-from gearlube_core.dynamics.helical_pair.instability_map import instability_map
+from drivetrain.helical.loaded import analyse_loaded_contact
+from drivetrain.helical.settings import RPM, HelicalSettings
+from drivetrain.helical.sweep_grid import sweep_dataset
+from gearlube_core.dynamics.helical_pair.contact_points import (
+    N_COLUMNS,
+    constant_friction,
+    contact_points,
+    point_capacity,
+)
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.periodic_response import (
-    ResponseSettings,
-    harmonics,
+    PeriodicResponse,
     periodic_response,
 )
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.dynamics.helical_pair.rhs import pair_accelerations
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 _LOGGER = logging.getLogger("bench_helical")
-MU = np.linspace(0.0, 0.3, 30)
-SPEED = np.linspace(200.0, 6000.0, 60) * math.pi / 30.0
+SPEED = 1000.0 * RPM
+MU = 0.1
+FRICTIONS, SPEEDS = 30, 60
+LIMIT_POINT, LIMIT_SWEEP = 0.05, 60.0  # s
+TORQUES = (113.0, 226.0)
+ACCURACY = 1e-3  # of the peak-to-peak motion
+SETTLED = 1e-4  # share of a start's distance that is left when a motion counts as periodic
 
 
-@pytest.mark.parametrize("rpm", [100.0, 1000.0, 6000.0])
-def test_periodic_response(benchmark: BenchmarkFixture, rpm: float) -> None:
-    """Twelve coordinates at one operating point, with stability and 256 samples."""
-    parameters, speed = he_2007_pair(0.1), rpm * math.pi / 30.0
-    response = periodic_response(parameters, speed)
-    benchmark(periodic_response, parameters, speed)
-    benchmark.extra_info["steps"] = response.steps
-
-
-def test_periodic_response_with_film_friction(benchmark: BenchmarkFixture) -> None:
-    film = FilmFriction(
-        oil=Lubricant.named("mohammadpour_2015"), oil_temperature=353.15,
-        solid=STEEL_MOHAMMADPOUR_2015, roughness_rms=0.5e-6,
-    )  # fmt: skip
-    parameters = replace(he_2007_pair(0.0), friction="film", film=film)
-    periodic_response(parameters, PINION_SPEED)
-    benchmark(periodic_response, parameters, PINION_SPEED)
-
-
-def time_grid() -> None:
-    """Log wall times of 30 coefficients of friction by 60 speeds."""
-    harmonic_grid(he_2007_pair(0.0), MU[:1], SPEED[:1])
-    for workers in (1, 2):
-        start = time.perf_counter()
-        harmonic_grid(he_2007_pair(0.0), MU, SPEED, workers=workers)
-        wall = time.perf_counter() - start
-        _LOGGER.info("%d x %d grid, %d workers: %.1f s", MU.size, SPEED.size, workers, wall)
-
-
-def time_map() -> None:
-    """Log the wall time of an instability map of 20 damping ratios by 200 frequencies."""
-    start = time.perf_counter()
-    instability_map(
-        he_2007_pair(0.0), np.linspace(1e3, 2e4, 200), "damping_ratio", np.linspace(0.0, 0.05, 20)
+def settings(**changes: Any) -> HelicalSettings:
+    return HelicalSettings(
+        file=HelicalGearFile.named("he_2007"),
+        pinion_torque=226.0,
+        pinion_speed=SPEED,
+        torques=TORQUES,
+        **changes,
     )
-    _LOGGER.info("20 x 200 instability map: %.1f s", time.perf_counter() - start)
 
 
-def report_accuracy() -> None:
-    """Log the largest error of harmonics 1 to 15 over the largest one."""
-    fine = periodic_response(he_2007_pair(0.1), PINION_SPEED, ResponseSettings(samples=1024,
-                             steps_per_oscillation=160))  # fmt: skip
-    for steps in (10, 20, 40):
-        settings = ResponseSettings(steps_per_oscillation=steps)
-        coarse = periodic_response(he_2007_pair(0.1), PINION_SPEED, settings)
-        exact, got = harmonics(fine.displacement), harmonics(coarse.displacement)
-        error = np.max(np.abs(got - exact).max(axis=0) / exact.max(axis=0))
-        _LOGGER.info("%d steps an oscillation, %d a period: %.0e", steps, coarse.steps, error)
+def test_operating_point(benchmark: BenchmarkFixture) -> None:
+    """Periodic response with constant friction at 1000 rpm, 12 DOF."""
+    pair = he_2007_pair(MU)
+    periodic_response(pair, SPEED)
+    response: PeriodicResponse = benchmark(periodic_response, pair, SPEED)
+    benchmark.extra_info["steps"] = response.steps
+    stats: Any = benchmark.stats
+    assert stats["median"] < LIMIT_POINT
+
+
+def test_operating_point_with_film(benchmark: BenchmarkFixture) -> None:
+    """The same with the friction of the oil film."""
+    pair = replace(settings().parameters(), friction="film")
+    periodic_response(pair, SPEED)
+    benchmark(periodic_response, pair, SPEED)
+
+
+def _time(function: Callable[[], Any], rounds: int) -> float:
+    """Return the median wall time [s] after one call that is not counted."""
+    function()
+    walls = []
+    for _ in range(rounds):
+        start = time.perf_counter()
+        function()
+        walls.append(time.perf_counter() - start)
+    return statistics.median(walls)
+
+
+def time_sweep() -> None:
+    """Log the wall time of the sweep on two processes, their start included."""
+    pair = he_2007_pair(0.0)
+    mu, speeds = np.linspace(0.0, 0.3, FRICTIONS), settings().swept_speeds(pair)
+    start = time.perf_counter()
+    found = sweep_dataset(pair, mu, speeds, jobs=2)
+    wall = time.perf_counter() - start
+    _LOGGER.info(
+        "%d x %d points, two processes: %.1f s, limit %.0f s; %.1f ms a point",
+        found.sizes["mu"], found.sizes["speed"], wall, LIMIT_SWEEP,
+        1e3 * wall * 2 / (mu.size * speeds.size),
+    )  # fmt: skip
+
+
+def time_loaded_contact() -> None:
+    """Log the wall time of a loaded mesh period in one process, teeth from the cache."""
+    asked = settings(positions=12)
+    run = lambda: analyse_loaded_contact(asked, None, 1, lambda _: None, lambda _: None)  # noqa: E731
+    wall = _time(run, 1)
+    states = asked.positions * len(TORQUES)
+    _LOGGER.info(
+        "loaded contact: %d states, %.2f s, %.0f ms a state", states, wall, 1e3 * wall / states
+    )
+
+
+def _marched(pair: HelicalPairParameters, start: PeriodicResponse, rtol: float) -> float:
+    """Return the peak-to-peak of psi [m] by SciPy, from the mean deflection."""
+    c, mesh, supports = pair.kernel_parameters(), pair.mesh_arrays(), pair.support_arrays()
+    points, work = np.empty((point_capacity(mesh), N_COLUMNS)), np.empty((3, 12))
+    period, r_bp = start.period, pair.pair.pinion_base_radius
+
+    def rates(t: float, state: np.ndarray) -> np.ndarray:
+        q, v = state[:12], state[12:]
+        n = contact_points(t / period, SPEED, c.plane, mesh, points)
+        k_m = line_loads(*mesh_strain(q, c.plane), c, points, n)
+        constant_friction(pair.mu, points, n)
+        pair_accelerations(
+            q, v, k_m, c.T_p, c.T_g, c, supports, points, n, work[0], work[1][:5], work[2]
+        )
+        return np.concatenate((v, work[2]))
+
+    static = np.zeros(24)
+    mean = start.displacement.mean(axis=0)
+    static[:5], static[6:11], static[5] = mean[:5], mean[5:10], mean[10] / r_bp
+    decay = pair.support_damping_ratio * 2.0 * np.pi * 3000.0  # 1/s, of the slowest mode, 3 kHz
+    end = period * np.ceil(-np.log(SETTLED) / (decay * period))
+    times = end + period * (np.arange(256) / 256.0 - 1.0)
+    found = solve_ivp(
+        rates, (0.0, float(times[-1])), static, "DOP853", times, rtol=rtol, atol=1e-6 * rtol
+    )
+    return float(np.ptp(r_bp * found.y[5] + pair.pair.gear_base_radius * found.y[11]))
+
+
+def compare_with_solve_ivp() -> None:
+    """Log the ratio of SciPy's integration in time to the monodromy solution, turn by turn."""
+    pair = he_2007_pair(MU)
+    response = periodic_response(pair, SPEED)
+    swing = float(np.ptp(response.signal("psi")))
+    ours = _time(lambda: periodic_response(pair, SPEED), 9)
+    for rtol in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8):
+        off = abs(_marched(pair, response, rtol) / swing - 1.0)
+        if off < ACCURACY:
+            break
+    theirs = _time(lambda: _marched(pair, response, rtol), 3)
+    _LOGGER.info(
+        "operating point: %.1f ms, limit %.0f ms; DOP853, rtol %.0e: %.0f ms, error %.0e, %.0f times",
+        1e3 * ours, 1e3 * LIMIT_POINT, rtol, 1e3 * theirs, off, theirs / ours,
+    )  # fmt: skip
+    for what, other in (
+        ("oil film over constant friction", replace(settings().parameters(), friction="film")),
+        ("6 DOF over 12 DOF", replace(pair, form="six_dof")),
+    ):
+        wall = _time(lambda other=other: periodic_response(other, SPEED), 9)
+        _LOGGER.info("%s: %.2f", what, wall / ours)
 
 
 if __name__ == "__main__":
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
     logging.basicConfig(level=logging.WARNING, format="%(message)s")
     _LOGGER.setLevel(logging.INFO)
-    report_accuracy()
-    time_map()
-    time_grid()
+    compare_with_solve_ivp()
+    time_loaded_contact()
+    time_sweep()

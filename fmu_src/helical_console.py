@@ -30,7 +30,10 @@ def console_helical(
     jobs: int | None,
     command_line: str,
 ) -> bool:
-    """Run a study, write datasets, summary and figures to `out`; return False if it was stopped."""
+    """Run a study, write datasets, summary and figures to `out`; return False if it was stopped.
+
+    A stopped study has no figures.
+    """
     began = time.monotonic()
     out.mkdir(parents=True, exist_ok=True)
     with progress_bar(console) as bar:
@@ -42,20 +45,21 @@ def console_helical(
         study = study_helical_pair(
             settings, observe, store=out / "parts", jobs=jobs, command_line=command_line
         )
-        bar.update(task, description="files and figures")
+        bar.update(task, description="stopped" if study.interrupted else "files and figures")
         for name, dataset in study.datasets.items():
             _write(dataset, out / f"{name}.nc")
         if study.mesh is not None:
             write_line_mesh(study.mesh, out / "line_mesh.nc")
         rows = summary_rows(study)
         _replace_text(out / "summary.csv", summary_csv(rows))
-        save_helical_figures(study.datasets, out / "figures")
-        bar.update(task, completed=_PARTS, description="done")
+        if not study.interrupted:
+            save_helical_figures(study.datasets, out / "figures")
+            bar.update(task, completed=_PARTS, description="done")
     console.print(_table(study, rows))
     for sentence in _doubts(study):
         logger.warning("%s", sentence)
     logger.info("Studied in %.1f s.", time.monotonic() - began)
-    logger.info("Results: %s, %s", out / "summary.csv", out / "figures")
+    logger.info("Results: %s", out)
     return not study.interrupted
 
 
