@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fmu_src.definition import Definition, Value
-from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
+from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
 from gearlube_core.dynamics.helical_pair.gear_march import helical_march
 from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
@@ -18,7 +18,7 @@ from gearlube_core.dynamics.helical_pair.output_names import OUTPUT_NAMES
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes
+from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes, named_line_mesh
 
 GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU's resources
 
@@ -66,16 +66,20 @@ def start_pair(
     """
     arguments: dict[str, Any] = {ARGUMENTS[n]: v for n, v in parameters.items() if n in ARGUMENTS}
     name = str(parameters["gear.name"])
-    if name != CUSTOM:
-        gear = HelicalGearFile.named(name)
-    elif carried is not None:
-        gear = carried.gear
-        arguments["line_mesh"] = carried.line_mesh
-    else:
+    if name == CUSTOM and carried is None:
         raise ParameterError(
             "gear.name must be one of the pairs that ship with gearlube, got custom: this FMU "
             "carries no gear file. Build one with `gearlube build-fmu --gear FILE`."
         )
+    own = carried if name == CUSTOM else None
+    gear = own.gear if own else HelicalGearFile.named(name)
+    if parameters["mesh.stiffness_model"] == LINE_MESH:
+        arguments["line_mesh"] = own.line_mesh if own else named_line_mesh(name)
+        if arguments["line_mesh"] is None:
+            raise ParameterError(
+                "mesh.stiffness_model must be uniform, got line_mesh: this FMU carries no line "
+                "mesh. Build one with `gearlube build-fmu --gear FILE --line-mesh FILE`."
+            )
     pair = HelicalPairModel(helical_march(gear, **arguments))
     pinion_torque, wheel_torque, oil_temperature = inputs
     pair.initialise(
@@ -148,10 +152,9 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
         if line_mesh is None:
             raise
         raise TableError(str(error)) from None
-    starts = {
-        "gear.name": 1.0 + HELICAL_PAIR[DEFINITION.references["gear.name"]].literals.index(CUSTOM),
-        "mesh.backlash": pair.backlash,
-    }
+    starts = {"gear.name": _number_of("gear.name", CUSTOM), "mesh.backlash": pair.backlash}
+    if line_mesh:
+        starts["mesh.stiffness_model"] = _number_of("mesh.stiffness_model", LINE_MESH)
     of_mesh = f", line mesh {line_mesh.name}" if line_mesh else ""
     return replace(
         DEFINITION,
@@ -161,6 +164,10 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
         start_model=partial(start_pair, carried=CarriedPair(gear=gear, line_mesh=line_mesh)),
         resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}),
     )
+
+
+def _number_of(option: str, literal: str) -> float:
+    return 1.0 + HELICAL_PAIR[DEFINITION.references[option]].literals.index(literal)
 
 
 class HelicalPair(CoSimulationSlave):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, output, parameter
 
-CUSTOM = "custom"
+CUSTOM, LINE_MESH = "custom", "line_mesh"  # literals with a meaning to the model's start
 
 _INPUTS = (
     input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives",
@@ -36,8 +36,12 @@ _PARAMETERS = (
               display_unit="um", start=0.5e-6, minimum=1e-9, maximum=2e-5, nominal=1e-6),
     parameter("mesh.backlash", "m", "Normal backlash along the line of action",
               display_unit="um", start=100e-6, minimum=0.0, maximum=2e-3, nominal=1e-4),
+    option("mesh.stiffness_model",
+           "Stiffness of the teeth: one density along all contact lines, or that of the loaded contact"
+           " analysis that ships for he_2007 or that the FMU carries",
+           "uniform", LINE_MESH, start="uniform"),
     parameter("mesh.stiffness_density", "N/m2",
-              "Stiffness per length of contact line; 0 takes that of the gear, or of ISO 6336-1",
+              "Stiffness per length of contact line when uniform; 0 takes that of ISO 6336-1",
               display_unit="N/(mm.um)", start=0.0, minimum=0.0, maximum=1e12, nominal=1e10),
     parameter("mesh.damping_ratio", "1", "Damping ratio of the relative rotation",
               start=0.05, minimum=0.0, maximum=1.0, nominal=0.1),

@@ -15,7 +15,7 @@ from gearlube_core.dynamics.helical_pair.flank_wrench import flank_wrench, turne
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.line_sums import LineSums, line_sums
 from gearlube_core.dynamics.helical_pair.march_constants import FlankConstants
-from gearlube_core.dynamics.helical_pair.march_mesh import MarchMesh, pack_march_mesh
+from gearlube_core.dynamics.helical_pair.march_mesh import pair_data
 from gearlube_core.dynamics.helical_pair.march_parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
 from gearlube_core.dynamics.helical_pair.state import N_STATE, PHI_P, PSI, TH_G, TH_P, U_G, U_P
@@ -26,12 +26,13 @@ from tests.property.test_helical_march_energy import wavy_mesh
 MU = np.full(60, 0.1)
 
 
-def sums_of(a: float, tilt: float, phase: float, p: FlankConstants, mesh: MarchMesh) -> LineSums:
-    return line_sums(a, tilt, phase, mesh.density[0], mesh.offset[0], mesh.station, MU, 0, p)
+def sums_of(a: float, tilt: float, phase: float, data: np.ndarray) -> LineSums:
+    return line_sums(a, tilt, phase, data, MU, 0)
 
 
-def flanks(parameters: HelicalMarchParameters) -> tuple[FlankConstants, MarchMesh]:
-    return parameters.constants().motion.flanks, pack_march_mesh(parameters.mesh)
+def flanks(parameters: HelicalMarchParameters) -> tuple[FlankConstants, np.ndarray]:
+    constants = parameters.constants()
+    return constants.motion.flanks, pair_data(constants, parameters.mesh)
 
 
 @pytest.mark.parametrize("phase", [0.03, 0.37, 0.71, 5.9])
@@ -39,10 +40,10 @@ def flanks(parameters: HelicalMarchParameters) -> tuple[FlankConstants, MarchMes
 def test_sums_are_integrals_along_the_lines(phase: float, a: float, tilt: float) -> None:
     """Contact over part of a line included; adaptive quadrature of the definition."""
     parameters = he_march()
-    p, mesh = flanks(parameters)
+    _, data = flanks(parameters)
     pair = named_pair("he_2007")
     b, half = pair.base_helix_angle, 0.5 * pair.face_width
-    k = float(mesh.density[0, 0])
+    k = float(parameters.mesh.density.max())
     expected = np.zeros(6)
     for i in range(3):
         X = pair.contact_start + (phase % 1.0 + i) * pair.base_pitch
@@ -72,7 +73,7 @@ def test_sums_are_integrals_along_the_lines(phase: float, a: float, tilt: float)
             points = sorted({z for z in kinks if -half < z < half} | {-half, half})
             for low, high in pairwise(points):
                 expected[j] += quad(integrand, low, high)[0] / math.cos(b)
-    found = np.array(sums_of(a, tilt, phase, p, mesh)[:6])
+    found = np.array(sums_of(a, tilt, phase, data)[:6])
     assert np.abs(expected[:3]).max() > 10.0  # N: the case is loaded
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
 
@@ -81,14 +82,14 @@ def test_sums_are_integrals_along_the_lines(phase: float, a: float, tilt: float)
 def test_forces_and_moving_lines_are_the_slopes_of_one_energy(phase: float) -> None:
     """d(energy) = N da + (cos(b) Nz + sin(b) Nx) d(tilt) + moving dX, by central differences."""
     parameters = wavy_mesh(he_march())
-    p, mesh = flanks(parameters)
+    p, data = flanks(parameters)
     a, tilt = 2e-6, 2e-4  # part of the lines out of contact
-    sums = sums_of(a, tilt, phase, p, mesh)
+    sums = sums_of(a, tilt, phase, data)
 
     def slope(da: float, dtilt: float, dX: float) -> float:
         pitch = p.plane.pitch
-        high = sums_of(a + da, tilt + dtilt, phase + dX / pitch, p, mesh).energy
-        low = sums_of(a - da, tilt - dtilt, phase - dX / pitch, p, mesh).energy
+        high = sums_of(a + da, tilt + dtilt, phase + dX / pitch, data).energy
+        low = sums_of(a - da, tilt - dtilt, phase - dX / pitch, data).energy
         return (high - low) / (2.0 * (da + dtilt + dX))
 
     along = p.plane.cos_b * sums.Nz + p.plane.sin_b * sums.Nx
@@ -101,7 +102,7 @@ def test_forces_and_moving_lines_are_the_slopes_of_one_energy(phase: float) -> N
 
 def test_coast_flanks_press_the_other_way_and_need_no_frame_of_their_own() -> None:
     """Virtual work: every component of the coast flanks' wrench is a slope of their energy."""
-    p, mesh = flanks(he_march(backlash=50e-6))
+    p, data = flanks(he_march(backlash=50e-6))
     rng = np.random.default_rng(3)
     s = np.zeros(N_STATE)
     s[U_P : U_P + 3] = 1e-6 * rng.normal(size=3)
@@ -113,12 +114,12 @@ def test_coast_flanks_press_the_other_way_and_need_no_frame_of_their_own() -> No
 
     def energy(state: np.ndarray) -> float:
         view = coast_view(state, p)
-        return sums_of(view.a, view.tilt, view.phase, p, mesh).energy
+        return sums_of(view.a, view.tilt, view.phase, data).energy
 
     view = coast_view(s, p)
-    sums = sums_of(view.a, view.tilt, view.phase, p, mesh)
+    sums = sums_of(view.a, view.tilt, view.phase, data)
     w = turned_wrench(flank_wrench(sums, 0.0, p), p)
-    assert sums_of(*drive_view(s, p), p, mesh).N == 0.0
+    assert sums_of(*drive_view(s, p), data).N == 0.0
     forces = {
         U_P: w.F_x, U_P + 1: w.F_y, U_P + 2: w.F_z, TH_P: w.M_px, TH_P + 1: w.M_py,
         U_G: -w.F_x, U_G + 1: -w.F_y, U_G + 2: -w.F_z, TH_G: w.M_gx, TH_G + 1: w.M_gy,

@@ -13,6 +13,7 @@ from gearlube_core.dynamics.helical_pair.gear_march import helical_march
 from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 
 H = 2.0**-10  # s; exact in binary, so that t + h is exact too
 
@@ -89,8 +90,9 @@ class Case:
         return model.outputs.tolist()
 
 
-def helical(gear_name: str = "he_2007", **settings: Any) -> Any:
-    return helical_march(HelicalGearFile.named(gear_name), **settings)
+def helical(gear_name: str = "he_2007", stiffness_model: str = "uniform", **settings: Any) -> Any:
+    mesh = named_line_mesh(gear_name) if stiffness_model == "line_mesh" else None
+    return helical_march(HelicalGearFile.named(gear_name), line_mesh=mesh, **settings)
 
 
 HYPOID_AXLE = Case(
@@ -139,7 +141,8 @@ HELICAL_PAIR = Case(
     build=build.build_helical_pair,
     script="helical_pair_slave.py",
     snapshot="helical_value_references.json",
-    arguments=helical_pair.ARGUMENTS | {"gear.name": "gear_name"},
+    arguments=helical_pair.ARGUMENTS
+    | {"gear.name": "gear_name", "mesh.stiffness_model": "stiffness_model"},
     parameters=helical,
     model=HelicalPairModel,
     changed={"support.radial_stiffness": 2e9, "friction.model": 2, "pinion.speed_start": 150.0},

@@ -27,7 +27,7 @@ from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
 
-CUSTOM = 4  # of gear.name
+CUSTOM, LINE_MESH = 4, 2  # of gear.name and mesh.stiffness_model
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +75,8 @@ def test_the_fmu_computes_with_its_own_pair_bit_for_bit(
     folder: Path, host_of: Callable[[Path], Host], gear_file: Path, line_mesh: Path
 ) -> None:
     host = host_of(folder)
-    assert host.get("gear.name", "mesh.backlash") == [CUSTOM, 0.06e-3]
+    started_with = host.get("gear.name", "mesh.stiffness_model", "mesh.backlash")
+    assert started_with == [CUSTOM, LINE_MESH, 0.06e-3]
     torques = 900.0, 900.0 * 34 / 33
     assert host.start(pinion__torque=torques[0], wheel__torque=torques[1]) == OK
     assert host.step(H, 5) == OK
@@ -90,7 +91,8 @@ def test_the_fmu_computes_with_its_own_pair_bit_for_bit(
     assert host.outputs() == pair.outputs.tolist()
     # not the numbers of the shipped pair, nor those without the mesh
     gear = HelicalGearFile.from_toml(gear_file)
-    plain = definition_with(gear_file).start_model(parameters, [*torques, 333.15])
+    parameters["mesh.stiffness_model"] = "uniform"
+    plain = carried.start_model(parameters, [*torques, 333.15])
     assert isinstance(plain, HelicalPairModel)
     assert plain.parameters.gear.support.first.K_xx == pytest.approx(900e6)
     assert plain.parameters.pair == gear.helical_pair()
@@ -99,7 +101,12 @@ def test_the_fmu_computes_with_its_own_pair_bit_for_bit(
 
 def test_the_shipped_pairs_are_still_inside(folder: Path, host_of: Callable[[Path], Host]) -> None:
     host = host_of(folder)
-    assert host.start(gear__name=1, mesh__backlash=100e-6, oil__temperature=333.15) == OK
+    assert (
+        host.start(
+            gear__name=1, mesh__stiffness_model=1, mesh__backlash=100e-6, oil__temperature=333.15
+        )
+        == OK
+    )
     assert host.step(H) == OK
     assert host.outputs() == HELICAL_PAIR.direct(1)
 
@@ -111,6 +118,22 @@ def test_an_fmu_without_a_gear_file_refuses_custom(
     assert host.start(gear__name=CUSTOM) == FATAL
     assert "carries no gear file" in host.messages("logStatusFatal")
     assert "gearlube build-fmu --gear" in host.messages("logStatusFatal")
+
+
+def test_a_pair_without_line_mesh_refuses_it(
+    extracted: Callable[..., Path], host_of: Callable[[Path], Host], gear_file: Path
+) -> None:
+    host = host_of(extracted(HELICAL_PAIR))
+    assert host.start(gear__name=2, mesh__stiffness_model=LINE_MESH) == FATAL
+    assert "'jamali_2015_a' is shipped" in host.messages("logStatusFatal")
+    carried = definition_with(gear_file)
+    parameters = {
+        v.name: v.decoded(v.start) for v in carried.variables if v.causality == "parameter"
+    }
+    with pytest.raises(ParameterError, match="this FMU carries no line mesh"):
+        carried.start_model(
+            parameters | {"mesh.stiffness_model": "line_mesh"}, [900.0, 900.0, 333.15]
+        )
 
 
 def test_the_fmu_is_sound_and_carries_the_files_to_the_byte(

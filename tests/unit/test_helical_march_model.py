@@ -15,6 +15,7 @@ from gearlube_core.dynamics.helical_pair.output_names import (
 )
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helical_march_cases import (
     OIL,
     PERIOD,
@@ -158,6 +159,26 @@ def test_a_mesh_of_another_pair_is_refused() -> None:
     other = uniform_mesh(HelicalGearFile.named("jamali_2015_a").helical_pair())
     with pytest.raises(ParameterError, match="mesh must belong to the pair of 25 and 31 teeth"):
         helical_march(HelicalGearFile.named("he_2007"), line_mesh=other)
+
+
+def test_a_line_mesh_and_a_density_exclude_each_other() -> None:
+    gear = HelicalGearFile.named("he_2007")
+    mesh = named_line_mesh("he_2007")
+    with pytest.raises(ParameterError, match="must be 0 with a line mesh"):
+        helical_march(gear, line_mesh=mesh, stiffness_density=1e10)
+
+
+def test_the_loaded_contact_analysis_carries_the_torque_at_its_own_error() -> None:
+    """Load and mean deflection of the shipped mesh at one of its levels, the energy closed."""
+    mesh = named_line_mesh("he_2007")
+    model = started(helical_march(HelicalGearFile.named("he_2007"), line_mesh=mesh, friction="off"))
+    before = energies(model)
+    rows = history(model, ["mesh.load", "mesh.separated"], 200, PERIOD / 10)
+    pair = model.parameters.pair
+    normal = TORQUE / pair.pinion_base_radius / math.cos(pair.base_helix_angle)
+    assert rows[:, 0].mean() == pytest.approx(normal, rel=2e-3)  # ringing of the start
+    assert not rows[:, 1].any()
+    assert abs(unaccounted(before, energies(model))) < 2e-6 * energies(model)[0]
 
 
 def test_a_gear_without_bearings_needs_them_from_elsewhere() -> None:

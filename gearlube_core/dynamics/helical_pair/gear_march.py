@@ -72,7 +72,7 @@ def helical_march(
     line_mesh : LineMesh, optional
         Stiffness along its contact lines; by default one density.
     stiffness_density : float
-        That density [N/m2], before `line_mesh`; 0: `line_mesh`, or that of ISO 6336-1.
+        That density [N/m2]; 0: that of ISO 6336-1. With a line mesh it must be 0.
     backlash : float, optional
         Normal [m]; by default that of the file.
     oil : str
@@ -97,8 +97,13 @@ def helical_march(
     ):
         check_within(name, value, 0.0, high, unit, "0 takes the value of the gear file.")
     pair = gear.helical_pair()
-    if stiffness_density > 0.0 or line_mesh is None:
+    if line_mesh is None:
         line_mesh = uniform_mesh(pair, stiffness_density)
+    elif stiffness_density > 0.0:
+        raise ParameterError(
+            f"stiffness_density must be 0 with a line mesh, got {stiffness_density:g} N/m2. "
+            "Choose one of them."
+        )
 
     def body(role: Role) -> Body:
         given = gear.body(role)
