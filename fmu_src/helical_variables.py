@@ -37,8 +37,8 @@ _PARAMETERS = (
     parameter("mesh.backlash", "m", "Normal backlash along the line of action",
               display_unit="um", start=100e-6, minimum=0.0, maximum=2e-3, nominal=1e-4),
     option("mesh.stiffness_model",
-           "Stiffness of the teeth: one density along all contact lines, or that of the loaded contact"
-           " analysis that ships for he_2007 or that the FMU carries",
+           "Stiffness of the teeth: one density along all contact lines, or the loaded contact "
+           "analysis that ships for he_2007 or that the FMU carries",
            "uniform", LINE_MESH, start="uniform"),
     parameter("mesh.stiffness_density", "N/m2",
               "Stiffness per length of contact line when uniform; 0 takes that of ISO 6336-1",
