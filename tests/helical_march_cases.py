@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from gearlube_core.dynamics.helical_pair.march_parameters import HelicalMarchPar
 from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.output_names import ENERGIES_AT, OUTPUT_INDEX
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh import LineMesh
 
 SPEED = 1000.0 * math.pi / 30.0  # rad/s
 TORQUE = 225.97  # N.m at the pinion
@@ -74,3 +76,26 @@ def unaccounted(before: np.ndarray, after: np.ndarray) -> float:
     """Energy that entered and is neither lost nor stored [J]."""
     entered, left, *lost, stored = after - before
     return float(entered - left - sum(lost) - stored)
+
+
+def wavy_mesh(parameters: HelicalMarchParameters) -> HelicalMarchParameters:
+    """The pair with density and offset that vary with phase, line and station."""
+    plain = parameters.mesh
+    phase = np.arange(32) / 32.0
+    station = np.linspace(0.0, 1.0, 5)
+    # continuous as line i becomes line i + 1 at the end of the period
+    age = np.arange(plain.lines)[:, None] + phase[:, None, None]
+    wave = np.sin(2.0 * np.pi * age / plain.lines + station)
+    mesh = LineMesh(
+        name="wavy",
+        source="made up",
+        pinion_teeth=plain.pinion_teeth,
+        gear_teeth=plain.gear_teeth,
+        base_pitch=plain.base_pitch,
+        torque=np.array([TORQUE]),
+        phase=phase,
+        station=station,
+        density=(float(plain.density.max()) * (1.0 + 0.2 * wave))[None],
+        offset=(2e-6 * (1.0 + wave))[None],
+    )
+    return replace(parameters, mesh=mesh)

@@ -20,8 +20,16 @@ from gearlube_core.dynamics.helical_pair.march_parameters import HelicalMarchPar
 from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
 from gearlube_core.dynamics.helical_pair.state import N_STATE, PHI_P, PSI, TH_G, TH_P, U_G, U_P
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from tests.helical_march_cases import PERIOD, SPEED, TORQUE, he_march, history, output, started
-from tests.property.test_helical_march_energy import wavy_mesh
+from tests.helical_march_cases import (
+    PERIOD,
+    SPEED,
+    TORQUE,
+    he_march,
+    history,
+    output,
+    started,
+    wavy_mesh,
+)
 
 MU = np.full(60, 0.1)
 

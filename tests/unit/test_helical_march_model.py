@@ -28,8 +28,8 @@ from tests.helical_march_cases import (
     output,
     started,
     unaccounted,
+    wavy_mesh,
 )
-from tests.property.test_helical_march_energy import wavy_mesh
 
 NAN = float("nan")
 LINES = [f"line[{i}].load" for i in range(1, LINES_MAX + 1)]
