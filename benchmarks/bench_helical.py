@@ -12,6 +12,7 @@ import statistics
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -102,7 +103,7 @@ def time_sweep() -> None:
 def time_loaded_contact() -> None:
     """Log the wall time of a loaded mesh period in one process, teeth from the cache."""
     asked = settings(positions=12)
-    run = lambda: analyse_loaded_contact(asked, None, 1, lambda _: None, lambda _: None)  # noqa: E731
+    run = lambda: analyse_loaded_contact(asked, None, 1, 1, lambda _: None, lambda _: None)  # noqa: E731
     wall = _time(run, 1)
     states = asked.positions * len(TORQUES)
     _LOGGER.info(
@@ -150,14 +151,14 @@ def compare_with_solve_ivp() -> None:
             break
     theirs = _time(lambda: _marched(pair, response, rtol), 3)
     _LOGGER.info(
-        "operating point: %.1f ms, limit %.0f ms; DOP853, rtol %.0e: %.0f ms, error %.0e, %.0f times",
+        "%.1f ms a point, limit %.0f ms; DOP853, rtol %.0e: %.0f ms, error %.0e, %.0f times",
         1e3 * ours, 1e3 * LIMIT_POINT, rtol, 1e3 * theirs, off, theirs / ours,
     )  # fmt: skip
     for what, other in (
         ("oil film over constant friction", replace(settings().parameters(), friction="film")),
         ("6 DOF over 12 DOF", replace(pair, form="six_dof")),
     ):
-        wall = _time(lambda other=other: periodic_response(other, SPEED), 9)
+        wall = _time(partial(periodic_response, other, SPEED), 9)
         _LOGGER.info("%s: %.2f", what, wall / ours)
 
 

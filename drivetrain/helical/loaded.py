@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from drivetrain.helical.pair_model import iso_density
+from drivetrain.helical.iso_density import iso_density, iso_mesh_stiffness
 from drivetrain.helical.settings import HelicalSettings
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
 from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
@@ -23,7 +23,6 @@ from gearlube_core.helical_geometry.contact_line import (
     line_position,
     segment_length,
 )
-from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
 _PHASES = 240
@@ -40,6 +39,7 @@ def analyse_loaded_contact(
     settings: HelicalSettings,
     store: Path | None,
     jobs: int | None,
+    cycle_jobs: int | None,
     announce: Callable[[str], None],
     observe: Callable[[float], None],
 ) -> LoadedContact:
@@ -50,7 +50,9 @@ def analyse_loaded_contact(
     settings : HelicalSettings
     store : Path, optional
     jobs : int, optional
-        Processes; all processors by default.
+        Processes for the teeth; all processors by default.
+    cycle_jobs : int, optional
+        The same for the positions.
     announce : callable
         Told in words what begins.
     observe : callable
@@ -64,22 +66,21 @@ def analyse_loaded_contact(
     def tell(progress: CycleProgress) -> None:
         observe(progress.done / progress.total)
 
-    record = run_cycle(modified, stiffness, cycle, store=store, jobs=jobs, observer=tell)
+    record = run_cycle(modified, stiffness, cycle, store=store, jobs=cycle_jobs, observer=tell)
     dataset = contact_dataset(modified, cycle, record)
     pair = modified.pair
-    load = settings.pinion_torque / pair.pinion_base_radius / pair.face_width
-    iso = iso_stiffness(pair, line_load=load, rack_dedendum=1.2)
+    iso, outside = iso_mesh_stiffness(pair, settings.pinion_torque)
     dataset.attrs |= {
         "contact_start": pair.contact_start,
         "contact_end": pair.contact_end,
         "pitch_point": pair.pitch_point,
         "line_lag": pair.face_width * math.tan(pair.base_helix_angle),
         "path_units": "m",
-        "iso_mesh_stiffness": iso.mesh * pair.face_width,
+        "iso_mesh_stiffness": iso,
         "iso_mesh_stiffness_units": "N/m",
         "iso_density": iso_density(pair, settings.pinion_torque),
         "iso_density_units": "N/m2",
-        "iso_outside": "; ".join(iso.outside) or "none",
+        "iso_outside": "; ".join(outside) or "none",
     }
     return LoadedContact(dataset, line_mesh(modified, cycle, record))
 

@@ -8,9 +8,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from drivetrain.helical.pair_model import density_mesh, iso_density, pair_parameters
+from drivetrain.helical.iso_density import iso_density
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
+from gearlube_core.dynamics.helical_pair.gear_file_pair import (
+    constant_density_mesh,
+    gear_file_pair,
+)
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
 from gearlube_core.errors import ParameterError
@@ -166,7 +170,7 @@ class HelicalSettings:
     def constant_mesh(self) -> LineMesh:
         """Return the mesh of one density."""
         source = "given" if self.density is not None else "ISO 6336-1 and He et al. 2007 eq. (2)"
-        return density_mesh(self.file.helical_pair(), self.stiffness_density, source)
+        return constant_density_mesh(self.file.helical_pair(), self.stiffness_density, source)
 
     def film(self) -> FilmFriction:
         """Return the oil and the flanks that film friction depends on."""
@@ -182,7 +186,7 @@ class HelicalSettings:
 
         `film` is set where the oil film is asked for.
         """
-        pair = pair_parameters(self.file, mesh or self.constant_mesh(), self.pinion_torque)
+        pair = gear_file_pair(self.file, mesh or self.constant_mesh(), self.pinion_torque, 0.0)
         return replace(pair, film=self.film()) if self.friction == "film" else pair
 
     def cycle(self) -> CycleSettings:

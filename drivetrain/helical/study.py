@@ -136,12 +136,24 @@ def study_helical_pair(
     return study
 
 
+# seconds of one processor; a process costs two or three before it begins
+_STATE, _POINT, _CELL, _FEW = 0.07, 0.006, 0.002, 5.0
+
+
+def _processes(jobs: int | None, seconds: float) -> int | None:
+    """Return how many processes are worth it for so much work."""
+    return 1 if seconds < _FEW else jobs
+
+
 def _tasks(study: HelicalStudy, store: Path | None, jobs: int | None) -> list[_Task]:
     settings, kept = study.settings, study.datasets
     tasks: list[_Task] = []
 
     def contact(report: _Report) -> None:
-        found = analyse_loaded_contact(settings, store, jobs, report.announce, report)
+        work = _STATE * settings.positions * len(settings.load_steps)
+        found = analyse_loaded_contact(
+            settings, store, jobs, _processes(jobs, work), report.announce, report
+        )
         density = settings.stiffness_density
         kept["contact"] = found.dataset.merge(constant_density_stiffness(settings, density))
         kept["contact"].attrs = found.dataset.attrs | {
@@ -165,12 +177,13 @@ def _tasks(study: HelicalStudy, store: Path | None, jobs: int | None) -> list[_T
 
     def sweep(report: _Report) -> None:
         parameters = study.parameters
+        speeds = settings.swept_speeds(parameters)
         kept["sweep"] = sweep_dataset(
             parameters,
             np.array(settings.mu),
-            settings.swept_speeds(parameters),
+            speeds,
             store=store,
-            jobs=jobs,
+            jobs=_processes(jobs, _POINT * speeds.size * len(settings.mu)),
             observe=report,
         )
         kept["sweep"].attrs |= pair_attributes(parameters)
@@ -182,7 +195,9 @@ def _tasks(study: HelicalStudy, store: Path | None, jobs: int | None) -> list[_T
             settings.stability_columns,
             settings.stability_rows,
             store=store,
-            jobs=jobs,
+            jobs=_processes(
+                jobs, 3.0 * _CELL * settings.stability_columns * settings.stability_rows
+            ),
             observe=report,
         )
         kept["stability"].attrs |= pair_attributes(parameters)
