@@ -1,0 +1,203 @@
+"""Semismooth Newton iteration of a line contact on one grid: film, load, rupture together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlube_core.ehl.line_system import Factors, LineState, LineSystem
+
+# a film may shrink to this share of itself in one step
+_SHRINK = 0.1
+# steps within which the smallest residual has to halve
+_PATIENCE = 12
+# largest change of ln(viscosity) and of pressure [Hertz pressures] in one step
+_LARGEST_LOG, _LARGEST_RISE = 6.0, 0.6
+# a factorisation is kept while it takes the residual down by this
+_KEEP = 0.25
+# from this many unknowns on it is worth keeping
+_LARGE = 350
+# rounding of the carried flows, summed over the nodes
+_ROUNDING = 20.0 * np.finfo(float).eps
+
+
+@dataclass(frozen=True, slots=True)
+class NewtonRecord:
+    """How an iteration went: residual (k,), load error (k,), verdict."""
+
+    residual: tuple[float, ...]
+    load_error: tuple[float, ...]
+    converged: bool
+    reason: str
+
+
+def flow_residual(system: LineSystem, state: LineState, free: np.ndarray) -> float:
+    """Return the sum of unbalanced flows over the flow through the contact [1].
+
+    Counts what a full film gains or loses, and what a broken one would have to take in.
+    """
+    r = system.rows.residual[1:-1]
+    inside = free[1:-1]
+    wrong = np.where(inside, np.abs(r), np.maximum(-r, 0.0))
+    return float(wrong.sum() / flow_scale(system, state))
+
+
+def flow_scale(system: LineSystem, state: LineState) -> float:
+    """Return the flow through the loaded part [1], the yardstick of residuals."""
+    P = state.P
+    loaded = P - 0.3 * P.max() >= 0.0
+    mean = float((system.rows.rho[loaded] * system.H[loaded]).mean())
+    c = system.coefficients
+    return max(abs(c.speed), c.storage, 1e-12) * max(mean, 1e-300)
+
+
+def rounding_floor(system: LineSystem, state: LineState) -> float:
+    """Return the residual [1] that rounding of film, pressure and flow alone can leave."""
+    rows, c = system.rows, system.coefficients
+    carried = abs(c.speed) * float((rows.rho * np.abs(system.H)).sum())
+    pumped = float((np.abs(rows.by_pressure[:, 2]) * state.P).sum())
+    return _ROUNDING * (carried + 0.1 * pumped) / flow_scale(system, state)
+
+
+def _step_length(system: LineSystem, state: LineState, dP: np.ndarray, dH0: float) -> float:
+    dH = dH0 + system.deflection(dP)
+    falls = -dH / np.maximum(system.H, 1e-300)
+    length = min(1.0, (1.0 - _SHRINK) / max(float(falls.max()), 1e-300))
+    steep = float(np.abs(dP * system.rows.eta_slope).max())
+    length = min(length, _LARGEST_LOG / max(steep, 1e-300))
+    return min(length, _LARGEST_RISE / max(float(np.abs(dP).max()), 1e-300))
+
+
+def _advance(
+    system: LineSystem, state: LineState, change: tuple[np.ndarray, np.ndarray, float], s: float
+) -> LineState:
+    dP, dvoid, dH0 = change
+    P, void = state.P + s * dP, state.void + s * dvoid
+    return LineState(np.maximum(P, 0.0), np.clip(void, 0.0, 1.0), state.H0 + s * dH0)
+
+
+def newton(
+    system: LineSystem, start: LineState, tolerance: float, max_iterations: int
+) -> tuple[LineState, NewtonRecord]:
+    """Return the solution on the grid of `system` and the record of its iteration.
+
+    Parameters
+    ----------
+    system : LineSystem
+        Equations.
+    start : LineState
+        Start, not changed.
+    tolerance : float
+        Of `flow_residual`; the load is held to the same number.
+    max_iterations : int
+        Newton steps.
+
+    Returns
+    -------
+    tuple of LineState, NewtonRecord
+
+    Notes
+    -----
+    A node is full (its balance vanishes) or broken (its pressure vanishes). It breaks where a
+    step would make its pressure negative, and fills again where its balance turns negative or,
+    with mass conservation, its void share.
+    """
+    state = start.copy()
+    free = state.P > 0.0
+    free[[0, -1]] = False
+    residuals: list[float] = []
+    loads: list[float] = []
+    factors: Factors | None = None
+    system.evaluate(state)
+    while not np.all(system.H > 0.0):
+        state.H0 += 1.01 * abs(float(system.H.min())) + 1e-3 * float(system.H.max() > 0)
+        system.evaluate(state)
+    interior = np.arange(1, state.P.size - 1)
+    for _ in range(max_iterations + 1):
+        free = _full_nodes(system, state, free)
+        residual, load = flow_residual(system, state, free), abs(system.load_error(state))
+        residuals.append(residual)
+        loads.append(load)
+        if not np.isfinite(residual):
+            return state, _record(residuals, loads, "the iteration left the range of numbers")
+        if residual <= max(tolerance, rounding_floor(system, state)) and load <= tolerance:
+            return state, _record(residuals, loads, "")
+        if len(residuals) > _PATIENCE and _stagnant(residuals, loads):
+            return state, _record(residuals, loads, "the iteration stagnates")
+        nodes = interior if system.mass_conserving else np.flatnonzero(free)
+        voids = ~free[nodes] if system.mass_conserving else np.zeros(nodes.size, dtype=np.bool_)
+        if nodes.size == 0:
+            return state, _record(residuals, loads, "no node carries pressure")
+        if not _still_good(factors, nodes, voids, residuals, loads):
+            factors = system.factorise(nodes, voids)
+        assert factors is not None
+        change = system.solve(factors, system.load_error(state))
+        if not np.isfinite(change[2]):
+            return state, _record(residuals, loads, "the Jacobian is singular")
+        length = _step_length(system, state, change[0], change[2])
+        state = _accept(system, state, change, length, residual + load)
+    return state, _record(residuals, loads, f"no convergence in {max_iterations} Newton steps")
+
+
+def _full_nodes(system: LineSystem, state: LineState, free: np.ndarray) -> np.ndarray:
+    if system.mass_conserving:
+        # between the two states a node follows the balance
+        fills = (state.void <= 0.0) & (system.rows.residual < 0.0)
+        full = (
+            (state.P > 0.0)
+            | ((state.void <= 0.0) & (free | fills) & (state.P > 0.0))
+            | ((state.void <= 0.0) & fills & ~free)
+        )
+    else:
+        full = (state.P > 0.0) | (system.rows.residual < 0.0)
+    full[[0, -1]] = False
+    return full
+
+
+def _stagnant(residuals: list[float], loads: list[float]) -> bool:
+    total = [a + b for a, b in zip(residuals, loads, strict=True)]
+    return min(total[-_PATIENCE:]) > 0.5 * min(total[:-_PATIENCE])
+
+
+def _still_good(
+    factors: Factors | None,
+    nodes: np.ndarray,
+    voids: np.ndarray,
+    residuals: list[float],
+    loads: list[float],
+) -> bool:
+    if factors is None or nodes.size < _LARGE or len(residuals) < 2:
+        return False
+    if not np.array_equal(factors.nodes, nodes) or not np.array_equal(factors.voids, voids):
+        return False
+    return residuals[-1] + loads[-1] < _KEEP * (residuals[-2] + loads[-2])
+
+
+def _accept(
+    system: LineSystem,
+    state: LineState,
+    change: tuple[np.ndarray, np.ndarray, float],
+    length: float,
+    merit: float,
+) -> LineState:
+    best, best_merit = None, np.inf
+    for _ in range(6):
+        trial = _advance(system, state, change, length)
+        system.evaluate(trial)
+        if np.all(system.H > 0.0):
+            free = (trial.P > 0.0) | (system.rows.residual < 0.0)
+            new = flow_residual(system, trial, free) + abs(system.load_error(trial))
+            if new < best_merit:
+                best, best_merit = trial, new
+            if new < (1.0 - 0.1 * length) * merit:
+                return trial
+        length *= 0.5
+    if best is None:
+        best = _advance(system, state, change, length)
+    system.evaluate(best)
+    return best
+
+
+def _record(residuals: list[float], loads: list[float], reason: str) -> NewtonRecord:
+    return NewtonRecord(tuple(residuals), tuple(loads), not reason, reason)
