@@ -58,9 +58,8 @@ class MultigridCycle:
     def _cycle(self, k: int, residual: Array, load_residual: float) -> tuple[Array, float]:
         if k == 0:
             return self._direct(residual, load_residual)
-        level, operator, smoother = self._levels[k], self._operators[k], self._smoothers[k - 1]
-        transfer = self._transfers[k - 1]
-        pressure = smoother(residual)
+        level, operator, transfer = self._levels[k], self._operators[k], self._transfers[k - 1]
+        pressure = self._smooth(k, residual)
         share = level.cell / level.scales.load
         rest = residual - operator.apply(level, pressure, 0.0)
         coarse, approach = self._cycle(
@@ -68,7 +67,19 @@ class MultigridCycle:
         )
         correction = transfer.up(coarse)
         correction[~operator.free] = 0.0
-        pressure = pressure + correction
+        pressure += correction
         rest = residual - operator.apply(level, pressure, approach)
-        pressure += smoother(rest)
+        pressure += self._smooth(k, rest)
         return pressure, approach
+
+    def _smooth(self, k: int, residual: Array) -> Array:
+        """Return line solutions without the part that the coarser grid represents.
+
+        Rows with a local deflection are too soft for long waves, by the ratio of their length to
+        the spacing, and would amplify them.
+        """
+        transfer = self._transfers[k - 1]
+        pressure = self._smoothers[k - 1](residual)
+        pressure -= transfer.up(transfer.down(pressure))
+        pressure[~self._operators[k].free] = 0.0
+        return pressure
