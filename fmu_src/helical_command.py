@@ -158,7 +158,7 @@ def helical(
             roughness_rms=1e-6 * roughness_um,
             parts=parts,
         )
-        finished = console_helical(
+        outcome = console_helical(
             console,
             settings=quick_settings(settings) if quick else settings,
             out=out,
@@ -174,6 +174,7 @@ def helical(
     except (GearLubeError, OSError) as error:
         logger.error("%s", error)
         raise typer.Exit(FAILED) from None
-    if not finished:
+    if outcome == INTERRUPTED:
         logger.warning("Stopped. Run the same command again to go on from %s.", out / "parts")
-        raise typer.Exit(INTERRUPTED)
+    if outcome:
+        raise typer.Exit(outcome)

@@ -15,6 +15,7 @@ from drivetrain.helical.settings import HelicalSettings
 from drivetrain.helical.study import HelicalStudy, Stage, study_helical_pair
 from drivetrain.helical.summary import Row, summary_csv, summary_rows
 from drivetrain.helical_figures.catalogue import save_helical_figures
+from fmu_src.exit_codes import FAILED, INTERRUPTED
 from fmu_src.progress_bar import progress_bar
 from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
 
@@ -29,8 +30,8 @@ def console_helical(
     out: Path,
     jobs: int | None,
     command_line: str,
-) -> bool:
-    """Run a study, write datasets, summary and figures to `out`; return False if it was stopped.
+) -> int:
+    """Run a study, write datasets, summary and figures to `out`; return what the shell is told.
 
     A stopped study has no figures.
     """
@@ -60,7 +61,11 @@ def console_helical(
         logger.warning("%s", sentence)
     logger.info("Studied in %.1f s.", time.monotonic() - began)
     logger.info("Results: %s", out)
-    return not study.interrupted
+    for name, reason in study.failures.items():
+        logger.error("%s: %s", name, reason)
+    if study.interrupted:
+        return INTERRUPTED
+    return FAILED if study.failures else 0
 
 
 def _write(dataset: xr.Dataset, path: Path) -> None:

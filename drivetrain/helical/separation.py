@@ -11,19 +11,23 @@ import xarray as xr
 
 from drivetrain.helical.labels import Variables
 from drivetrain.helical.stability import LIGHT_DAMPING
+from gearlube_core.dynamics.helical_pair.linear_system import RELATIVE
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.periodic_response import periodic_response
 from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
-from gearlube_core.periodic import follow
+from gearlube_core.errors import ConvergenceError
+from gearlube_core.periodic import Branch, follow
 
 DIVISIONS = 2  # parts of a line that can lift off by themselves
 RANGE = (0.3, 1.3)  # mesh frequency over that of the mesh's own mode
+_SETTLING = 500  # mesh periods
 _ROW = {
     "speed": ("rad/s", "pinion speed"),
     "relative_frequency": ("1", "mesh frequency over that of the mesh's own mode"),
     "peak_to_peak": ("m", "dynamic transmission error, peak to peak"),
     "separation_share": ("1", "share of the time without any contact"),
     "lift_off_share": ("1", "share of the time in which part of the lines is off"),
+    "segment": ("1", "0 from the lowest speed, 1 from the highest where 0 does not reach it"),
     "stable": ("1", "1 stable, 0 unstable, NaN no row"),
 }
 
@@ -130,30 +134,46 @@ def _branch(
     problem = SeparationProblem(replace(linear, contact="one_sided", line_divisions=DIVISIONS))
     low, high = (share * problem.natural_speed for share in RANGE)
     asked = np.linspace(low, high, speeds)
-    branch = follow(
-        problem.over_speed(),
-        problem.initial_guess(),
-        low,
-        limits=(low, high),
-        at=asked,
-        progress=lambda _, speed: tell((speed - low) / (high - low)),
-    )
-    if branch.ending == "interrupted":
-        raise KeyboardInterrupt
-    orbits = [
-        problem.orbit(z, float(speed))
-        for z, speed in zip(branch.unknowns, branch.parameter, strict=True)
-    ]
+
+    def along(speed: float, heading: float) -> Branch:
+        def walk(start: np.ndarray) -> Branch:
+            return follow(
+                problem.over_speed(),
+                start,
+                speed,
+                limits=(low, high),
+                heading=heading,
+                at=asked,
+                progress=lambda _, now: tell(min(abs(now - speed) / (high - low), 1.0)),
+            )
+
+        start = _start(problem, linear, speed)
+        try:
+            found = walk(start)
+        except ConvergenceError:  # impacts already there: let them settle
+            found = walk(problem.march(start, speed, periods=_SETTLING))
+        if found.ending == "interrupted":
+            raise KeyboardInterrupt
+        return found
+
+    branches = [along(low, 1.0)]
+    if branches[0].parameter[-1] < high:
+        branches.append(along(high, -1.0))
+    parameter = np.concatenate([branch.parameter for branch in branches])
+    unknowns = np.concatenate([branch.unknowns for branch in branches])
+    sizes = [branch.parameter.size for branch in branches]
+    orbits = [problem.orbit(z, float(speed)) for z, speed in zip(unknowns, parameter, strict=True)]
     free = [periodic_response(linear, float(speed), throw=False) for speed in asked]
     return {
         "problem": problem,
-        "ending": branch.ending,
-        "speed": branch.parameter,
-        "relative_frequency": branch.parameter / problem.natural_speed,
+        "ending": " and ".join(branch.ending for branch in branches),
+        "speed": parameter,
+        "relative_frequency": parameter / problem.natural_speed,
         "peak_to_peak": np.array([orbit.peak_to_peak for orbit in orbits]),
         "separation_share": np.array([orbit.separation_share for orbit in orbits]),
         "lift_off_share": np.array([orbit.lift_off_share for orbit in orbits]),
-        "stable": branch.stable.astype(float),
+        "stable": np.concatenate([branch.stable for branch in branches]).astype(float),
+        "segment": np.repeat(np.arange(len(branches)), sizes).astype(float),
         "linear_speed": asked,
         "linear": np.array([np.ptp(response.signal("delta_z")) for response in free]),
         "special": [
@@ -162,9 +182,17 @@ def _branch(
                 point.parameter,
                 problem.orbit(point.unknowns, point.parameter).peak_to_peak,
             )
+            for branch in branches
             for point in branch.special
         ],
     }
+
+
+def _start(problem: SeparationProblem, linear: HelicalPairParameters, speed: float) -> np.ndarray:
+    """Return the motion with springs that also pull at mesh phase zero."""
+    response = periodic_response(linear, speed, throw=False)
+    places = [RELATIVE.index(name) for name in problem.names]
+    return np.concatenate((response.displacement[0, places], response.rate[0, places]))
 
 
 def _padded(values: np.ndarray, length: int) -> np.ndarray:

@@ -16,7 +16,11 @@ from numpy.typing import NDArray
 from drivetrain.helical.sweep_grid import parameters_key
 from gearlube_core.contact.resumable_records import Record, RecordStore, resumable_records
 from gearlube_core.dynamics.helical_pair.instability_map import Axis, instability_map
-from gearlube_core.dynamics.helical_pair.linear_system import linear_system, natural_frequencies
+from gearlube_core.dynamics.helical_pair.linear_system import (
+    linear_system,
+    moments_at,
+    natural_frequencies,
+)
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 
 Array = NDArray[np.float64]
@@ -24,6 +28,8 @@ LIGHT_DAMPING = 0.01  # [-], of welded bodies and rolling bearings, below the pa
 VARIATION = 8.0  # of the mesh about its mean; spur gears of this size vary five times as much
 DAMPING = (0.001, 0.05)
 _RANGE = (0.3, 2.2)  # mesh frequency over the lowest, and over the highest natural frequency
+_SOFT = 0.95  # of the variation that leaves no stiffness, where instability is of another kind
+_PHASES = 64
 _FORMAT = 1
 
 
@@ -61,7 +67,7 @@ def stability_dataset(
     """
     modes = natural_frequencies(linear_system(parameters)) / (2.0 * np.pi)
     frequency = np.linspace(_RANGE[0] * modes[0], _RANGE[1] * modes[-1], columns)
-    variation = np.linspace(0.0, VARIATION, rows)
+    variation = np.linspace(0.0, min(VARIATION, _SOFT * _without_stiffness(parameters)), rows)
     damping = np.geomspace(*DAMPING, rows)
     tasks = [_Row("variation", "stiffness_variation", float(v)) for v in variation]
     tasks += [_Row("variation_light", "stiffness_variation", float(v)) for v in variation]
@@ -118,6 +124,15 @@ def stability_dataset(
             ),
         },
     )
+
+
+def _without_stiffness(parameters: HelicalPairParameters) -> float:
+    """Return the factor on the mesh variation at which its stiffness passes through zero [-]."""
+    system = linear_system(parameters)
+    phase = (np.arange(_PHASES) + 0.5) / _PHASES
+    mean = abs(system.mean[0, 0])
+    least = np.abs(moments_at(system.plane, system.mesh, 0.0, phase)[:, 0, 0]).min()
+    return float(mean / max(mean - least, 1e-9 * mean))
 
 
 def _row(parameters: HelicalPairParameters, frequency: Array, row: _Row) -> Record:

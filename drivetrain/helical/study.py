@@ -21,6 +21,7 @@ from drivetrain.helical.stability import stability_dataset
 from drivetrain.helical.sweep_grid import sweep_dataset
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.periodic_response import with_friction
+from gearlube_core.errors import GearLubeError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
@@ -46,6 +47,8 @@ class HelicalStudy:
         "geometry" and "geometry_" with a name of `THESIS`.
     mesh : LineMesh, optional
         Of the loaded contact.
+    failures : dict of str to str
+        Why a stage found nothing, by its name.
     interrupted : bool
         Whether it was stopped by KeyboardInterrupt.
     """
@@ -53,6 +56,7 @@ class HelicalStudy:
     settings: HelicalSettings
     datasets: dict[str, xr.Dataset] = field(default_factory=dict)
     mesh: LineMesh | None = None
+    failures: dict[str, str] = field(default_factory=dict)
     interrupted: bool = False
 
     @property
@@ -68,6 +72,7 @@ class _Task(NamedTuple):
     name: str
     cost: float  # typical running time [s]
     run: Callable[[_Report], None]
+    needed: bool = False  # by all that follow
 
 
 @dataclass(slots=True)
@@ -116,8 +121,8 @@ def study_helical_pair(
 
     Raises
     ------
-    ConvergenceError
-        No equilibrium of the loaded contact, or the operating point is unstable.
+    GearLubeError
+        The loaded contact failed whose mesh all else needs. Failures of other stages are noted.
     """
     study = HelicalStudy(settings=settings)
     tasks = _tasks(study, store, jobs)
@@ -126,7 +131,12 @@ def study_helical_pair(
         for task in tasks:
             report = _Report(observer, task, before, total)
             report(0.0)
-            task.run(report)
+            try:
+                task.run(report)
+            except GearLubeError as reason:
+                if task.needed:
+                    raise
+                study.failures[task.name] = str(reason)
             before += task.cost
         observer(Stage("done", 1.0))
     except KeyboardInterrupt:
@@ -219,7 +229,7 @@ def _tasks(study: HelicalStudy, store: Path | None, jobs: int | None) -> list[_T
                 kept[f"geometry_{name}"] = gear_file_geometry(HelicalGearFile.named(name))
 
     if settings.with_contact:
-        tasks.append(_Task("loaded contact", 30.0, contact))
+        tasks.append(_Task("loaded contact", 30.0, contact, settings.mesh == "contact"))
     if settings.with_dynamics:
         tasks.append(_Task("operating point", 2.0, respond))
         tasks.append(_Task("friction and speed", 25.0, sweep))

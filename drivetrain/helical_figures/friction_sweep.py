@@ -7,7 +7,7 @@ from typing import Any
 import xarray as xr
 
 from drivetrain.figures.style import house_style, new_figure
-from drivetrain.helical_figures.layout import title
+from drivetrain.helical_figures.layout import NOTHING, say_nothing, title
 
 _ROWS = (
     (("u_xp", "$u_{xp}$"), ("u_yp", "$u_{yp}$"), ("u_zp", "$u_{zp}$")),
@@ -52,9 +52,12 @@ def _panels(
                     wide = 2.0 if column < 2 else 1.1
                     ax.plot(mu, values[:, column], color=colours(column), lw=wide)
                 top = float(values.max())
-                ax.set_yscale("log")
-                ax.set_ylim(max(1e-4 * top, 1e-30), 2.0 * max(top, 1e-30))
                 ax.set_title(symbol)
+                if top > NOTHING:
+                    ax.set_yscale("log")
+                    ax.set_ylim(1e-4 * top, 2.0 * top)
+                else:
+                    say_nothing(ax)
             line[0].set_ylabel(f"amplitude [{unit}]")
         for ax in axes[-1]:
             ax.set_xlabel("coefficient of friction µ")

@@ -14,6 +14,7 @@ Array = NDArray[np.float64]
 RPM = np.pi / 30.0  # rad/s
 PERIODS = "time [mesh periods]"
 _COLOURS = (BLUE, VERMILLION)
+NOTHING = 1e-15  # um or N, below rounding
 _DECADES = 5.0  # of a logarithmic spectrum that are shown
 
 
@@ -57,6 +58,11 @@ def stems(ax: Any, order: Array, sets: list[tuple[Array, str, str]]) -> None:
     sets : list of (amplitude, colour, label)
     """
     top = max(float(np.nanmax(amplitude)) for amplitude, _, _ in sets)
+    ax.set_xlim(order[0] - 0.7, order[-1] + 0.7)
+    ax.set_xticks(order[::2])
+    if not top > NOTHING:
+        say_nothing(ax)
+        return
     low = min((float(a[a > 0.0].min()) for a, _, _ in sets if (a > 0.0).any()), default=top)
     floor = max(10.0**-_DECADES * top, 0.3 * low, 1e-30)
     for row, (amplitude, colour, label) in enumerate(sets):
@@ -66,8 +72,11 @@ def stems(ax: Any, order: Array, sets: list[tuple[Array, str, str]]) -> None:
         ax.plot(at[seen], amplitude[seen], ".", color=colour, ms=4.5, label=label)
     ax.set_yscale("log")
     ax.set_ylim(floor, 3.0 * max(top, floor))
-    ax.set_xlim(order[0] - 0.7, order[-1] + 0.7)
-    ax.set_xticks(order[::2])
+
+
+def say_nothing(ax: Any) -> None:
+    """Write that there is no vibration in a panel."""
+    ax.text(0.5, 0.5, "none", transform=ax.transAxes, ha="center", va="center", color=GREY)
 
 
 def mark_orders(ax: Any, response: xr.Dataset) -> None:

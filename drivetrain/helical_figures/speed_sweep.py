@@ -9,7 +9,7 @@ import xarray as xr
 
 from drivetrain.figures.style import GREEN, GREY, cell_edges, house_style, new_figure, outlined
 from drivetrain.helical.settings import SHOWN_MU
-from drivetrain.helical_figures.layout import RPM, distinct, mesh_words
+from drivetrain.helical_figures.layout import NOTHING, RPM, distinct, mesh_words, say_nothing
 
 _RANGE = 60.0  # dB
 _FORCES = (("F_xp", "$F_{x}$"), ("F_yp", "$F_{y}$"), ("F_zp", "$F_{z}$"))
@@ -40,7 +40,13 @@ def campbell(sweep: xr.Dataset) -> Any:
         axes = figure.subplots(1, len(_FORCES), sharex=True, sharey=True)
         shown = None
         for ax, (name, symbol) in zip(axes, _FORCES, strict=True):
-            level = 20.0 * np.log10(np.maximum(part[f"{name}_harmonic"].values, 1e-12))
+            ax.set_title(f"{symbol} of the pinion's bearings")
+            ax.set_xlabel("pinion speed [rpm]")
+            amplitude = part[f"{name}_harmonic"].values
+            if not np.nanmax(amplitude) > NOTHING:
+                say_nothing(ax)
+                continue
+            level = 20.0 * np.log10(np.maximum(amplitude, NOTHING))
             top = 10.0 * np.ceil(0.1 * np.nanmax(level))
             for mode in modes:
                 ax.axhline(mode, color=GREY, lw=1.0, ls=":", zorder=1)
@@ -61,8 +67,6 @@ def campbell(sweep: xr.Dataset) -> Any:
                 )
             bar = figure.colorbar(shown, ax=ax, location="bottom", shrink=0.9)
             bar.set_label("level [dB re 1 N]")
-            ax.set_title(f"{symbol} of the pinion's bearings")
-            ax.set_xlabel("pinion speed [rpm]")
         axes[0].set(xlim=(0.0, 1.02 * speed[-1]), ylim=(0.0, ceiling), ylabel="frequency [kHz]")
         figure.suptitle(
             _heading(sweep, f"Mesh orders 1 to {order[-1]}, µ = {float(part['mu']):g}")
@@ -97,8 +101,13 @@ def order_cuts(sweep: xr.Dataset) -> Any:
                     if place < 1.02 * speed[-1]:
                         ax.axvline(place, color=GREY, lw=0.9, ls=":", zorder=0)
                 ax.set_yscale("log")
-            top = max(float(np.nanmax(scale * sweep[f"{name}_harmonic"])), 1e-30)
-            line[0].set_ylim(1e-4 * top, 2.0 * top)
+            top = float(np.nanmax(scale * sweep[f"{name}_harmonic"]))
+            if top > NOTHING:
+                line[0].set_ylim(1e-4 * top, 2.0 * top)
+            else:
+                for ax in line:
+                    ax.set_yscale("linear")
+                    say_nothing(ax)
             line[0].set_ylabel(label)
         for ax, order in zip(axes[0], _ORDERS, strict=True):
             ax.set_title(f"mesh order {order}")
@@ -122,7 +131,13 @@ def friction_speed_maps(sweep: xr.Dataset) -> Any:
         axes = figure.subplots(1, len(_FORCES), sharex=True, sharey=True)
         for ax, (name, symbol) in zip(axes, _FORCES, strict=True):
             power = 0.5 * (sweep[f"{name}_harmonic"] ** 2).sum("harmonic", skipna=False)
-            level = 10.0 * np.log10(np.maximum(power.transpose("mu", "speed").values, 1e-24))
+            ax.set_title(f"{symbol} of the pinion's bearings")
+            ax.set_xlabel("pinion speed [rpm]")
+            ax.grid(False)
+            if not np.nanmax(power) > NOTHING**2:
+                say_nothing(ax)
+                continue
+            level = 10.0 * np.log10(np.maximum(power.transpose("mu", "speed").values, NOTHING**2))
             top = 5.0 * np.ceil(0.2 * np.nanmax(level))
             mesh = ax.pcolormesh(
                 cell_edges(speed),
@@ -141,9 +156,6 @@ def friction_speed_maps(sweep: xr.Dataset) -> Any:
                     outlined(text)
             bar = figure.colorbar(mesh, ax=ax, location="bottom", shrink=0.9)
             bar.set_label("rms level of orders 1 to 15 [dB re 1 N]")
-            ax.set_title(f"{symbol} of the pinion's bearings")
-            ax.set_xlabel("pinion speed [rpm]")
-            ax.grid(False)
         axes[0].set_ylabel("coefficient of friction µ")
         axes[0].set_ylim(mu[0], max(mu[-1], mu[0] + 1e-3))
         figure.suptitle(_heading(sweep, "Vibrating bearing forces"), fontsize=10.5)

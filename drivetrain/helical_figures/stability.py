@@ -81,24 +81,17 @@ def _verdict(growth: Any) -> str:
 def separation(dataset: xr.Dataset) -> Any:
     """Return transmission error and loss of contact along the branches over speed."""
     at = dataset.attrs
-    speed, linear = dataset["speed"].values / RPM, dataset["linear_speed"].values / RPM
+    linear = dataset["linear_speed"].values / RPM
     with house_style():
         figure = new_figure(9.6, 6.6)
         top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": (2.2, 1.0)})
         for row, ratio in enumerate(dataset["damping"].values):
             part, colour = dataset.isel(damping=row), _COLOURS[row % 2]
-            stable = part["stable"].values > 0.5
-            kept = np.isfinite(part["stable"].values)
-            edges = np.flatnonzero(np.diff(stable[kept].astype(int))) + 1
-            for first, last in zip([0, *edges], [*edges, kept.sum()], strict=True):
-                rows = slice(first, min(last + 1, int(kept.sum())))
-                style = "-" if stable[first] else "--"
-                label = f"with separation, damping ratio {ratio:g}" if first == 0 else None
-                swing = 1e6 * part["peak_to_peak"].values[kept]
-                top.plot(speed[row][kept][rows], swing[rows], style, color=colour, label=label)
-                for name, wide in (("separation_share", 1.6), ("lift_off_share", 0.8)):
-                    share = 100.0 * part[name].values[kept]
-                    bottom.plot(speed[row][kept][rows], share[rows], style, color=colour, lw=wide)
+            for number in range(2):
+                rows = np.flatnonzero(part["segment"].values == number)
+                if rows.size:
+                    words = f"with separation, damping ratio {ratio:g}" if number == 0 else None
+                    _draw_branch(top, bottom, part.isel(row=rows), colour, words)
             free = 1e6 * part["linear_peak_to_peak"].values
             label = f"springs that also pull, damping ratio {ratio:g}"
             top.plot(linear, free, ":", color=colour, lw=1.4, label=label)
@@ -128,3 +121,17 @@ def separation(dataset: xr.Dataset) -> Any:
             fontsize=10.0,
         )
     return figure
+
+
+def _draw_branch(top: Any, bottom: Any, part: xr.Dataset, colour: str, words: str | None) -> None:
+    """Draw one branch, stable rows solid, unstable dashed."""
+    speed, stable = part["speed"].values / RPM, part["stable"].values > 0.5
+    edges = np.flatnonzero(np.diff(stable.astype(int))) + 1
+    for first, last in zip([0, *edges], [*edges, speed.size], strict=True):
+        rows = slice(first, min(last + 1, speed.size))
+        style, label = "-" if stable[first] else "--", words if first == 0 else None
+        swing = 1e6 * part["peak_to_peak"].values
+        top.plot(speed[rows], swing[rows], style, color=colour, label=label)
+        for name, wide in (("separation_share", 1.6), ("lift_off_share", 0.8)):
+            share = 100.0 * part[name].values
+            bottom.plot(speed[rows], share[rows], style, color=colour, lw=wide)

@@ -145,7 +145,7 @@ def _zones(ax: Any, contact: xr.Dataset) -> None:
     at = contact.attrs
     A, D, P = at["contact_start"], at["contact_end"], at["pitch_point"]
     lag, pitch = at["line_lag"], at["base_pitch"]
-    edges = sorted((P, D, A + lag, P + lag, D + lag))
+    edges = sorted({P, D, A + lag, P + lag, D + lag})
     number = 0
     for line in contact["constant_line"].values:
         low, high = A + line * pitch, A + (line + 1) * pitch

@@ -33,7 +33,7 @@ def asked(monkeypatch):
 
     def note(_, **given):
         calls.append(given)
-        return True
+        return 0
 
     monkeypatch.setattr(helical_console, "console_helical", note)
     return calls
@@ -262,6 +262,17 @@ def test_a_failed_study_says_why_and_fails(reason, monkeypatch, caplog):
     with caplog.at_level(logging.ERROR, "gearlube"):
         assert run().exit_code == FAILED
     assert str(reason) in caplog.text
+
+
+def test_a_stage_that_fails_leaves_the_others(small, tmp_path, monkeypatch, caplog):
+    def fail(*_, **__):
+        raise ConvergenceError("no map")
+
+    monkeypatch.setattr(study, "stability_dataset", fail)
+    with caplog.at_level(logging.ERROR, "gearlube"):
+        assert run(*small, "--out", tmp_path).exit_code == FAILED
+    assert "parametric instability: no map" in caplog.text
+    assert set(datasets(tmp_path)) == {"response", "friction_sweep", "sweep", "film"}
 
 
 def test_a_run_stopped_at_once_writes_the_summary_of_the_pair(small, tmp_path, monkeypatch):
