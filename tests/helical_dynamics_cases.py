@@ -17,6 +17,7 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
     contact_points,
     point_capacity,
 )
+from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.kernel_parameters import (
     MeshArrays,
@@ -48,6 +49,15 @@ def spur_pair(mu: float) -> HelicalPairParameters:
         normal_pressure_angle=helical.transverse_pressure_angle,
     )
     return he_2007_pair(mu, spur)
+
+
+def estimated_pair(mu: float) -> HelicalPairParameters:
+    """Return the pair of He et al. 2007 with 1.316e10 N/m2, estimated with a rack of 1.2 modules.
+
+    Numbers of the digest were computed with it.
+    """
+    pair = he_2007_pair(mu)
+    return replace(pair, mesh=constant_density_mesh(pair.pair, 1.316e10, "estimated"))
 
 
 def random_state(rng: np.random.Generator) -> np.ndarray:

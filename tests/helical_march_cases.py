@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.dynamics.helical_pair.gear_march import helical_march
-from gearlube_core.dynamics.helical_pair.he_2007 import STIFFNESS_DENSITY
 from gearlube_core.dynamics.helical_pair.march_parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.output_names import ENERGIES_AT, OUTPUT_INDEX
@@ -24,9 +23,8 @@ PERIOD = 2.0 * math.pi / (25.0 * SPEED)  # s, of the mesh
 
 
 def he_march(**settings: Any) -> HelicalMarchParameters:
-    """The pair with the closure's stiffness density and Coulomb friction unless set otherwise."""
-    chosen = {"stiffness_density": STIFFNESS_DENSITY, "friction": "constant"} | settings
-    return helical_march(HelicalGearFile.named("he_2007"), **chosen)
+    """The pair with Coulomb friction unless set otherwise."""
+    return helical_march(HelicalGearFile.named("he_2007"), **{"friction": "constant"} | settings)
 
 
 def started(

@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from drivetrain.helical.iso_density import iso_density, iso_mesh_stiffness
 from drivetrain.helical.settings import HelicalSettings
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
 from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
@@ -22,6 +21,11 @@ from gearlube_core.helical_geometry.contact_line import (
     line_count,
     line_position,
     segment_length,
+)
+from gearlube_core.helical_geometry.iso_6336_stiffness import (
+    iso_stiffness,
+    stiffness_density,
+    tangential_line_load,
 )
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
@@ -69,18 +73,18 @@ def analyse_loaded_contact(
     record = run_cycle(modified, stiffness, cycle, store=store, jobs=cycle_jobs, observer=tell)
     dataset = contact_dataset(modified, cycle, record)
     pair = modified.pair
-    iso, outside = iso_mesh_stiffness(pair, settings.pinion_torque)
+    iso = iso_stiffness(pair, line_load=tangential_line_load(pair, settings.pinion_torque))
     dataset.attrs |= {
         "contact_start": pair.contact_start,
         "contact_end": pair.contact_end,
         "pitch_point": pair.pitch_point,
         "line_lag": pair.face_width * math.tan(pair.base_helix_angle),
         "path_units": "m",
-        "iso_mesh_stiffness": iso,
+        "iso_mesh_stiffness": iso.mesh * pair.face_width,
         "iso_mesh_stiffness_units": "N/m",
-        "iso_density": iso_density(pair, settings.pinion_torque),
+        "iso_density": stiffness_density(iso.mesh, pair),
         "iso_density_units": "N/m2",
-        "iso_outside": "; ".join(outside) or "none",
+        "iso_outside": "; ".join(iso.outside) or "none",
     }
     return LoadedContact(dataset, line_mesh(modified, cycle, record))
 

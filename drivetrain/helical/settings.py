@@ -8,12 +8,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from drivetrain.helical.iso_density import iso_density
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
     gear_file_pair,
+    iso_mesh,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
@@ -163,14 +163,14 @@ class HelicalSettings:
     @property
     def stiffness_density(self) -> float:
         """Of mesh "density" [N/m2]."""
-        if self.density is not None:
-            return self.density
-        return iso_density(self.file.helical_pair(), self.pinion_torque)
+        return float(self.constant_mesh().density.max())
 
     def constant_mesh(self) -> LineMesh:
         """Return the mesh of one density."""
-        source = "given" if self.density is not None else "ISO 6336-1 and He et al. 2007 eq. (2)"
-        return constant_density_mesh(self.file.helical_pair(), self.stiffness_density, source)
+        pair = self.file.helical_pair()
+        if self.density is None:
+            return iso_mesh(pair, self.pinion_torque)
+        return constant_density_mesh(pair, self.density, "given")
 
     def film(self) -> FilmFriction:
         """Return the oil and the flanks that film friction depends on."""

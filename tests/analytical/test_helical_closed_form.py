@@ -90,7 +90,7 @@ def _expected_ends(zone: int, position: float, plane: ContactPlane) -> tuple[flo
 @pytest.mark.parametrize("zone", range(1, 8))
 def test_corrected_integrals_equal_the_quadrature_in_every_zone(zone: int) -> None:
     parameters = he_2007_pair(0.0)
-    plane, density = parameters.pair.plane, 1.316e10
+    plane, density = parameters.pair.plane, parameters.mesh.density.max()
     line, start, end = _zones(plane)[zone]
     rng = np.random.default_rng(zone)
     for share in (0.05, 0.5, 0.95):

@@ -21,7 +21,7 @@ from fmu_src import cli, identity
 from fmu_src.build import build_helical_pair, build_models
 from fmu_src.check import problems
 from fmu_src.helical_pair import DEFINITION, GEAR_FILE, LINE_MESH_FILE, definition_with
-from gearlube_core.dynamics.helical_pair.gear_march import uniform_mesh
+from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
 from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -46,7 +46,7 @@ def gear_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def line_mesh(gear_file: Path) -> Path:
-    plain = uniform_mesh(HelicalGearFile.from_toml(gear_file).helical_pair())
+    plain = iso_mesh(HelicalGearFile.from_toml(gear_file).helical_pair())
     phase = np.arange(8) / 8.0
     wave = 1e-6 * (1.0 + np.sin(2.0 * np.pi * phase))
     shape = (1, 8, plain.lines, 1)

@@ -143,7 +143,7 @@ def test_flanks_neither_pull_nor_touch_within_the_backlash_and_then_touch_at_the
         q[0] = delta / cos_b
         points, wrench, k_m = loaded_points(parameters, 0.2, q)
         length = points[:, LENGTH].sum()
-        force = -cos_b * 1.316e10 * length * expected
+        force = -cos_b * parameters.mesh.density.max() * length * expected
         assert wrench[0] == pytest.approx(force, rel=1e-9, abs=1e-12)
         assert (k_m > 0.0) == (expected != 0.0)
         assert friction_power(points, len(points)) >= 0.0
@@ -155,13 +155,13 @@ def test_offsets_widen_the_gap_on_both_sides() -> None:
     parameters = replace(
         base, mesh=replace(base.mesh, offset=np.full_like(base.mesh.offset, offset))
     )
-    plane, q = base.pair.plane, np.zeros(12)
+    plane, q, k = base.pair.plane, np.zeros(12), base.mesh.density.max()
     first, last = offset, -base.pair.backlash - offset
     for delta, pressed in ((first - 1e-6, 0.0), (first + 1e-6, 1e-6), (last + 1e-6, 0.0),
                            (last - 1e-6, -1e-6)):  # fmt: skip
         q[0] = delta / plane.cos_b
         points, _, _ = loaded_points(parameters, 0.6, q)
-        assert np.allclose(points[:, LOAD], pressed * 1.316e10, rtol=1e-9, atol=1e-6)
+        assert np.allclose(points[:, LOAD], pressed * k, rtol=1e-9, atol=1e-6)
 
 
 def test_damping_turns_against_the_relative_rotation_and_never_makes_flanks_adhere() -> None:

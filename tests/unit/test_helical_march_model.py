@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.gear_march import helical_march, uniform_mesh
+from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
+from gearlube_core.dynamics.helical_pair.gear_march import helical_march
 from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.output_names import (
     LINES_MAX,
@@ -156,7 +157,7 @@ def test_wrong_parameters_are_named(settings: dict[str, object], message: str) -
 
 
 def test_a_mesh_of_another_pair_is_refused() -> None:
-    other = uniform_mesh(HelicalGearFile.named("jamali_2015_a").helical_pair())
+    other = iso_mesh(HelicalGearFile.named("jamali_2015_a").helical_pair())
     with pytest.raises(ParameterError, match="mesh must belong to the pair of 25 and 31 teeth"):
         helical_march(HelicalGearFile.named("he_2007"), line_mesh=other)
 

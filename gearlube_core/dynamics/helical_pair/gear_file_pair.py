@@ -7,6 +7,10 @@ from gearlube_core.dynamics.helical_pair.shaft_support import Bearing, ShaftSupp
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
+from gearlube_core.helical_geometry.iso_6336_stiffness import (
+    iso_line_density,
+    tangential_line_load,
+)
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
 
@@ -92,3 +96,20 @@ def constant_density_mesh(pair: HelicalPair, density: float, source: str) -> Lin
         lines=int(line_count(pair.plane)),
         density=density,
     )
+
+
+def iso_mesh(pair: HelicalPair, pinion_torque: float | None = None) -> LineMesh:
+    """Return contact lines of the density of ISO 6336-1, see `iso_line_density`.
+
+    Parameters
+    ----------
+    pair
+        External gears.
+    pinion_torque
+        [N.m]; None: one at which the standard's density does not depend on it.
+    """
+    if pinion_torque is None:
+        density = iso_line_density(pair)
+    else:
+        density = iso_line_density(pair, tangential_line_load(pair, pinion_torque))
+    return constant_density_mesh(pair, density, "ISO 6336-1 and He et al. 2007 eq. (2)")

@@ -5,6 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from gearlube_core.checks import check_within
+from gearlube_core.dynamics.helical_pair.gear_file_pair import (
+    constant_density_mesh,
+    gear_file_support,
+    iso_mesh,
+)
 from gearlube_core.dynamics.helical_pair.march_parameters import (
     Body,
     Equations,
@@ -12,34 +17,15 @@ from gearlube_core.dynamics.helical_pair.march_parameters import (
     Friction,
     HelicalMarchParameters,
 )
-from gearlube_core.dynamics.helical_pair.shaft_support import Bearing, ShaftSupport
+from gearlube_core.dynamics.helical_pair.shaft_support import (
+    Bearing,
+    ShaftSupport,
+    symmetric_support,
+)
 from gearlube_core.errors import ParameterError
-from gearlube_core.helical_geometry.contact_line import line_count
-from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
-from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness, stiffness_density
-from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
-
-_LINEAR_LOAD = 1e5  # N/m, 100 N/mm: from here on ISO 6336-1 has a stiffness without load
-
-
-def uniform_mesh(pair: HelicalPair, density: float = 0.0) -> LineMesh:
-    """Return one stiffness density [N/m2] along all lines; zero takes that of ISO 6336-1."""
-    source = "given"
-    if density == 0.0:
-        source = "ISO 6336-1 mean mesh stiffness over mean line length"
-        density = stiffness_density(iso_stiffness(pair, line_load=_LINEAR_LOAD).mesh, pair)
-    return uniform_line_mesh(
-        name=f"{pair.name}, constant density",
-        source=source,
-        pinion_teeth=pair.pinion_teeth,
-        gear_teeth=pair.gear_teeth,
-        base_pitch=pair.base_pitch,
-        lines=int(line_count(pair.plane)),
-        density=density,
-    )
+from gearlube_core.mesh_table.line_mesh import LineMesh
 
 
 def helical_march(
@@ -98,7 +84,9 @@ def helical_march(
         check_within(name, value, 0.0, high, unit, "0 takes the value of the gear file.")
     pair = gear.helical_pair()
     if line_mesh is None:
-        line_mesh = uniform_mesh(pair, stiffness_density)
+        line_mesh = iso_mesh(pair)
+        if stiffness_density > 0.0:
+            line_mesh = constant_density_mesh(pair, stiffness_density, "given")
     elif stiffness_density > 0.0:
         raise ParameterError(
             f"stiffness_density must be 0 with a line mesh, got {stiffness_density:g} N/m2. "
@@ -111,9 +99,7 @@ def helical_march(
             mass=given.mass,
             inertia=given.diametral_inertia,
             polar_inertia=given.polar_inertia,
-            support=_support(
-                given.supports, radial_stiffness, axial_stiffness, bearing_distance, role
-            ),
+            support=_support(gear, role, radial_stiffness, axial_stiffness, bearing_distance),
         )
 
     return HelicalMarchParameters(
@@ -137,34 +123,23 @@ def helical_march(
 
 
 def _support(
-    given: tuple[SupportStiffness, ...], radial: float, axial: float, distance: float, role: Role
+    gear: HelicalGearFile, role: Role, radial: float, axial: float, distance: float
 ) -> ShaftSupport:
     """Return the file's bearings with what is not zero in their place."""
-    if not given:
+    if not gear.body(role).supports:
         if 0.0 in (radial, axial, distance):
             raise ParameterError(
                 f"the {role} must have bearings, the gear file {role}.bearing_1 is missing. "
                 "Add them, or give radial and axial stiffness and the bearings' distance."
             )
-        blank = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        given = blank, blank
-    bearings = []
-    for side, one in zip((1.0, -1.0), given, strict=True):
-        bearing = Bearing(
-            position=one.position,
-            K_xx=one.K_xx,
-            K_yy=one.K_yy,
-            K_zz=one.K_zz,
-            K_theta_x=one.K_theta_x,
-            K_theta_y=one.K_theta_y,
-            K_x_theta_y=one.K_x_theta_y,
-            K_y_theta_x=one.K_y_theta_x,
-        )
+        return symmetric_support(K_xx=radial, K_yy=radial, K_zz=axial, distance=distance)
+
+    def changed(bearing: Bearing, side: float) -> Bearing:
         if radial > 0.0:
             bearing = replace(bearing, K_xx=0.5 * radial, K_yy=0.5 * radial)
         if axial > 0.0:
             bearing = replace(bearing, K_zz=0.5 * axial)
-        if distance > 0.0:
-            bearing = replace(bearing, position=side * distance)
-        bearings.append(bearing)
-    return ShaftSupport(first=bearings[0], second=bearings[1])
+        return replace(bearing, position=side * distance) if distance > 0.0 else bearing
+
+    of_file = gear_file_support(gear, role)
+    return ShaftSupport(first=changed(of_file.first, 1.0), second=changed(of_file.second, -1.0))

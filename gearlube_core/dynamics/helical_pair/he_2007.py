@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
-    constant_density_mesh,
     gear_file_pair,
+    iso_mesh,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -12,8 +12,6 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 
 PINION_TORQUE = 225.96966  # N.m, 2000 lbf in, He et al. 2007 sec. 6
 PINION_SPEED = 104.71975511965977  # rad/s, 1000 rpm, ditto
-# completed: c_gamma_alpha of ISO 6336-1 over the mean length of the contact lines [N/m2]
-STIFFNESS_DENSITY = 1.316e10
 
 
 def he_2007_pair(mu: float, pair: HelicalPair | None = None) -> HelicalPairParameters:
@@ -28,10 +26,10 @@ def he_2007_pair(mu: float, pair: HelicalPair | None = None) -> HelicalPairParam
 
     Notes
     -----
-    Printed: teeth, masses, polar inertias, torque. Completed: the stiffness density, and in the
-    gear file bearings, diametral inertias (solid discs) and the damping of every motion.
+    Printed: teeth, masses, polar inertias, torque. Completed: the stiffness density, see
+    `iso_line_density`, and in the gear file bearings, diametral inertias (solid discs) and the
+    damping of every motion.
     """
     file = HelicalGearFile.named("he_2007")
     geometry = file.helical_pair() if pair is None else pair
-    mesh = constant_density_mesh(geometry, STIFFNESS_DENSITY, "He et al. 2007 eq. (2)")
-    return gear_file_pair(file, mesh, PINION_TORQUE, mu, geometry)
+    return gear_file_pair(file, iso_mesh(geometry, PINION_TORQUE), PINION_TORQUE, mu, geometry)
