@@ -39,7 +39,8 @@ def flow_residual(system: LineSystem, state: LineState, free: np.ndarray) -> flo
     """
     r = system.rows.residual[1:-1]
     inside = free[1:-1]
-    wrong = np.where(inside, np.abs(r), np.maximum(-r, 0.0))
+    exact = inside | system.mass_conserving
+    wrong = np.where(exact, np.abs(r), np.maximum(-r, 0.0))
     return float(wrong.sum() / flow_scale(system, state))
 
 
@@ -49,13 +50,14 @@ def flow_scale(system: LineSystem, state: LineState) -> float:
     loaded = P - 0.3 * P.max() >= 0.0
     mean = float((system.rows.rho[loaded] * system.H[loaded]).mean())
     c = system.coefficients
-    return max(abs(c.speed), c.storage, 1e-12) * max(mean, 1e-300)
+    # without entrainment a film that closes within 1000 steps moves this much
+    return max(abs(c.speed), 1e-3 * c.storage) * max(mean, 1e-300)
 
 
 def rounding_floor(system: LineSystem, state: LineState) -> float:
     """Return the residual [1] that rounding of film, pressure and flow alone can leave."""
     rows, c = system.rows, system.coefficients
-    carried = abs(c.speed) * float((rows.rho * np.abs(system.H)).sum())
+    carried = (abs(c.speed) + c.step * c.storage) * float((rows.rho * np.abs(system.H)).sum())
     pumped = float((np.abs(rows.by_pressure[:, 2]) * state.P).sum())
     return _ROUNDING * (carried + 0.1 * pumped) / flow_scale(system, state)
 
@@ -70,11 +72,23 @@ def _step_length(system: LineSystem, state: LineState, dP: np.ndarray, dH0: floa
 
 
 def _advance(
-    system: LineSystem, state: LineState, change: tuple[np.ndarray, np.ndarray, float], s: float
-) -> LineState:
+    system: LineSystem,
+    state: LineState,
+    full: np.ndarray,
+    change: tuple[np.ndarray, np.ndarray, float],
+    s: float,
+) -> tuple[LineState, np.ndarray]:
     dP, dvoid, dH0 = change
     P, void = state.P + s * dP, state.void + s * dvoid
-    return LineState(np.maximum(P, 0.0), np.clip(void, 0.0, 1.0), state.H0 + s * dH0)
+    trial = LineState(np.maximum(P, 0.0), np.clip(void, 0.0, 1.0), state.H0 + s * dH0)
+    system.evaluate(trial)
+    if system.mass_conserving:
+        full = np.where(full, P > 0.0, void < 0.0)
+        trial.void[1:-1][full[1:-1]] = 0.0
+    else:
+        full = (P > 0.0) | (system.rows.residual < 0.0)
+    full[[0, -1]] = False
+    return trial, full
 
 
 def newton(
@@ -104,8 +118,6 @@ def newton(
     with mass conservation, its void share.
     """
     state = start.copy()
-    free = state.P > 0.0
-    free[[0, -1]] = False
     residuals: list[float] = []
     loads: list[float] = []
     factors: Factors | None = None
@@ -113,9 +125,10 @@ def newton(
     while not np.all(system.H > 0.0):
         state.H0 += 1.01 * abs(float(system.H.min())) + 1e-3 * float(system.H.max() > 0)
         system.evaluate(state)
+    free = (state.P > 0.0) | ((state.void <= 0.0) & (system.rows.residual < 0.0))
+    free[[0, -1]] = False
     interior = np.arange(1, state.P.size - 1)
     for _ in range(max_iterations + 1):
-        free = _full_nodes(system, state, free)
         residual, load = flow_residual(system, state, free), abs(system.load_error(state))
         residuals.append(residual)
         loads.append(load)
@@ -136,23 +149,8 @@ def newton(
         if not np.isfinite(change[2]):
             return state, _record(residuals, loads, "the Jacobian is singular")
         length = _step_length(system, state, change[0], change[2])
-        state = _accept(system, state, change, length, residual + load)
+        state, free = _accept(system, state, free, change, length, residual + load)
     return state, _record(residuals, loads, f"no convergence in {max_iterations} Newton steps")
-
-
-def _full_nodes(system: LineSystem, state: LineState, free: np.ndarray) -> np.ndarray:
-    if system.mass_conserving:
-        # between the two states a node follows the balance
-        fills = (state.void <= 0.0) & (system.rows.residual < 0.0)
-        full = (
-            (state.P > 0.0)
-            | ((state.void <= 0.0) & (free | fills) & (state.P > 0.0))
-            | ((state.void <= 0.0) & fills & ~free)
-        )
-    else:
-        full = (state.P > 0.0) | (system.rows.residual < 0.0)
-    full[[0, -1]] = False
-    return full
 
 
 def _stagnant(residuals: list[float], loads: list[float]) -> bool:
@@ -177,25 +175,24 @@ def _still_good(
 def _accept(
     system: LineSystem,
     state: LineState,
+    full: np.ndarray,
     change: tuple[np.ndarray, np.ndarray, float],
     length: float,
     merit: float,
-) -> LineState:
+) -> tuple[LineState, np.ndarray]:
     best, best_merit = None, np.inf
     for _ in range(6):
-        trial = _advance(system, state, change, length)
-        system.evaluate(trial)
+        trial, trial_full = _advance(system, state, full, change, length)
         if np.all(system.H > 0.0):
-            free = (trial.P > 0.0) | (system.rows.residual < 0.0)
-            new = flow_residual(system, trial, free) + abs(system.load_error(trial))
+            new = flow_residual(system, trial, trial_full) + abs(system.load_error(trial))
             if new < best_merit:
-                best, best_merit = trial, new
+                best, best_merit = (trial, trial_full), new
             if new < (1.0 - 0.1 * length) * merit:
-                return trial
+                return trial, trial_full
         length *= 0.5
     if best is None:
-        best = _advance(system, state, change, length)
-    system.evaluate(best)
+        best = _advance(system, state, full, change, length)
+    system.evaluate(best[0])
     return best
 
 

@@ -19,7 +19,7 @@ CAVITATION = ("reynolds", "mass_conserving")
 Gap = Callable[[np.ndarray], np.ndarray]
 
 # gap over film where the domain begins and ends, and least distance in half widths
-_INLET_GAP, _OUTLET_GAP = 100.0, 4.0
+_INLET_GAP, _OUTLET_GAP = 150.0, 4.0
 _INLET_LEAST, _OUTLET_LEAST = 2.0, 1.3
 
 

@@ -33,6 +33,7 @@ class RowCoefficients(NamedTuple):
     weight: float  # of the flows at the new time: 1, or 1/2 with Crank and Nicolson
     storage: float  # of what gathers: 0 steady, beta/dT
     stencil: int
+    blend: float  # pressure at which a full cell has half its own stencil; 0: all of it
 
 
 class LocalRows(NamedTuple):
@@ -135,32 +136,41 @@ def _add_poiseuille(
 
 @kernel
 def _add_wedge(
-    f: int, H: np.ndarray, void: np.ndarray, c: RowCoefficients, rows: LocalRows
+    f: int, P: np.ndarray, H: np.ndarray, void: np.ndarray, c: RowCoefficients, rows: LocalRows
 ) -> None:
-    # carried mass; void is carried from upstream alone, so that it cannot fall below zero
+    # carried mass. What leaves a broken cell is that cell's own, so that no void falls below
+    # zero, and a full cell passes to its own stencil as its pressure rises: no jump at rupture
     n = H.size
-    weights = _wedge_weights(c.stencil, c.speed, f, n - 1)
     speed = c.speed * c.weight
-    for k in range(4):
-        m = f - 1 + k
-        if weights[k] == 0.0 or m < 0 or m >= n:
-            continue
-        w = speed * weights[k]
-        rows.flux[f] += w * rows.rho[m] * H[m]
-        rows.by_pressure[f, k + 1] += w * rows.rho_slope[m] * H[m]
-        rows.by_pressure[f + 1, k] -= w * rows.rho_slope[m] * H[m]
-        rows.by_film[f, k + 1] += w * rows.rho[m]
-        rows.by_film[f + 1, k] -= w * rows.rho[m]
     m = f if speed >= 0.0 else f + 1
-    w = speed * rows.rho[m] * H[m]
-    rows.flux[f] -= w * void[m]
-    rows.by_void[f, m - f + 1] -= w
-    rows.by_void[f + 1, m - f] += w
-    carried = speed * void[m]
-    rows.by_pressure[f, m - f + 2] -= carried * rows.rho_slope[m] * H[m]
-    rows.by_pressure[f + 1, m - f + 1] += carried * rows.rho_slope[m] * H[m]
-    rows.by_film[f, m - f + 2] -= carried * rows.rho[m]
-    rows.by_film[f + 1, m - f + 1] += carried * rows.rho[m]
+    weights = _wedge_weights(c.stencil, c.speed, f, n - 1)
+    lowest, share, share_slope = m, 1.0, 0.0
+    if c.blend > 0.0:
+        for k in range(4):
+            i = f - 1 + k
+            if weights[k] != 0.0 and 0 <= i < n and P[i] < P[lowest]:
+                lowest = i
+        share = P[lowest] / (P[lowest] + c.blend)
+        share_slope = c.blend / (P[lowest] + c.blend) ** 2
+    turn = 0.0
+    for k in range(4):
+        i = f - 1 + k
+        if i < 0 or i >= n:
+            continue
+        own = 1.0 if i == m else 0.0
+        turn += (weights[k] - own) * rows.rho[i] * H[i]
+        w = speed * (own * (1.0 - void[i]) + share * (weights[k] - own))
+        rows.flux[f] += w * rows.rho[i] * H[i]
+        rows.by_pressure[f, k + 1] += w * rows.rho_slope[i] * H[i]
+        rows.by_pressure[f + 1, k] -= w * rows.rho_slope[i] * H[i]
+        rows.by_film[f, k + 1] += w * rows.rho[i]
+        rows.by_film[f + 1, k] -= w * rows.rho[i]
+    turn *= speed * share_slope
+    rows.by_pressure[f, lowest - f + 2] += turn
+    rows.by_pressure[f + 1, lowest - f + 1] -= turn
+    whole = speed * rows.rho[m] * H[m]
+    rows.by_void[f, m - f + 1] -= whole
+    rows.by_void[f + 1, m - f] += whole
 
 
 @kernel
@@ -245,7 +255,7 @@ def fill_rows(
         if c.stencil == GALERKIN:
             _add_galerkin(f, P, H, c, rows)
         else:
-            _add_wedge(f, H, void, c, rows)
+            _add_wedge(f, P, H, void, c, rows)
     for f in range(n - 1):
         rows.residual[f] += rows.flux[f]
         rows.residual[f + 1] -= rows.flux[f]

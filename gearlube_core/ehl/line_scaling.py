@@ -7,6 +7,9 @@ from typing import NamedTuple
 from gearlube_core.ehl.line_problem import LineProblem
 from gearlube_core.ehl.line_rows import STENCILS, RowCoefficients
 
+# Hertz pressures; the film's order is lost only where the pressure is of this size
+_BLEND = 1e-3
+
 
 class LineScales(NamedTuple):
     """Units of the dimensionless form."""
@@ -30,7 +33,7 @@ def line_scales(problem: LineProblem) -> LineScales:
 
 
 def row_coefficients(
-    problem: LineProblem, scales: LineScales, step: float, stencil: str
+    problem: LineProblem, scales: LineScales, step: float, stencil: str, mass_conserving: bool
 ) -> RowCoefficients:
     """Return the numbers of a steady balance on a grid of spacing `step` [Hertz half widths].
 
@@ -50,4 +53,5 @@ def row_coefficients(
         weight=1.0,
         storage=0.0,
         stencil=STENCILS[stencil],
+        blend=_BLEND if mass_conserving else 0.0,
     )

@@ -9,7 +9,7 @@ import numpy as np
 from gearlube_core.ehl.line_newton import NewtonRecord, newton
 from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_solution import LineSolution, build_solution
-from gearlube_core.ehl.line_system import LineState, LineSystem
+from gearlube_core.ehl.line_system import LOAD, LineState, LineSystem
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 # oil ahead of the contact must carry some pressure, or its nodes start as broken
@@ -107,7 +107,9 @@ def grid_nest(settings: LineSettings) -> list[int]:
 
 def hertz_start(system: LineSystem, film: float) -> LineState:
     """Return the dry pressure after Hertz and an approach that leaves `film` [m] at x = 0."""
-    X = system.X * np.sqrt(0.5 * np.pi / system.load)
+    # a thick film carries over the length on which the gap opens, more than the half width
+    width = max(np.sqrt(system.load / LOAD), np.sqrt(0.5 * film / system.scales.film))
+    X = system.X / width
     P = np.sqrt(np.maximum(1.0 - X * X, 0.0))
     P *= system.load / max(system.step * P.sum(), 1e-300)
     centre = np.interp(0.0, system.X, system.gap + system.deflection(P))

@@ -66,7 +66,7 @@ class LineSystem:
         step = (last - first) / (nodes - 1) / self.scales.length
         self.gap = problem.undeformed_gap(self.x) / self.scales.film
         self.deflection = LineDeflection(step, nodes)
-        self.coefficients = row_coefficients(problem, self.scales, step, stencil)
+        self.coefficients = row_coefficients(problem, self.scales, step, stencil, mass_conserving)
         self.rows = local_rows(nodes)
         self.oil = problem.lubricant
         self.cooling = np.ones(nodes)

@@ -1,0 +1,213 @@
+"""Line contact against exact solutions: rigid surfaces, dry contact, deflection, source terms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from gearlube_core.ehl.line_deflection import LineDeflection, hat_coefficients
+from gearlube_core.ehl.line_newton import newton
+from gearlube_core.ehl.line_problem import LineProblem, LineSettings
+from gearlube_core.ehl.line_solver import hertz_start, solve_line
+from gearlube_core.ehl.line_system import LineState, LineSystem
+from gearlube_core.ehl.lubricant import ehl_lubricant, jamali_2015_oil
+from gearlube_core.errors import ConvergenceError, ParameterError
+
+R = 0.01  # m
+ISOVISCOUS = ehl_lubricant(eta0=0.1, alpha=0.0, density_law="incompressible")
+
+
+def thesis_line(**changes):
+    """Return the smooth line contact of Jamali 2015, chapter 7."""
+    u, slide_roll = 6.71, 0.3632
+    contact = LineProblem(
+        lubricant=jamali_2015_oil(),
+        radius=0.014,
+        line_load=360e3,
+        reduced_modulus=227.5e9,
+        speed_1=u * (1.0 + 0.5 * slide_roll),
+        speed_2=u * (1.0 - 0.5 * slide_roll),
+    )
+    return replace(contact, **changes)
+
+
+def martin(inlet: float) -> tuple[float, float]:
+    """Return exit and load of a rigid cylinder, in (2 R h0)^(1/2) and 24 eta u R/h0.
+
+    dp/dxi = (1 + xi^2 - 1 - e^2)/(1 + xi^2)^3 with p = 0 at -inlet and p = dp/dxi = 0 at e.
+    """
+
+    def slope(xi, e):
+        return (xi * xi - e * e) / (1.0 + xi * xi) ** 3
+
+    def end_pressure(e):
+        return quad(slope, -inlet, e, args=(e,), points=[-3.0], limit=200)[0]
+
+    e = brentq(end_pressure, 0.1, 1.0)
+    # by parts: integral of p is - integral of xi dp/dxi
+    load = -quad(lambda xi: xi * slope(xi, e), -inlet, e, points=[-3.0], limit=200)[0]
+    return e, load
+
+
+def rigid_cylinder(inlet: float, nodes: int, **settings):
+    # stiff enough that the deflection is 1e-6 of the film
+    h0 = 4.9e-5
+    contact = LineProblem(
+        lubricant=ISOVISCOUS,
+        radius=R,
+        line_load=100.0,
+        reduced_modulus=1e13,
+        speed_1=1.0,
+        speed_2=1.0,
+        domain=(-inlet * math.sqrt(2.0 * R * h0), 2.0 * math.sqrt(2.0 * R * h0)),
+    )
+    return solve_line(contact, LineSettings(nodes=nodes, tolerance=1e-7, **settings))
+
+
+def test_martin_exit_and_load_of_the_flooded_cylinder():
+    # Martin 1916: exit at 25 deg 25 min of atan xi, h0 = 4.9 eta0 u R/w, printed digits
+    e, load = martin(200.0)
+    assert e == pytest.approx(math.tan(math.radians(25.0 + 25.0 / 60.0)), abs=2e-4)
+    assert 24.0 * load == pytest.approx(4.896, abs=2e-3)
+
+
+def test_rigid_isoviscous_film_is_that_of_martin():
+    errors = []
+    for nodes in (401, 801):
+        film = rigid_cylinder(10.0, nodes)
+        h0 = film.min_film
+        inlet = -film.x[0] / math.sqrt(2.0 * R * h0)
+        e, load = martin(inlet)
+        exact = 24.0 * load * 0.1 * 1.0 * R / 100.0
+        errors.append(abs(h0 / exact - 1.0))
+        # the film breaks between two nodes
+        last = film.x[np.flatnonzero(film.pressure > 0.0)[-1]] / math.sqrt(2.0 * R * h0)
+        assert last == pytest.approx(e, abs=12.0 / (nodes - 1))
+    assert errors[1] < 1e-3
+    # second order, less the jumping of the rupture from node to node
+    assert errors[0] / errors[1] > 2.5
+
+
+def test_heavily_loaded_pressure_is_that_of_hertz():
+    contact = thesis_line(lubricant=ehl_lubricant(eta0=1e-4, alpha=13.3e-9))
+    film = solve_line(contact, LineSettings(nodes=1001))
+    X = film.x / contact.half_width
+    hertz = contact.hertz_pressure * np.sqrt(np.maximum(1.0 - X * X, 0.0))
+    # a film of h R/b^2 = 0.004 moves the edge by about its 2/3 power, 2 % of b
+    inner = abs(X) < 0.9
+    assert np.abs(film.pressure - hertz)[inner].max() < 0.01 * contact.hertz_pressure
+    assert film.max_pressure == pytest.approx(contact.hertz_pressure, rel=3e-3)
+
+
+def test_deflection_under_hertz_pressure_flattens_the_parabola():
+    errors = []
+    for nodes in (201, 401, 801):
+        X = np.linspace(-2.0, 2.0, nodes)
+        P = np.sqrt(np.maximum(1.0 - X * X, 0.0))
+        h = 0.5 * X * X + LineDeflection(X[1] - X[0], nodes)(P)
+        errors.append(np.ptp(h[abs(X) < 0.8]))
+        outside = 0.5 * (1.8 * math.sqrt(1.8**2 - 1.0) - math.acosh(1.8))
+        assert np.interp(1.8, X, h) - h[nodes // 2] == pytest.approx(outside, abs=errors[-1] + 1e-4)
+    # hats on the root at the edge: order 3/2
+    assert errors[2] < errors[0] / 4.0**1.4
+
+
+@pytest.mark.parametrize("d", [0, 1, 9, 10, 11, 300])
+def test_hat_coefficients_are_the_integral_of_the_logarithm(d):
+    step = 0.02
+
+    def integrand(s):
+        return (1.0 - abs(s) / step) * math.log(abs(d * step - s))
+
+    exact = sum(
+        quad(integrand, a, b, epsabs=1e-15, epsrel=1e-13)[0] for a, b in ((-step, 0.0), (0.0, step))
+    )
+    # quadrature at the logarithm's end
+    assert hat_coefficients(step, 301)[d] == pytest.approx(exact, rel=1e-11)
+
+
+def test_film_does_not_depend_on_how_the_deflection_is_summed():
+    contact = thesis_line()
+    system = LineSystem(contact, 301, "upwind_2", False)
+    state, record = newton(system, hertz_start(system, contact.film_guess()), 1e-10, 60)
+    assert record.converged
+    # second differences of the deflection with its exact end values, Jamali eq. (3.16), solved
+    influence = hat_coefficients(system.step, 303) / -math.pi
+    second = np.append(influence[1], influence[:-1]) - 2.0 * influence + np.append(influence[1:], 0)
+    index = abs(np.subtract.outer(np.arange(301), np.arange(301)))
+    direct = (influence[index] * state.P).sum(axis=1)
+    laplacian = (second[index] * state.P).sum(axis=1)[1:-1]
+    matrix = np.diag(-2.0 * np.ones(299)) + np.diag(np.ones(298), 1) + np.diag(np.ones(298), -1)
+    laplacian[0] -= direct[0]
+    laplacian[-1] -= direct[-1]
+    differential = np.linalg.solve(matrix, laplacian)
+    fft = system.deflection(state.P)
+    least = system.film(state).min()
+    # rounding of 300 terms; of the inverse of a second difference, 300^2 larger
+    assert np.abs(fft - direct).max() < 1e-12 * least * 1e2
+    assert np.abs(fft[1:-1] - differential).max() < 1e-8 * least * 1e2
+
+
+def _manufactured(nodes: int, stencil: str) -> float:
+    # P = 0.6 (1 - X^2)^2 on one full film: its balance by quadrature-free exact derivatives
+    contact = thesis_line(lubricant=ehl_lubricant(eta0=0.02, alpha=2e-9, law="barus"), domain=None)
+    b = contact.half_width
+    contact = replace(contact, domain=(-b, b))
+    system = LineSystem(contact, nodes, stencil, False)
+    X, c, oil = system.X, system.coefficients, system.oil
+
+    def exact(X):
+        return 0.6 * (1.0 - X * X) ** 2
+
+    # a film of set shape: the gap is what is left after the deflection of the exact pressure
+    def film(X):
+        return 0.3 + 0.05 * np.sin(2.0 * X)
+
+    system.gap = film(X) - system.deflection(exact(X))
+    system.load = system.step * exact(X).sum()
+
+    def flow(X):
+        p = exact(X) * c.pressure
+        slope = -2.4 * X * (1.0 - X * X)
+        rho = (1.0 + oil.gamma * p) / (1.0 + oil.lam * p)
+        eta = np.exp(2e-9 * p)
+        return c.speed * rho * film(X) - c.mobility * rho * film(X) ** 3 / eta * slope
+
+    half = 0.5 * system.step
+    system.source = -(flow(X + half) - flow(X - half))
+    start = LineState(0.9 * exact(X), np.zeros(nodes), 0.05)
+    state, record = newton(system, start, 1e-10, 60)
+    assert record.converged, record
+    return float(np.abs(state.P - exact(X)).max())
+
+
+@pytest.mark.parametrize(
+    ("stencil", "order"),
+    [("central", 2.0), ("upwind_2", 2.0), ("upwind_1", 1.0), ("galerkin", 2.0)],
+)
+def test_manufactured_pressure_is_met_with_the_order_of_the_stencil(stencil, order):
+    errors = [_manufactured(n, stencil) for n in (65, 129, 257)]
+    observed = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    # the asymptotic order within what a halving of 1/64 shows
+    assert observed[-1] == pytest.approx(order, abs=0.25)
+
+
+def test_steady_film_without_entrainment_is_refused():
+    with pytest.raises(ParameterError, match="squeeze"):
+        solve_line(thesis_line(speed_1=1.0, speed_2=-1.0))
+    with pytest.raises(ParameterError, match="mass_conserving"):
+        solve_line(thesis_line(inlet_fill=0.5))
+
+
+def test_failure_is_told_in_a_sentence_and_raised_unless_asked_not_to():
+    settings = LineSettings(nodes=101, max_iterations=1)
+    film = solve_line(thesis_line(), settings, throw=False)
+    assert not film.converged
+    assert "Not converged on 101 nodes" in film.outcome
+    with pytest.raises(ConvergenceError, match="more nodes"):
+        solve_line(thesis_line(), settings)
