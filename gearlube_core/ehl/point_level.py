@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -32,11 +33,12 @@ class FilmState:
     film: Array
     mass: Array  # rho h
     density: Array
-    viscosity: Array
+    fluidity: Array  # 1/eta
     density_slope: Array
-    viscosity_slope: Array
-    mobility_x: Array
-    mobility_y: Array
+    viscosity_slope: Array  # d ln eta/dp
+    cubic_x: Array  # rho h^3 times the flow factor along x
+    cubic_y: Array
+    log_viscosity: Array
     residual: Array
     load_error: float  # what the pressure lacks, relative to the load
 
@@ -77,6 +79,13 @@ class PointLevel:
         u, v = (abs(component) / scales.speed for component in problem.entrainment)
         if scales.swap:
             u, v = v, u
+        semi_x, semi_y, _ = problem.hertz_contact
+        across = (
+            math.hypot(u * semi_y, v * semi_x)
+            if not scales.swap
+            else math.hypot(u * semi_x, v * semi_y)
+        )
+        self.half_width = across / scales.length
         self.oil: EhlLubricant = scales.oil(problem.lubricant)
         self.modulus = problem.contact_modulus * scales.film / (scales.pressure * scales.length)
         self.coefficients = love_coefficients(self.dy, self.dx, ny, nx, 1.0) * (
@@ -96,6 +105,7 @@ class PointLevel:
         )
         self.source = np.zeros(shape)
         self.cell = self.dx * self.dy
+        self.flow_rate = self.stencil.wedge_x + self.stencil.wedge_y
         self._dense: Array | None = None
 
     def dense_deflection(self) -> Array:
@@ -125,48 +135,68 @@ class PointLevel:
             density_slope.ravel(),
         )
         mass = density * film
-        mobility = density * np.maximum(film, 0.0) ** 3 / viscosity
+        cubic = density * np.maximum(film, 0.0) ** 3
+        fluidity, log_viscosity = 1.0 / viscosity, np.log(viscosity)
         residual = np.empty(self.shape)
-        reynolds_residual(self.stencil, pressure, mass, mobility, mobility, self.source, residual)
+        reynolds_residual(
+            self.stencil,
+            pressure,
+            mass,
+            cubic,
+            cubic,
+            fluidity,
+            log_viscosity,
+            self.source,
+            residual,
+        )
         load_error = (self.scales.load - self.cell * float(pressure.sum())) / self.scales.load
         return FilmState(
-            pressure,
-            approach,
-            film,
-            mass,
-            density,
-            viscosity,
-            density_slope,
-            viscosity_slope,
-            mobility,
-            mobility,
-            residual,
-            load_error,
+            pressure=pressure,
+            approach=approach,
+            film=film,
+            mass=mass,
+            density=density,
+            fluidity=fluidity,
+            density_slope=density_slope,
+            viscosity_slope=viscosity_slope * fluidity,
+            cubic_x=cubic,
+            cubic_y=cubic,
+            log_viscosity=log_viscosity,
+            residual=residual,
+            load_error=load_error,
         )
 
-    def linearise(
-        self, state: FilmState, free: np.ndarray[Any, np.dtype[np.bool_]] | None = None
-    ) -> Linearisation:
-        """Return the derivatives of the residual at a state; flow factors are held."""
-        free = state.free if free is None else free
+    def with_mobility(self, factor: float) -> None:
+        """Set the mobility to a multiple of the problem's: below 1 the film is thicker."""
+        mobility = factor * self.scales.mobility
+        self.stencil = self.stencil._replace(
+            poiseuille_x=mobility / self.dx**2, poiseuille_y=mobility / self.dy**2
+        )
+
+    def linearise(self, state: FilmState, squeeze: float = 0.0) -> Linearisation:
+        """Return the derivatives of the residual at a state; flow factors are held.
+
+        `squeeze` adds a rate of rho h that the residual does not contain.
+        """
+        free = state.free
         by_pressure = np.empty((NEIGHBOURS, *self.shape))
         by_film = np.empty((NEIGHBOURS, *self.shape))
         reynolds_derivatives(
-            self.stencil,
+            self.stencil._replace(squeeze=self.stencil.squeeze + squeeze),
             state.pressure,
-            state.mobility_x,
-            state.mobility_y,
-            state.density_slope / state.density - state.viscosity_slope / state.viscosity,
-            3.0 / np.maximum(state.film, 1e-30),
-            state.density_slope * state.film,
+            state.cubic_x,
+            state.cubic_y,
+            state.fluidity,
+            state.log_viscosity,
+            state.viscosity_slope,
             state.density,
+            state.density_slope,
+            state.film,
             free,
             by_pressure,
             by_film,
         )
-        return Linearisation(
-            by_pressure, by_film, by_film.sum(axis=0), free, np.empty(self.shape)
-        )
+        return Linearisation(by_pressure, by_film, by_film.sum(axis=0), free, np.empty(self.shape))
 
     def apply(self, linear: Linearisation, pressure: Array, approach: float) -> Array:
         """Return the change of the residual under changes of pressure and approach.

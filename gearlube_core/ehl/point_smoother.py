@@ -99,7 +99,5 @@ class RowSmoother:
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
         right = np.where(self._free, residual, 0.0).astype(np.float32).ravel()
-        solution, _ = sgbtrs(
-            self._factors, _BELOW, _ABOVE, right, self._pivots, overwrite_b=True
-        )
+        solution, _ = sgbtrs(self._factors, _BELOW, _ABOVE, right, self._pivots, overwrite_b=True)
         return self._damping * solution.reshape(self._shape).astype(np.float64)

@@ -6,6 +6,7 @@ quantities are those of `PointScales`; entrainment points to larger x and y.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -42,27 +43,65 @@ def face_weights(parameters: StencilParameters, index: int) -> tuple[float, floa
 
 
 @kernel
+def mean_fluidity(
+    here: float, there: float, rise: float, steep: bool
+) -> tuple[float, float, float]:
+    """Return the mean of 1/eta of two nodes and its slopes: logarithmic where steep.
+
+    Parameters
+    ----------
+    here, there
+        1/eta at both nodes [1].
+    rise
+        ln(there/here) [1].
+    steep
+        Pressure rises along the entrainment.
+
+    Returns
+    -------
+    tuple of float
+        Mean and its derivatives with respect to ln(here) and ln(there) [1].
+
+    Notes
+    -----
+    The logarithmic mean is that over the pressure between the nodes where eta grows
+    exponentially: the flow against the rise of pressure in the inlet stays right on any grid.
+    Towards the exit the plain mean ties the pressure of a spike to its surroundings. Both are
+    of second order.
+    """
+    if not steep:
+        return 0.5 * (here + there), 0.5 * here, 0.5 * there
+    if abs(rise) < 1e-3:
+        mean = math.sqrt(here * there) * (1.0 + rise * rise / 24.0)
+        return mean, mean * (0.5 - rise / 12.0), mean * (0.5 + rise / 12.0)
+    mean = (there - here) / rise
+    return mean, (mean - here) / rise, (there - mean) / rise
+
+
+@kernel
 def reynolds_residual(
     parameters: StencilParameters,
     pressure: np.ndarray,
     mass: np.ndarray,
-    mobility_x: np.ndarray,
-    mobility_y: np.ndarray,
+    cubic_x: np.ndarray,
+    cubic_y: np.ndarray,
+    fluidity: np.ndarray,
+    log_viscosity: np.ndarray,
     source: np.ndarray,
     residual: np.ndarray,
 ) -> None:
     """Write the residual of all inner nodes.
 
-    R = Lambda [d/dx(eps_x dp/dx) + d/dy(eps_y dp/dy)] - d(u rho h)/dx - d(v rho h)/dy
-        - squeeze rho h + source
+    R = Lambda [d/dx(rho h^3/eta dp/dx) + d/dy(rho h^3/eta dp/dy)] - d(u rho h)/dx
+        - d(v rho h)/dy - squeeze rho h + source
 
     Parameters
     ----------
     parameters
         Of the grid.
-    pressure, mass, mobility_x, mobility_y, source : ndarray, shape (ny, nx)
-        p, rho h, eps = rho h^3/eta times the flow factor of its direction, and what the squeeze
-        term takes from earlier times [1].
+    pressure, mass, cubic_x, cubic_y, fluidity, log_viscosity, source : ndarray, shape (ny, nx)
+        p, rho h, rho h^3 times the flow factor of its direction, 1/eta, ln eta, and what the
+        squeeze term takes from earlier times [1].
     residual : ndarray, shape (ny, nx)
         Result; zero on the border [1].
 
@@ -71,53 +110,85 @@ def reynolds_residual(
     Fluxes are differences between faces, so mass is balanced to rounding over any set of nodes.
     """
     ny, nx = pressure.shape
-    residual[0, :] = 0.0
-    residual[ny - 1, :] = 0.0
+    residual[:] = 0.0
     px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
-    for j in range(1, ny - 1):
-        residual[j, 0] = 0.0
-        residual[j, nx - 1] = 0.0
-        s0, s1, s2 = face_weights(parameters, j - 1)
-        n0, n1, n2 = face_weights(parameters, j)
-        jj = max(j - 2, 0)
-        for i in range(1, nx - 1):
-            w0, w1, w2 = face_weights(parameters, i - 1)
-            e0, e1, e2 = face_weights(parameters, i)
-            ii = max(i - 2, 0)
-            p = pressure[j, i]
-            ex, ey = mobility_x[j, i], mobility_y[j, i]
-            r = px * (
-                (ex + mobility_x[j, i + 1]) * (pressure[j, i + 1] - p)
-                + (ex + mobility_x[j, i - 1]) * (pressure[j, i - 1] - p)
-            )
-            r += py * (
-                (ey + mobility_y[j + 1, i]) * (pressure[j + 1, i] - p)
-                + (ey + mobility_y[j - 1, i]) * (pressure[j - 1, i] - p)
-            )
-            m = mass[j, i]
-            r -= parameters.wedge_x * (
-                (e0 - w2) * m + (e1 - w0) * mass[j, i - 1] - w1 * mass[j, ii] + e2 * mass[j, i + 1]
-            )
-            if parameters.wedge_y != 0.0:
-                r -= parameters.wedge_y * (
-                    (n0 - s2) * m
-                    + (n1 - s0) * mass[j - 1, i]
-                    - s1 * mass[jj, i]
-                    + n2 * mass[j + 1, i]
+    for j in range(1, ny):
+        for i in range(1, nx):
+            here = fluidity[j, i]
+            if j < ny - 1:
+                rise = log_viscosity[j, i] - log_viscosity[j, i - 1]
+                mean, _, _ = mean_fluidity(
+                    here, fluidity[j, i - 1], rise, pressure[j, i] > pressure[j, i - 1]
                 )
-            residual[j, i] = r - parameters.squeeze * m + source[j, i]
+                flow = (cubic_x[j, i] + cubic_x[j, i - 1]) * mean
+                flow *= px * (pressure[j, i] - pressure[j, i - 1])
+                f0, f1, f2 = face_weights(parameters, i - 1)
+                flow -= parameters.wedge_x * (
+                    f0 * mass[j, i - 1] + f1 * mass[j, max(i - 2, 0)] + f2 * mass[j, i]
+                )
+                if i < nx - 1:
+                    residual[j, i] -= flow + parameters.squeeze * mass[j, i] - source[j, i]
+                if i > 1:
+                    residual[j, i - 1] += flow
+            if i < nx - 1:
+                rise = log_viscosity[j, i] - log_viscosity[j - 1, i]
+                mean, _, _ = mean_fluidity(
+                    here,
+                    fluidity[j - 1, i],
+                    rise,
+                    parameters.wedge_y > 0.0 and pressure[j, i] > pressure[j - 1, i],
+                )
+                flow = (cubic_y[j, i] + cubic_y[j - 1, i]) * mean
+                flow *= py * (pressure[j, i] - pressure[j - 1, i])
+                f0, f1, f2 = face_weights(parameters, j - 1)
+                flow -= parameters.wedge_y * (
+                    f0 * mass[j - 1, i] + f1 * mass[max(j - 2, 0), i] + f2 * mass[j, i]
+                )
+                if j < ny - 1:
+                    residual[j, i] -= flow
+                if j > 1:
+                    residual[j - 1, i] += flow
+
+
+@kernel
+def _face(
+    poiseuille: float,
+    step: float,
+    cubic: float,
+    cubic_there: float,
+    fluidity: float,
+    fluidity_there: float,
+    rise: float,
+    steep: bool,
+) -> tuple[float, float, float, float, float]:
+    """Return the flow per pressure step and the slopes of the flow.
+
+    With respect to ln(rho h^3) here and there and to ln(1/eta) here and there.
+    """
+    mean, slope, slope_there = mean_fluidity(fluidity, fluidity_there, rise, steep)
+    total = poiseuille * (cubic + cubic_there)
+    flow = poiseuille * mean * step
+    return (
+        total * mean,
+        flow * cubic,
+        flow * cubic_there,
+        total * slope * step,
+        (total * slope_there * step),
+    )
 
 
 @kernel
 def reynolds_derivatives(
     parameters: StencilParameters,
     pressure: np.ndarray,
-    mobility_x: np.ndarray,
-    mobility_y: np.ndarray,
-    mobility_slope_p: np.ndarray,
-    mobility_slope_h: np.ndarray,
-    mass_slope_p: np.ndarray,
-    mass_slope_h: np.ndarray,
+    cubic_x: np.ndarray,
+    cubic_y: np.ndarray,
+    fluidity: np.ndarray,
+    log_viscosity: np.ndarray,
+    viscosity_slope: np.ndarray,
+    density: np.ndarray,
+    density_slope: np.ndarray,
+    film: np.ndarray,
     free: np.ndarray,
     by_pressure: np.ndarray,
     by_film: np.ndarray,
@@ -126,12 +197,10 @@ def reynolds_derivatives(
 
     Parameters
     ----------
-    parameters, pressure, mobility_x, mobility_y
+    parameters, pressure, cubic_x, cubic_y, fluidity, log_viscosity
         As in `reynolds_residual`.
-    mobility_slope_p, mobility_slope_h : ndarray, shape (ny, nx)
-        d ln eps/dp and d ln eps/dh [1].
-    mass_slope_p, mass_slope_h : ndarray, shape (ny, nx)
-        d(rho h)/dp and d(rho h)/dh [1].
+    viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
+        d ln eta/dp, rho, d rho/dp, h [1].
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero.
     by_pressure, by_film : ndarray, shape (7, ny, nx)
@@ -141,6 +210,9 @@ def reynolds_derivatives(
     by_pressure[:] = 0.0
     by_film[:] = 0.0
     px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
+    ux, uy = parameters.wedge_x, parameters.wedge_y
+    down = (0, 0, 0, 0, -1, 1, -2)
+    right = (0, -1, 1, -2, 0, 0, 0)
     for j in range(1, ny - 1):
         s0, s1, s2 = face_weights(parameters, j - 1)
         n0, n1, n2 = face_weights(parameters, j)
@@ -149,59 +221,45 @@ def reynolds_derivatives(
                 continue
             w0, w1, w2 = face_weights(parameters, i - 1)
             e0, e1, e2 = face_weights(parameters, i)
-            p = pressure[j, i]
-            ex, ey = mobility_x[j, i], mobility_y[j, i]
-            east, west = pressure[j, i + 1] - p, pressure[j, i - 1] - p
-            north, south = pressure[j + 1, i] - p, pressure[j - 1, i] - p
-            ce, cw = px * (ex + mobility_x[j, i + 1]), px * (ex + mobility_x[j, i - 1])
-            cn, cs = py * (ey + mobility_y[j + 1, i]), py * (ey + mobility_y[j - 1, i])
-            here = px * ex * (east + west) + py * ey * (north + south)
-            me, mw = px * mobility_x[j, i + 1] * east, px * mobility_x[j, i - 1] * west
-            mn, ms = py * mobility_y[j + 1, i] * north, py * mobility_y[j - 1, i] * south
-            ux, uy = parameters.wedge_x, parameters.wedge_y
-            centre = -ux * (e0 - w2) - uy * (n0 - s2) - parameters.squeeze
-            by_pressure[CENTRE, j, i] = (
-                -(ce + cw + cn + cs)
-                + here * mobility_slope_p[j, i]
-                + centre * mass_slope_p[j, i]
+            p, f, v = pressure[j, i], fluidity[j, i], log_viscosity[j, i]
+            density_here = density_slope[j, i] / density[j, i]
+            film_here = 3.0 / max(film[j, i], 1e-30)
+            for k in (WEST, EAST, SOUTH, NORTH):
+                jj, ii = j + down[k], i + right[k]
+                along = right[k] != 0
+                cubic = cubic_x[j, i] if along else cubic_y[j, i]
+                cubic_there = cubic_x[jj, ii] if along else cubic_y[jj, ii]
+                flow, c, ct, m, mt = _face(
+                    px if along else py,
+                    pressure[jj, ii] - p,
+                    cubic,
+                    cubic_there,
+                    f,
+                    fluidity[jj, ii],
+                    v - log_viscosity[jj, ii],
+                    (right[k] + down[k]) * (pressure[jj, ii] - p) > 0.0 and (along or uy > 0.0),
+                )
+                by_pressure[CENTRE, j, i] += c * density_here - m * viscosity_slope[j, i] - flow
+                by_film[CENTRE, j, i] += c * film_here
+                by_pressure[k, j, i] = (
+                    flow
+                    + ct * density_slope[jj, ii] / density[jj, ii]
+                    - mt * viscosity_slope[jj, ii]
+                )
+                by_film[k, j, i] = ct * 3.0 / max(film[jj, ii], 1e-30)
+            wedge = (
+                -ux * (e0 - w2) - uy * (n0 - s2) - parameters.squeeze,
+                -ux * (e1 - w0),
+                -ux * e2,
+                ux * w1,
+                -uy * (n1 - s0),
+                -uy * n2,
+                uy * s1,
             )
-            by_film[CENTRE, j, i] = (
-                here * mobility_slope_h[j, i] + centre * mass_slope_h[j, i]
-            )
-            by_pressure[WEST, j, i] = (
-                cw
-                + mw * mobility_slope_p[j, i - 1]
-                - ux * (e1 - w0) * mass_slope_p[j, i - 1]
-            )
-            by_film[WEST, j, i] = (
-                mw * mobility_slope_h[j, i - 1] - ux * (e1 - w0) * mass_slope_h[j, i - 1]
-            )
-            by_pressure[EAST, j, i] = (
-                ce + me * mobility_slope_p[j, i + 1] - ux * e2 * mass_slope_p[j, i + 1]
-            )
-            by_film[EAST, j, i] = (
-                me * mobility_slope_h[j, i + 1] - ux * e2 * mass_slope_h[j, i + 1]
-            )
-            by_pressure[SOUTH, j, i] = (
-                cs
-                + ms * mobility_slope_p[j - 1, i]
-                - uy * (n1 - s0) * mass_slope_p[j - 1, i]
-            )
-            by_film[SOUTH, j, i] = (
-                ms * mobility_slope_h[j - 1, i] - uy * (n1 - s0) * mass_slope_h[j - 1, i]
-            )
-            by_pressure[NORTH, j, i] = (
-                cn + mn * mobility_slope_p[j + 1, i] - uy * n2 * mass_slope_p[j + 1, i]
-            )
-            by_film[NORTH, j, i] = (
-                mn * mobility_slope_h[j + 1, i] - uy * n2 * mass_slope_h[j + 1, i]
-            )
-            if i > 1:
-                by_pressure[FAR_WEST, j, i] = ux * w1 * mass_slope_p[j, i - 2]
-                by_film[FAR_WEST, j, i] = ux * w1 * mass_slope_h[j, i - 2]
-            if j > 1:
-                by_pressure[FAR_SOUTH, j, i] = uy * s1 * mass_slope_p[j - 2, i]
-                by_film[FAR_SOUTH, j, i] = uy * s1 * mass_slope_h[j - 2, i]
+            for k in range(NEIGHBOURS):
+                jj, ii = max(j + down[k], 0), max(i + right[k], 0)
+                by_pressure[k, j, i] += wedge[k] * density_slope[jj, ii] * film[jj, ii]
+                by_film[k, j, i] += wedge[k] * density[jj, ii]
 
 
 @kernel

@@ -212,13 +212,9 @@ def elliptical_contact(
         spread = max(2.0 * semi_axis, 0.6 * flooded) if side is None else side * semi_axis
         exit_reach = max(1.5 * semi_axis, 0.3 * flooded) if outlet is None else outlet * semi_axis
         share = component / speed  # 0: across the motion, 1: along it
-        along = (
-            (-upstream, exit_reach) if share > 0.0 else (-exit_reach, upstream)
-        )
+        along = (-upstream, exit_reach) if share > 0.0 else (-exit_reach, upstream)
         weight = min(1.0, 2.0 * abs(share))
         limits.append(
-            tuple(
-                weight * edge + (1.0 - weight) * math.copysign(spread, edge) for edge in along
-            )
+            tuple(weight * edge + (1.0 - weight) * math.copysign(spread, edge) for edge in along)
         )
     return replace(problem, x_limits=limits[0], y_limits=limits[1])

@@ -1,0 +1,136 @@
+"""Semismooth Newton iteration for pressure and approach on one grid."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point_krylov import flexible_gmres
+from gearlube_core.ehl.point_level import FilmState, PointLevel
+from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_THINNEST = 0.2  # of the film before a step
+_GROWTH = 1.05  # of the residual that a step may cost
+_CUTS = 3
+_FIRST_SHIFT = 0.3  # of the flow through a cell, as a fictitious squeeze rate
+_LARGEST_SHIFT = 100.0
+_LOAD_WEIGHT = 0.1
+
+
+@dataclass(slots=True)
+class NewtonRecord:
+    """What an iteration did."""
+
+    converged: bool = False
+    residuals: list[float] = field(default_factory=list)
+    krylov: int = 0
+    stalled: bool = False
+
+
+def flow_residual(level: PointLevel, state: FilmState) -> float:
+    """Return the sum of unbalanced flow over the flow through the dry width [1].
+
+    Nodes without pressure count only where flow gathers that no pressure drives away.
+    """
+    unbalanced = float(np.abs(state.residual[state.free]).sum()) * level.cell
+    middle = float(state.film[state.pressure >= 0.8 * state.pressure.max()].mean())
+    if not middle > 0.0:
+        return math.inf
+    return unbalanced / (2.0 * level.half_width * middle)
+
+
+def newton(
+    hierarchy: Hierarchy,
+    state: FilmState,
+    *,
+    tolerance: float,
+    load_tolerance: float,
+    most: int,
+    most_krylov: int,
+) -> tuple[FilmState, NewtonRecord]:
+    """Return the state on the finest grid of the hierarchy.
+
+    Parameters
+    ----------
+    hierarchy
+        Grids; the finest one is solved.
+    state
+        Start on it.
+    tolerance, load_tolerance
+        Limits of `flow_residual` and of the relative load error [1].
+    most, most_krylov
+        Most steps, and most iterations in one of them.
+
+    Returns
+    -------
+    tuple
+        State and record.
+
+    Notes
+    -----
+    Cavitation p >= 0, R <= 0, p R = 0 as an active set: the equation is solved where there is
+    pressure or flow gathers, other nodes keep none, negative pressure is cut. A step that makes
+    the film collapse or the residual grow is shortened, then repeated with a fictitious squeeze
+    term, which fades as the residual falls.
+    """
+    level = hierarchy.levels[-1]
+    record = NewtonRecord()
+    shift = 0.0
+    size = flow_residual(level, state)
+    record.residuals.append(size)
+    for _ in range(most):
+        if size <= tolerance and abs(state.load_error) <= load_tolerance:
+            break
+        linear = level.linearise(state, squeeze=shift * level.flow_rate)
+        cycle = MultigridCycle(hierarchy, linear)
+        share = level.cell / level.scales.load
+        right = np.where(linear.free, -state.residual, 0.0)
+        pressure, approach, _, count = flexible_gmres(
+            lambda p, h, linear=linear: (  # type: ignore[misc]
+                level.apply(linear, p, h).copy(),
+                share * float(p.sum()),
+            ),
+            cycle,
+            right,
+            state.load_error,
+            tolerance=min(0.03, max(1e-3, 0.1 * math.sqrt(size))),
+            most=most_krylov,
+            weight=_LOAD_WEIGHT * float(np.linalg.norm(linear.by_approach)),
+        )
+        record.krylov += count
+        thinnest = _THINNEST * max(float(state.film.min()), 0.0)
+        length, accepted = 1.0, False
+        for _ in range(_CUTS):
+            trial = level.state(
+                np.maximum(state.pressure + length * pressure, 0.0),
+                state.approach + length * approach,
+            )
+            trial_size = flow_residual(level, trial)
+            positive = float(trial.film.min()) > thinnest
+            if positive and trial_size < _GROWTH * size:
+                accepted = True
+                break
+            length *= 0.4
+        if accepted:
+            if length == 1.0 and trial_size < 0.7 * size:
+                shift = 0.25 * shift if shift > 0.02 else 0.0
+            elif trial_size > 0.9 * size:
+                shift = max(_FIRST_SHIFT, 2.0 * shift)
+            state, size = trial, trial_size
+            record.residuals.append(size)
+        else:
+            shift = max(_FIRST_SHIFT, 4.0 * shift)
+        if shift > _LARGEST_SHIFT:
+            record.stalled = True
+            break
+    record.converged = (
+        size <= tolerance
+        and abs(state.load_error) <= load_tolerance
+        and float(state.film.min()) > 0.0
+    )
+    return state, record

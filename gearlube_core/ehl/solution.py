@@ -1,0 +1,115 @@
+"""Result of a point contact and whether it can be trusted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point_level import FilmState, PointLevel
+from gearlube_core.ehl.point_newton import NewtonRecord, flow_residual
+from gearlube_core.ehl.problem import PointContactProblem
+from gearlube_core.ehl.settings import PointSolverSettings
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_CURE = "Take more nodes where the film is thin, upwind-1 to start from, or a lower load first."
+
+
+@dataclass(frozen=True, slots=True)
+class PointOutcome:
+    """Residual, load, film and complementarity together.
+
+    Parameters
+    ----------
+    converged
+        All four within their limits.
+    residual
+        Unbalanced flow over the flow through the dry width [1].
+    load_error
+        Missing share of the load [1].
+    smallest_film
+        Over the ambient-free domain, in units of the dry approach [1]; above zero if sound.
+    gathering
+        Flow that gathers where there is no pressure, as `residual` [1].
+    sentence
+        What happened and what to do.
+    """
+
+    converged: bool
+    residual: float
+    load_error: float
+    smallest_film: float
+    gathering: float
+    sentence: str
+
+    @classmethod
+    def of(
+        cls,
+        level: PointLevel,
+        state: FilmState,
+        record: NewtonRecord,
+        settings: PointSolverSettings,
+    ) -> PointOutcome:
+        """Return the judgement on a state."""
+        residual = flow_residual(level, state)
+        empty = state.pressure <= 0.0
+        flow = np.maximum(state.residual[empty], 0.0).sum() * level.cell
+        gathering = float(flow) / (2.0 * level.half_width * float(state.film.max()))
+        smallest = float(state.film.min())
+        sound = bool(np.isfinite(state.pressure).all())
+        checks = (
+            (sound, "the pressure is not finite"),
+            (residual <= settings.tolerance, f"the flow residual is {residual:.1e}"),
+            (
+                abs(state.load_error) <= settings.load_tolerance,
+                f"the load is {100.0 * state.load_error:.1e} % off",
+            ),
+            (smallest > 0.0, "the film vanishes"),
+        )
+        failed = [text for good, text in checks if not good]
+        steps = len(record.residuals)
+        sentence = (
+            f"Converged in {steps} steps."
+            if not failed
+            else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
+        )
+        return cls(not failed, residual, state.load_error, smallest, gathering, sentence)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PointSolution:
+    """Film of a point contact; arrays of shape (nx, ny) over `problem.x` and `problem.y`."""
+
+    problem: PointContactProblem
+    pressure: Array  # [Pa]
+    film: Array  # [m]
+    approach: float  # h_0 [m]
+    outcome: PointOutcome
+    residuals: tuple[float, ...]  # of every Newton step on all grids [1]
+    krylov_steps: int
+    seconds: float
+
+    @property
+    def central_film(self) -> float:
+        """Return the film in the centre of the dry contact, by linear interpolation [m]."""
+        x, y = self.problem.x, self.problem.y
+        column = np.array([np.interp(0.0, y, row) for row in self.film])
+        return float(np.interp(0.0, x, column))
+
+    @property
+    def minimum_film(self) -> float:
+        """Return the smallest film [m]."""
+        return float(self.film.min())
+
+    @property
+    def maximum_pressure(self) -> float:
+        """Return the largest pressure [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def load(self) -> float:
+        """Return the load that the pressure carries [N]."""
+        x, y = self.problem.x, self.problem.y
+        return float(self.pressure.sum() * (x[1] - x[0]) * (y[1] - y[0]))
