@@ -10,6 +10,9 @@ from gearlube_core.ehl.line_system import Factors, LineState, LineSystem
 
 # a film may shrink to this share of itself in one step
 _SHRINK = 0.1
+# an error of the load moves the flow about this much more than itself; it weighs the two where
+# a step is judged, not where convergence is
+_LOAD_WEIGHT = 100.0
 # steps within which the smallest residual has to halve
 _PATIENCE = 12
 # largest change of ln(viscosity) and of pressure [Hertz pressures] in one step
@@ -149,7 +152,7 @@ def newton(
         if not np.isfinite(change[2]):
             return state, _record(residuals, loads, "the Jacobian is singular")
         length = _step_length(system, state, change[0], change[2])
-        state, free = _accept(system, state, free, change, length, residual + load)
+        state, free = _accept(system, state, free, change, length, residual + _LOAD_WEIGHT * load)
     return state, _record(residuals, loads, f"no convergence in {max_iterations} Newton steps")
 
 
@@ -184,7 +187,8 @@ def _accept(
     for _ in range(6):
         trial, trial_full = _advance(system, state, full, change, length)
         if np.all(system.H > 0.0):
-            new = flow_residual(system, trial, trial_full) + abs(system.load_error(trial))
+            error = abs(system.load_error(trial))
+            new = flow_residual(system, trial, trial_full) + _LOAD_WEIGHT * error
             if new < best_merit:
                 best, best_merit = (trial, trial_full), new
             if new < (1.0 - 0.1 * length) * merit:

@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.line_newton import newton
-from gearlube_core.ehl.line_problem import LineSettings
+from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_scaling import row_coefficients
 from gearlube_core.ehl.line_solution import LineSolution, build_solution
 from gearlube_core.ehl.line_system import LOAD, LineState, LineSystem
@@ -132,7 +132,7 @@ class LineMarch:
         self._divergence = self._outflow()
         return solution
 
-    def _problem_now(self):  # type: ignore[no-untyped-def]
+    def _problem_now(self) -> LineProblem:
         history, problem = self.history, self._problem
         if history.line_load is not None:
             load = check_within("line_load", history.line_load(self.time), 0.0, 1e12, "N/m")
@@ -142,7 +142,7 @@ class LineMarch:
             problem = replace(problem, speed_1=u1, speed_2=u2)
         return problem
 
-    def _set_balance(self, problem) -> None:  # type: ignore[no-untyped-def]
+    def _set_balance(self, problem: LineProblem) -> None:
         system, history = self._system, self.history
         if history.gap is not None:
             gap = np.asarray(history.gap(system.x, self.time), dtype=float)
