@@ -1,0 +1,201 @@
+"""Friction of the oil film along the contact lines, beside constants and gear-practice formulas.
+
+The formulas are written from their sources: Schlenk 1995 (in ISO/TR 14179-2), Benedict and Kelley
+1961, Xu and Kahraman 2007 (fitted to thermal non-Newtonian EHL of a 75W90 oil).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from docs.helical.cases import HE, Array
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
+from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
+from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
+from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
+from gearlube_core.friction.line_points import line_points, table_line_load, uniform_line_load
+from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
+from gearlube_core.mesh_table.line_mesh import LineMesh
+
+OIL, OIL_TEMPERATURE, SIGMA = "mohammadpour_2015", 353.15, 0.5e-6  # -, K, m
+RPM = math.pi / 30.0
+_SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
+_SURFACE = SurfaceParameters(SIGMA, 0.055, 0.001)
+_PLANE = HE.plane
+_POINTS = line_points(HE)
+
+SPEEDS = (100.0, 300.0, 1000.0, 3000.0, 6000.0)  # rpm
+TEMPERATURES = (313.15, 333.15, 353.15, 373.15)  # K
+Local = Callable[[Array, Array, Array, Array, float], Array]
+
+
+@dataclass(frozen=True, slots=True)
+class MeanFriction:
+    """Mean coefficients of friction at one speed and oil temperature [-], film [m], loss [W]."""
+
+    rpm: float
+    temperature: float  # K
+    here: float
+    schlenk: float
+    xu_kahraman: float
+    benedict_kelley: float
+    smallest_film: float
+    least_ratio: float
+    loss: float
+    efficiency: float
+
+
+def cycle(
+    rpm: float, temperature: float, mesh: LineMesh | None = None, oil: str = OIL
+) -> LineFrictionCycle:
+    """Return the friction along the lines, loads even or those of elastic lines."""
+    load = (
+        uniform_line_load(_POINTS, PINION_TORQUE)
+        if mesh is None
+        else table_line_load(_POINTS, mesh, PINION_TORQUE)
+    )
+    return friction_along_lines(
+        _POINTS,
+        load,
+        pinion_speed=rpm * RPM,
+        pinion_torque=PINION_TORQUE,
+        lubricant=Lubricant.named(oil),
+        oil_temperature=temperature,
+        surface=_SURFACE,
+        solid=_SOLID,
+    )
+
+
+def mean_friction(rpm: float, temperature: float) -> MeanFriction:
+    """Return our mean coefficient and those of the formulas."""
+    found = cycle(rpm, temperature)
+    pressed = (_POINTS.length > 0.0) & (found.line_load > 0.0)
+    return MeanFriction(
+        rpm,
+        temperature,
+        found.mean_coefficient,
+        _schlenk(rpm, temperature),
+        _mean_of(_xu_kahraman, rpm, temperature),
+        _mean_of(_benedict_kelley, rpm, temperature),
+        found.smallest_film.thickness,
+        float(found.film_ratio[pressed].min()),
+        found.mean_power_loss,
+        found.efficiency,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """One mesh period at the operating point with given loads."""
+
+    words: str
+    mean: float
+    lowest: float  # local coefficients, a millimetre and more off the pitch line [-]
+    highest: float
+    loss: float  # W
+    loss_factor: float
+    force: float  # friction off the line of action, peak to peak [N]
+    force_constant: float  # with the mean coefficient [N]
+    rise: float  # highest temperature rise [K]
+
+
+def along_lines(mesh: LineMesh) -> list[Along]:
+    """Return friction with even loads and with those of a line mesh."""
+    return [_along("even", None), _along("of the loaded contact", mesh)]
+
+
+def _along(words: str, mesh: LineMesh | None) -> Along:
+    found = cycle(PINION_SPEED / RPM, OIL_TEMPERATURE, mesh)
+    pressed = (_POINTS.length > 0.0) & (found.line_load > 0.0)
+    away = pressed & (np.abs(_POINTS.x - _PLANE.P) > 1e-3)
+    weight = found.line_load * _POINTS.length
+    local = np.abs(found.coefficient)[away]
+    side = np.sign(_POINTS.x - _PLANE.P)
+    return Along(
+        words,
+        found.mean_coefficient,
+        float(local.min()),
+        float(local.max()),
+        found.mean_power_loss,
+        found.loss_factor,
+        float(np.ptp((found.coefficient * weight).sum(axis=(1, 2)))),
+        float(np.ptp(found.mean_coefficient * (side * weight).sum(axis=(1, 2)))),
+        float(found.temperature_rise[pressed].max()),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Moved:
+    """Mesh orders of a signal [m] with a constant coefficient and with the film."""
+
+    signal: str
+    constant: Array
+    film: Array
+
+
+def moved(orders: int = 4) -> tuple[float, list[Moved]]:
+    """Return the constant coefficient of the same loss, and motions with it and with the film."""
+    film = FilmFriction(
+        oil=Lubricant.named(OIL),
+        oil_temperature=OIL_TEMPERATURE,
+        solid=STEEL_MOHAMMADPOUR_2015,
+        roughness_rms=SIGMA,
+    )
+    mu = cycle(PINION_SPEED / RPM, OIL_TEMPERATURE).mean_coefficient
+    constant = periodic_response(he_2007_pair(mu), PINION_SPEED)
+    own = periodic_response(replace(he_2007_pair(0.0), friction="film", film=film), PINION_SPEED)
+    return mu, [
+        Moved(n, harmonics(constant.signal(n), orders), harmonics(own.signal(n), orders))
+        for n in ("u_xp", "u_yp", "delta_z")
+    ]
+
+
+def _viscosity(temperature: float) -> float:
+    """Return the dynamic viscosity in mPa s."""
+    return 1e3 * Lubricant.named(OIL).dynamic_viscosity(temperature)
+
+
+def _schlenk(rpm: float, temperature: float) -> float:
+    """0.048 [F_bt/b/(v_sum rho)]^0.2 eta^-0.05 Ra^0.25, N/mm, m/s, mm, mPa s, um; mineral oil."""
+    load = PINION_TORQUE / HE.pinion_base_radius / HE.face_width * 1e-3
+    rho = 1e3 * _PLANE.P * (_PLANE.x_g - _PLANE.P) / _PLANE.x_g / _PLANE.cos_b
+    Ra = 1e6 * SIGMA / math.sqrt(2.0) / 1.25  # of one of two like Gaussian surfaces
+    speed = 2.0 * _PLANE.P * rpm * RPM
+    return float(0.048 * (load / (speed * rho)) ** 0.2 * _viscosity(temperature) ** -0.05
+                 * Ra**0.25)  # fmt: skip
+
+
+def _benedict_kelley(w: Array, u_p: Array, u_g: Array, R: Array, nu: float) -> Array:
+    """0.0127 1.13/(1.13 - S) log10[29700 w/(nu |v_s| v_r^2)], N/mm, mPa s, m/s, um."""
+    del R
+    group = 29700.0 * 1e-3 * w / (nu * np.abs(u_p - u_g) * (u_p + u_g) ** 2)
+    return np.asarray(0.0127 * 1.13 / (1.13 - 1e6 * SIGMA) * np.log10(group))
+
+
+def _xu_kahraman(w: Array, u_p: Array, u_g: Array, R: Array, nu: float) -> Array:
+    """exp(f) p^b2 SR^b3 u^b6 nu^b7 R^b8; GPa, m/s, mPa s, m, um."""
+    b = (-8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958)
+    u = 0.5 * (u_p + u_g)
+    SR = np.abs(u_p - u_g) / u
+    p = 1e-9 * np.sqrt(w * _SOLID.contact_modulus / (math.pi * R))
+    group = SR * p * math.log10(nu)
+    f = b[0] + b[3] * group + b[4] * np.exp(-group) + 0.620305 * math.exp(1e6 * SIGMA)
+    return np.asarray(np.exp(f) * p ** b[1] * SR ** b[2] * u ** b[5] * nu ** b[6] * R ** b[7])
+
+
+def _mean_of(formula: Local, rpm: float, temperature: float) -> float:
+    """Return the mean of a local formula, weighted with w |u_s| as lost power is."""
+    inside = _POINTS.length > 0.0
+    w, x = uniform_line_load(_POINTS, PINION_TORQUE)[inside], _POINTS.x[inside]
+    u_p = x * rpm * RPM
+    u_g = (_PLANE.x_g - x) * rpm * RPM * _PLANE.r_bp / _PLANE.r_bg
+    R = x * (_PLANE.x_g - x) / _PLANE.x_g / _PLANE.cos_b
+    weight = w * np.abs(u_p - u_g) * _POINTS.length[inside]
+    values = formula(w, u_p, u_g, R, _viscosity(temperature))
+    return float((values * weight).sum() / weight.sum())

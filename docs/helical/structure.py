@@ -1,0 +1,162 @@
+"""What must hold of the equations whatever the numbers: action and reaction, symmetry, limits."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from docs.helical.cases import (
+    HE,
+    HIGH,
+    LOW,
+    SPUR,
+    pressed_points,
+    random_state,
+    steady,
+    steady_with_helix,
+)
+from gearlube_core.dynamics.helical_pair.contact_points import SLIDING, X
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.mesh_moments import mesh_stiffness_matrix
+from gearlube_core.dynamics.helical_pair.periodic_response import harmonics
+from gearlube_core.helical_geometry.iso_6336_stiffness import (
+    IsoStiffness,
+    iso_stiffness,
+    virtual_teeth,
+)
+from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.pair import HelicalPair
+
+PHASES = np.linspace(0.0, 0.99, 34)
+MUS = (0.0, LOW, HIGH, 0.3)
+SMALL_HELIX = (1.0, 0.1, 0.01)  # deg
+TRANSVERSE = ("u_xp", "u_yp", "u_xg", "u_yg")
+
+
+@dataclass(frozen=True, slots=True)
+class Reaction:
+    """Largest sums of forces and of moments over those on the pinion [-], and axial identity."""
+
+    force: float
+    moment: float
+    axial: float  # |F_z + F_x tan b|/|F_x|
+
+
+def reaction() -> Reaction:
+    """Return the worst over phases, friction and random displacements, helical and spur."""
+    rng = np.random.default_rng(7)
+    force = moment = axial = 0.0
+    for pair in (HE, SPUR):
+        plane = pair.plane
+        centre_g = np.array([plane.x_g, plane.r_bp + plane.r_bg, 0.0])
+        for mu in MUS:
+            parameters = he_2007_pair(mu, pair)
+            for phase in PHASES:
+                w = pressed_points(parameters, float(phase), random_state(rng))[1]
+                size = float(np.abs(w[:3]).max())
+                about = rng.normal(size=3)
+                total = w[3:6] - np.cross(about, w[:3])
+                total += w[9:] + np.cross(centre_g - about, w[6:9])
+                force = max(force, float(np.abs(w[:3] + w[6:9]).max()) / size)
+                moment = max(moment, float(np.abs(total).max()) / size)  # arms of about 1 m
+                helix = abs(w[2] + w[0] * plane.sin_b / plane.cos_b)
+                axial = max(axial, helix / abs(w[0]))
+    return Reaction(force, moment, axial)
+
+
+@dataclass(frozen=True, slots=True)
+class Symmetry:
+    """Of the mesh stiffness without friction, over its largest entry [-]."""
+
+    asymmetry: float
+    least_eigenvalue: float
+    ranks: tuple[int, ...]
+    off_line: float  # largest entry off the line of action
+
+
+def symmetry() -> Symmetry:
+    """Return the worst over mesh phases, helical and spur."""
+    asymmetry = least = off = 0.0
+    ranks = set()
+    for pair in (HE, SPUR):
+        parameters = he_2007_pair(0.0, pair)
+        for phase in PHASES:
+            K = mesh_stiffness_matrix(float(phase), pair.plane, parameters.mesh_arrays())
+            size = float(np.abs(K).max())
+            values = np.linalg.eigvalsh(0.5 * (K + K.T)) / size
+            asymmetry = max(asymmetry, float(np.abs(K - K.T).max()) / size)
+            least = min(least, float(values[0]))
+            ranks.add(int((np.abs(values) > 1e-9).sum()))
+            off = max(off, float(np.abs(K[[1, 7]]).max()) / size)
+    return Symmetry(asymmetry, least, tuple(sorted(ranks)), off)
+
+
+def sliding_reversal() -> tuple[float, bool]:
+    """Return |v_s| at the pitch line over that at A, and whether v_s changes sign there alone."""
+    plane = HE.plane
+    ratio = abs(line_kinematics(plane.P, 1.0, plane).sliding)
+    ratio /= abs(line_kinematics(plane.A, 1.0, plane).sliding)
+    pressed = np.zeros(12)
+    pressed[0] = 1e-5
+    for phase in PHASES:
+        points = pressed_points(he_2007_pair(HIGH), float(phase), pressed)[0]
+        if (np.sign(points[:, SLIDING]) != np.sign(plane.P - points[:, X])).any():
+            return ratio, False
+    return ratio, True
+
+
+def spur_limit() -> list[tuple[float, float]]:
+    """Return helix angles [deg] and how far delta_z is from the spur pair's, mu = 0.1 [-]."""
+    spur = steady_with_helix(HIGH, 0.0).signal("delta_z")
+    swing = float(np.ptp(spur))
+    found = []
+    for angle in SMALL_HELIX:
+        near = steady_with_helix(HIGH, math.radians(angle)).signal("delta_z")
+        found.append((angle, float(np.sqrt(np.mean((near - spur) ** 2))) / swing))
+    return found
+
+
+def six_against_twelve(mu: float, orders: int = 6) -> dict[str, float]:
+    """Return by translation the largest relative difference of mesh orders 1 to `orders`."""
+    six, twelve = steady(mu, "six_dof"), steady(mu)
+    return {
+        name: float(
+            np.abs(
+                harmonics(six.signal(name), orders) / harmonics(twelve.signal(name), orders) - 1.0
+            ).max()
+        )
+        for name in TRANSVERSE
+    }
+
+
+# ISO/TR 6336-30:2017, example 1, as printed: 17:103, 8 mm, 15.8 degrees, x1 = 0.145, rack D
+SAMPLE = {
+    "c'_th": 17.85584, "c'": 12.37047, "c_gamma_alpha": 17.46485, "c_gamma_beta": 14.84512,
+}  # fmt: skip
+SAMPLE_TEETH = (18.905, 114.543)
+_SAMPLE_LOAD = 127352.0 / 0.1  # N/m
+
+
+def sample_stiffness() -> tuple[tuple[float, float], dict[str, float]]:
+    """Return virtual teeth and stiffnesses [N/(mm um)] of the published example."""
+    module, helix = 8e-3, math.radians(15.8)
+    radius = 0.5 * module / math.cos(helix)
+    pair = HelicalPair(
+        name="ISO/TR 6336-30, example 1",
+        pinion_teeth=17,
+        gear_teeth=103,
+        normal_module=module,
+        normal_pressure_angle=math.radians(20.0),
+        helix_angle=helix,
+        centre_distance=0.5,
+        pinion_tip_radius=17 * radius + 1.145 * module,
+        gear_tip_radius=103 * radius + module,
+        pinion_root_radius=17 * radius - (1.4 - 0.145) * module,
+        gear_root_radius=103 * radius - 1.4 * module,
+        face_width=0.1,
+    )
+    found: IsoStiffness = iso_stiffness(pair, line_load=_SAMPLE_LOAD)
+    values = (found.theoretical, found.single, found.mesh, found.lead)
+    return virtual_teeth(pair), dict(zip(SAMPLE, (1e-9 * v for v in values), strict=True))
