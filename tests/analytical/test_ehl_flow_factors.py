@@ -1,0 +1,221 @@
+"""Flow factors of an Eyring film against velocity profiles, closed forms and symmetry."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import cumulative_simpson, simpson
+from scipy.optimize import root
+
+from gearlube_core.ehl.eyring_flow import eyring_flow_factor, eyring_mean_stress
+from gearlube_core.ehl.flow_factors import eyring_flow, fill_flow_factors, flow_scales
+from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.errors import ParameterError
+
+UNLIMITED = math.inf
+
+
+def profile_flow(
+    gradient: np.ndarray, sliding: float, eta: float, h: float, tau0: float
+) -> np.ndarray:
+    """Return the flow by pressure [m2/s] along s and r from integrated velocity profiles, in SI."""
+    z = np.linspace(-0.5 * h, 0.5 * h, 4001)
+
+    def rates(middle):
+        stress = tau0 * middle[:, None] + gradient[:, None] * z
+        size = np.hypot(*stress)
+        size[size == 0.0] = 1e-30
+        return stress / size * tau0 / eta * np.sinh(size / tau0)
+
+    def slip(middle):
+        return simpson(rates(middle), x=z) * eta / (h * tau0) - [sliding * eta / (h * tau0), 0.0]
+
+    middle = root(slip, [math.asinh(eta * sliding / (h * tau0)), 0.0], tol=1e-12).x
+    assert np.abs(slip(middle)).max() < 1e-9
+    velocity = cumulative_simpson(rates(middle), x=z, initial=0.0)
+    mean = np.array([0.5 * sliding, 0.0])  # of the surfaces, the lower one at rest
+    return simpson(velocity - mean[:, None], x=z)
+
+
+@pytest.mark.parametrize(
+    ("slope_s", "slope_r", "sliding"),
+    [
+        (4e13, 0.0, 1.0),
+        (4e13, 3e13, 0.3),
+        (-1e14, 2e14, 2.0),
+        (0.0, 1e14, 1.0),
+        (1e12, -2e14, 0.02),
+    ],
+)
+def test_factors_equal_the_flow_of_the_velocity_profile(slope_s, slope_r, sliding):
+    # the profile is integrated itself, not by parts as the factors are; Simpson's rule on 4000
+    # intervals is exact to 1e-10
+    eta, h, tau0 = 2.0, 0.2e-6, 5e6
+    flow = profile_flow(np.array([slope_s, slope_r]), sliding, eta, h, tau0)
+    factors = eyring_flow(
+        0.5 * h * slope_s / tau0, 0.5 * h * slope_r / tau0, eta * sliding / (h * tau0), UNLIMITED
+    )
+    newtonian = -(h**3) / (12.0 * eta)
+    assert flow[0] == pytest.approx(newtonian * factors.along * slope_s, rel=1e-7, abs=1e-16)
+    assert flow[1] == pytest.approx(newtonian * factors.across * slope_r, rel=1e-7, abs=1e-16)
+
+
+@pytest.mark.parametrize(
+    ("sigma", "a", "value"), [(1.0, 0.0, 1.103638), (1.0, 10.0, 9.455686), (0.5, 5.0, 5.024314)]
+)
+def test_values_of_conry(sigma, a, value):
+    # 3 (s cosh s - sinh s)/s^3 sqrt(1 + (a s/sinh s)^2) to the digits printed
+    assert eyring_flow(sigma, 0.0, a, UNLIMITED).along == pytest.approx(value, abs=6e-7)
+
+
+def test_without_cross_slope_the_one_dimensional_factor_returns():
+    # quadrature against closed form: 1e-10 over what a film meets, slopes 1e-9
+    for sigma in (0.0, 1e-7, 3e-5, 0.02, 0.4, 2.4, 6.9, 19.0, -70.0):
+        for a in (0.0, 1e-3, 2.0, -1e4, 1e30):
+            flow = eyring_flow(sigma, 0.0, a, UNLIMITED)
+            factor, by_sigma, by_a = eyring_flow_factor(sigma, a)
+            assert flow.along == pytest.approx(factor, rel=1e-10)
+            assert flow.flow_ss == pytest.approx(factor + sigma * by_sigma, rel=1e-8)
+            scale = factor * (abs(sigma) + 1e-3)
+            assert flow.flow_s_a * a == pytest.approx(sigma * by_a * a, abs=1e-9 * scale)
+            assert flow.stress_s == pytest.approx(eyring_mean_stress(sigma, a, 1.0), abs=1e-12)
+            assert flow.stress_r == 0.0
+
+
+def test_small_stress_is_newtonian_to_second_order():
+    # tau sinh(t)/t: the first correction of any mean is of the order of the stress squared
+    flow = eyring_flow(1e-4, 2e-4, 3e-4, UNLIMITED)
+    assert flow.along == pytest.approx(1.0, abs=1e-6)
+    assert flow.across == pytest.approx(1.0, abs=1e-6)
+
+
+def test_pumping_alone_does_not_know_directions():
+    straight = eyring_flow(3.0, 0.0, 0.0, UNLIMITED)
+    turned = eyring_flow(3.0 * math.cos(0.7), 3.0 * math.sin(0.7), 0.0, UNLIMITED)
+    assert turned.along == pytest.approx(straight.along, rel=1e-12)
+    assert turned.across == pytest.approx(straight.along, rel=1e-12)
+
+
+def test_vanishing_slopes_leave_the_closed_limits():
+    # S_s = sqrt(1 + a^2); across, all layers shear at the mean viscosity a/asinh(a)
+    a = 40.0
+    flow = eyring_flow(0.0, 0.0, a, UNLIMITED)
+    assert flow.along == pytest.approx(math.hypot(1.0, a), rel=1e-12)
+    assert flow.across == pytest.approx(a / math.asinh(a), rel=1e-12)
+
+
+def test_factor_is_smooth_where_its_ratio_ends():
+    for sigma_r in (0.0, 0.8, 9.0):
+        inside = eyring_flow(0.99e-5, sigma_r, 12.0, UNLIMITED).along
+        outside = eyring_flow(1.01e-5, sigma_r, 12.0, UNLIMITED).along
+        assert inside == pytest.approx(outside, rel=1e-9)
+
+
+def test_slopes_match_differences_over_the_whole_range():
+    # central differences with a step of 1e-5 of the size: truncation 1e-9, rounding 1e-9 where
+    # the flow is not steep; 1e-5 leaves room for sizes up to e^40
+    rng = np.random.default_rng(3)
+    for _ in range(300):
+        sigma = rng.normal(size=2) * 10 ** rng.uniform(-2.0, 1.4)
+        a = 10 ** rng.uniform(-2.0, 12.0)
+        here = eyring_flow(*sigma, a, UNLIMITED)
+        assert here.flow_ss * here.flow_rr > here.flow_sr**2
+        step = 1e-5
+        for axis, (first, second) in enumerate(
+            [(here.flow_ss, here.flow_sr), (here.flow_sr, here.flow_rr)]
+        ):
+            flows = []
+            for sign in (1.0, -1.0):
+                moved = sigma.copy()
+                moved[axis] += sign * step
+                there = eyring_flow(*moved, a, UNLIMITED)
+                flows.append(np.array([there.along, there.across]) * moved)
+            slope = (flows[0] - flows[1]) / (2.0 * step)
+            size = max(here.flow_ss, here.flow_rr)
+            assert slope == pytest.approx([first, second], abs=1e-5 * size)
+        up, down = (eyring_flow(*sigma, a * (1.0 + e), UNLIMITED) for e in (1e-5, -1e-5))
+        slope_s = (up.along - down.along) * sigma[0] / (2e-5 * a)
+        slope_r = (up.across - down.across) * sigma[1] / (2e-5 * a)
+        size = max(here.along, here.across) * float(np.hypot(*sigma)) / a
+        assert here.flow_s_a == pytest.approx(slope_s, abs=1e-5 * size)
+        assert here.flow_r_a == pytest.approx(slope_r, abs=1e-5 * size)
+
+
+def test_extreme_films_stay_finite():
+    for sigma_s, sigma_r, a in ((1e9, -1e9, 1e300), (0.0, 300.0, 1e300), (1e-300, 0.0, -1e200)):
+        assert np.isfinite(eyring_flow(sigma_s, sigma_r, a, UNLIMITED)).all()
+
+
+def test_limiting_stress_caps_mid_film_stress_and_the_factor():
+    free = eyring_flow(0.4, 0.2, 1e6, UNLIMITED)
+    capped = eyring_flow(0.4, 0.2, 1e6, 3.0)
+    assert free.stress_s > 14.0
+    assert capped.stress_s == 3.0
+    # the film flows as one sheared just to its limit
+    low, high = 1.0, 1e3
+    while high - low > 1e-9:
+        middle = 0.5 * (low + high)
+        low, high = (
+            (middle, high)
+            if eyring_flow(0.4, 0.2, middle, UNLIMITED).stress_s < 3.0
+            else (low, middle)
+        )
+    equal = eyring_flow(0.4, 0.2, low, UNLIMITED)
+    assert capped.along == pytest.approx(equal.along, rel=1e-9)
+    assert capped.across == pytest.approx(equal.across, rel=1e-9)
+    assert eyring_flow(0.4, 0.2, 2.0, 3.0) == eyring_flow(0.4, 0.2, 2.0, UNLIMITED)
+    assert capped.flow_s_a == 0.0
+
+
+def grid():
+    x, y = np.linspace(-1.0, 1.0, 21), np.linspace(-1.0, 1.0, 17)
+    pressure = 8e8 * np.sqrt(np.maximum(1.0 - x**2 - y[:, None] ** 2, 0.0))
+    film = 2e-7 * (1.0 + 0.3 * y[:, None] * x)
+    return x * 1e-4, y * 1e-4, pressure, film, 1e-2 * np.exp(pressure / 1e8)
+
+
+def test_arrays_hold_the_tensor_of_every_node_and_turn_with_sliding():
+    oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
+    x, y, pressure, film, eta = grid()
+    dx, dy = x[1] - x[0], y[1] - y[0]
+    along_x, at_angle, reverse = (np.empty((3, *pressure.shape)) for _ in range(3))
+    fill_flow_factors(flow_scales(oil, (0.5, 0.0), dx, dy), pressure, film, eta, *along_x)
+    assert np.all(along_x[1] == 0.0)
+    j, i = 5, 13
+    slope_x = (pressure[j, i + 1] - pressure[j, i - 1]) / (2.0 * dx)
+    slope_y = (pressure[j + 1, i] - pressure[j - 1, i]) / (2.0 * dy)
+    half = 0.5 * film[j, i] / 6e6
+    flow = eyring_flow(
+        half * slope_x, half * slope_y, 0.5 * eta[j, i] / (film[j, i] * 6e6), UNLIMITED
+    )
+    assert along_x[0, j, i] == pytest.approx(flow.along, rel=1e-12)
+    assert along_x[2, j, i] == pytest.approx(flow.across, rel=1e-12)
+    # mirrored in the diagonal, sliding along y is sliding along x
+    fill_flow_factors(
+        flow_scales(oil, (0.0, -0.5), dy, dx),
+        *(np.ascontiguousarray(values.T) for values in (pressure, film, eta)),
+        *(diagonal := np.empty((3, x.size, y.size))),
+    )
+    np.testing.assert_allclose(diagonal[2].T, along_x[0], rtol=1e-9)
+    np.testing.assert_allclose(diagonal[0].T, along_x[2], rtol=1e-9)
+    # sliding turned by 180 degrees changes nothing; the tensor stays positive definite
+    fill_flow_factors(flow_scales(oil, (0.4, 0.3), dx, dy), pressure, film, eta, *at_angle)
+    fill_flow_factors(flow_scales(oil, (-0.4, -0.3), dx, dy), pressure, film, eta, *reverse)
+    assert at_angle == pytest.approx(reverse, rel=1e-9)
+    assert np.all(at_angle[0] * at_angle[2] > at_angle[1] ** 2)
+
+
+def test_units_of_the_arrays_do_not_matter():
+    oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=6e6, limiting_shear=(1e7, 0.05))
+    x, y, pressure, film, eta = grid()
+    dx, dy = x[1] - x[0], y[1] - y[0]
+    si, scaled = np.empty((3, *pressure.shape)), np.empty((3, *pressure.shape))
+    fill_flow_factors(flow_scales(oil, (0.4, 0.3), dx, dy), pressure, film, eta, *si)
+    units = flow_scales(oil, (0.4, 0.3), dx, dy, film=1e-6, pressure=1e9, viscosity=0.01)
+    fill_flow_factors(units, pressure / 1e9, film / 1e-6, eta / 0.01, *scaled)
+    assert scaled == pytest.approx(si, rel=1e-9)
+
+
+def test_a_newtonian_oil_is_refused():
+    with pytest.raises(ParameterError, match="tau0"):
+        flow_scales(ehl_lubricant(eta0=0.01, alpha=2e-8), (1.0, 0.0), 1e-6, 1e-6)
