@@ -120,10 +120,10 @@ def _marched(pair: HelicalPairParameters, start: PeriodicResponse, rtol: float) 
     def rates(t: float, state: np.ndarray) -> np.ndarray:
         q, v = state[:12], state[12:]
         n = contact_points(t / period, SPEED, c.plane, mesh, points)
-        k_m = line_loads(*mesh_strain(q, c.plane), c, points, n)
+        line_loads(*mesh_strain(q, c.plane), c, points, n)
         constant_friction(pair.mu, points, n)
         pair_accelerations(
-            q, v, k_m, c.T_p, c.T_g, c, supports, points, n, work[0], work[1][:5], work[2]
+            q, v, c.T_p, c.T_g, c, supports, points, n, work[0], work[1][:5], work[2]
         )
         return np.concatenate((v, work[2]))
 

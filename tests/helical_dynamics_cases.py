@@ -114,12 +114,10 @@ def state_rates(
     q, v = state[:12], state[12:]
     n = contact_points(phase, 1.0, c.plane, mesh, points)
     y0, y1 = mesh_strain(q, c.plane)
-    k_m = line_loads(y0, y1, c, points, n)
+    line_loads(y0, y1, c, points, n)
     constant_friction(mu, points, n)
     rates = np.empty(24)
-    pair_accelerations(
-        q, v, k_m, c.T_p, c.T_g, c, supports, points, n, work[0], work[1][:5], work[2]
-    )
+    pair_accelerations(q, v, c.T_p, c.T_g, c, supports, points, n, work[0], work[1][:5], work[2])
     rates[:12] = v
     rates[12:] = work[2]
     return rates

@@ -100,9 +100,10 @@ def clip_line(X: float, plane: ContactPlane) -> LineSegment:
     half = 0.5 * plane.W
     tan_b = plane.sin_b / plane.cos_b
     z_low, z_high = -half, half
-    if tan_b > 0.0:
-        z_low = max(z_low, half - (X - plane.A) / tan_b)
-        z_high = min(z_high, half - (X - plane.D) / tan_b)
+    if plane.sin_b > 0.0:
+        per_tan = plane.cos_b / plane.sin_b
+        z_low = max(z_low, half - (X - plane.A) * per_tan)
+        z_high = min(z_high, half - (X - plane.D) * per_tan)
     elif X < plane.A or X > plane.D:
         z_high = z_low
     if z_high <= z_low:
@@ -122,8 +123,7 @@ def pitch_crossing(X: float, segment: LineSegment, plane: ContactPlane) -> float
 
     Sliding reverses there. Below it (towards z_low) the pinion's dedendum slides.
     """
-    tan_b = plane.sin_b / plane.cos_b
-    if tan_b <= 0.0:
+    if plane.sin_b <= 0.0:
         return segment.z_low if X >= plane.P else segment.z_high
-    z = 0.5 * plane.W - (X - plane.P) / tan_b
+    z = 0.5 * plane.W - (X - plane.P) * (plane.cos_b / plane.sin_b)
     return min(max(z, segment.z_low), segment.z_high)

@@ -27,7 +27,7 @@ def _state_matrix(system: LinearSystem, moments: np.ndarray) -> np.ndarray:
     n = len(system.names)
     K = system.K - system.W @ moments[:, :2] @ system.E
     C = np.diag(system.C)
-    C[-1, -1] += system.damping * system.plane.cos_b * math.sqrt(moments[0, 0])
+    C[-1, -1] += system.damping * math.sqrt(moments[0, 0])
     return np.block([[np.zeros((n, n)), np.eye(n)], [-K, -C]])
 
 
@@ -92,7 +92,7 @@ def test_product_of_multipliers_is_the_damping_integrated_over_a_period() -> Non
         system, period = linear_system(parameters), 1.2e-4
         march = march_period(system, period, 16, 40)
         phase = (np.arange(4000) + 0.5) / 4000
-        roots = np.sqrt(system_moments(system, phase)[:, 0, 0]) * system.plane.cos_b
+        roots = np.sqrt(system_moments(system, phase)[:, 0, 0])
         rate = system.C.sum() + system.damping * roots.mean()
         # midpoint rule over jumps of the spur pair
         assert np.log(np.linalg.det(march.transition[-1])) == pytest.approx(

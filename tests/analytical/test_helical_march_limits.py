@@ -126,7 +126,7 @@ def test_coast_flanks_press_the_other_way_and_need_no_frame_of_their_own() -> No
 
     view = coast_view(s, p)
     sums = sums_of(view.a, view.tilt, view.phase, data)
-    w = turned_wrench(flank_wrench(sums, 0.0, p), p)
+    w = turned_wrench(flank_wrench(sums, 0.0, p.plane), p)
     assert sums_of(*drive_view(s, p), data).N == 0.0
     forces = {
         U_P: w.F_x, U_P + 1: w.F_y, U_P + 2: w.F_z, TH_P: w.M_px, TH_P + 1: w.M_py,

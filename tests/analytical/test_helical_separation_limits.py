@@ -88,7 +88,7 @@ def test_multipliers_multiply_to_what_damping_leaves():
 
 
 def test_adaptive_integration_of_the_twelve_coordinates_returns_to_the_start():
-    """DOP853 with the marching equations' kernels; damping alone is evaluated here."""
+    """DOP853 with the forces of the twelve coordinates, point by point."""
     problem, speed, motion = separated_motion(separating_pair(mu=0.05), steps_per_mesh_period=512)
     assert problem.orbit(motion.unknowns, speed).separation_share > 0.1
     p, n = problem.parameters, problem.size // 2
@@ -101,13 +101,8 @@ def test_adaptive_integration_of_the_twelve_coordinates_returns_to_the_start():
         count = contact_points(t / period, speed, c.plane, mesh, points)
         constant_friction(p.mu, points, count)
         line_loads(*mesh_strain(s[:12], c.plane), c, points, count)
-        stiffness = points[:count, at.DENSITY] * points[:count, at.LENGTH]
-        depth = points[:count, at.LOAD] / points[:count, at.DENSITY]
-        # as `rhs.mesh_damping` but with the share of stiffness that touches, squared in k_m
-        share = stiffness @ np.minimum(1.0, depth / 0.5e-6) / stiffness.sum()
-        k_m = share**2 * stiffness.sum() * c.plane.cos_b**2
         pair_accelerations(
-            s[:12], s[12:], k_m, c.T_p, c.T_g, c, supports, points, count, wrench, sums,
+            s[:12], s[12:], c.T_p, c.T_g, c, supports, points, count, wrench, sums,
             acceleration,
         )  # fmt: skip
         return np.concatenate((s[12:], acceleration))

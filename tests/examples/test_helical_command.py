@@ -13,11 +13,11 @@ from drivetrain.helical.settings import RPM, HelicalSettings
 from drivetrain.helical_figures.catalogue import HELICAL_CATALOGUE
 from fmu_src import cli, helical_console
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import read_line_mesh
+from tests.helical_dynamics_cases import estimated_pair
 
 GEOMETRY = {"contact_plane", "contact_characteristics", "facet_gaps"}
 
@@ -101,7 +101,7 @@ def test_dynamics_alone_are_those_of_the_pair(small, tmp_path):
     assert_labelled(found)
     assert set(found) == {"response", "friction_sweep", "sweep", "stability", "film"}
     # by another way to the same pair; the gear file prints seven digits of its masses
-    direct = periodic_response(he_2007_pair(0.1), 3000.0 * RPM)
+    direct = periodic_response(estimated_pair(0.1), 3000.0 * RPM)
     for name in ("u_xp", "u_yp", "delta_z"):
         amplitude = found["sweep"][f"{name}_harmonic"].sel(mu=0.1, speed=3000.0 * RPM)
         expected = harmonics(direct.signal(name))

@@ -22,7 +22,7 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh_moments import mesh_stiffness_matrix
 from gearlube_core.dynamics.helical_pair.mesh_wrench import friction_power
-from gearlube_core.dynamics.helical_pair.rhs import mesh_damping
+from gearlube_core.dynamics.helical_pair.rhs import points_damping
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from tests.helical_dynamics_cases import (
     SPEED,
@@ -165,17 +165,41 @@ def test_offsets_widen_the_gap_on_both_sides() -> None:
 
 
 def test_damping_turns_against_the_relative_rotation_and_never_makes_flanks_adhere() -> None:
-    c = he_2007_pair(0.0).kernel_parameters()
-    one_sided = c._replace(one_sided=1.0)
-    k_m, rate = 5.8e8, 0.01
-    full = 0.1 * math.sqrt(c.m_e * k_m) * rate  # 2 zeta sqrt(m_e k_m) d(psi)/dt, zeta 5 percent
-    for sense in (1.0, -1.0):  # psi grows as flanks part
-        assert mesh_damping(k_m, 1e6, sense * rate, c) == pytest.approx(sense * full, rel=1e-12)
-        assert mesh_damping(k_m, 1e6, sense * rate, one_sided) == pytest.approx(sense * full)
-    assert mesh_damping(k_m, 3.0, rate, c) == pytest.approx(full)  # linear flanks may pull
-    assert mesh_damping(k_m, 3.0, rate, one_sided) == 3.0  # drive flanks parting
-    assert mesh_damping(k_m, -3.0, -rate, one_sided) == -3.0  # back flanks parting
-    assert mesh_damping(k_m, 0.0, rate, one_sided) == 0.0
+    """2 zeta sqrt(m_e k_m) d(psi)/dt where all points are deep; zeta 5 percent."""
+    for contact in ("linear", "one_sided"):
+        parameters = replace(he_2007_pair(0.0), contact=contact)
+        c, q = parameters.kernel_parameters(), np.zeros(12)
+        depth = {"deep": 5e-6, "back": -c.backlash - 5e-6, "apart": -0.5 * c.backlash}
+        for name, delta in depth.items():
+            q[0] = delta / c.plane.cos_b
+            points, wrench, _ = loaded_points(parameters, 0.2, q)
+            k_m = float(parameters.mesh.density.max()) * points[:, LENGTH].sum() * c.plane.cos_b**2
+            full = 0.1 * math.sqrt(c.m_e * k_m)
+            for rate in (0.001, -0.001):
+                force = points_damping(rate, c, points, len(points))
+                expected = 0.0 if (contact, name) == ("one_sided", "apart") else full * rate
+                assert force == pytest.approx(expected, rel=1e-12)
+            # psi grows as the drive flanks part and the back flanks close
+            fast = points_damping(1e3, c, points, len(points))
+            limited = contact == "one_sided" and name == "deep"
+            assert fast == pytest.approx(-wrench[0] if limited else expected * -1e6, rel=1e-12)
+
+
+def test_damping_is_continuous_as_points_begin_to_touch() -> None:
+    """Over the penetration: no jump at first contact, and the share of stiffness that touches."""
+    parameters = replace(he_2007_pair(0.0), contact="one_sided", line_divisions=8)
+    c, q = parameters.kernel_parameters(), np.zeros(12)
+    q[4] = 5e-5  # tilted: points touch one by one
+    depth = np.linspace(-4e-6, 4e-6, 4001)
+    force = []
+    for delta in depth:
+        q[0] = delta / c.plane.cos_b
+        points = loaded_points(parameters, 0.2, q)[0]
+        force.append(points_damping(-1e-3, c, points, len(points)))
+    assert force[0] == 0.0
+    assert force[-1] < 0.0  # the drive flanks close
+    # a step of 2 nm adds 2 nm/0.5 um of what is building up at most
+    assert np.abs(np.diff(force)).max() <= 1.01 * 2e-9 / 0.5e-6 * np.abs(force).max()
 
 
 def test_lines_keep_their_data_through_the_change_of_period() -> None:

@@ -8,6 +8,7 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.dynamics.helical_pair.march_constants import FlankConstants
+from gearlube_core.dynamics.helical_pair.mesh_wrench import plane_strain
 from gearlube_core.dynamics.helical_pair.state import (
     PHI_P,
     PSI,
@@ -31,18 +32,18 @@ class FlankView(NamedTuple):
 
 @kernel
 def drive_view(s: NDArray[float64], p: FlankConstants) -> FlankView:
-    """Return compression and phase of the drive flanks.
-
-    Notes
-    -----
-    He et al. 2007 eq. (4), sign reversed, with -psi of docs/conventions.md as s[PSI].
-    """
+    """Return compression and phase of the drive flanks; s[PSI] is -psi of docs/conventions.md."""
     plane = p.plane
-    c1 = s[U_P] - s[U_G] + s[PSI]
-    c3 = s[U_P + 2] - s[U_G + 2] + plane.r_bp * s[TH_P] + plane.r_bg * s[TH_G]
-    c3 -= plane.x_g * s[TH_G + 1]
-    phase = plane.r_bp * s[PHI_P] / plane.pitch
-    return FlankView(plane.cos_b * c1 - plane.sin_b * c3, s[TH_P + 1] - s[TH_G + 1], phase)
+    a, tilt = plane_strain(
+        s[U_P] - s[U_G] + s[PSI],
+        s[U_P + 2] - s[U_G + 2],
+        s[TH_P],
+        s[TH_P + 1],
+        s[TH_G],
+        s[TH_G + 1],
+        plane,
+    )
+    return FlankView(a, tilt, plane.r_bp * s[PHI_P] / plane.pitch)
 
 
 @kernel
@@ -65,11 +66,11 @@ def coast_view(s: NDArray[float64], p: FlankConstants) -> FlankView:
     u_gx, _ = turned(s[U_G], s[U_G + 1], p)
     th_px, th_py = turned(s[TH_P], s[TH_P + 1], p)
     th_gx, th_gy = turned(s[TH_G], s[TH_G + 1], p)
-    c1 = u_px - u_gx - s[PSI]
-    c3 = s[U_G + 2] - s[U_P + 2] + plane.r_bp * th_px + plane.r_bg * th_gx - plane.x_g * th_gy
+    closing = u_px - u_gx - s[PSI]
+    axial = s[U_G + 2] - s[U_P + 2]
+    a, tilt = plane_strain(closing, axial, th_px, th_py, th_gx, th_gy, plane)
     phase = p.coast_phase - plane.r_bp * s[PHI_P] / plane.pitch
-    a = plane.cos_b * c1 - plane.sin_b * c3 - p.backlash
-    return FlankView(a, th_py - th_gy, phase)
+    return FlankView(a - p.backlash, tilt, phase)
 
 
 @kernel

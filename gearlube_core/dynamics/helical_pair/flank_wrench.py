@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.dynamics.helical_pair.flank_views import turned
 from gearlube_core.dynamics.helical_pair.line_sums import LineSums
 from gearlube_core.dynamics.helical_pair.march_constants import FlankConstants
+from gearlube_core.dynamics.helical_pair.mesh_wrench import Wrench, mesh_wrench
 from gearlube_core.dynamics.helical_pair.state import (
     OM_G,
     OM_P,
@@ -18,52 +17,22 @@ from gearlube_core.dynamics.helical_pair.state import (
     W_G,
     W_P,
 )
+from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.jit import kernel
 
 
-class Wrench(NamedTuple):
-    """Forces of the mesh on both members in the frame of the pair."""
-
-    F_x: float  # on the pinion; the gear has the opposite [N]
-    F_y: float
-    F_z: float
-    M_px: float  # on the pinion [N.m]
-    M_py: float
-    M_pz: float
-    M_gx: float  # on the gear
-    M_gy: float
-    M_gz: float
-
-
 @kernel
-def flank_wrench(sums: LineSums, direction: float, p: FlankConstants) -> Wrench:
+def flank_wrench(sums: LineSums, direction: float, plane: ContactPlane) -> Wrench:
     """Return forces and moments of one flank in its own frame.
 
     Parameters
     ----------
     direction
         +1 where the pinion turns about -z of this frame, -1 the other way, between at rest.
-
-    Notes
-    -----
-    He et al. 2007 eq. (7), (16), (21) with x_g for the misprinted x_e.
     """
-    plane = p.plane
-    N = sums.N
-    F = direction * sums.F
-    Fx = direction * sums.Fx
-    Fz = direction * sums.Fz
     along = plane.sin_b * sums.Nx + plane.cos_b * sums.Nz
-    return Wrench(
-        -plane.cos_b * N,
-        F,
-        plane.sin_b * N,
-        plane.r_bp * plane.sin_b * N - Fz,
-        -along,
-        Fx + plane.r_bp * plane.cos_b * N,
-        plane.r_bg * plane.sin_b * N + Fz,
-        along - plane.x_g * plane.sin_b * N,
-        plane.x_g * F - Fx + plane.r_bg * plane.cos_b * N,
+    return mesh_wrench(
+        sums.N, along, direction * sums.F, direction * sums.Fx, direction * sums.Fz, plane
     )
 
 

@@ -8,10 +8,13 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.helical_pair.march_constants import MotionConstants
 from gearlube_core.dynamics.helical_pair.march_mesh import STATIONS_AT
+from gearlube_core.dynamics.helical_pair.mesh_damping import built_up
 from gearlube_core.dynamics.helical_pair.state import POINTS_PER_LINE
 from gearlube_core.flat_tuples import tuple_from_array
+from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
 from gearlube_core.jit import kernel
 
 GAUSS = 0.21132486540518713  # (1 - 1/sqrt(3))/2: first of two points between 0 and 1
@@ -31,6 +34,8 @@ class LineSums(NamedTuple):
     energy: float  # of k (delta - e)^2/2 [J]
     moving: float  # d(energy)/dX at fixed deviations: the lines move [N]
     stiffness: float  # of k where flanks touch [N/m]
+    whole: float  # of k, touching or not [N/m]
+    built_up: float  # of k where flanks touch, as far as its damping is built up [N/m]
 
 
 @kernel
@@ -83,8 +88,8 @@ def line_sums(
     p = motion.flanks
     plane = p.plane
     half = 0.5 * plane.W
-    tan_b = p.tan_b
-    inverse = p.inverse_tan_b
+    tan_b = plane.sin_b / plane.cos_b
+    inverse = 1.0 / tan_b if tan_b > 0.0 else 0.0
     lines = int(p.lines)
     n_s = int(p.stations)
     n_phase = int(p.phases)
@@ -93,34 +98,23 @@ def line_sums(
     fraction = phase - math.floor(phase)
     row = min(int(fraction * n_phase), n_phase - 1)
     part = fraction * n_phase - row
-    per_cos = p.per_cos_b
+    per_cos = 1.0 / plane.cos_b
     slope = tilt * per_cos
     slot = pair_slot(phase, 0, lines)
-    N = Nx = Nz = F = Fx = Fz = energy = moving = stiffness = 0.0
+    N = Nx = Nz = F = Fx = Fz = energy = moving = stiffness = whole = built = 0.0
     for i in range(lines):
         X = plane.A + (fraction + i) * plane.pitch
         at_mu = mu_at + POINTS_PER_LINE * slot
         slot = slot - 1 if slot > 0 else lines - 1
-        z_low = -half
-        z_high = half
-        rate_low = 0.0
-        rate_high = 0.0
-        z_pitch = z_high if X < plane.P else z_low
-        if inverse > 0.0:
-            entry = half - (X - plane.A) * inverse
-            if entry > z_low:
-                z_low = entry
-                rate_low = -inverse
-            leave = half - (X - plane.D) * inverse
-            if leave < z_high:
-                z_high = leave
-                rate_high = -inverse
-            z_pitch = min(max(half - (X - plane.P) * inverse, z_low), z_high)
-        elif X > plane.D:
-            z_high = z_low
+        segment = clip_line(X, plane)
+        z_low = segment.z_low
+        z_high = segment.z_high
         span = z_high - z_low
         if span <= 0.0:
             continue
+        z_pitch = pitch_crossing(X, segment, plane)
+        rate_low = -inverse if z_low > -half else 0.0
+        rate_high = -inverse if z_high < half else 0.0
         base = a + tilt * plane.sin_b * (X - half * tan_b)
         here = at_density + (row * lines + i) * n_s
         after = here + lines * n_s
@@ -146,6 +140,7 @@ def line_sums(
                 k_b += part * dk_b
                 e_a += part * de_a
                 e_b += part * de_b
+            whole += 0.5 * (k_a + k_b) * width * per_cos
             g_a = base + slope * z_a - e_a
             g_b = base + slope * (z_a + width) - e_b
             if g_a <= 0.0 and g_b <= 0.0:
@@ -174,11 +169,15 @@ def line_sums(
                 k_2 = k_a + t_2 * (k_b - k_a)
                 g_1 = g_a + t_1 * (g_b - g_a)
                 g_2 = g_a + t_2 * (g_b - g_a)
-                load_1 = weight * k_1 * g_1
-                load_2 = weight * k_2 * g_2
+                touched_1 = weight * k_1
+                touched_2 = weight * k_2
+                stiffness += touched_1 + touched_2
+                load_1 = touched_1 * g_1
+                load_2 = touched_2 * g_2
+                built += touched_1 * built_up(g_1, DAMPING_BUILD_UP)
+                built += touched_2 * built_up(g_2, DAMPING_BUILD_UP)
                 N_line += load_1 + load_2
                 Nz_line += load_1 * z_1 + load_2 * z_2
-                stiffness += weight * (k_1 + k_2)
                 energy_line += load_1 * g_1 + load_2 * g_2
                 if n_phase > 1:
                     per_X = n_phase / plane.pitch
@@ -215,4 +214,4 @@ def line_sums(
         if rate_high != rate_low:
             growth = (rate_high - rate_low) / span
             moving += growth * (0.5 * energy_line + slope * (Nz_line - z_low * N_line))
-    return LineSums(N, Nx, Nz, F, Fx, Fz, energy, moving, stiffness)
+    return LineSums(N, Nx, Nz, F, Fx, Fz, energy, moving, stiffness, whole, built)

@@ -6,7 +6,6 @@ psi = r_bp th_zp + r_bg th_zg. With psi in place of th_zp and th_zg a steady sta
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +13,7 @@ import numpy as np
 from gearlube_core.dynamics.helical_pair.contact_points import N_COLUMNS, point_capacity
 from gearlube_core.dynamics.helical_pair.film_friction import FilmField, film_moments
 from gearlube_core.dynamics.helical_pair.kernel_parameters import COORDINATES, Array, MeshArrays
+from gearlube_core.dynamics.helical_pair.mesh_damping import damping_factor
 from gearlube_core.dynamics.helical_pair.mesh_moments import (
     phase_moments,
     strain_rows,
@@ -42,7 +42,7 @@ class LinearSystem(NamedTuple):
     W: Array  # accelerations by sums of the line loads, shape (n, 5)
     f: Array  # mean torques, shape (n,)
     mu: float  # [-]
-    damping: float  # 2 zeta/sqrt(m_e): c/m_e = damping sqrt(k_m) [kg^-1/2]
+    damping: float  # of the mesh: `mesh_damping.damping_factor` over m_e [kg^-1/2]
     variation: float  # of the mesh about its mean; 1 as it is, 0 constant
     plane: ContactPlane
     mesh: MeshArrays
@@ -94,7 +94,7 @@ def linear_system(parameters: HelicalPairParameters, variation: float = 1.0) -> 
         W=np.ascontiguousarray((R @ (W / inertia[:, None]))[free]),
         f=(R @ (torque / inertia))[free],
         mu=parameters.mu,
-        damping=2.0 * c.zeta_mesh / math.sqrt(c.m_e),
+        damping=damping_factor(c.zeta_mesh, c.m_e, c.plane.cos_b) / c.m_e,
         variation=variation,
         plane=c.plane,
         mesh=mesh,

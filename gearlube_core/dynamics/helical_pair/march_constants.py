@@ -35,10 +35,7 @@ class FlankConstants(NamedTuple):
     """Geometry of the flanks, of which the back ones are the drive ones turned about."""
 
     plane: ContactPlane
-    tan_b: float
-    per_cos_b: float  # 1/cos(b)
-    inverse_tan_b: float  # 0 for spur gears
-    damping: float  # 2 zeta sqrt(m_e) cos(b): over sqrt(stiffness normal to flanks) [sqrt(kg)]
+    damping: float  # `mesh_damping.damping_factor` [sqrt(kg)]
     backlash: float  # normal [m]
     coast_phase: float  # phase of drive flank plus phase of coast flank [mesh periods]
     turn_cos: float  # cosine and sine of twice the angle of the line of centres against y

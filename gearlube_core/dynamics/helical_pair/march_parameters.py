@@ -15,6 +15,7 @@ from gearlube_core.dynamics.helical_pair.march_constants import (
     SupportConstants,
 )
 from gearlube_core.dynamics.helical_pair.march_mesh import all_stations
+from gearlube_core.dynamics.helical_pair.mesh_damping import damping_factor
 from gearlube_core.dynamics.helical_pair.output_names import LINES_MAX
 from gearlube_core.dynamics.helical_pair.shaft_support import ShaftSupport
 from gearlube_core.dynamics.helical_pair.supports import support_damping, support_stiffness
@@ -175,7 +176,6 @@ class HelicalMarchParameters:
 
     def constants(self) -> MarchConstants:
         """Return the floats for the kernels."""
-        tan_b = math.tan(self.pair.base_helix_angle)
         held = self.form == "six_dof"
         constant = self.friction == "constant"
         plane = self.pair.plane
@@ -183,10 +183,7 @@ class HelicalMarchParameters:
         square = plane.x_g**2 + height**2
         flanks = FlankConstants(
             plane=plane,
-            tan_b=tan_b,
-            per_cos_b=1.0 / plane.cos_b,
-            inverse_tan_b=1.0 / tan_b if tan_b > 0.0 else 0.0,
-            damping=2.0 * self.mesh_damping_ratio * math.sqrt(self.effective_mass) * plane.cos_b,
+            damping=damping_factor(self.mesh_damping_ratio, self.effective_mass, plane.cos_b),
             backlash=self.backlash,
             coast_phase=self.coast_phase,
             turn_cos=(height**2 - plane.x_g**2) / square,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from numpy import float64
 from numpy.typing import NDArray
 
@@ -20,9 +18,14 @@ from gearlube_core.dynamics.helical_pair.flank_wrench import (
     turned_friction_heat,
     turned_wrench,
 )
-from gearlube_core.dynamics.helical_pair.line_sums import line_sums
-from gearlube_core.dynamics.helical_pair.march_constants import MotionConstants, SupportConstants
+from gearlube_core.dynamics.helical_pair.line_sums import LineSums, line_sums
+from gearlube_core.dynamics.helical_pair.march_constants import (
+    FlankConstants,
+    MotionConstants,
+    SupportConstants,
+)
 from gearlube_core.dynamics.helical_pair.march_mesh import LEAST_OFFSET
+from gearlube_core.dynamics.helical_pair.mesh_damping import damping_constant, flank_damping
 from gearlube_core.dynamics.helical_pair.state import (
     BEARING_DAMPING,
     FLANK_POINTS,
@@ -75,6 +78,15 @@ def support_rates(
 
 
 @kernel
+def sums_damping(sums: LineSums, closing: float, p: FlankConstants) -> float:
+    """Return the damping force of a flank [N] that closes at a rate [m/s], see `mesh_damping`."""
+    if sums.N == 0.0:
+        return 0.0
+    constant = damping_constant(p.damping, sums.whole)
+    return flank_damping(constant, sums.built_up / sums.whole, closing, p.plane.cos_b * sums.N)
+
+
+@kernel
 def march_rates(
     s: NDArray[float64],
     pinion_torque: float,
@@ -97,7 +109,7 @@ def march_rates(
     -----
     He et al. 2007 eq. (38)-(41), consistent signs, about a motion that follows the actual rotation
     of the pinion; flanks press, never pull. Products of rotation and tilt (gyroscopic terms) are
-    left out as in the paper. Mesh damping as in `rhs.mesh_damping`, for either flank by itself.
+    left out as in the paper. Mesh damping as in `mesh_damping`, for either flank by itself.
     """
     motion: MotionConstants = tuple_from_array(data, MotionConstants)
     p = motion.flanks
@@ -111,15 +123,14 @@ def march_rates(
     drive = drive_view(s, p)
     if touches(drive, data[LEAST_OFFSET], p):
         sums = line_sums(drive.a, drive.tilt, drive.phase, data, s, MU)
-        F_x, F_y, F_z, M_px, M_py, M_pz, M_gx, M_gy, M_gz = flank_wrench(sums, direction, p)
+        F_x, F_y, F_z, M_px, M_py, M_pz, M_gx, M_gy, M_gz = flank_wrench(sums, direction, plane)
         heat = friction_heat(sums, direction, s, p)
-        viscous = p.damping * math.sqrt(sums.stiffness) * psi_rate
-        damping = max(viscous, -plane.cos_b * sums.N)
+        damping = sums_damping(sums, psi_rate, p)
         moving = p.line_work * sums.moving
     if coast_near(s, data[LEAST_OFFSET], p):
         coast = coast_view(s, p)
         sums = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
-        w = turned_wrench(flank_wrench(sums, -direction, p), p)
+        w = turned_wrench(flank_wrench(sums, -direction, plane), p)
         F_x += w.F_x
         F_y += w.F_y
         F_z += w.F_z
@@ -130,8 +141,7 @@ def march_rates(
         M_gy += w.M_gy
         M_gz += w.M_gz
         heat += turned_friction_heat(sums, -direction, s, p)
-        viscous = p.damping * math.sqrt(sums.stiffness) * psi_rate
-        damping += min(viscous, plane.cos_b * sums.N)
+        damping -= sums_damping(sums, -psi_rate, p)
         moving -= p.line_work * sums.moving
     lost = support_rates(s, U_P, V_P, F_x, F_y, F_z, M_px, M_py, motion.pinion, ds)
     lost += support_rates(s, U_G, V_G, -F_x, -F_y, -F_z, M_gx, M_gy, motion.gear, ds)

@@ -6,10 +6,12 @@ the contact lines, delta = y0 + p y1. Forces follow from five sums over the line
     sums = (w, w p, r, r x, r z)  integrated over dl,  r = -mu w sign(v_s)
 
 of which the first two are the flank loads' and the others friction's. Everything that sets up
-forces or matrices of the mesh goes through `mesh_strain` and `wrench_of_sums`.
+forces or matrices of the mesh goes through `plane_strain` and `mesh_wrench`.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 from gearlube_core.dynamics.helical_pair.contact_points import (
     DENSITY,
@@ -28,24 +30,55 @@ from gearlube_core.jit import kernel
 N_SUMS = 5
 
 
+class Wrench(NamedTuple):
+    """Forces and moments of the mesh on both members."""
+
+    F_x: float  # on the pinion; the gear has the opposite [N]
+    F_y: float
+    F_z: float
+    M_px: float  # on the pinion [N.m]
+    M_py: float
+    M_pz: float
+    M_gx: float  # on the gear
+    M_gy: float
+    M_gz: float
+
+
 @kernel
-def mesh_strain(q: Array, plane: ContactPlane) -> tuple[float, float]:
+def plane_strain(
+    closing: float,
+    axial: float,
+    th_xp: float,
+    th_yp: float,
+    th_xg: float,
+    th_yg: float,
+    plane: ContactPlane,
+) -> tuple[float, float]:
     """Return y0 [m] and y1 [rad] of the compression delta = y0 + (x sin b + z cos b) y1.
 
     Parameters
     ----------
-    q : ndarray of shape (12,)
-        Displacements [m, rad], order of `COORDINATES`.
+    closing
+        u_xp - u_xg and the rotations' part -(r_bp th_zp + r_bg th_zg) [m].
+    axial
+        u_zp - u_zg [m].
+    th_xp, th_yp, th_xg, th_yg
+        [rad]
 
     Notes
     -----
     He et al. 2007 eq. (4) with the sign reversed, so that compression is positive, as (7), (16)
     and (21) need it: with the printed sign flanks that press attract each other.
     """
-    c1 = (q[0] - q[6]) - (plane.r_bp * q[5] + plane.r_bg * q[11])
-    c2 = q[4] - q[10]
-    c3 = (q[2] - q[8]) + (plane.r_bp * q[3] + plane.r_bg * q[9]) - plane.x_g * q[10]
-    return plane.cos_b * c1 - plane.sin_b * c3, c2
+    tilted = axial + (plane.r_bp * th_xp + plane.r_bg * th_xg) - plane.x_g * th_yg
+    return plane.cos_b * closing - plane.sin_b * tilted, th_yp - th_yg
+
+
+@kernel
+def mesh_strain(q: Array, plane: ContactPlane) -> tuple[float, float]:
+    """Return `plane_strain` of displacements `q` in the order of `COORDINATES`, shape (12,)."""
+    closing = (q[0] - q[6]) - (plane.r_bp * q[5] + plane.r_bg * q[11])
+    return plane_strain(closing, q[2] - q[8], q[3], q[4], q[9], q[10], plane)
 
 
 @kernel
@@ -101,26 +134,34 @@ def load_sums(c: PairConstants, points: Array, n: int, sums: Array) -> None:
 
 
 @kernel
-def wrench_of_sums(sums: Array, plane: ContactPlane, wrench: Array) -> None:
-    """Fill the forces and moments on pinion and gear, shape (12,) [N, N.m].
+def mesh_wrench(w: float, wp: float, r: float, rx: float, rz: float, plane: ContactPlane) -> Wrench:
+    """Return the forces and moments of the five sums on both members.
 
     Notes
     -----
     He et al. 2007 eq. (7), (16), (21) with x_g for the misprinted x_e, integrated.
     """
-    w, wp, r, rx, rz = sums[0], sums[1], sums[2], sums[3], sums[4]
-    wrench[0] = -plane.cos_b * w
-    wrench[1] = r
-    wrench[2] = plane.sin_b * w
-    wrench[3] = plane.r_bp * plane.sin_b * w - rz
-    wrench[4] = -wp
-    wrench[5] = rx + plane.r_bp * plane.cos_b * w
-    wrench[6] = plane.cos_b * w
-    wrench[7] = -r
-    wrench[8] = -plane.sin_b * w
-    wrench[9] = plane.r_bg * plane.sin_b * w + rz
-    wrench[10] = wp - plane.x_g * plane.sin_b * w
-    wrench[11] = plane.x_g * r - rx + plane.r_bg * plane.cos_b * w
+    return Wrench(
+        -plane.cos_b * w,
+        r,
+        plane.sin_b * w,
+        plane.r_bp * plane.sin_b * w - rz,
+        -wp,
+        rx + plane.r_bp * plane.cos_b * w,
+        plane.r_bg * plane.sin_b * w + rz,
+        wp - plane.x_g * plane.sin_b * w,
+        plane.x_g * r - rx + plane.r_bg * plane.cos_b * w,
+    )
+
+
+@kernel
+def wrench_of_sums(sums: Array, plane: ContactPlane, wrench: Array) -> None:
+    """Fill the forces and moments on pinion, then gear, shape (12,) [N, N.m]."""
+    m = mesh_wrench(sums[0], sums[1], sums[2], sums[3], sums[4], plane)
+    wrench[0], wrench[1], wrench[2] = m.F_x, m.F_y, m.F_z
+    wrench[3], wrench[4], wrench[5] = m.M_px, m.M_py, m.M_pz
+    wrench[6], wrench[7], wrench[8] = -m.F_x, -m.F_y, -m.F_z
+    wrench[9], wrench[10], wrench[11] = m.M_gx, m.M_gy, m.M_gz
 
 
 @kernel

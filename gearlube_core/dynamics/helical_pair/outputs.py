@@ -138,8 +138,8 @@ def write_outputs(
     on_drive = line_sums(drive.a, drive.tilt, drive.phase, data, s, MU)
     on_coast = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
     direction = friction_direction(s[W_P])
-    force = flank_wrench(on_drive, direction, flanks)
-    back = turned_wrench(flank_wrench(on_coast, -direction, flanks), flanks)
+    force = flank_wrench(on_drive, direction, plane)
+    back = turned_wrench(flank_wrench(on_coast, -direction, plane), flanks)
     out[0] = s[PHI_P]
     out[1] = s[PHI_G]
     out[2] = s[W_P]

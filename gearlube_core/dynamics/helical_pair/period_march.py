@@ -19,6 +19,7 @@ from gearlube_core.dynamics.helical_pair.matrix_entries import (
     add_product,
     matrix_entries,
 )
+from gearlube_core.dynamics.helical_pair.mesh_damping import damping_constant
 from gearlube_core.jit import kernel
 
 _MERGED = 1e-10  # phases closer than this are one
@@ -67,7 +68,6 @@ def march_period(
         states, work, sums, np.diff(breaks) * period / steps, steps,
         system_moments(system, _stage_phases(breaks, steps)), matrix_entries(system.K), system.C,
         matrix_entries(system.E), matrix_entries(system.W), system.f, system.damping,
-        system.plane.cos_b,
     )  # fmt: skip
     sample = np.searchsorted(breaks, grid[:-1] - _MERGED)
     return PeriodMarch(breaks, sample, states[:, :, :-1], states[:, :, -1], int(steps.sum()))
@@ -96,7 +96,6 @@ def _march(
     W: MatrixEntries,
     f: Array,
     damping: float,
-    cos_b: float,
 ) -> None:
     """Fill `states` of shape (B, 2n, 2n + 1); the last column is the forced one."""
     q, v, q_s, v_s, a, q_sum, v_sum = (
@@ -122,7 +121,7 @@ def _march(
             _copy(v_sum, v)
             for stage in range(4):
                 now = moments[row + (stage + 1) // 2]
-                _accelerate(q_s, v_s, now, K, C, E, W, f, damping, cos_b, sums, a)
+                _accelerate(q_s, v_s, now, K, C, E, W, f, damping, sums, a)
                 weight = h / 6.0 if stage in (0, 3) else h / 3.0
                 ahead = h if stage == 2 else 0.5 * h
                 for i in range(n):
@@ -156,13 +155,12 @@ def _accelerate(
     W: MatrixEntries,
     f: Array,
     damping: float,
-    cos_b: float,
     sums: Array,
     a: Array,
 ) -> None:
     """Fill the accelerations of all columns; forces act on the last column only."""
     n, columns = q.shape
-    c_mesh = damping * cos_b * math.sqrt(max(0.0, moments[0, 0]))
+    c_mesh = damping_constant(damping, moments[0, 0])
     for i in range(n):
         rate = C[i] + (c_mesh if i == n - 1 else 0.0)
         for j in range(columns):

@@ -2,42 +2,54 @@
 
 from __future__ import annotations
 
-import math
-
+from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
+from gearlube_core.dynamics.helical_pair.contact_points import DENSITY, LENGTH, LOAD
 from gearlube_core.dynamics.helical_pair.kernel_parameters import (
     Array,
     PairConstants,
     SupportArrays,
+)
+from gearlube_core.dynamics.helical_pair.mesh_damping import (
+    built_up,
+    damping_constant,
+    damping_factor,
+    flank_damping,
 )
 from gearlube_core.dynamics.helical_pair.mesh_wrench import load_sums, wrench_of_sums
 from gearlube_core.jit import kernel
 
 
 @kernel
-def mesh_damping(k_m: float, flank_force: float, psi_rate: float, c: PairConstants) -> float:
-    """Return the damping force F_d against the relative rotation along the line of action [N].
-
-    F_d = 2 zeta sqrt(m_e k_m) d(psi)/dt,  psi = r_bp th_zp + r_bg th_zg
+def points_damping(psi_rate: float, c: PairConstants, points: Array, n: int) -> float:
+    """Return the damping force of `mesh_damping` at points with LOAD [N], positive with the rate.
 
     Parameters
     ----------
-    k_m
-        Mesh stiffness along the line of action [N/m].
-    flank_force
-        Elastic force along it, positive on the drive flank [N]: one-sided flanks do not adhere, so
-        that F_d takes at most all of it away.
     psi_rate
-        [m/s]
-
-    Notes
-    -----
-    In place of He et al. 2007 eq. (36), (37), which are not each other's reaction: one damper that
-    turns the members against each other with moments r_bp F_d and r_bg F_d.
+        Of psi = r_bp th_zp + r_bg th_zg, which grows as the drive flanks part [m/s].
     """
-    force = 2.0 * c.zeta_mesh * math.sqrt(c.m_e * max(0.0, k_m)) * psi_rate
-    if c.one_sided > 0.0:
-        force = min(force, flank_force) if flank_force >= 0.0 else max(force, flank_force)
-    return force
+    plane = c.plane
+    factor = damping_factor(c.zeta_mesh, c.m_e, plane.cos_b)
+    whole = drive = back = on_drive = on_back = 0.0
+    for i in range(n):
+        load = points[i, LOAD] * points[i, LENGTH]
+        stiffness = points[i, DENSITY] * points[i, LENGTH]
+        whole += stiffness
+        if stiffness > 0.0:
+            share = stiffness * built_up(
+                abs(points[i, LOAD]) / points[i, DENSITY], DAMPING_BUILD_UP
+            )
+            if load > 0.0:
+                on_drive += load
+                drive += share
+            elif load < 0.0:
+                on_back -= load
+                back += share
+    constant = damping_constant(factor, whole)
+    if c.one_sided == 0.0 or whole == 0.0:
+        return constant * psi_rate
+    parting = flank_damping(constant, drive / whole, -psi_rate, plane.cos_b * on_drive)
+    return flank_damping(constant, back / whole, psi_rate, plane.cos_b * on_back) - parting
 
 
 @kernel
@@ -46,7 +58,9 @@ def support_force(q: Array, v: Array, supports: SupportArrays, force: Array) -> 
 
     Notes
     -----
-    He et al. 2007 eq. (28)-(35); the paper's combined bearing force F_SB is rows 0-2 and 6-8.
+    He et al. 2007 eq. (28)-(35); the paper's combined bearing force F_SB is rows 0-2 and 6-8. For
+    any matrix, those as printed too; `march_rates.support_rates` knows which entries can differ
+    from zero, 9 products a member in place of 36.
     """
     for member in range(2):
         first = 6 * member
@@ -61,7 +75,6 @@ def support_force(q: Array, v: Array, supports: SupportArrays, force: Array) -> 
 def pair_accelerations(
     q: Array,
     v: Array,
-    k_m: float,
     torque_p: float,
     torque_g: float,
     c: PairConstants,
@@ -78,8 +91,8 @@ def pair_accelerations(
     ----------
     q, v : ndarray of shape (12,)
         Displacements and rates.
-    k_m
-        From `line_loads`, which has filled LOAD; a friction law has filled MU.
+    points
+        `line_loads` has filled LOAD, a friction law MU.
     torque_p, torque_g
         Driving torque along -z of the pinion, load torque along -z of the gear [N.m].
     wrench, sums
@@ -97,7 +110,7 @@ def pair_accelerations(
     load_sums(c, points, n, sums)
     wrench_of_sums(sums, plane, wrench)
     psi_rate = plane.r_bp * v[5] + plane.r_bg * v[11]
-    damping = mesh_damping(k_m, plane.cos_b * sums[0], psi_rate, c)
+    damping = points_damping(psi_rate, c, points, n)
     wrench[5] -= plane.r_bp * damping
     wrench[11] -= plane.r_bg * damping
     for i in range(12):

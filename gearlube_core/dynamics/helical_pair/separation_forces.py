@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
+from gearlube_core.dynamics.helical_pair.mesh_damping import built_up
 from gearlube_core.dynamics.helical_pair.separation_points import (
     ALONG,
     DRAG,
@@ -63,9 +64,8 @@ def separating_sums(
         touching += k
         k_rate, e_rate = points[i, STIFFNESS_RATE], points[i, OFFSET_RATE]
         r, x, z = side * points[i, DRAG], points[i, X], points[i, Z]
-        depth = side * pressed / build_up
-        share = min(1.0, depth)
-        slope = side * k / build_up if depth < 1.0 else 0.0
+        share = built_up(side * pressed, build_up)
+        slope = side * k / build_up if share < 1.0 else 0.0
         for by in range(N_BY):
             if by == VALUE:
                 w, damping = k * pressed, k * share

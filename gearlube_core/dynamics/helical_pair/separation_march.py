@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
 from gearlube_core.dynamics.helical_pair.matrix_entries import add_product
+from gearlube_core.dynamics.helical_pair.mesh_damping import damping_constant, flank_damping
 from gearlube_core.dynamics.helical_pair.separation_forces import (
     BY_TORQUE,
     BY_Y0,
@@ -88,19 +87,18 @@ def separating_rates(
     add_product(-1.0, system.K, q, a)
     add_product(1.0, system.W, products[:_SUMS], a)
     psi, psi_rate = n - 1, v[n - 1, last]
-    factor = system.damping / math.sqrt(total[0])
+    constant = damping_constant(system.damping, total[0])
     drag = 0.0
     for flank in range(2):
-        row = FLANK_DAMPING[flank]
-        force = factor * sums[row, VALUE] * psi_rate
-        limit = system.per_force * sums[FLANK_LOAD[flank], VALUE]
-        # the damper takes at most all of a flank's load away: flanks do not adhere
-        if (flank == 0 and force > limit) or (flank == 1 and force < limit):
+        row, closing = FLANK_DAMPING[flank], -1.0 if flank == 0 else 1.0
+        elastic = -closing * system.per_force * sums[FLANK_LOAD[flank], VALUE]
+        share = sums[row, VALUE] / total[0]
+        force = closing * flank_damping(constant, share, closing * psi_rate, elastic)
+        if force == -closing * elastic:  # the flank's load limits the damper
             for j in range(last):
                 a[psi, j] -= system.per_force * products[FLANK_LOAD[flank], j]
-            force = limit
         else:
-            by_sum, by_rate = factor * psi_rate, factor * sums[row, VALUE]
+            by_sum, by_rate = constant / total[0] * psi_rate, constant * share
             for j in range(last):
                 a[psi, j] -= by_sum * products[row, j] + by_rate * v[psi, j]
             if last > 0:

@@ -66,10 +66,9 @@ class SeparationProblem:
 
     Notes
     -----
-    Mesh damping as in `rhs.mesh_damping` where all points are deeper than `damping_build_up`. Of a
-    mesh in part of contact it keeps the share of stiffness that touches, faded in over that depth,
-    so that the force does not jump when points touch. The speed only turns the lines: friction
-    takes the sign of nominal sliding, and gear torque follows the pinion's by the base radii.
+    Forces do not jump when points touch, that of `mesh_damping` included. The speed only turns the
+    lines: friction takes the sign of nominal sliding, and gear torque follows the pinion's by the
+    base radii.
     """
 
     def __init__(

@@ -22,7 +22,7 @@ class SeparationSystem(NamedTuple):
     W: MatrixEntries  # accelerations by sums of the line loads, (n, 5)
     f: Array  # accelerations by the pinion torque, shape (n,)
     per_force: float  # acceleration of psi by the line loads' sum: cos(b)/m_e [1/kg]
-    damping: float  # 2 zeta cos(b)/sqrt(m_e) [kg^-1/2]
+    damping: float  # `mesh_damping.damping_factor` over m_e [kg^-1/2]
     backlash: float  # normal [m]
     build_up: float  # penetration over which damping builds up [m]
 
@@ -39,7 +39,7 @@ def separation_system(
         W=matrix_entries(linear.W),
         f=linear.f / parameters.pinion_torque,
         per_force=cos_b / parameters.effective_mass,
-        damping=linear.damping * cos_b,
+        damping=linear.damping,
         backlash=parameters.pair.backlash,
         build_up=build_up,
     )
