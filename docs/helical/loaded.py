@@ -78,8 +78,21 @@ class Finer:
     share: float
 
 
+def bodies() -> list[Finer]:
+    """Return stiffness with the elastic body ending elsewhere."""
+    return [
+        _stiffness(words, body, LoadedSettings())
+        for words, body in (
+            ("default: base 3 modules deep, 1 pitch of rim", HelicalBodySettings()),
+            ("base 2 modules deep", HelicalBodySettings(base_depth_modules=2.0)),
+            ("base 4 modules deep", HelicalBodySettings(base_depth_modules=4.0)),
+            ("1.5 pitches of rim beside the tooth", HelicalBodySettings(neighbour_pitches=1.5)),
+        )
+    ]
+
+
 def refinements() -> list[Finer]:
-    """Return stiffness with finer cells, elements, hats, and larger bodies."""
+    """Return stiffness with finer cells, elements and hats."""
     default = HelicalBodySettings()
     cells = LoadedSettings(strips=StripSettings(cells_across=61, cells_along=96))
     c = default.condensation
