@@ -125,8 +125,9 @@ def newton(
     loads: list[float] = []
     factors: Factors | None = None
     system.evaluate(state)
-    while not np.all(system.H > 0.0):
-        state.H0 += 1.01 * abs(float(system.H.min())) + 1e-3 * float(system.H.max() > 0)
+    if system.H.min() <= 0.0:
+        # lift a start that cuts into itself
+        state.H0 += 0.01 * float(np.ptp(system.H)) - float(system.H.min())
         system.evaluate(state)
     free = (state.P > 0.0) | ((state.void <= 0.0) & (system.rows.residual < 0.0))
     free[[0, -1]] = False
@@ -145,9 +146,8 @@ def newton(
         voids = ~free[nodes] if system.mass_conserving else np.zeros(nodes.size, dtype=np.bool_)
         if nodes.size == 0:
             return state, _record(residuals, loads, "no node carries pressure")
-        if not _still_good(factors, nodes, voids, residuals, loads):
+        if factors is None or not _still_good(factors, nodes, voids, residuals, loads):
             factors = system.factorise(nodes, voids)
-        assert factors is not None
         change = system.solve(factors, system.load_error(state))
         if not np.isfinite(change[2]):
             return state, _record(residuals, loads, "the Jacobian is singular")
@@ -162,13 +162,13 @@ def _stagnant(residuals: list[float], loads: list[float]) -> bool:
 
 
 def _still_good(
-    factors: Factors | None,
+    factors: Factors,
     nodes: np.ndarray,
     voids: np.ndarray,
     residuals: list[float],
     loads: list[float],
 ) -> bool:
-    if factors is None or nodes.size < _LARGE or len(residuals) < 2:
+    if nodes.size < _LARGE or len(residuals) < 2:
         return False
     if not np.array_equal(factors.nodes, nodes) or not np.array_equal(factors.voids, voids):
         return False

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from gearlube_core.ehl.line_newton import NewtonRecord, newton
@@ -178,8 +176,3 @@ def _with_voids(
         state.void[upstream] = 1.0 - fraction
         state, record = newton(system, state, settings.tolerance, 2 * settings.max_iterations)
     return system, state, record
-
-
-def with_nodes(settings: LineSettings, nodes: int) -> LineSettings:
-    """Return the settings with another number of nodes."""
-    return replace(settings, nodes=nodes)
