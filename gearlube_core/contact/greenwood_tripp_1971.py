@@ -19,6 +19,16 @@ class SurfaceParameters(NamedTuple):
     sigma_over_beta: float  # roughness over tip radius [1], 1e-4 to 1e-2
 
 
+def gear_flanks(sigma: float) -> SurfaceParameters:
+    """Return finished gear flanks of a composite root-mean-square roughness [m].
+
+    Notes
+    -----
+    Mohammadpour et al. 2015, text below eq. (17).
+    """
+    return SurfaceParameters(sigma, 0.055, 0.001)
+
+
 LAMBDA_MAX = 5.0  # asperities are dropped beyond: F_5/2(5) = 1.35e-8, F_2(5) = 1.93e-8
 _INTERVALS = 1024
 _STEP = LAMBDA_MAX / _INTERVALS

@@ -3,59 +3,42 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearlube_core.checks import check_option, check_within
+from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import MEMBERS, involute_flank
 from gearlube_core.helical_geometry.iso_6336_stiffness import profile_shifts
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, contact_modulus
-from gearlube_core.tooth_compliance.cache import cached_tooth_compliance
 from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
-from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
+from gearlube_core.tooth_compliance.tooth_body import (
+    FLANK_GRID,
+    ToothBodySettings,
+    members_compliance,
+)
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
-from gearlube_core.worker_pool import worker_pool
 
 Array = NDArray[np.float64]
 
 # 30e6 psi, the usual steel of the rig of He et al. 2007, who do not print theirs
 STEEL_HE_2007 = replace(STEEL_MOHAMMADPOUR_2015, youngs_modulus=206.8e9)
 
-_GRID = (13, 33)  # flank points handed to the mesher, root to tip and face to face
 _CLEARANCE = 0.25  # normal modules over the root circle where the flank passes into its fillet
 _BELOW_CONTACT = 0.5  # of the way from the root to the lowest point of contact, at most
 _THINNEST = 0.1  # normal modules, tooth at its tip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HelicalBodySettings:
-    """The elastic body around a flank.
+class HelicalBodySettings(ToothBodySettings):
+    """The elastic body around a flank, of another steel than that of `ToothBodySettings`."""
 
-    Parameters
-    ----------
-    base_depth_modules : float
-        Depth of the base block under the slot [normal modules].
-    neighbour_pitches : float
-        Plain rim beside the tooth's own pitch, on each side [pitches].
-    solid : Solid
-        Of both members.
-    condensation : CondensationSettings
-    """
-
-    base_depth_modules: float = 3.0
-    neighbour_pitches: float = 1.0
     solid: Solid = STEEL_HE_2007
-    condensation: CondensationSettings = field(default_factory=CondensationSettings)
-
-    def __post_init__(self) -> None:
-        check_within("base_depth_modules", self.base_depth_modules, 0.5, 10.0, "modules")
-        check_within("neighbour_pitches", self.neighbour_pitches, 0.0, 3.0, "pitches")
 
 
 class ToothForm(NamedTuple):
@@ -128,8 +111,8 @@ def tooth_body(pair: HelicalPair, member: str, settings: HelicalBodySettings) ->
     evenly in the radius.
     """
     form = tooth_form(pair, member)
-    radius = np.linspace(form.start_radius, form.tip_radius, _GRID[0])[:, None]
-    z = np.linspace(-0.5, 0.5, _GRID[1]) * pair.face_width
+    radius = np.linspace(form.start_radius, form.tip_radius, FLANK_GRID[0])[:, None]
+    z = np.linspace(-0.5, 0.5, FLANK_GRID[1]) * pair.face_width
     up = 1.0 if member == "pinion" else -1.0
     # both members follow the contact line towards +x where z rises
     lead = z * math.tan(pair.base_helix_angle) / form.base_radius
@@ -161,15 +144,6 @@ def flank_position(form: ToothForm, roll: ArrayLike) -> Array:
     return np.asarray((radius - form.start_radius) / (form.tip_radius - form.start_radius))
 
 
-def member_compliance(
-    pair: HelicalPair, member: str, settings: HelicalBodySettings, cache: Path | None = None
-) -> FlankCompliance:
-    """Return the compliance of a member's drive flank, from the cache where known."""
-    geometry = tooth_body(pair, member, settings)
-    drive, _ = cached_tooth_compliance(geometry, settings.solid, settings.condensation, cache)
-    return drive
-
-
 def pair_stiffness(
     pair: HelicalPair,
     settings: HelicalBodySettings,
@@ -178,13 +152,8 @@ def pair_stiffness(
     jobs: int | None = None,
 ) -> PairStiffness:
     """Return the elastic data of the drive flanks; members in parallel unless `jobs` is 1."""
-    if jobs == 1:
-        drive = [member_compliance(pair, member, settings, cache) for member in MEMBERS]
-    else:
-        with worker_pool(len(MEMBERS)) as pool:
-            waiting = [
-                pool.submit(member_compliance, pair, member, settings, cache) for member in MEMBERS
-            ]
-            drive = [future.result() for future in waiting]
+    teeth = {member: tooth_body(pair, member, settings) for member in MEMBERS}
+    flanks = members_compliance(teeth, settings, cache, jobs)
+    pinion, gear = (flanks[member] for member in MEMBERS)
     modulus = contact_modulus(settings.solid, settings.solid)
-    return PairStiffness(pinion=drive[0], gear=drive[1], contact_modulus=modulus)
+    return PairStiffness(pinion=pinion[0], gear=gear[0], contact_modulus=modulus)

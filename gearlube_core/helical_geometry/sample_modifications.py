@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from gearlube_core.checks import check_option
-from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
-from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
-
-_AMOUNT, _EXTENT, _CROWN = 70e-6, 2e-3, 8e-6  # m, Jamali 2015 Table 4.1
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.helical_geometry.gear_file_sections import Member
+from gearlube_core.helical_geometry.modification import ModifiedPair
+from gearlube_core.units import MILLIMETRE
 
 
 def jamali_2015(
@@ -18,7 +17,7 @@ def jamali_2015(
     crown_start: float = 0.0,
     facets: int = 0,
 ) -> ModifiedPair:
-    """Return design "a" or "b" of Jamali 2015 Table 4.1 with relief and crown on all flanks.
+    """Return design "a" or "b" of Jamali 2015 Table 4.1 with its relief and crown on all flanks.
 
     Parameters
     ----------
@@ -40,9 +39,17 @@ def jamali_2015(
         would be longer than the 0.93 w of sec. 4.3.
     """
     check_option("design", design, ("a", "b"))
-    relief: TipRelief | PowerTipRelief = TipRelief(amount=_AMOUNT, extent=_EXTENT, k=k)
+    file = HelicalGearFile.named(f"jamali_2015_{design}")
+    changes: dict[str, float | str] = {
+        "tip_relief_parabola": k,
+        "crown_start_mm": crown_start / MILLIMETRE,
+        "facets": facets,
+    }
     if beta is not None:
-        relief = PowerTipRelief(amount=_AMOUNT, extent=_EXTENT, beta=beta)
-    crown = Crown(amount=_CROWN, start=crown_start)
-    flank = FlankModification(tip_relief=relief, crown=crown, facets=facets)
-    return ModifiedPair(pair=named_pair(f"jamali_2015_{design}"), pinion=flank, gear=flank)
+        changes |= {"tip_relief_form": "power", "tip_relief_exponent": beta}
+
+    def changed(member: Member) -> Member:
+        return member.model_copy(update={"flank": member.flank.model_copy(update=changes)})
+
+    members = {"pinion": changed(file.pinion), "gear": changed(file.gear)}
+    return file.model_copy(update=members).modified_pair()

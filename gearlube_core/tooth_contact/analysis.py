@@ -11,8 +11,9 @@ import xarray as xr
 from gearlube_core.errors import ParameterError
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.flank_surface.setting_check import reference_misfit, setting_report
+from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.tooth_contact.contact_dataset import contact_dataset
-from gearlube_core.tooth_contact.member_compliance import ToothBodySettings, pair_stiffness
+from gearlube_core.tooth_contact.member_compliance import pair_stiffness
 from gearlube_core.tooth_contact.mesh_cycle import (
     SIDES,
     CycleProgress,

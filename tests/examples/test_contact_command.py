@@ -15,11 +15,11 @@ from gearlube_core.errors import ConvergenceError
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
+from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 from gearlube_core.tooth_contact import analysis, mesh_cycle
 from gearlube_core.tooth_contact.analysis import ContactSettings
 from gearlube_core.tooth_contact.loaded_contact import LoadedSettings
-from gearlube_core.tooth_contact.member_compliance import ToothBodySettings
 from gearlube_core.tooth_contact.mesh_cycle import CycleSettings
 
 COARSE_BODY = ToothBodySettings(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from gearlube_core.checks import check_within
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters, gear_flanks
 from gearlube_core.dynamics.helical_pair.contact_points import (
     DENSITY,
     MU,
@@ -24,9 +24,6 @@ from gearlube_core.jit import kernel
 from gearlube_core.materials.lubricant import Lubricant
 from gearlube_core.materials.solid import Solid, SolidParameters, solid_parameters
 from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
-
-_XI_BETA_SIGMA = 0.055  # [-], Mohammadpour et al. 2015, text below eq. (17)
-_SIGMA_OVER_BETA = 0.001  # [-], ditto
 
 
 class FilmConstants(NamedTuple):
@@ -65,7 +62,7 @@ class FilmFriction:
         """Return what the kernels take."""
         return FilmConstants(
             lubricant_state(self.oil.parameters(), self.oil_temperature),
-            SurfaceParameters(self.roughness_rms, _XI_BETA_SIGMA, _SIGMA_OVER_BETA),
+            gear_flanks(self.roughness_rms),
             solid_parameters(self.solid, self.solid),
         )
 

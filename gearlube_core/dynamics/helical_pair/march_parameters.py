@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.dynamics.helical_pair.march_constants import (
     FlankConstants,
     MarchConstants,
@@ -30,8 +30,6 @@ Form = Literal["twelve_dof", "six_dof"]
 Friction = Literal["film", "constant", "off"]
 Equations = Literal["consistent", "he_2007"]
 
-XI_BETA_SIGMA = 0.055  # [-], Mohammadpour et al. 2015, text below eq. (17)
-SIGMA_OVER_BETA = 0.001  # [-], ditto
 FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
 
 
@@ -203,7 +201,7 @@ class HelicalMarchParameters:
             friction_form=FRICTION_FORMS[self.friction],
             mu=self.friction_coefficient if constant else 0.0,
             refreshes=float(self.friction_updates_per_mesh_period),
-            surface=SurfaceParameters(self.roughness_rms, XI_BETA_SIGMA, SIGMA_OVER_BETA),
+            surface=gear_flanks(self.roughness_rms),
             solid=solid_parameters(self.solid, self.solid),
             oil=self.oil.parameters(),
         )

@@ -7,7 +7,7 @@ from typing import Literal, get_args
 
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_positive, check_within
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.errors import ParameterError
@@ -26,8 +26,6 @@ TorqueLoss = Literal["none", "palmgren"]
 HYSTERETIC_LOSS = 0.009  # [-], Mohammadpour et al. 2015 eq. (4) and (25)
 FREQUENCY_FLOOR = 50.0  # Hz; eq. (4) diverges at rest; the sweep starts at 100 Hz
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
-XI_BETA_SIGMA = 0.055  # [-], Mohammadpour et al. 2015, text below eq. (17)
-SIGMA_OVER_BETA = 0.001  # [-], ditto
 FRICTION_FORMS = {"consistent": 0.0, "as_printed": 1.0, "off": -1.0}
 
 
@@ -167,7 +165,7 @@ class HypoidAxleParameters:
             preload=self.bearing.preload_force(),
             bearing_p=bearing,
             bearing_g=bearing,
-            surface=SurfaceParameters(self.roughness_rms, XI_BETA_SIGMA, SIGMA_OVER_BETA),
+            surface=gear_flanks(self.roughness_rms),
             solid=solid_parameters(self.solid, self.solid),
             oil=self.oil.parameters(),
         )

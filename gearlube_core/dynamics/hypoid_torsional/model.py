@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.checks import check_within
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import (
     DE,
@@ -52,8 +52,6 @@ from gearlube_core.rheology.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
 
-XI_BETA_SIGMA = 0.055  # [-], Mohammadpour et al. 2015, text below eq. (17)
-SIGMA_OVER_BETA = 0.001  # [-], ditto
 MAX_SPEED = 5e3  # rad/s
 
 
@@ -121,7 +119,7 @@ class HypoidTorsional:
             instantaneous_load=1.0 if p.load_torque == "instantaneous" else 0.0,
             hold_gain=p.hold_gain,
             friction_form=FRICTION_FORMS[p.friction],
-            surface=SurfaceParameters(p.roughness_rms, XI_BETA_SIGMA, SIGMA_OVER_BETA),
+            surface=gear_flanks(p.roughness_rms),
             solid=solid_parameters(p.solid, p.solid),
             oil=lubricant_state(p.oil.parameters(), p.oil_temperature),
             along_sliding=1.0 if p.entrainment == "along_sliding" else 0.0,
