@@ -43,7 +43,9 @@ def flow_residual(system: LineSystem, state: LineState, free: np.ndarray) -> flo
     r = system.rows.residual[1:-1]
     inside = free[1:-1]
     exact = inside | system.mass_conserving
-    wrong = np.where(exact, np.abs(r), np.maximum(-r, 0.0))
+    touching = system.touching[1:-1]
+    wrong = np.where(exact & ~touching, np.abs(r), np.maximum(-r, 0.0))
+    wrong = wrong + np.where(touching, np.abs(system.H[1:-1] - system.least), 0.0)
     return float(wrong.sum() / flow_scale(system, state))
 
 
@@ -68,7 +70,9 @@ def rounding_floor(system: LineSystem, state: LineState) -> float:
 def _step_length(system: LineSystem, state: LineState, dP: np.ndarray, dH0: float) -> float:
     dH = dH0 + system.deflection(dP)
     falls = -dH / np.maximum(system.H, 1e-300)
-    length = min(1.0, (1.0 - _SHRINK) / max(float(falls.max()), 1e-300))
+    # a film that may touch is stopped by the contact, not by its step
+    fastest = float(falls.max()) if system.least == 0.0 else 0.0
+    length = min(1.0, (1.0 - _SHRINK) / max(fastest, 1e-300))
     steep = float(np.abs(dP * system.rows.eta_slope).max())
     length = min(length, _LARGEST_LOG / max(steep, 1e-300))
     return min(length, _LARGEST_RISE / max(float(np.abs(dP).max()), 1e-300))
@@ -84,12 +88,18 @@ def _advance(
     dP, dvoid, dH0 = change
     P, void = state.P + s * dP, state.void + s * dvoid
     trial = LineState(np.maximum(P, 0.0), np.clip(void, 0.0, 1.0), state.H0 + s * dH0)
-    system.evaluate(trial)
+    meets = (system.film(trial) < system.least) & (system.least > 0.0)
     if system.mass_conserving:
-        full = np.where(full, P > 0.0, void < 0.0)
+        trial.void[meets] = 0.0
+    system.evaluate(trial)
+    stays = system.touching & (P > 0.0) & (system.rows.residual >= 0.0)
+    system.touching = meets | (stays & (system.least > 0.0))
+    system.touching[[0, -1]] = False
+    if system.mass_conserving:
+        full = np.where(full, P > 0.0, void < 0.0) | system.touching
         trial.void[1:-1][full[1:-1]] = 0.0
     else:
-        full = (P > 0.0) | (system.rows.residual < 0.0)
+        full = (P > 0.0) | (system.rows.residual < 0.0) | system.touching
     full[[0, -1]] = False
     return trial, full
 
@@ -118,12 +128,14 @@ def newton(
     -----
     A node is full (its balance vanishes) or broken (its pressure vanishes). It breaks where a
     step would make its pressure negative, and fills again where its balance turns negative or,
-    with mass conservation, its void share.
+    with mass conservation, its void share. Where `system.least` is above zero a film that falls to
+    it is held there by what the solids carry; a node lets go where the oil alone would lift it.
     """
     state = start.copy()
     residuals: list[float] = []
     loads: list[float] = []
     factors: Factors | None = None
+    system.touching = np.zeros(state.P.size, dtype=np.bool_)
     system.evaluate(state)
     if system.H.min() <= 0.0:
         # lift a start that cuts into itself
@@ -146,7 +158,9 @@ def newton(
         voids = ~free[nodes] if system.mass_conserving else np.zeros(nodes.size, dtype=np.bool_)
         if nodes.size == 0:
             return state, _record(residuals, loads, "no node carries pressure")
-        if factors is None or not _still_good(factors, nodes, voids, residuals, loads):
+        if factors is None or not _still_good(
+            factors, nodes, voids, system.touching[nodes], residuals, loads
+        ):
             factors = system.factorise(nodes, voids)
         change = system.solve(factors, system.load_error(state))
         if not np.isfinite(change[2]):
@@ -165,12 +179,15 @@ def _still_good(
     factors: Factors,
     nodes: np.ndarray,
     voids: np.ndarray,
+    touching: np.ndarray,
     residuals: list[float],
     loads: list[float],
 ) -> bool:
     if nodes.size < _LARGE or len(residuals) < 2:
         return False
     if not np.array_equal(factors.nodes, nodes) or not np.array_equal(factors.voids, voids):
+        return False
+    if not np.array_equal(factors.touching, touching):
         return False
     return residuals[-1] + loads[-1] < _KEEP * (residuals[-2] + loads[-2])
 
@@ -184,18 +201,22 @@ def _accept(
     merit: float,
 ) -> tuple[LineState, np.ndarray]:
     best, best_merit = None, np.inf
+    before = touching = system.touching
     for _ in range(6):
+        system.touching = before
         trial, trial_full = _advance(system, state, full, change, length)
-        if np.all(system.H > 0.0):
+        if system.least > 0.0 or np.all(system.H > 0.0):
             error = abs(system.load_error(trial))
             new = flow_residual(system, trial, trial_full) + _LOAD_WEIGHT * error
             if new < best_merit:
-                best, best_merit = (trial, trial_full), new
+                best, best_merit, touching = (trial, trial_full), new, system.touching
             if new < (1.0 - 0.1 * length) * merit:
                 return trial, trial_full
         length *= 0.5
     if best is None:
         best = _advance(system, state, full, change, length)
+        touching = system.touching
+    system.touching = touching
     system.evaluate(best[0])
     return best
 

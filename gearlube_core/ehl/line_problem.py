@@ -155,6 +155,9 @@ class LineSettings:
         Newton steps on each grid.
     coarsest
         Fewest nodes of the coarsest grid of the nest.
+    contact_film
+        Film [m] at which solids touch in a march in time, where the oil alone finds no film; 0:
+        never.
     """
 
     nodes: int = 1001
@@ -163,6 +166,7 @@ class LineSettings:
     tolerance: float = 1e-8
     max_iterations: int = 40
     coarsest: int = 100
+    contact_film: float = 1e-9
 
     def __post_init__(self) -> None:
         check_within("nodes", self.nodes, 17, 20001)
@@ -171,6 +175,7 @@ class LineSettings:
         check_within("tolerance", self.tolerance, 1e-13, 1e-2)
         check_within("max_iterations", self.max_iterations, 1, 10000)
         check_within("coarsest", self.coarsest, 9, 5000)
+        check_within("contact_film", self.contact_film, 0.0, 1e-6, "m")
         if self.stencil == "galerkin" and self.cavitation == "mass_conserving":
             raise ParameterError(
                 "stencil galerkin has no flux between nodes that a void share could follow. "

@@ -29,6 +29,8 @@ class LineSolution:
     viscosity: np.ndarray  # [Pa s]
     density: np.ndarray  # [kg/m3]
     mean_stress: np.ndarray  # at mid-film [Pa]
+    contact: np.ndarray  # True where solids touch
+    contact_flow: float  # oil made where a touching film is held open [kg/(m s)]
     mass_flow: np.ndarray  # (n - 1,) between nodes [kg/(m s)]
     approach: float  # h - h_u - deflection [m], deflection up to a constant
     residual: float  # unbalanced flow over flow through the contact [1]
@@ -114,6 +116,7 @@ def build_solution(
     sliding = problem.speed_2 - problem.speed_1
     fill_mean_stress(p, slope, h, state.void, eta, sliding, oil, tau)
     last = records[-1][1]
+    made = float(system.rows.residual[system.touching].sum())
     return LineSolution(
         problem=problem,
         settings=settings,
@@ -124,6 +127,8 @@ def build_solution(
         viscosity=eta,
         density=rho,
         mean_stress=tau,
+        contact=system.touching.copy(),
+        contact_flow=made * oil.rho0 * scales.film * scales.speed,
         mass_flow=system.rows.flux * oil.rho0 * scales.film * scales.speed,
         approach=state.H0 * scales.film,
         residual=last.residual[-1],
@@ -136,9 +141,11 @@ def build_solution(
 
 def _outcome(record: NewtonRecord, system: LineSystem, state: LineState) -> str:
     if record.converged:
+        touching = int(system.touching.sum())
+        contact = f", solids touch at {touching} nodes" if touching else ""
         return (
             f"Converged on {system.x.size} nodes: unbalanced flow {record.residual[-1]:.1e}, "
-            f"load error {record.load_error[-1]:.1e}."
+            f"load error {record.load_error[-1]:.1e}{contact}."
         )
     least = float(system.H.min()) * system.scales.film
     return (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs
@@ -36,7 +36,8 @@ class Factors:
     pivots: np.ndarray
     rows: np.ndarray  # scaling of each row
     nodes: np.ndarray
-    voids: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    voids: np.ndarray
+    touching: np.ndarray  # of the nodes, where the film is held and not the balance
 
 
 class LineSystem:
@@ -74,6 +75,9 @@ class LineSystem:
         self.source = np.zeros(nodes)
         self.load = LOAD
         self.H = np.zeros(nodes)
+        # film at which solids touch, and where they do; 0: nowhere
+        self.least = 0.0
+        self.touching = np.zeros(nodes, dtype=np.bool_)
 
     @property
     def step(self) -> float:
@@ -89,7 +93,7 @@ class LineSystem:
         self.H = self.film(state)
         fill_rows(
             state.P,
-            self.H,
+            np.maximum(self.H, self.least),
             state.void,
             self.cooling,
             self.dilation,
@@ -114,13 +118,18 @@ class LineSystem:
         scale[:m] = 1.0 / np.maximum(np.abs(self.rows.by_pressure[nodes, 2]), 1.0)
         scale[m] = 1.0
         J *= scale[:, None]
+        touching = self.touching[nodes]
+        for a in np.flatnonzero(touching):
+            J[a, :m] = np.where(voids, 0.0, self.deflection.influence[np.abs(nodes - nodes[a])])
+            J[a, m] = scale[a] = 1.0
         lu, pivots, _ = dgetrf(J, overwrite_a=True)
-        return Factors(lu, pivots, scale, nodes, voids)
+        return Factors(lu, pivots, scale, nodes, voids, touching)
 
     def solve(self, factors: Factors, load_error: float) -> tuple[np.ndarray, np.ndarray, float]:
         """Return the Newton correction: dP (n,), dvoid (n,), dH0."""
         right = np.empty(factors.nodes.size + 1)
-        right[:-1] = -self.rows.residual[factors.nodes]
+        held = self.least - self.H[factors.nodes]
+        right[:-1] = np.where(factors.touching, held, -self.rows.residual[factors.nodes])
         right[-1] = -load_error
         right *= factors.rows
         change, _ = dgetrs(factors.lu, factors.pivots, right)

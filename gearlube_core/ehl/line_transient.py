@@ -16,7 +16,6 @@ from gearlube_core.ehl.line_system import LOAD, LineState, LineSystem
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 TIME_SCHEMES = ("bdf2", "crank_nicolson")
-_STEPS_BEFORE_HALVING = 30
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,7 +60,9 @@ class LineMarch:
     -----
     d(rho h)/dt = [1.5 (rho h)^q - 2 (rho h)^(q-1) + 0.5 (rho h)^(q-2)]/dt, or the mean of the
     flows at both times. Jamali 2015 eq. (3.23); (3.24) prints its right side with the wrong sign.
-    Where a film without mass conservation is broken, what gathers is the whole gap.
+    Where a film without mass conservation is broken, what gathers is the whole gap. Where no film
+    is found, the step is solved again with solids that touch at `contact_film`: load and balances
+    of all other nodes hold, what oil a held film makes is `contact_flow` of the solution.
     """
 
     def __init__(
@@ -114,14 +115,17 @@ class LineMarch:
         state, record = newton(
             system, self._predicted(), self.settings.tolerance, self.settings.max_iterations
         )
-        if not record.converged:
-            retry, again = newton(
-                system, self._state, self.settings.tolerance, 2 * self.settings.max_iterations
-            )
-            if again.converged or again.residual[-1] < record.residual[-1]:
-                state, record = retry, again
+        if not record.converged and self.settings.contact_film > 0.0:
+            system.least = self.settings.contact_film / system.scales.film
+            for first in (self._predicted(), self._state):
+                state, record = newton(
+                    system, first, self.settings.tolerance, 2 * self.settings.max_iterations
+                )
+                if record.converged:
+                    break
         records = ((system.x.size, record),)
         solution = build_solution(system, state, self.settings, records, problem)
+        system.least = 0.0
         if throw and not solution.converged:
             raise ConvergenceError(f"Step {self.steps}: {solution.outcome}")
         self._rise = LineState(
