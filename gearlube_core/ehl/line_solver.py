@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from gearlube_core.ehl.line_newton import NewtonRecord, newton
 from gearlube_core.ehl.line_problem import LineProblem, LineSettings
@@ -119,7 +120,9 @@ def hertz_start(system: LineSystem, film: float) -> LineState:
 
 def interpolate(state: LineState, x: np.ndarray, system: LineSystem) -> LineState:
     """Return a state on the nodes of another grid of the same problem."""
-    P = np.interp(system.x, x, state.P)
+    # cubic: kinks of a linear one would be the largest part of the first residual
+    P = np.maximum(CubicSpline(x, state.P)(system.x), 0.0)
+    P[np.interp(system.x, x, state.P) <= 0.0] = 0.0
     P[[0, -1]] = 0.0
     return LineState(P, np.interp(system.x, x, state.void), state.H0)
 
