@@ -22,20 +22,20 @@ from scipy.integrate import solve_ivp
 from drivetrain.helical.loaded import analyse_loaded_contact
 from drivetrain.helical.settings import RPM, HelicalSettings
 from drivetrain.helical.sweep_grid import sweep_dataset
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.accelerations import pair_accelerations
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    PeriodicResponse,
+    periodic_response,
+)
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     N_COLUMNS,
     constant_friction,
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import (
-    PeriodicResponse,
-    periodic_response,
-)
-from gearlube_core.dynamics.helical_pair.rhs import pair_accelerations
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 _LOGGER = logging.getLogger("bench_helical")

@@ -12,9 +12,9 @@ from typing import Any
 from fmu_src.definition import Definition, Value
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
-from gearlube_core.dynamics.helical_pair.gear_march import helical_march
-from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.output_names import OUTPUT_NAMES
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.helical_pair.march.output_names import OUTPUT_NAMES
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh

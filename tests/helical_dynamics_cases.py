@@ -7,7 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.accelerations import pair_accelerations
+from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.kernel_parameters import (
+    MeshArrays,
+    PairConstants,
+    SupportArrays,
+)
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     LENGTH,
     LOAD,
     N_COLUMNS,
@@ -17,21 +25,13 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.kernel_parameters import (
-    MeshArrays,
-    PairConstants,
-    SupportArrays,
-)
-from gearlube_core.dynamics.helical_pair.mesh_wrench import (
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
     line_loads,
     load_sums,
     mesh_strain,
     wrench_of_sums,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.rhs import pair_accelerations
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.jit import kernel
 

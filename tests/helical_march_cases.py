@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.gear_march import helical_march
-from gearlube_core.dynamics.helical_pair.march_parameters import HelicalMarchParameters
-from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.output_names import ENERGIES_AT, OUTPUT_INDEX
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.helical_pair.march.output_names import ENERGIES_AT, OUTPUT_INDEX
+from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
 

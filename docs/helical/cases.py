@@ -10,26 +10,26 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
+from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    PeriodicResponse,
+    harmonics,
+    periodic_response,
+)
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     N_COLUMNS,
     constant_friction,
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
-from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
-from gearlube_core.dynamics.helical_pair.mesh_wrench import (
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
     line_loads,
     load_sums,
     mesh_strain,
     wrench_of_sums,
 )
 from gearlube_core.dynamics.helical_pair.parameters import Form, HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import (
-    PeriodicResponse,
-    harmonics,
-    periodic_response,
-)
 from gearlube_core.helical_geometry.contact_line import (
     clip_line,
     line_count,

@@ -12,7 +12,7 @@ from docs.helical.landmarks import ORDER, drawn_landmarks, landmarks
 from docs.helical.structure import reaction, sliding_reversal, symmetry
 from docs.helical.verdicts import Claim, Verdict, judge
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.linear_system import event_phases
+from gearlube_core.dynamics.helical_pair.linear.linear_system import event_phases
 
 _RATIO, _SWING = 2.7426, 0.136  # of the digest's own arithmetic on the printed dimensions
 _JUST = 1e-9  # mesh periods beside an event

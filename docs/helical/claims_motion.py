@@ -21,8 +21,11 @@ from docs.helical.claims_mesh import AXIAL
 from docs.helical.structure import six_against_twelve
 from docs.helical.verdicts import CALIBRATED, Claim, Verdict, judge
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.linear_system import linear_system, natural_frequencies
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics
+from gearlube_core.dynamics.helical_pair.linear.linear_system import (
+    linear_system,
+    natural_frequencies,
+)
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import harmonics
 
 _UNCHANGED = (4, 5, *range(7, ORDERS + 1))
 _SECOND_ORDER = (4, 8, 12)  # in mu: no first-order term off the line of action

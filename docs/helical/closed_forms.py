@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from docs.helical.cases import Array, pressed_points, random_state
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     LENGTH,
     LINE,
@@ -18,7 +19,6 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
     X,
     Z,
 )
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 
 _STATES, _SHARES = 3, (0.05, 0.5, 0.95)

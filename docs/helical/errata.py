@@ -8,7 +8,10 @@ import numpy as np
 
 from docs.helical.cases import HIGH, steady
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, he_2007_pair
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    harmonics,
+    periodic_response,
+)
 
 
 @dataclass(frozen=True, slots=True)

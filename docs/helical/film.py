@@ -14,9 +14,12 @@ import numpy as np
 
 from docs.helical.cases import HE, Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    harmonics,
+    periodic_response,
+)
+from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import line_points, table_line_load, uniform_line_load
 from gearlube_core.materials.lubricant import Lubricant

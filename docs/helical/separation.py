@@ -8,9 +8,9 @@ import numpy as np
 
 from docs.helical.cases import HIGH, Array
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_TORQUE, he_2007_pair
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import periodic_response
-from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.periodic import follow
 from gearlube_core.periodic.branch import Branch

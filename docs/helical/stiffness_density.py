@@ -11,8 +11,11 @@ import numpy as np
 from docs.helical.cases import HE, HIGH, LINE_LOAD, LOW, density, line_lengths
 from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, he_2007_pair
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
-from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    harmonics,
+    periodic_response,
+)
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
     iso_stiffness,
     rack_dedendum_of,

@@ -17,10 +17,10 @@ from docs.helical.cases import (
     steady,
     steady_with_helix,
 )
-from gearlube_core.dynamics.helical_pair.contact_points import SLIDING, X
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.mesh_moments import mesh_stiffness_matrix
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import harmonics
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import SLIDING, X
+from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import mesh_stiffness_matrix
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
     IsoStiffness,
     iso_stiffness,

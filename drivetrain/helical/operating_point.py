@@ -11,14 +11,17 @@ import xarray as xr
 
 from drivetrain.helical.labels import FORCES, LENGTHS, MOMENTS, TILTS, Variables, words_of
 from drivetrain.helical.settings import HARMONICS
-from gearlube_core.dynamics.helical_pair.linear_system import linear_system, natural_frequencies
-from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import (
+from gearlube_core.dynamics.helical_pair.linear.linear_system import (
+    linear_system,
+    natural_frequencies,
+)
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     BEARING_FORCES,
     harmonics,
     periodic_response,
     with_friction,
 )
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 
 
 def operating_point(

@@ -11,10 +11,10 @@ import xarray as xr
 
 from drivetrain.helical.labels import Variables
 from drivetrain.helical.stability import LIGHT_DAMPING
-from gearlube_core.dynamics.helical_pair.linear_system import RELATIVE
+from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import periodic_response
-from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.periodic import Branch, follow
 

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
     gear_file_pair,
     iso_mesh,
 )
+from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings

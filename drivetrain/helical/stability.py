@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from drivetrain.helical.sweep_grid import parameters_key
 from gearlube_core.contact.resumable_records import Record, RecordStore, resumable_records
-from gearlube_core.dynamics.helical_pair.instability_map import Axis, instability_map
-from gearlube_core.dynamics.helical_pair.linear_system import (
+from gearlube_core.dynamics.helical_pair.linear.instability_map import Axis, instability_map
+from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
     moments_at,
     natural_frequencies,

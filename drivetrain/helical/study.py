@@ -19,8 +19,8 @@ from drivetrain.helical.separation import separation_dataset
 from drivetrain.helical.settings import SHOWN_MU, HelicalSettings
 from drivetrain.helical.stability import stability_dataset
 from drivetrain.helical.sweep_grid import sweep_dataset
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import with_friction
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import with_friction
 from gearlube_core.errors import GearLubeError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh

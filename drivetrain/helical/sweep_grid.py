@@ -17,14 +17,17 @@ from drivetrain.helical.labels import FORCES, LENGTHS, MOMENTS, TILTS, Variables
 from drivetrain.helical.operating_point import HARMONIC_LABEL, MU_LABEL
 from drivetrain.helical.settings import HARMONICS
 from gearlube_core.contact.resumable_records import Record, RecordStore, resumable_records
-from gearlube_core.dynamics.helical_pair.harmonic_grid import QUANTITIES, harmonic_grid
-from gearlube_core.dynamics.helical_pair.linear_system import linear_system, natural_frequencies
-from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import (
+from gearlube_core.dynamics.helical_pair.linear.harmonic_grid import QUANTITIES, harmonic_grid
+from gearlube_core.dynamics.helical_pair.linear.linear_system import (
+    linear_system,
+    natural_frequencies,
+)
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     BEARING_FORCES,
     harmonics,
     periodic_response,
 )
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 
 Array = NDArray[np.float64]
 _FORMAT = 1  # raise with every change of the model that changes results

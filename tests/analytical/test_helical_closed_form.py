@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     LENGTH,
     LINE,
@@ -15,7 +16,6 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
     X,
     Z,
 )
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from tests.helical_dynamics_cases import loaded_points, random_state
 

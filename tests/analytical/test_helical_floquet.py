@@ -10,15 +10,15 @@ import pytest
 from scipy.linalg import expm
 
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.instability_map import instability_map
-from gearlube_core.dynamics.helical_pair.linear_system import (
+from gearlube_core.dynamics.helical_pair.linear.instability_map import instability_map
+from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     LinearSystem,
     linear_system,
     natural_frequencies,
     system_moments,
 )
+from gearlube_core.dynamics.helical_pair.linear.period_march import march_period
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.period_march import march_period
 from gearlube_core.periodic.floquet import floquet_multipliers
 from tests.helical_dynamics_cases import estimated_pair, spur_pair
 

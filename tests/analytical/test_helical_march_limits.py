@@ -10,15 +10,26 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gearlube_core.dynamics.helical_pair.flank_views import coast_view, drive_view
-from gearlube_core.dynamics.helical_pair.flank_wrench import flank_wrench, turned_wrench
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.line_sums import LineSums, line_sums
-from gearlube_core.dynamics.helical_pair.march_constants import FlankConstants
-from gearlube_core.dynamics.helical_pair.march_mesh import pair_data
-from gearlube_core.dynamics.helical_pair.march_parameters import HelicalMarchParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
-from gearlube_core.dynamics.helical_pair.state import N_STATE, PHI_P, PSI, TH_G, TH_P, U_G, U_P
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    harmonics,
+    periodic_response,
+)
+from gearlube_core.dynamics.helical_pair.march.constants import FlankConstants
+from gearlube_core.dynamics.helical_pair.march.flank_views import coast_view, drive_view
+from gearlube_core.dynamics.helical_pair.march.flank_wrench import flank_wrench, turned_wrench
+from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
+from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
+from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.helical_pair.march.state import (
+    N_STATE,
+    PHI_P,
+    PSI,
+    TH_G,
+    TH_P,
+    U_G,
+    U_P,
+)
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from tests.helical_march_cases import (
     PERIOD,

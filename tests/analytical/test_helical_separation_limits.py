@@ -7,29 +7,29 @@ import pytest
 from scipy.integrate import solve_ivp
 from separation_cases import separated_motion, separating_pair, spur_geometry
 
-from gearlube_core.dynamics.helical_pair import contact_points as at
-from gearlube_core.dynamics.helical_pair.contact_points import (
-    constant_friction,
-    contact_points,
-    point_capacity,
-)
-from gearlube_core.dynamics.helical_pair.linear_system import linear_system, relative_rows
-from gearlube_core.dynamics.helical_pair.mesh_wrench import line_loads, mesh_strain
-from gearlube_core.dynamics.helical_pair.periodic_response import (
+from gearlube_core.dynamics.helical_pair.accelerations import pair_accelerations
+from gearlube_core.dynamics.helical_pair.linear.linear_system import linear_system, relative_rows
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     BEARING_FORCES,
     ResponseSettings,
     periodic_response,
 )
-from gearlube_core.dynamics.helical_pair.rhs import pair_accelerations
-from gearlube_core.dynamics.helical_pair.separation_forces import N_BY, N_ROWS
-from gearlube_core.dynamics.helical_pair.separation_march import (
+from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
+    constant_friction,
+    contact_points,
+    point_capacity,
+)
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.separation.forces import N_BY, N_ROWS
+from gearlube_core.dynamics.helical_pair.separation.march import (
     N_EXTRA,
     march_separating,
     march_work,
 )
-from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
-from gearlube_core.dynamics.helical_pair.separation_system import relative_masses
-from gearlube_core.dynamics.helical_pair.shaft_support import symmetric_support
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.separation.system import relative_masses
+from gearlube_core.dynamics.helical_pair.supports.shaft_support import symmetric_support
 from gearlube_core.periodic.shooting import solve_periodic
 
 

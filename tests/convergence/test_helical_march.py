@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.helical_pair.contact_points import N_COLUMNS, point_capacity
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.linear_system import RELATIVE
-from gearlube_core.dynamics.helical_pair.periodic_response import (
+from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     ResponseSettings,
     harmonics,
     periodic_response,
 )
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import N_COLUMNS, point_capacity
 from tests.helical_dynamics_cases import SPEED, spur_pair, state_rates
 
 

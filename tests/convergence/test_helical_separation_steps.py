@@ -3,7 +3,7 @@
 import numpy as np
 from separation_cases import crowned_mesh, separated_motion, separating_pair
 
-from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.periodic.shooting import solve_periodic
 
 

@@ -13,7 +13,10 @@ from drivetrain.helical.settings import RPM, HelicalSettings
 from drivetrain.helical_figures.catalogue import HELICAL_CATALOGUE
 from fmu_src import cli, helical_console
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    harmonics,
+    periodic_response,
+)
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import read_line_mesh

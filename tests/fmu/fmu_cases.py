@@ -9,8 +9,8 @@ from typing import Any
 
 from fmu_src import build, helical_pair, hypoid_axle
 from fmu_src.definition import Definition
-from gearlube_core.dynamics.helical_pair.gear_march import helical_march
-from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh

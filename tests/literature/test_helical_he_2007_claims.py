@@ -16,15 +16,18 @@ from functools import cache
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.contact_points import LENGTH
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, he_2007_pair
-from gearlube_core.dynamics.helical_pair.linear_system import linear_system, natural_frequencies
-from gearlube_core.dynamics.helical_pair.periodic_response import (
+from gearlube_core.dynamics.helical_pair.linear.linear_system import (
+    linear_system,
+    natural_frequencies,
+)
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     PeriodicResponse,
     ResponseSettings,
     harmonics,
     periodic_response,
 )
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import LENGTH
 from gearlube_core.errors import ConvergenceError
 from tests.helical_dynamics_cases import estimated_pair, loaded_points, spur_pair
 

@@ -9,7 +9,13 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.linear.instability_map import instability_map
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    harmonics,
+    periodic_response,
+)
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     LENGTH,
     LOAD,
@@ -20,17 +26,14 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.film_friction import (
+from gearlube_core.dynamics.helical_pair.mesh.film_friction import (
     FilmField,
     FilmFriction,
     film_coefficients,
     film_moments,
 )
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.instability_map import instability_map
-from gearlube_core.dynamics.helical_pair.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.line_friction import line_friction
 from gearlube_core.friction.line_integrals import friction_along_lines

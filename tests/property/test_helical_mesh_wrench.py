@@ -10,7 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.accelerations import points_damping
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     LENGTH,
     LOAD,
@@ -19,10 +21,8 @@ from gearlube_core.dynamics.helical_pair.contact_points import (
     X,
     Z,
 )
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.mesh_moments import mesh_stiffness_matrix
-from gearlube_core.dynamics.helical_pair.mesh_wrench import friction_power
-from gearlube_core.dynamics.helical_pair.rhs import points_damping
+from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import mesh_stiffness_matrix
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import friction_power
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from tests.helical_dynamics_cases import (
     SPEED,

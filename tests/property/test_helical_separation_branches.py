@@ -11,11 +11,11 @@ from separation_cases import (
     spur_geometry,
 )
 
-from gearlube_core.dynamics.helical_pair import contact_points as at
-from gearlube_core.dynamics.helical_pair.contact_points import contact_points, point_capacity
-from gearlube_core.dynamics.helical_pair.linear_system import linear_system
-from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
-from gearlube_core.dynamics.helical_pair.separation_system import relative_masses
+from gearlube_core.dynamics.helical_pair.linear.linear_system import linear_system
+from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import contact_points, point_capacity
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.separation.system import relative_masses
 from gearlube_core.periodic.branch_switching import switch_branch
 from gearlube_core.periodic.continuation import ContinuationSettings, follow
 from gearlube_core.periodic.shooting import solve_periodic

@@ -7,23 +7,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
+from gearlube_core.dynamics.helical_pair.linear.harmonic_grid import QUANTITIES, harmonic_grid
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
+    harmonics,
+    periodic_response,
+)
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     N_COLUMNS,
     constant_friction,
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.harmonic_grid import QUANTITIES, harmonic_grid
-from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
-from gearlube_core.dynamics.helical_pair.mesh_wrench import (
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
     line_loads,
     load_sums,
     mesh_strain,
     wrench_of_sums,
 )
-from gearlube_core.dynamics.helical_pair.packed_lines import pack_lines
-from gearlube_core.dynamics.helical_pair.periodic_response import harmonics, periodic_response
-from gearlube_core.dynamics.helical_pair.shaft_support import Bearing, ShaftSupport
+from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
+from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from tests.helical_dynamics_cases import SPEED, random_state

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
-from gearlube_core.dynamics.helical_pair.gear_march import helical_march
-from gearlube_core.dynamics.helical_pair.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.output_names import (
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.helical_pair.march.output_names import (
     LINES_MAX,
     OUTPUT_INDEX,
     OUTPUT_NAMES,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.dynamics.helical_pair.shaft_support import Bearing, ShaftSupport
+from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role

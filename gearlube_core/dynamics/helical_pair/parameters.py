@@ -8,7 +8,6 @@ from typing import Literal, get_args
 import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
-from gearlube_core.dynamics.helical_pair.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.kernel_parameters import (
     COORDINATES,
     SIX_DOF,
@@ -16,9 +15,10 @@ from gearlube_core.dynamics.helical_pair.kernel_parameters import (
     PairConstants,
     SupportArrays,
 )
-from gearlube_core.dynamics.helical_pair.packed_lines import pack_lines
-from gearlube_core.dynamics.helical_pair.shaft_support import ShaftSupport
-from gearlube_core.dynamics.helical_pair.supports import (
+from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
+from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
+from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupport
+from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     printed_support_stiffness,
     support_damping,
     support_stiffness,
@@ -71,7 +71,7 @@ class HelicalPairParameters:
         Parts of a line, each with two quadrature points; one is exact for linear contact.
     bearing_moments, support_damping, mesh_sign
         The paper's equations where they run as printed: `printed_support_stiffness`,
-        `support.support_damping` per bearing, and the sign of eq. (4), which is unstable.
+        `support_matrices.support_damping` per bearing, and the sign of eq. (4), which is unstable.
 
     References
     ----------

@@ -1,0 +1,1 @@
+"""The pair with flanks that stay in contact: periodic response and stability."""

@@ -1,0 +1,1 @@
+"""The pair marched in time, at any speed and load: what HelicalPair.fmu steps."""

@@ -1,0 +1,71 @@
+"""One communication step as a single kernel: advance a copy, keep it if sound, write outputs."""
+
+from __future__ import annotations
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.helical_pair.march.integrate import OK, advance
+from gearlube_core.dynamics.helical_pair.march.outputs import write_outputs
+from gearlube_core.dynamics.helical_pair.march.state import N_STATE
+from gearlube_core.jit import kernel
+
+
+@kernel
+def communication_step(
+    s: NDArray[float64],
+    trial: NDArray[float64],
+    duration: float,
+    pinion_torque: float,
+    wheel_torque: float,
+    oil_temperature: float,
+    levels: NDArray[float64],
+    densities: NDArray[float64],
+    offsets: NDArray[float64],
+    data: NDArray[float64],
+    bearings: NDArray[float64],
+    control: NDArray[float64],
+    work: NDArray[float64],
+    out: NDArray[float64],
+) -> int:
+    """Advance the pair by `duration` [s] and write its outputs; return a status.
+
+    Parameters
+    ----------
+    s, trial : ndarray of shape (N_STATE,)
+        State, unchanged when the status is not OK; work space.
+
+    Others as in `advance` and `write_outputs`.
+    """
+    for i in range(N_STATE):
+        trial[i] = s[i]
+    status = advance(
+        trial,
+        duration,
+        pinion_torque,
+        wheel_torque,
+        oil_temperature,
+        levels,
+        densities,
+        offsets,
+        data,
+        control,
+        work,
+    )
+    if status == OK:
+        for i in range(N_STATE):
+            s[i] = trial[i]
+        write_outputs(
+            s,
+            pinion_torque,
+            wheel_torque,
+            oil_temperature,
+            levels,
+            densities,
+            offsets,
+            data,
+            bearings,
+            work,
+            out,
+        )
+    return status

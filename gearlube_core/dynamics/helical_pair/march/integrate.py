@@ -1,0 +1,167 @@
+"""Fixed-step RK4 over one communication interval: kernels."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
+from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
+from gearlube_core.dynamics.helical_pair.march.mesh_data import mesh_at_torque
+from gearlube_core.dynamics.helical_pair.march.rates import march_rates
+from gearlube_core.dynamics.helical_pair.march.state import (
+    LOAD_TORQUE,
+    N_ENERGIES,
+    N_ODE,
+    N_STATE,
+    PINION_WORK,
+    PSI,
+    TIME_IN_STEP,
+    W_P,
+    WORK_MARK,
+)
+from gearlube_core.flat_tuples import tuple_from_array
+from gearlube_core.jit import kernel
+from gearlube_core.rheology.lubricant_state import lubricant_state
+
+OK = 0
+NOT_FINITE = 1
+TOO_MANY_STEPS = 2
+
+MAX_STEPS = 1_000_000  # in one communication interval
+LOAD_FILTER_TIME = 0.02  # s, the load level follows the torque below the shafts' own motions
+DIVERGED = 0.1  # m along the line of action: teeth long broken
+
+
+class StepControl(NamedTuple):
+    """What the integrator step is tied to."""
+
+    steps_per_mesh_period: float
+    steps_per_highest_period: float
+    highest_frequency: float  # Hz
+
+
+WORK_SIZE = N_STATE + 2 * N_ODE  # work array of `advance` and `write_outputs`
+
+
+@kernel
+def step_rate(p: MarchConstants, control: StepControl, pinion_speed: float) -> float:
+    """Return the least number of integrator steps a second: by mesh period and highest mode."""
+    mesh = p.teeth * abs(pinion_speed) / (2.0 * math.pi)
+    return max(
+        mesh * control.steps_per_mesh_period,
+        control.highest_frequency * control.steps_per_highest_period,
+    )
+
+
+@kernel
+def rk4_step(
+    s: NDArray[float64],
+    h: float,
+    pinion_torque: float,
+    wheel_torque: float,
+    data: NDArray[float64],
+    stages: NDArray[float64],
+) -> None:
+    """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
+
+    Friction coefficients stay as they are in `s`. `stages` is work space of shape
+    (N_STATE + 2 N_ODE,), whose first N_STATE hold the coefficients too. See `march_rates`.
+    """
+    trial = stages[0:N_STATE]
+    slope = stages[N_STATE : N_STATE + N_ODE]
+    total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
+    march_rates(s, pinion_torque, wheel_torque, data, slope)
+    for i in range(N_ODE):
+        total[i] = slope[i]
+        trial[i] = s[i] + 0.5 * h * slope[i]
+    march_rates(trial, pinion_torque, wheel_torque, data, slope)
+    for i in range(N_ODE):
+        total[i] += 2.0 * slope[i]
+        trial[i] = s[i] + 0.5 * h * slope[i]
+    march_rates(trial, pinion_torque, wheel_torque, data, slope)
+    for i in range(N_ODE):
+        total[i] += 2.0 * slope[i]
+        trial[i] = s[i] + h * slope[i]
+    march_rates(trial, pinion_torque, wheel_torque, data, slope)
+    for i in range(N_ODE):
+        s[i] += h / 6.0 * (total[i] + slope[i])
+
+
+@kernel
+def advance(
+    s: NDArray[float64],
+    duration: float,
+    pinion_torque: float,
+    wheel_torque: float,
+    oil_temperature: float,
+    levels: NDArray[float64],
+    densities: NDArray[float64],
+    offsets: NDArray[float64],
+    data: NDArray[float64],
+    control_values: NDArray[float64],
+    work: NDArray[float64],
+) -> int:
+    """Advance the pair by `duration` [s] under constant inputs; return a status.
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+        Changed in place, also when the status is not OK.
+    duration : float
+        Communication step [s].
+    pinion_torque, wheel_torque : float
+        [N.m]
+    oil_temperature : float
+        [K]
+    levels, densities, offsets
+        Line mesh at all levels, see `mesh_data.MarchMesh`.
+    data : ndarray
+        Pair data; the mesh in it is brought to the present level.
+    control_values : ndarray
+        Flattened StepControl.
+    work : ndarray of shape (WORK_SIZE,)
+
+    Returns
+    -------
+    int
+        OK, NOT_FINITE or TOO_MANY_STEPS.
+
+    Notes
+    -----
+    The level of the line mesh is that at the start of the communication step; it follows the
+    pinion torque with LOAD_FILTER_TIME. A change of level changes the springs' energy by what
+    `energy.stored` shows.
+    """
+    p: MarchConstants = tuple_from_array(data, MarchConstants)
+    control: StepControl = tuple_from_array(control_values, StepControl)
+    stages = work
+    mesh_at_torque(s[LOAD_TORQUE], levels, densities, offsets, data)
+    oil = lubricant_state(p.oil, oil_temperature)
+    wanted = duration * step_rate(p, control, s[W_P])
+    if not wanted < MAX_STEPS:
+        return TOO_MANY_STEPS
+    steps = max(1, math.ceil(wanted))
+    h = duration / steps
+    for i in range(N_ENERGIES):
+        s[WORK_MARK + i] = s[PINION_WORK + i]
+    s[TIME_IN_STEP] = duration
+    for i in range(N_STATE):
+        stages[i] = s[i]
+    for _ in range(steps):
+        if p.friction_form > 0.0 and refresh_friction(s, data, oil):
+            for i in range(N_ODE, N_STATE):
+                stages[i] = s[i]
+        rk4_step(s, h, pinion_torque, wheel_torque, data, stages)
+    s[LOAD_TORQUE] += -math.expm1(-duration / LOAD_FILTER_TIME) * (
+        abs(pinion_torque) - s[LOAD_TORQUE]
+    )
+    total = 0.0
+    for i in range(N_ODE):
+        total += abs(s[i])
+    if not total < math.inf or abs(s[PSI]) > DIVERGED:
+        return NOT_FINITE
+    return OK

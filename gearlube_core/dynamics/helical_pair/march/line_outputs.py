@@ -1,0 +1,76 @@
+"""Outputs of the single contact lines: kernel."""
+
+from __future__ import annotations
+
+import math
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
+from gearlube_core.dynamics.helical_pair.march.film_refresh import line_point
+from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView
+from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
+from gearlube_core.dynamics.helical_pair.march.output_names import (
+    LINES_AT,
+    LINES_MAX,
+    N_LINE_QUANTITIES,
+)
+from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE, W_P
+from gearlube_core.jit import kernel
+from gearlube_core.rheology.lubricant_state import LubricantState
+
+
+@kernel
+def write_lines(
+    view: FlankView,
+    mu_at: int,
+    s: NDArray[float64],
+    oil_temperature: float,
+    data: NDArray[float64],
+    lubricant: LubricantState,
+    p: MarchConstants,
+    out: NDArray[float64],
+) -> float:
+    """Write the quantities of every line of the flank in `view`; return the thinnest film [m].
+
+    Means are weighted with the load. A line without load has no film to speak of: zeros, and the
+    temperature of the oil. `mu_at` is the place of the flank's friction coefficients in `s`.
+    """
+    lines = int(p.motion.flanks.lines)
+    for i in range(LINES_MAX):
+        at = LINES_AT + i * N_LINE_QUANTITIES
+        for j in range(N_LINE_QUANTITIES - 1):
+            out[at + j] = 0.0
+        out[at + N_LINE_QUANTITIES - 1] = oil_temperature
+    thinnest = math.inf
+    for line in range(lines):
+        slot = pair_slot(view.phase, line, lines)
+        at = LINES_AT + slot * N_LINE_QUANTITIES
+        total = film_sum = mu_sum = slide_sum = rise_sum = length_sum = 0.0
+        thin = math.inf
+        for place in range(POINTS_PER_LINE):
+            load, length, sliding, state = line_point(
+                view, line, place, abs(s[W_P]), data, lubricant, p
+            )
+            length_sum += length
+            if load > 0.0 and length > 0.0:
+                part = load * length
+                total += part
+                film_sum += part * state.film_thickness
+                mu_sum += part * s[mu_at + POINTS_PER_LINE * slot + place]
+                slide_sum += part * abs(sliding)
+                if p.friction_form > 0.0:
+                    rise_sum += part * state.temperature_rise
+                thin = min(thin, state.film_thickness)
+        out[at + 1] = length_sum
+        if total > 0.0:
+            out[at] = total
+            out[at + 2] = thin
+            out[at + 3] = film_sum / total
+            out[at + 4] = thin / p.surface.sigma
+            out[at + 5] = mu_sum / total
+            out[at + 6] = slide_sum / total
+            out[at + 7] = oil_temperature + rise_sum / total
+            thinnest = min(thinnest, thin)
+    return thinnest if thinnest < math.inf else 0.0

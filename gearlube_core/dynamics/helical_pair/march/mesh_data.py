@@ -1,0 +1,91 @@
+"""A line mesh as the marching kernels read it, behind the pair's constants in one array.
+
+Kernels take constants and line mesh as one float64 array, the *pair data*: handing over more arrays
+and tuples costs a call more than its work. Layout:
+
+    MarchConstants | least offset [m] | stations | density [N/m2] | offset [m]
+
+density and offset have shape (phases, lines, stations), flattened.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
+from gearlube_core.flat_tuples import count_floats, flatten
+from gearlube_core.jit import kernel
+from gearlube_core.mesh_table.line_mesh import LineMesh
+
+Array = NDArray[np.float64]
+LEAST_OFFSET = count_floats(MarchConstants)
+STATIONS_AT = LEAST_OFFSET + 1
+
+
+class MarchMesh(NamedTuple):
+    """Density and offset at all torque levels; stations span each whole line."""
+
+    torque: Array  # shape (levels,) [N.m]
+    density: Array  # shape (levels, phases * lines * stations) [N/m2]
+    offset: Array  # ditto [m]
+
+
+def all_stations(mesh: LineMesh) -> Array:
+    """Return the stations of a mesh with both ends of the line."""
+    own = mesh.station if mesh.station.size > 1 else np.empty(0)
+    return np.unique(np.concatenate(([0.0, 1.0], own)))
+
+
+def pack_march_mesh(mesh: LineMesh) -> MarchMesh:
+    """Return the mesh on `all_stations`; values beyond its own are those of the nearest."""
+    station = all_stations(mesh)
+
+    def spread(values: Array) -> Array:
+        lines = values.reshape(-1, mesh.station.size)
+        rows = [np.interp(station, mesh.station, line) for line in lines]
+        return np.ascontiguousarray(np.reshape(rows, (mesh.torque.size, -1)))
+
+    return MarchMesh(mesh.torque.copy(), spread(mesh.density), spread(mesh.offset))
+
+
+def pair_data(constants: MarchConstants, mesh: LineMesh) -> Array:
+    """Return pair data at the lowest torque level."""
+    packed = pack_march_mesh(mesh)
+    head = flatten(constants)
+    tail = packed.density[0], packed.offset[0]
+    return np.concatenate((head, [packed.offset[0].min()], all_stations(mesh), *tail))
+
+
+@kernel
+def mesh_at_torque(
+    torque: float,
+    levels: NDArray[float64],
+    densities: NDArray[float64],
+    offsets: NDArray[float64],
+    data: NDArray[float64],
+) -> None:
+    """Write the mesh at a torque [N.m] into the pair data, linear between levels.
+
+    Outside the levels the nearest one holds.
+    """
+    last = levels.size - 1
+    low = 0
+    while low < last - 1 and torque > levels[low + 1]:
+        low += 1
+    high = min(low + 1, last)
+    part = 0.0
+    if high > low:
+        part = min(max((torque - levels[low]) / (levels[high] - levels[low]), 0.0), 1.0)
+    size = densities.shape[1]
+    at_density = data.size - 2 * size
+    least = offsets[low, 0] + part * (offsets[high, 0] - offsets[low, 0])
+    for j in range(size):
+        e = offsets[low, j] + part * (offsets[high, j] - offsets[low, j])
+        data[at_density + j] = densities[low, j] + part * (densities[high, j] - densities[low, j])
+        data[at_density + size + j] = e
+        least = min(least, e)
+    data[LEAST_OFFSET] = least

@@ -1,0 +1,210 @@
+"""Parameters of the marching model, checked, in engineering words."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from gearlube_core.checks import check_option, check_within
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.dynamics.helical_pair.march.constants import (
+    FlankConstants,
+    MarchConstants,
+    MotionConstants,
+    SupportConstants,
+)
+from gearlube_core.dynamics.helical_pair.march.mesh_data import all_stations
+from gearlube_core.dynamics.helical_pair.march.output_names import LINES_MAX
+from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
+from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupport
+from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
+    support_damping,
+    support_stiffness,
+)
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.contact_line import line_count
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
+from gearlube_core.mesh_table.line_mesh import LineMesh
+
+Form = Literal["twelve_dof", "six_dof"]
+Friction = Literal["film", "constant", "off"]
+Equations = Literal["consistent", "he_2007"]
+
+FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Body:
+    """One gear and what carries it.
+
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    inertia, polar_inertia : float
+        About a diameter and about the axis [kg m2].
+    support : ShaftSupport
+    """
+
+    mass: float
+    inertia: float
+    polar_inertia: float
+    support: ShaftSupport
+
+    def __post_init__(self) -> None:
+        check_within("mass", self.mass, 1e-4, 1e6, "kg")
+        for name in ("inertia", "polar_inertia"):
+            check_within(name, getattr(self, name), 1e-9, 1e6, "kg m2")
+
+    def constants(self, ratio: float, held: bool) -> SupportConstants:
+        """Return the floats for the kernels; `held` takes axial motion and tilt away."""
+        K = support_stiffness(self.support)
+        c = support_damping(self.support, self.mass, self.inertia, ratio, False)
+        free = 0.0 if held else 1.0
+        return SupportConstants(
+            K_xx=K[0, 0], K_yy=K[1, 1], K_zz=K[2, 2], K_ax=K[3, 3], K_ay=K[4, 4],
+            K_x_ay=K[0, 4], K_y_ax=K[1, 3],
+            c_x=c[0], c_y=c[1], c_z=c[2], c_ax=c[3], c_ay=c[4],
+            mobility=1.0 / self.mass,
+            mobility_z=free / self.mass,
+            mobility_a=free / self.inertia,
+            mobility_r=1.0 / self.polar_inertia,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HelicalMarchParameters:
+    """Everything that defines one pair in motion.
+
+    Parameters
+    ----------
+    pair : HelicalPair
+        Its total contact ratio is at most LINES_MAX.
+    mesh : LineMesh
+        Stiffness density and offset; both flanks have the same.
+    pinion, gear : Body
+    backlash : float
+        Normal backlash [m].
+    friction : {"film", "constant", "off"}
+        Mixed friction of the film at every contact point; Coulomb with one coefficient; none.
+    friction_coefficient : float
+        mu of "constant" [-].
+    oil : Lubricant
+    solid : Solid
+        Both flanks.
+    roughness_rms : float
+        Composite root-mean-square roughness of the flanks [m].
+    mesh_damping_ratio, support_damping_ratio : float
+        [-]
+    form : {"twelve_dof", "six_dof"}
+        Six keeps x, y and rotation of both members and holds the rest.
+    equations : {"consistent", "he_2007"}
+        Whether the pinion feels that loaded springs enter, leave and change, as the balance of
+        energy asks, or not, as in the paper; about 1e-4 of the mesh torque, see `line_sums`.
+    steps_per_mesh_period, steps_per_highest_period : int
+        Integrator steps per mesh period and per period of the highest mode.
+    friction_updates_per_mesh_period : int
+        How often "film" is computed anew at each contact point; frozen in between.
+
+    References
+    ----------
+    He et al. 2007.
+    """
+
+    pair: HelicalPair
+    mesh: LineMesh
+    pinion: Body
+    gear: Body
+    backlash: float
+    friction: Friction
+    friction_coefficient: float
+    oil: Lubricant
+    roughness_rms: float
+    solid: Solid = STEEL_MOHAMMADPOUR_2015
+    mesh_damping_ratio: float = 0.05
+    support_damping_ratio: float = 0.05
+    form: Form = "twelve_dof"
+    equations: Equations = "consistent"
+    steps_per_mesh_period: int = 64
+    steps_per_highest_period: int = 8
+    friction_updates_per_mesh_period: int = 16
+
+    def __post_init__(self) -> None:
+        check_option("friction", self.friction, get_args(Friction))
+        check_option("form", self.form, get_args(Form))
+        check_option("equations", self.equations, get_args(Equations))
+        check_within("backlash", self.backlash, 0.0, 2e-3, "m", "100 um is 1e-4 m.")
+        check_within("friction_coefficient", self.friction_coefficient, 0.0, 1.0)
+        check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
+        for name in ("mesh_damping_ratio", "support_damping_ratio"):
+            check_within(name, getattr(self, name), 0.0, 1.0, "", "Five percent is usual.")
+        for name, low in (
+            ("steps_per_mesh_period", 16),
+            ("steps_per_highest_period", 6),
+            ("friction_updates_per_mesh_period", 4),
+        ):
+            check_within(name, getattr(self, name), low, 4096)
+        pair, mesh = self.pair, self.mesh
+        if (mesh.pinion_teeth, mesh.gear_teeth) != (pair.pinion_teeth, pair.gear_teeth):
+            raise ParameterError(
+                f"mesh must belong to the pair of {pair.pinion_teeth} and {pair.gear_teeth} "
+                f"teeth, got {mesh.pinion_teeth} and {mesh.gear_teeth}. Compute it for this pair."
+            )
+        close = pair.base_pitch * (1.0 - 1e-6), pair.base_pitch * (1.0 + 1e-6)
+        check_within("mesh.base_pitch", mesh.base_pitch, *close, "m", "Compute it for this pair.")
+        check_within("mesh.lines", mesh.lines, line_count(pair.plane), LINES_MAX)
+
+    @property
+    def effective_mass(self) -> float:
+        """m_e of the relative rotation along the line of action [kg]."""
+        r_bp, r_bg = self.pair.pinion_base_radius, self.pair.gear_base_radius
+        return 1.0 / (r_bp**2 / self.pinion.polar_inertia + r_bg**2 / self.gear.polar_inertia)
+
+    @property
+    def coast_phase(self) -> float:
+        """Phase of the drive flanks plus phase of the coast flanks [mesh periods].
+
+        With a pinion tooth in the line of centres at mid-face, both its flanks stand a quarter of
+        the base pitch beyond the pitch point: teeth and gaps are taken as equal at the working
+        pitch circles, less a thousandth of a pitch of backlash.
+        """
+        plane = self.pair.plane
+        X = plane.P + 0.25 * plane.pitch + 0.5 * plane.W * math.tan(self.pair.base_helix_angle)
+        return 2.0 * (X - plane.A) / plane.pitch
+
+    def constants(self) -> MarchConstants:
+        """Return the floats for the kernels."""
+        held = self.form == "six_dof"
+        constant = self.friction == "constant"
+        plane = self.pair.plane
+        height = plane.r_bp + plane.r_bg
+        square = plane.x_g**2 + height**2
+        flanks = FlankConstants(
+            plane=plane,
+            damping=damping_factor(self.mesh_damping_ratio, self.effective_mass, plane.cos_b),
+            backlash=self.backlash,
+            coast_phase=self.coast_phase,
+            turn_cos=(height**2 - plane.x_g**2) / square,
+            turn_sin=2.0 * plane.x_g * height / square,
+            line_work=1.0 if self.equations == "consistent" else 0.0,
+            lines=float(self.mesh.lines),
+            phases=float(self.mesh.phase.size),
+            stations=float(all_stations(self.mesh).size),
+        )
+        return MarchConstants(
+            motion=MotionConstants(
+                flanks=flanks,
+                pinion=self.pinion.constants(self.support_damping_ratio, held),
+                gear=self.gear.constants(self.support_damping_ratio, held),
+            ),
+            teeth=float(self.pair.pinion_teeth),
+            friction_form=FRICTION_FORMS[self.friction],
+            mu=self.friction_coefficient if constant else 0.0,
+            refreshes=float(self.friction_updates_per_mesh_period),
+            surface=gear_flanks(self.roughness_rms),
+            solid=solid_parameters(self.solid, self.solid),
+            oil=self.oil.parameters(),
+        )

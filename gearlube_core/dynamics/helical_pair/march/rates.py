@@ -1,0 +1,161 @@
+"""Rates of change of the marching model: kernels."""
+
+from __future__ import annotations
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.dynamics.helical_pair.march.constants import (
+    FlankConstants,
+    MotionConstants,
+    SupportConstants,
+)
+from gearlube_core.dynamics.helical_pair.march.flank_views import (
+    coast_near,
+    coast_view,
+    drive_view,
+    friction_direction,
+    touches,
+)
+from gearlube_core.dynamics.helical_pair.march.flank_wrench import (
+    flank_wrench,
+    friction_heat,
+    turned_friction_heat,
+    turned_wrench,
+)
+from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
+from gearlube_core.dynamics.helical_pair.march.mesh_data import LEAST_OFFSET
+from gearlube_core.dynamics.helical_pair.march.state import (
+    BEARING_DAMPING,
+    FLANK_POINTS,
+    FRICTION,
+    MESH_DAMPING,
+    MU,
+    N_LATERAL,
+    PHI_G,
+    PHI_P,
+    PINION_WORK,
+    PSI,
+    U_G,
+    U_P,
+    V_G,
+    V_P,
+    W_G,
+    W_P,
+    WHEEL_WORK,
+)
+from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_constant, flank_damping
+from gearlube_core.flat_tuples import tuple_from_array
+from gearlube_core.jit import kernel
+
+
+@kernel
+def support_rates(
+    s: NDArray[float64],
+    u: int,
+    v: int,
+    F_x: float,
+    F_y: float,
+    F_z: float,
+    M_x: float,
+    M_y: float,
+    k: SupportConstants,
+    ds: NDArray[float64],
+) -> float:
+    """Write the accelerations of one member under the forces given; return the dampers' heat [W].
+
+    `u` and `v` are the places of its displacements and rates in the state.
+    """
+    x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
+    v_x, v_y, v_z, w_x, w_y = s[v], s[v + 1], s[v + 2], s[v + 3], s[v + 4]
+    ds[v] = (F_x - k.K_xx * x - k.K_x_ay * a_y - k.c_x * v_x) * k.mobility
+    ds[v + 1] = (F_y - k.K_yy * y - k.K_y_ax * a_x - k.c_y * v_y) * k.mobility
+    ds[v + 2] = (F_z - k.K_zz * z - k.c_z * v_z) * k.mobility_z
+    ds[v + 3] = (M_x - k.K_ax * a_x - k.K_y_ax * y - k.c_ax * w_x) * k.mobility_a
+    ds[v + 4] = (M_y - k.K_ay * a_y - k.K_x_ay * x - k.c_ay * w_y) * k.mobility_a
+    lost = k.c_x * v_x * v_x + k.c_y * v_y * v_y + k.c_z * v_z * v_z
+    return lost + k.c_ax * w_x * w_x + k.c_ay * w_y * w_y
+
+
+@kernel
+def sums_damping(sums: LineSums, closing: float, p: FlankConstants) -> float:
+    """Return the damping force of a flank [N] that closes at a rate [m/s], see `mesh_damping`."""
+    if sums.N == 0.0:
+        return 0.0
+    constant = damping_constant(p.damping, sums.whole)
+    return flank_damping(constant, sums.built_up / sums.whole, closing, p.plane.cos_b * sums.N)
+
+
+@kernel
+def march_rates(
+    s: NDArray[float64],
+    pinion_torque: float,
+    wheel_torque: float,
+    data: NDArray[float64],
+    ds: NDArray[float64],
+) -> None:
+    """Write d/dt of the N_ODE integrated states into `ds`.
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+    pinion_torque, wheel_torque
+        [N.m]
+    data : ndarray
+        Pair data, see `mesh_data`.
+    ds : ndarray of shape (N_ODE,)
+
+    Notes
+    -----
+    He et al. 2007 eq. (38)-(41), consistent signs, about a motion that follows the actual rotation
+    of the pinion; flanks press, never pull. Products of rotation and tilt (gyroscopic terms) are
+    left out as in the paper. Mesh damping as in `mesh_damping`, for either flank by itself.
+    """
+    motion: MotionConstants = tuple_from_array(data, MotionConstants)
+    p = motion.flanks
+    plane = p.plane
+    w_p = s[W_P]
+    w_g = s[W_G]
+    direction = friction_direction(w_p)
+    psi_rate = plane.r_bp * w_p - plane.r_bg * w_g
+    F_x = F_y = F_z = M_px = M_py = M_pz = M_gx = M_gy = M_gz = 0.0
+    heat = damping = moving = 0.0
+    drive = drive_view(s, p)
+    if touches(drive, data[LEAST_OFFSET], p):
+        sums = line_sums(drive.a, drive.tilt, drive.phase, data, s, MU)
+        F_x, F_y, F_z, M_px, M_py, M_pz, M_gx, M_gy, M_gz = flank_wrench(sums, direction, plane)
+        heat = friction_heat(sums, direction, s, p)
+        damping = sums_damping(sums, psi_rate, p)
+        moving = p.line_work * sums.moving
+    if coast_near(s, data[LEAST_OFFSET], p):
+        coast = coast_view(s, p)
+        sums = line_sums(coast.a, coast.tilt, coast.phase, data, s, MU + FLANK_POINTS)
+        w = turned_wrench(flank_wrench(sums, -direction, plane), p)
+        F_x += w.F_x
+        F_y += w.F_y
+        F_z += w.F_z
+        M_px += w.M_px
+        M_py += w.M_py
+        M_pz += w.M_pz
+        M_gx += w.M_gx
+        M_gy += w.M_gy
+        M_gz += w.M_gz
+        heat += turned_friction_heat(sums, -direction, s, p)
+        damping -= sums_damping(sums, -psi_rate, p)
+        moving -= p.line_work * sums.moving
+    lost = support_rates(s, U_P, V_P, F_x, F_y, F_z, M_px, M_py, motion.pinion, ds)
+    lost += support_rates(s, U_G, V_G, -F_x, -F_y, -F_z, M_gx, M_gy, motion.gear, ds)
+    on_pinion = pinion_torque - M_pz - plane.r_bp * (damping + moving)
+    on_gear = -wheel_torque + M_gz + plane.r_bg * damping
+    ds[PSI] = psi_rate
+    ds[W_P] = on_pinion * motion.pinion.mobility_r
+    ds[W_G] = on_gear * motion.gear.mobility_r
+    ds[PHI_P] = w_p
+    ds[PHI_G] = w_g
+    for i in range(N_LATERAL):
+        ds[U_P + i] = s[V_P + i]
+    ds[PINION_WORK] = pinion_torque * w_p
+    ds[WHEEL_WORK] = wheel_torque * w_g
+    ds[FRICTION] = heat
+    ds[MESH_DAMPING] = damping * psi_rate
+    ds[BEARING_DAMPING] = lost

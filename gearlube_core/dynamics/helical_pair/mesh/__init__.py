@@ -1,0 +1,1 @@
+"""Contact lines as springs: points, loads, friction, damping, forces on both members."""

@@ -1,0 +1,133 @@
+"""Mixed friction of the oil film at the points of the contact lines, for the periodic response."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from gearlube_core.checks import check_within
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters, gear_flanks
+from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, MeshArrays
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
+    DENSITY,
+    MU,
+    OFFSET,
+    X,
+    Z,
+    contact_points,
+)
+from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import point_moments
+from gearlube_core.friction.line_friction import line_friction
+from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.jit import kernel
+from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.materials.solid import Solid, SolidParameters, solid_parameters
+from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
+
+
+class FilmConstants(NamedTuple):
+    """Oil at its temperature, and the flanks."""
+
+    lubricant: LubricantState
+    surface: SurfaceParameters
+    solid: SolidParameters
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilmFriction:
+    """What the film-based coefficient of friction depends on besides load and speeds.
+
+    Parameters
+    ----------
+    oil : Lubricant
+    oil_temperature : float
+        [K]
+    solid : Solid
+        Both flanks.
+    roughness_rms : float
+        Composite root-mean-square roughness of the flanks [m].
+    """
+
+    oil: Lubricant
+    oil_temperature: float
+    solid: Solid
+    roughness_rms: float
+
+    def __post_init__(self) -> None:
+        self.oil.check_temperature(self.oil_temperature, "oil_temperature")
+        check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
+
+    def constants(self) -> FilmConstants:
+        """Return what the kernels take."""
+        return FilmConstants(
+            lubricant_state(self.oil.parameters(), self.oil_temperature),
+            gear_flanks(self.roughness_rms),
+            solid_parameters(self.solid, self.solid),
+        )
+
+
+class FilmField(NamedTuple):
+    """Film friction along a known motion: strains of the plane of contact against phase."""
+
+    constants: FilmConstants
+    pinion_speed: float  # [rad/s]
+    phase: Array  # rising from 0 to 1, shape (B,)
+    strain: Array  # y0 [m], y1 [rad] of `mesh_strain`, shape (B, 2)
+
+
+@kernel
+def film_coefficients(
+    y0: float,
+    y1: float,
+    pinion_speed: float,
+    plane: ContactPlane,
+    film: FilmConstants,
+    points: Array,
+    n: int,
+) -> None:
+    """Give the first `n` points the coefficient of friction of `line_friction` at their loads.
+
+    Parameters
+    ----------
+    y0, y1
+        Strains of the plane of contact [m, rad].
+    pinion_speed
+        [rad/s]
+    """
+    for i in range(n):
+        p = points[i, X] * plane.sin_b + points[i, Z] * plane.cos_b
+        load = points[i, DENSITY] * (y0 + p * y1 - points[i, OFFSET])
+        motion = line_kinematics(points[i, X], pinion_speed, plane)
+        points[i, MU] = line_friction(
+            load, motion.R, motion.entrainment, motion.sliding, film.lubricant, film.surface,
+            film.solid,
+        ).friction_coefficient  # fmt: skip
+
+
+@kernel
+def film_moments(
+    phases: Array,
+    field: FilmField,
+    plane: ContactPlane,
+    mesh: MeshArrays,
+    points: Array,
+    moments: Array,
+) -> None:
+    """Fill the moments of `point_moments` at many phases, shape (phases, 5, 3)."""
+    for i in range(phases.size):
+        phase = phases[i]
+        low, top = 1, field.phase.size - 1
+        while low < top:
+            middle = (low + top) // 2
+            if field.phase[middle] < phase:
+                low = middle + 1
+            else:
+                top = middle
+        width = field.phase[low] - field.phase[low - 1]
+        share = (phase - field.phase[low - 1]) / width
+        y0 = (1.0 - share) * field.strain[low - 1, 0] + share * field.strain[low, 0]
+        y1 = (1.0 - share) * field.strain[low - 1, 1] + share * field.strain[low, 1]
+        n = contact_points(phase, field.pinion_speed, plane, mesh, points)
+        film_coefficients(y0, y1, field.pinion_speed, plane, field.constants, points, n)
+        point_moments(plane, points, n, moments[i])

@@ -1,0 +1,174 @@
+"""Compression of the flanks, line loads, and the forces that they exert: kernels.
+
+With y = (y0, y1) the strains of the plane of contact and p = x sin b + z cos b the coordinate along
+the contact lines, delta = y0 + p y1. Forces follow from five sums over the lines,
+
+    sums = (w, w p, r, r x, r z)  integrated over dl,  r = -mu w sign(v_s)
+
+of which the first two are the flank loads' and the others friction's. Everything that sets up
+forces or matrices of the mesh goes through `plane_strain` and `mesh_wrench`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, PairConstants
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
+    DENSITY,
+    LENGTH,
+    LOAD,
+    MU,
+    OFFSET,
+    SLIDING,
+    X,
+    Z,
+)
+from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.jit import kernel
+
+N_SUMS = 5
+
+
+class Wrench(NamedTuple):
+    """Forces and moments of the mesh on both members."""
+
+    F_x: float  # on the pinion; the gear has the opposite [N]
+    F_y: float
+    F_z: float
+    M_px: float  # on the pinion [N.m]
+    M_py: float
+    M_pz: float
+    M_gx: float  # on the gear
+    M_gy: float
+    M_gz: float
+
+
+@kernel
+def plane_strain(
+    closing: float,
+    axial: float,
+    th_xp: float,
+    th_yp: float,
+    th_xg: float,
+    th_yg: float,
+    plane: ContactPlane,
+) -> tuple[float, float]:
+    """Return y0 [m] and y1 [rad] of the compression delta = y0 + (x sin b + z cos b) y1.
+
+    Parameters
+    ----------
+    closing
+        u_xp - u_xg and the rotations' part -(r_bp th_zp + r_bg th_zg) [m].
+    axial
+        u_zp - u_zg [m].
+    th_xp, th_yp, th_xg, th_yg
+        [rad]
+
+    Notes
+    -----
+    He et al. 2007 eq. (4) with the sign reversed, so that compression is positive, as (7), (16)
+    and (21) need it: with the printed sign flanks that press attract each other.
+    """
+    tilted = axial + (plane.r_bp * th_xp + plane.r_bg * th_xg) - plane.x_g * th_yg
+    return plane.cos_b * closing - plane.sin_b * tilted, th_yp - th_yg
+
+
+@kernel
+def mesh_strain(q: Array, plane: ContactPlane) -> tuple[float, float]:
+    """Return `plane_strain` of displacements `q` in the order of `COORDINATES`, shape (12,)."""
+    closing = (q[0] - q[6]) - (plane.r_bp * q[5] + plane.r_bg * q[11])
+    return plane_strain(closing, q[2] - q[8], q[3], q[4], q[9], q[10], plane)
+
+
+@kernel
+def line_loads(y0: float, y1: float, constants: PairConstants, points: Array, n: int) -> float:
+    """Fill the points' LOAD w [N/m] and return the stiffness k_m along the line of action [N/m].
+
+    Linear: w = k (delta - e). One-sided: w = k max(0, delta - e) on the drive flank, w =
+    -k max(0, -delta - backlash - e) on the back; k_m counts points that touch.
+
+    Notes
+    -----
+    k_m = cos(b)^2 sum of k dl. The back flanks are taken to touch along the drive flanks' lines,
+    which is right in size and direction along the line of action only.
+    """
+    plane = constants.plane
+    stiffness = 0.0
+    for i in range(n):
+        p = points[i, X] * plane.sin_b + points[i, Z] * plane.cos_b
+        delta = constants.mesh_sign * (y0 + p * y1)
+        pressed = delta - points[i, OFFSET]
+        if constants.one_sided > 0.0 and pressed < 0.0:
+            pressed = min(0.0, delta + constants.backlash + points[i, OFFSET])
+        points[i, LOAD] = points[i, DENSITY] * pressed
+        if constants.one_sided == 0.0 or pressed != 0.0:
+            stiffness += points[i, DENSITY] * points[i, LENGTH]
+    return stiffness * plane.cos_b * plane.cos_b
+
+
+@kernel
+def sign(value: float) -> float:
+    """Return -1, 0 or 1."""
+    return (1.0 if value > 0.0 else 0.0) - (1.0 if value < 0.0 else 0.0)
+
+
+@kernel
+def load_sums(c: PairConstants, points: Array, n: int, sums: Array) -> None:
+    """Integrate LOAD and MU over all lines into `sums`, shape (5,) [N, N.m, N, N.m, N.m].
+
+    One-sided contact has |w| for w in r, so that friction opposes sliding on the back flank too;
+    linear contact keeps the paper's w, also where a line pulls.
+    """
+    plane = c.plane
+    sums[:] = 0.0
+    for i in range(n):
+        x, z = points[i, X], points[i, Z]
+        w = points[i, LOAD] * points[i, LENGTH]
+        r = -points[i, MU] * (abs(w) if c.one_sided > 0.0 else w) * sign(points[i, SLIDING])
+        sums[0] += w
+        sums[1] += w * (x * plane.sin_b + z * plane.cos_b)
+        sums[2] += r
+        sums[3] += r * x
+        sums[4] += r * z
+
+
+@kernel
+def mesh_wrench(w: float, wp: float, r: float, rx: float, rz: float, plane: ContactPlane) -> Wrench:
+    """Return the forces and moments of the five sums on both members.
+
+    Notes
+    -----
+    He et al. 2007 eq. (7), (16), (21) with x_g for the misprinted x_e, integrated.
+    """
+    return Wrench(
+        -plane.cos_b * w,
+        r,
+        plane.sin_b * w,
+        plane.r_bp * plane.sin_b * w - rz,
+        -wp,
+        rx + plane.r_bp * plane.cos_b * w,
+        plane.r_bg * plane.sin_b * w + rz,
+        wp - plane.x_g * plane.sin_b * w,
+        plane.x_g * r - rx + plane.r_bg * plane.cos_b * w,
+    )
+
+
+@kernel
+def wrench_of_sums(sums: Array, plane: ContactPlane, wrench: Array) -> None:
+    """Fill the forces and moments on pinion, then gear, shape (12,) [N, N.m]."""
+    m = mesh_wrench(sums[0], sums[1], sums[2], sums[3], sums[4], plane)
+    wrench[0], wrench[1], wrench[2] = m.F_x, m.F_y, m.F_z
+    wrench[3], wrench[4], wrench[5] = m.M_px, m.M_py, m.M_pz
+    wrench[6], wrench[7], wrench[8] = -m.F_x, -m.F_y, -m.F_z
+    wrench[9], wrench[10], wrench[11] = m.M_gx, m.M_gy, m.M_gz
+
+
+@kernel
+def friction_power(points: Array, n: int) -> float:
+    """Return the power that friction takes from the pair [W]: sum of mu |w| |v_s| dl."""
+    power = 0.0
+    for i in range(n):
+        load = abs(points[i, LOAD]) * points[i, LENGTH]
+        power += points[i, MU] * load * abs(points[i, SLIDING])
+    return power

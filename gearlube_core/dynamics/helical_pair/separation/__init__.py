@@ -1,0 +1,1 @@
+"""The pair with flanks that separate: periodic motions at prescribed speed."""

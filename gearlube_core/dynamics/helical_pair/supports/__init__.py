@@ -1,0 +1,1 @@
+"""Bearings and shafts that carry a member."""
