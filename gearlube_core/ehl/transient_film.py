@@ -1,0 +1,202 @@
+"""A film that changes in time: what is given, its grids and what is found at one time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.lubricant import EhlLubricant
+from gearlube_core.ehl.point_level import FilmState
+from gearlube_core.ehl.point_newton import flow_residual
+from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_solver import grid_shapes
+from gearlube_core.ehl.point_transfer import Transfer
+from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
+from gearlube_core.ehl.scaling import PointScales
+from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.transient_level import Conditions, MovingLevel
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_CURE = "Take smaller time steps, or more nodes where the film is thin."
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MovingFilm:
+    """A film over a rectangle whose gap, load and speeds follow from time.
+
+    d/dx(F_x dp/dx) + d/dy(F_y dp/dy) = d(u(y,t) rho h)/dx + d(rho h)/dt,  p = 0 on the border,
+    h = h_0(t) + h_u(x, y, t) + 1/(pi E*) int p/r,  int p = W(t),  p >= 0
+
+    F is rho h^3/(12 eta), times the flow factors of an Eyring oil.
+
+    Parameters
+    ----------
+    conditions
+        Of nodes and time.
+    lubricant
+        Oil; Newtonian where its Eyring stress is zero.
+    contact_modulus
+        E* [Pa]; half of E' = 2 E*.
+    x_limits, y_limits
+        Domain [m]; oil flows towards larger x.
+    nodes
+        Along x and along y, border included: 17 to 2049.
+    hertz, load, speed
+        Relative radii, W [N] and entrainment [m/s] that set scales; any typical ones.
+
+    Raises
+    ------
+    ParameterError
+        An input is out of range.
+    """
+
+    conditions: Conditions
+    lubricant: EhlLubricant
+    contact_modulus: float
+    x_limits: tuple[float, float]
+    y_limits: tuple[float, float]
+    nodes: tuple[int, int]
+    hertz: EllipticParaboloid
+    load: float
+    speed: float
+
+    def __post_init__(self) -> None:
+        self.reference()
+
+    def reference(self) -> PointContactProblem:
+        """Return the steady contact of smooth solids that sets the scales."""
+        return PointContactProblem(
+            gap=self.hertz,
+            entrainment=(self.speed, 0.0),
+            load=self.load,
+            contact_modulus=self.contact_modulus,
+            lubricant=self.lubricant,
+            x_limits=self.x_limits,
+            y_limits=self.y_limits,
+            nodes=self.nodes,
+            hertz=self.hertz,
+        )
+
+    @property
+    def x(self) -> Array:
+        """Return the nodes along x [m], shape (nx,)."""
+        return np.linspace(*self.x_limits, self.nodes[0])
+
+    @property
+    def y(self) -> Array:
+        """Return the nodes along y [m], shape (ny,)."""
+        return np.linspace(*self.y_limits, self.nodes[1])
+
+    def with_nodes(self, nx: int, ny: int) -> MovingFilm:
+        """Return the same film on another grid."""
+        return replace(self, nodes=(nx, ny))
+
+    def grids(self, wedge: str) -> Hierarchy:
+        """Return the grids with the conditions of no time yet."""
+        problem = self.reference()
+        scales = PointScales.of(problem)
+        (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
+        shapes = grid_shapes((ny, nx), ((y1 - y0) / (ny - 1), (x1 - x0) / (nx - 1)))
+        levels = [MovingLevel(problem, scales, shape, wedge) for shape in shapes]
+        transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
+        return Hierarchy(levels, transfers)
+
+
+def impose(film: MovingFilm, grids: Hierarchy, time: float, finest_only: bool = False) -> None:
+    """Set the conditions of a time [s] on all grids, or their load alone on all but the finest."""
+    finest = grids.levels[-1]
+    for level in grids.levels:
+        assert isinstance(level, MovingLevel)
+        if level is finest or not finest_only:
+            level.impose(film.conditions(level.x, level.y, time))
+    for level in grids.levels:
+        level.scales = finest.scales
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilmSolution:
+    """Film at one time; arrays of shape (nx, ny) over `x` and `y`."""
+
+    time: float  # [s]
+    x: Array  # [m]
+    y: Array  # [m]
+    pressure: Array  # [Pa]
+    film: Array  # [m]
+    approach: float  # h_0 [m]
+    load: float  # that the pressure carries [N]
+    load_error: float  # missing share of the load [1]
+    residual: float  # unbalanced flow over the flow through the dry width [1]
+    converged: bool
+    outcome: str  # what happened and what to do
+    newton_steps: int
+    krylov_steps: int
+    seconds: float
+
+    @property
+    def maximum_pressure(self) -> float:
+        """Return the largest pressure [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def minimum_film(self) -> float:
+        """Return the smallest film [m]."""
+        return float(self.film.min())
+
+    @property
+    def loaded_length(self) -> float:
+        """Return the extent along y over which pressure passes 1 MPa [m]."""
+        rows = self.y[(self.pressure > 1.0e6).any(axis=0)]
+        return float(rows[-1] - rows[0]) if rows.size else 0.0
+
+
+def film_solution(
+    film: MovingFilm,
+    level: MovingLevel,
+    state: FilmState,
+    settings: PointSolverSettings,
+    *,
+    time: float,
+    newton_steps: int,
+    krylov_steps: int,
+    seconds: float,
+) -> FilmSolution:
+    """Return a state in SI with the judgement on it."""
+    scales = level.scales
+    residual = flow_residual(level, state)
+    checks = (
+        (bool(np.isfinite(state.pressure).all()), "the pressure is not finite"),
+        (residual <= settings.tolerance, f"the flow residual is {residual:.1e}"),
+        (
+            abs(state.load_error) <= settings.load_tolerance,
+            f"the load is {100.0 * state.load_error:.1e} % off",
+        ),
+        (float(state.film.min()) > 0.0, "the film vanishes"),
+    )
+    failed = [text for good, text in checks if not good]
+    outcome = (
+        f"Converged in {newton_steps} steps."
+        if not failed
+        else f"Not converged after {newton_steps} steps: {' and '.join(failed)}. {_CURE}"
+    )
+    pressure = scales.outward(state.pressure) * scales.pressure
+    cell = level.cell * scales.length**2
+    return FilmSolution(
+        time=time,
+        x=film.x,
+        y=film.y,
+        pressure=pressure,
+        film=scales.outward(state.film) * scales.film,
+        approach=state.approach * scales.film,
+        load=float(pressure.sum()) * cell,
+        load_error=state.load_error,
+        residual=residual,
+        converged=not failed,
+        outcome=outcome,
+        newton_steps=newton_steps,
+        krylov_steps=krylov_steps,
+        seconds=seconds,
+    )

@@ -1,0 +1,165 @@
+"""Newton iteration of one time step, with a preconditioner that outlives it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point_krylov import flexible_gmres
+from gearlube_core.ehl.point_level import FilmState, Linearisation
+from gearlube_core.ehl.point_newton import flow_residual
+from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point_stencil import CENTRE
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_THINNEST = 0.2  # of the film before a step
+_GROWTH = 1.2  # of the residual that a step may cost
+_CUTS = 4
+_LOAD_WEIGHT = 0.1
+
+
+@dataclass(slots=True)
+class StepRecord:
+    """What the iteration of one time step did."""
+
+    converged: bool
+    residual: float  # as `flow_residual`
+    newton_steps: int
+    krylov_steps: int
+    renewals: int  # of the preconditioner
+
+
+class KeptCycle:
+    """A multigrid cycle that is built once and used while it still serves.
+
+    It knows the nodes that carried pressure when it was built; nodes that came since are solved
+    on their own, nodes that left keep no pressure.
+
+    Parameters
+    ----------
+    hierarchy
+        Grids; the finest one is solved.
+    patience
+        Krylov iterations of one linear solution after which the cycle is built anew.
+    """
+
+    def __init__(self, hierarchy: Hierarchy, patience: int = 12) -> None:
+        self.hierarchy = hierarchy
+        self.patience = patience
+        self.renewals = 0
+        self._cycle: MultigridCycle | None = None
+        self._free: np.ndarray[Any, np.dtype[np.bool_]] | None = None
+        self._new: np.ndarray[Any, np.dtype[np.bool_]] | None = None
+        self._linear: Linearisation | None = None
+
+    def renew(self, linear: Linearisation) -> None:
+        """Build the cycle at a linearisation."""
+        self._cycle = MultigridCycle(self.hierarchy, linear)
+        self._free = linear.free.copy()
+        self.renewals += 1
+
+    def serve(self, linear: Linearisation) -> None:
+        """Use the cycle for another linearisation."""
+        if self._cycle is None:
+            self.renew(linear)
+        self._linear = linear
+        self._new = linear.free & ~self._free
+
+    def forget(self) -> None:
+        """Drop the cycle."""
+        self._cycle = None
+
+    def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
+        """Return pressure and approach that cancel most of a residual."""
+        assert self._cycle is not None
+        assert self._linear is not None
+        pressure, approach = self._cycle(np.where(self._free, residual, 0.0), load_residual)
+        pressure[~self._linear.free] = 0.0
+        new = self._new
+        pressure[new] = residual[new] / self._linear.by_pressure[CENTRE][new]
+        return pressure, approach
+
+
+def step_newton(
+    kept: KeptCycle,
+    state: FilmState,
+    *,
+    tolerance: float,
+    load_tolerance: float,
+    most: int,
+    most_krylov: int,
+) -> tuple[FilmState, StepRecord]:
+    """Return the state at the new time on the finest grid.
+
+    Parameters
+    ----------
+    kept
+        Preconditioner; renewed where it has become too slow.
+    state
+        Predicted.
+    tolerance, load_tolerance
+        Limits of `flow_residual` and of the relative load error [1].
+    most, most_krylov
+        Most steps, and most iterations in one of them.
+
+    Returns
+    -------
+    tuple
+        State and record.
+
+    Notes
+    -----
+    As the steady iteration: active set, negative pressure cut, steps shortened where the film
+    would collapse or the residual grow. Storage makes a fictitious squeeze term superfluous.
+    """
+    level = kept.hierarchy.levels[-1]
+    size = flow_residual(level, state)
+    krylov, steps, before = 0, 0, kept.renewals
+    share = level.cell / level.scales.load
+    while steps < most:
+        if size <= tolerance and abs(state.load_error) <= load_tolerance:
+            break
+        steps += 1
+        linear = level.linearise(state)
+        kept.serve(linear)
+        right = np.where(linear.free, -state.residual, 0.0)
+        pressure, approach, _, count = flexible_gmres(
+            lambda p, h, linear=linear: (  # type: ignore[misc]
+                level.apply(linear, p, h).copy(),
+                share * float(p.sum()),
+            ),
+            kept,
+            right,
+            state.load_error,
+            tolerance=min(0.03, max(1e-3, 0.1 * math.sqrt(size))),
+            most=most_krylov,
+            weight=_LOAD_WEIGHT * float(np.linalg.norm(linear.by_approach)),
+        )
+        krylov += count
+        if count > kept.patience:
+            kept.forget()
+        thinnest = _THINNEST * max(float(state.film.min()), 0.0)
+        length, accepted = 1.0, False
+        for _ in range(_CUTS):
+            trial = level.state(
+                np.maximum(state.pressure + length * pressure, 0.0),
+                state.approach + length * approach,
+            )
+            trial_size = flow_residual(level, trial)
+            if float(trial.film.min()) > thinnest and trial_size < _GROWTH * size:
+                accepted = True
+                break
+            length *= 0.4
+        if not accepted:
+            break
+        state, size = trial, trial_size
+    converged = (
+        size <= tolerance
+        and abs(state.load_error) <= load_tolerance
+        and float(state.film.min()) > 0.0
+    )
+    return state, StepRecord(converged, size, steps, krylov, kept.renewals - before)

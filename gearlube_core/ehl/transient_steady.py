@@ -1,0 +1,120 @@
+"""Steady film at one time of a film that changes: nested grids from the dry contact."""
+
+from __future__ import annotations
+
+import time as clock
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.dry_contact import dry_contact_of_gap
+from gearlube_core.ehl.point_continuation import solve_level
+from gearlube_core.ehl.point_level import FilmState
+from gearlube_core.ehl.point_newton import NewtonRecord
+from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.problem import expected_film
+from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.transient_film import FilmSolution, MovingFilm, film_solution, impose
+from gearlube_core.ehl.transient_level import MovingLevel
+from gearlube_core.errors import ConvergenceError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_COARSE_TOLERANCE = 1e-3
+
+
+def bordered(pressure: Array) -> Array:
+    """Return a pressure without its negative part and zero on the border."""
+    pressure = np.maximum(pressure, 0.0)
+    pressure[[0, -1]] = 0.0
+    pressure[:, [0, -1]] = 0.0
+    return pressure
+
+
+def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
+    """Return the dry contact on a grid, lifted by the film expected between."""
+    scales = level.scales
+    length = scales.length
+    dry = dry_contact_of_gap(
+        level.gap.T * scales.film,
+        level.dx * length,
+        level.dy * length,
+        film.contact_modulus,
+        scales.load * scales.pressure * length**2,
+        tolerance=1e-3,
+    )
+    pressure = bordered(scales.inward(dry.pressure / scales.pressure))
+    lowest = float(level.film(pressure, 0.0).min())
+    return level.state(pressure, expected_film(film.reference()) / scales.film - lowest)
+
+
+def steady_state(
+    film: MovingFilm, grids: Hierarchy, settings: PointSolverSettings
+) -> tuple[FilmState, NewtonRecord]:
+    """Return the steady state on the finest grid under the conditions that the grids hold."""
+    coarsest = grids.levels[0]
+    assert isinstance(coarsest, MovingLevel)
+    state = dry_start(film, coarsest)
+    record = NewtonRecord()
+    count = len(grids.levels)
+    for k in range(count):
+        part = grids.below(k + 1)
+        level = part.levels[-1]
+        if k:
+            pressure = bordered(grids.transfers[k - 1].up_smoothly(state.pressure))
+            # interpolation leaves ripples of the film; it starts no thinner than it was
+            thinnest = float(state.film.min())
+            state = level.state(pressure, state.approach)
+            lift = max(0.0, thinnest - float(state.film.min()))
+            state = level.state(pressure, state.approach + lift)
+        last = k == count - 1
+        goal = settings.tolerance if last else _COARSE_TOLERANCE
+        state = solve_level(part, state, settings, goal, record, not last)
+    return state, record
+
+
+def solve_steady_film(
+    film: MovingFilm,
+    time: float,
+    settings: PointSolverSettings | None = None,
+    *,
+    throw: bool = True,
+) -> FilmSolution:
+    """Return the film as if the conditions of a time had lasted.
+
+    Parameters
+    ----------
+    film
+        What changes.
+    time
+        [s].
+    settings
+        Stencil and tolerances.
+    throw
+        Raise where the solution does not converge; else return the last state.
+
+    Raises
+    ------
+    ConvergenceError
+        With the reason and a cure.
+    """
+    settings = PointSolverSettings() if settings is None else settings
+    begin = clock.perf_counter()
+    grids = film.grids(settings.wedge)
+    impose(film, grids, time)
+    state, record = steady_state(film, grids, settings)
+    level = grids.levels[-1]
+    assert isinstance(level, MovingLevel)
+    solution = film_solution(
+        film,
+        level,
+        state,
+        settings,
+        time=time,
+        newton_steps=len(record.residuals),
+        krylov_steps=record.krylov,
+        seconds=clock.perf_counter() - begin,
+    )
+    if throw and not solution.converged:
+        raise ConvergenceError(solution.outcome)
+    return solution
