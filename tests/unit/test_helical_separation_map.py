@@ -6,32 +6,32 @@ import numpy as np
 import pytest
 from separation_cases import crowned_mesh, separating_pair
 
-from gearlube_core.dynamics.helical_pair import contact_points as at
-from gearlube_core.dynamics.helical_pair import separation_march
-from gearlube_core.dynamics.helical_pair.contact_points import (
+from gearlube_core.dynamics.helical_pair.accelerations import pair_accelerations
+from gearlube_core.dynamics.helical_pair.linear.linear_system import (
+    linear_system,
+    relative_rows,
+)
+from gearlube_core.dynamics.helical_pair.linear.matrix_entries import add_product
+from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
+from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     constant_friction,
     contact_points,
     point_capacity,
 )
-from gearlube_core.dynamics.helical_pair.linear_system import (
-    linear_system,
-    relative_rows,
-)
-from gearlube_core.dynamics.helical_pair.matrix_entries import add_product
-from gearlube_core.dynamics.helical_pair.mesh_wrench import line_loads, mesh_strain
-from gearlube_core.dynamics.helical_pair.rhs import pair_accelerations
-from gearlube_core.dynamics.helical_pair.separation_forces import (
+from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
+from gearlube_core.dynamics.helical_pair.separation import march as separation_march
+from gearlube_core.dynamics.helical_pair.separation.forces import (
     N_BY,
     N_ROWS,
     separating_sums,
 )
-from gearlube_core.dynamics.helical_pair.separation_march import (
+from gearlube_core.dynamics.helical_pair.separation.march import (
     N_EXTRA,
     march_separating,
     march_work,
     separating_rates,
 )
-from gearlube_core.dynamics.helical_pair.separation_problem import SeparationProblem
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
 
 COARSE = {"steps_per_mesh_period": 16}
