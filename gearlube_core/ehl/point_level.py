@@ -92,7 +92,7 @@ class PointLevel:
             self.dx * self.dy / self.modulus
         )
         self.deflection = HalfSpaceConvolution(self.coefficients)
-        here, upstream, downstream = WEDGE_WEIGHTS[wedge]
+        self._weights = here, upstream, downstream = WEDGE_WEIGHTS[wedge]
         self.stencil = StencilParameters(
             poiseuille_x=scales.mobility / self.dx**2,
             poiseuille_y=scales.mobility / self.dy**2,
@@ -166,11 +166,24 @@ class PointLevel:
             load_error=load_error,
         )
 
-    def with_mobility(self, factor: float) -> None:
-        """Set the mobility to a multiple of the problem's: below 1 the film is thicker."""
-        mobility = factor * self.scales.mobility
+    def ease(self, mobility: float, order: float) -> None:
+        """Set an easier problem of a continuation.
+
+        Parameters
+        ----------
+        mobility
+            Multiple of the problem's; below 1 the film is thicker [1].
+        order
+            1 the chosen wedge stencil, 0 the first-order one, linear between [1].
+        """
+        here, upstream, downstream = (order * weight for weight in self._weights)
+        poiseuille = mobility * self.scales.mobility
         self.stencil = self.stencil._replace(
-            poiseuille_x=mobility / self.dx**2, poiseuille_y=mobility / self.dy**2
+            poiseuille_x=poiseuille / self.dx**2,
+            poiseuille_y=poiseuille / self.dy**2,
+            here=here + 1.0 - order,
+            upstream=upstream,
+            downstream=downstream,
         )
 
     def linearise(self, state: FilmState, squeeze: float = 0.0) -> Linearisation:

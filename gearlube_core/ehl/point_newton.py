@@ -20,6 +20,7 @@ _CUTS = 3
 _FIRST_SHIFT = 0.3  # of the flow through a cell, as a fictitious squeeze rate
 _LARGEST_SHIFT = 100.0
 _LOAD_WEIGHT = 0.1
+_PATIENCE = 9  # steps within which the residual must halve or so
 
 
 @dataclass(slots=True)
@@ -125,7 +126,8 @@ def newton(
             record.residuals.append(size)
         else:
             shift = max(_FIRST_SHIFT, 4.0 * shift)
-        if shift > _LARGEST_SHIFT:
+        past = record.residuals
+        if shift > _LARGEST_SHIFT or (len(past) > _PATIENCE and size > 0.6 * past[-_PATIENCE]):
             record.stalled = True
             break
     record.converged = (

@@ -46,7 +46,9 @@ class MultigridCycle:
         operator = sparse_operator(self._levels[-1], linear)
         self._operators = [operator]
         for k in range(len(self._levels) - 1, 0, -1):
-            self._smoothers.insert(0, RowSmoother(self._levels[k], operator, _DAMPING))
+            fine, coarse = self._levels[k], self._levels[k - 1]
+            halved = (coarse.shape[0] < fine.shape[0], coarse.shape[1] < fine.shape[1])
+            self._smoothers.insert(0, RowSmoother(fine, operator, halved, _DAMPING))
             operator = coarse_operator(operator, self._transfers[k - 1])
             self._operators.insert(0, operator)
         self._direct = CoarseSolution(self._levels[0], operator)

@@ -77,9 +77,15 @@ def local_deflection(level: PointLevel, wave_number: float) -> Array:
 class RowSmoother:
     """Factored rows of one linearisation; float32 is enough for a preconditioner."""
 
-    def __init__(self, level: PointLevel, operator: SparseOperator, damping: float) -> None:
+    def __init__(
+        self, level: PointLevel, operator: SparseOperator, halved: tuple[bool, bool], damping: float
+    ) -> None:
         ny, nx = level.shape
-        wave_number = max(0.55 * np.pi / level.dy, 0.35 * np.pi / level.dx)
+        # the shortest waves that the coarser grid lacks
+        wave_number = max(
+            0.55 * np.pi / level.dy if halved[0] else 0.0,
+            0.35 * np.pi / level.dx if halved[1] else 0.0,
+        )
         across = np.cos(min(wave_number * level.dy, 0.55 * np.pi) * np.arange(5.0))
         band = np.zeros((ny * nx, 2 * _BELOW + _ABOVE + 1), dtype=np.float32)
         fill_rows(

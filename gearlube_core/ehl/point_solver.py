@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import time
 from typing import Any
 
 import numpy as np
 
+from gearlube_core.ehl.point_continuation import solve_level
 from gearlube_core.ehl.point_level import FilmState, PointLevel
-from gearlube_core.ehl.point_newton import NewtonRecord, newton
+from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.ehl.point_transfer import Transfer
 from gearlube_core.ehl.problem import PointContactProblem, expected_film
@@ -19,9 +21,9 @@ from gearlube_core.errors import ConvergenceError
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
-_COARSEST = 40  # nodes along a side that are not halved any more
+_DIRECT_NODES = 1300  # of the grid that is solved directly
+_SHORTEST = 12  # nodes of a side that is not halved any more
 _COARSE_TOLERANCE = 1e-3
-_THICKER = (1.0, 0.25, 1.0 / 16.0, 1.0 / 64.0, 1.0 / 256.0)  # mobilities of the continuation
 
 
 def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tuple[int, int]]:
@@ -36,12 +38,11 @@ def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tupl
     """
     shapes = [nodes]
     sides, spacing = list(nodes), list(steps)
-    while max(sides) > _COARSEST:
+    while sides[0] * sides[1] > _DIRECT_NODES:
         ratio = spacing[0] / spacing[1]
-        halve = [ratio < 1.6, ratio > 1.0 / 1.6]  # only the finer side of unlike ones
-        halve = [wanted and side > _COARSEST for wanted, side in zip(halve, sides, strict=True)]
+        halve = [ratio < 1.5 and sides[0] > _SHORTEST, ratio > 1.0 / 1.5 and sides[1] > _SHORTEST]
         if not any(halve):
-            halve = [side > _COARSEST for side in sides]
+            halve = [side > _SHORTEST for side in sides]
         for axis in range(2):
             if halve[axis]:
                 coarse = (sides[axis] - 1) // 2 + 1
@@ -73,59 +74,22 @@ def _bordered(pressure: Array) -> Array:
 
 
 def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
-    """Return the dry ellipse with the film expected between, on the coarsest grid."""
+    """Return an ellipse of pressure with the film expected between, on the coarsest grid.
+
+    The dry ellipse, widened to where a rigid film carries and to what the grid can show.
+    """
     a_x, a_y, _ = problem.hertz_contact
+    film = expected_film(problem)
     scales, (ny, nx) = level.scales, level.shape
     nodes = (ny, nx) if scales.swap else (nx, ny)
-    x = np.linspace(*problem.x_limits, nodes[0])[:, None] / a_x
-    y = np.linspace(*problem.y_limits, nodes[1])[None, :] / a_y
-    pressure = _bordered(scales.inward(np.sqrt(np.maximum(0.0, 1.0 - x * x - y * y))))
-    film = expected_film(problem) / scales.film
-    return level.state(pressure, film - float(level.film(pressure, 0.0).min()))
-
-
-def _solve_level(
-    hierarchy: Hierarchy,
-    start: FilmState,
-    settings: PointSolverSettings,
-    tolerance: float,
-    record: NewtonRecord,
-) -> FilmState:
-    """Return the state on the finest grid, by way of thicker films where it fails directly."""
-    level = hierarchy.levels[-1]
-    reached: FilmState | None = None
-    k = 0
-    tries = 0
-    while tries < 12:
-        tries += 1
-        level.with_mobility(_THICKER[k])
-        begin = start if reached is None else reached
-        begin = level.state(begin.pressure, begin.approach)
-        if not float(begin.film.min()) > 0.0:
-            lift = 0.05 * float(begin.film.max()) - float(begin.film.min())
-            begin = level.state(begin.pressure, begin.approach + min(lift, 1.0))
-        state, report = newton(
-            hierarchy,
-            begin,
-            tolerance=tolerance if k == 0 else max(tolerance, _COARSE_TOLERANCE),
-            load_tolerance=settings.load_tolerance if k == 0 else 1e-3,
-            most=settings.newton_steps if k or tries > 1 else settings.newton_steps,
-            most_krylov=settings.krylov_steps,
-        )
-        record.residuals += report.residuals
-        record.krylov += report.krylov
-        record.converged = report.converged and k == 0
-        if report.converged:
-            reached = state
-            if k == 0:
-                return state
-            k -= 1
-        elif reached is not None or k + 1 == len(_THICKER):
-            break
-        else:
-            k += 1
-    level.with_mobility(1.0)
-    return reached if reached is not None else state
+    x = np.linspace(*problem.x_limits, nodes[0])
+    y = np.linspace(*problem.y_limits, nodes[1])
+    a_x = max(math.sqrt(a_x**2 + problem.hertz.R_x * film), 2.5 * (x[1] - x[0]))
+    a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
+    ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
+    pressure = _bordered(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
+    pressure *= scales.load / (float(pressure.sum()) * level.cell)
+    return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
 
 
 def solve_point_contact(
@@ -172,10 +136,14 @@ def solve_point_contact(
         part = hierarchy.below(k + 1)
         if k:
             pressure = _bordered(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
+            # interpolation leaves ripples of the film; it starts no thinner than it was
+            thinnest = float(state.film.min())
             state = part.levels[-1].state(pressure, state.approach)
+            lift = max(0.0, thinnest - float(state.film.min()))
+            state = part.levels[-1].state(pressure, state.approach + lift)
         last = k == count - 1
         tolerance = settings.tolerance if last else _COARSE_TOLERANCE
-        state = _solve_level(part, state, settings, tolerance, record)
+        state = solve_level(part, state, settings, tolerance, record, not last)
     outcome = PointOutcome.of(hierarchy.levels[-1], state, record, settings)
     if throw and not outcome.converged:
         raise ConvergenceError(outcome.sentence)

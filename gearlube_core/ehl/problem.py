@@ -130,8 +130,8 @@ class PointContactProblem:
 def expected_film(problem: PointContactProblem) -> float:
     """Return a central film [m] to start from: the larger of elastic and rigid estimates.
 
-    Elastic: Chittenden et al. 1985. Rigid: what an isoviscous film between rigid paraboloids
-    needs to carry the load, within a factor of 2.
+    Elastic: Chittenden et al. 1985. Rigid: Kapitza 1955, p = -12 eta u x/[(3 + 2 R_x/R_y) h^2]
+    where it is positive, so W = 12 pi eta u R_x/(3 + 2 R_x/R_y) (2 R_y/h)^(1/2).
     """
     R_x, R_y = problem.hertz.R_x, problem.hertz.R_y
     u, v = (abs(speed) for speed in problem.entrainment)
@@ -144,11 +144,9 @@ def expected_film(problem: PointContactProblem) -> float:
     elastic = central_film_thickness(
         R_e, side_flow, oil.eta0, alpha, speed, problem.load, 2.0 * problem.contact_modulus
     )
-    # Kapitza 1955: W = 4.44 phi eta u R_e sqrt(2 R_s R_e/h)/..., kept to its scaling
     R_s = R_x * R_y / R_e
-    phi = 1.0 / (1.0 + 2.0 * R_e / (3.0 * R_s))
-    lift = 8.0 * math.sqrt(2.0) * phi * oil.eta0 * speed * math.sqrt(R_s) * R_e / problem.load
-    rigid = lift * lift
+    slope = 12.0 * oil.eta0 * speed / (3.0 + 2.0 * R_e / R_s)
+    rigid = 2.0 * R_s * (math.pi * slope * R_e / problem.load) ** 2
     return max(elastic, rigid)
 
 
@@ -202,6 +200,8 @@ def elliptical_contact(
     a_x, a_y, _ = problem.hertz_contact
     film = expected_film(problem)
     speed = math.hypot(*entrainment)
+    # films thicker than the solids flatten carry load far to the sides
+    breadth = 0.6 + 0.4 * min(1.0, film * min(R_x, R_y) / min(a_x, a_y) ** 2)
     limits = []
     for component, radius, semi_axis in (
         (entrainment[0], R_x, a_x),
@@ -209,7 +209,7 @@ def elliptical_contact(
     ):
         flooded = semi_axis + math.sqrt(2.0 * radius * 20.0 * film) if inlet is None else 0.0
         upstream = max(2.5 * semi_axis, flooded) if inlet is None else inlet * semi_axis
-        spread = max(2.0 * semi_axis, 0.6 * flooded) if side is None else side * semi_axis
+        spread = max(2.0 * semi_axis, breadth * flooded) if side is None else side * semi_axis
         exit_reach = max(1.5 * semi_axis, 0.3 * flooded) if outlet is None else outlet * semi_axis
         share = component / speed  # 0: across the motion, 1: along it
         along = (-upstream, exit_reach) if share > 0.0 else (-exit_reach, upstream)

@@ -26,13 +26,12 @@ class PointOutcome:
     converged
         All four within their limits.
     residual
-        Unbalanced flow over the flow through the dry width [1].
+        Unbalanced flow over the flow through the dry width [1], flow that gathers where there
+        is no pressure included.
     load_error
         Missing share of the load [1].
     smallest_film
-        Over the ambient-free domain, in units of the dry approach [1]; above zero if sound.
-    gathering
-        Flow that gathers where there is no pressure, as `residual` [1].
+        Over the domain [m]; above zero if sound.
     sentence
         What happened and what to do.
     """
@@ -41,7 +40,6 @@ class PointOutcome:
     residual: float
     load_error: float
     smallest_film: float
-    gathering: float
     sentence: str
 
     @classmethod
@@ -54,10 +52,7 @@ class PointOutcome:
     ) -> PointOutcome:
         """Return the judgement on a state."""
         residual = flow_residual(level, state)
-        empty = state.pressure <= 0.0
-        flow = np.maximum(state.residual[empty], 0.0).sum() * level.cell
-        gathering = float(flow) / (2.0 * level.half_width * float(state.film.max()))
-        smallest = float(state.film.min())
+        smallest = float(state.film.min()) * level.scales.film
         sound = bool(np.isfinite(state.pressure).all())
         checks = (
             (sound, "the pressure is not finite"),
@@ -75,7 +70,7 @@ class PointOutcome:
             if not failed
             else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
         )
-        return cls(not failed, residual, state.load_error, smallest, gathering, sentence)
+        return cls(not failed, residual, state.load_error, smallest, sentence)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

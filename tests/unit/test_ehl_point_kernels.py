@@ -1,0 +1,146 @@
+"""Parts of the point contact solver: derivatives, transfers, Krylov method, inputs, outcomes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gearlube_core.ehl import point_stencil
+from gearlube_core.ehl.point_krylov import flexible_gmres
+from gearlube_core.ehl.point_level import PointLevel
+from gearlube_core.ehl.point_preconditioner import MultigridCycle
+from gearlube_core.ehl.point_solver import build_hierarchy, grid_shapes, solve_point_contact
+from gearlube_core.ehl.point_transfer import Transfer
+from gearlube_core.ehl.scaling import PointScales
+from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.errors import ConvergenceError, ParameterError
+from tests.ehl_point_cases import moes_contact
+
+SHAPE = (19, 23)
+
+
+def _bumpy_level(wedge: str) -> tuple[PointLevel, np.ndarray]:
+    problem = moes_contact(50.0, 10.0, nodes=(23, 19), radius_ratio=1.5, angle=0.4)
+    scales = PointScales.of(problem)
+    shape = (23, 19) if scales.swap else SHAPE
+    level = PointLevel(problem, scales, shape, wedge)
+    pressure = 0.05 + np.random.default_rng(1).random(shape)
+    pressure[[0, -1]] = 0.0
+    pressure[:, [0, -1]] = 0.0
+    return level, pressure
+
+
+@pytest.mark.parametrize("wedge", ["upwind-1", "upwind-2", "central", "quick"])
+def test_derivatives_are_those_of_the_residual(wedge: str) -> None:
+    level, pressure = _bumpy_level(wedge)
+    approach = 0.3 - float(level.film(pressure, 0.0).min())
+    state = level.state(pressure, approach)
+    linear = level.linearise(state)
+    linear_free = state.free
+    change = np.random.default_rng(2).standard_normal(pressure.shape) * pressure
+    step = 1e-6
+    above = level.state(pressure + step * change, approach + 0.7 * step).residual
+    below = level.state(pressure - step * change, approach - 0.7 * step).residual
+    numerical = np.where(linear_free, (above - below) / (2.0 * step), 0.0)
+    # central differences: 1e-12 of truncation, 1e-10 of rounding
+    assert (
+        np.abs(level.apply(linear, change, 0.7) - numerical).max() < 1e-7 * np.abs(numerical).max()
+    )
+
+
+def test_compiled_stencils_equal_their_python() -> None:
+    level, pressure = _bumpy_level("upwind-2")
+    state = level.state(pressure, 1.0)
+    residual = np.empty_like(pressure)
+    fields = (
+        state.pressure,
+        state.mass,
+        state.cubic_x,
+        state.cubic_y,
+        state.fluidity,
+        state.log_viscosity,
+        level.source,
+    )
+    point_stencil.reynolds_residual.py_func(level.stencil, *fields, residual)
+    # same operations in the same order; contraction to fused products only
+    assert np.abs(residual - state.residual).max() < 1e-12 * np.abs(residual).max()
+
+
+def test_interpolation_keeps_planes_and_restriction_keeps_constants() -> None:
+    transfer = Transfer((21, 34), (11, 17))
+    y, x = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 17), indexing="ij")
+    fine_y, fine_x = np.meshgrid(np.linspace(0, 1, 21), np.linspace(0, 1, 34), indexing="ij")
+    # exact for planes and for cubics up to rounding
+    assert np.abs(transfer.up(2.0 * x - y) - (2.0 * fine_x - fine_y)).max() < 1e-13
+    assert np.abs(transfer.up_smoothly(x**3 * y**2) - fine_x**3 * fine_y**2).max() < 1e-12
+    assert np.abs(transfer.down(np.ones((21, 34))) - 1.0).max() < 1e-14
+
+
+def test_gmres_solves_a_bordered_system() -> None:
+    rng = np.random.default_rng(3)
+    matrix = np.eye(13) + 0.2 * rng.standard_normal((13, 13))
+
+    def operator(field: np.ndarray, number: float) -> tuple[np.ndarray, float]:
+        image = matrix @ np.append(field.ravel(), number)
+        return image[:12].reshape(3, 4), float(image[12])
+
+    right = rng.standard_normal(13)
+    field, number, residual, count = flexible_gmres(
+        operator,
+        lambda f, n: (f, n),
+        right[:12].reshape(3, 4),
+        float(right[12]),
+        tolerance=1e-12,
+        most=20,
+        weight=2.0,
+    )
+    # 13 unknowns: exact after 13 iterations but for rounding
+    assert count <= 13
+    assert residual < 1e-11
+    assert np.abs(matrix @ np.append(field.ravel(), number) - right).max() < 1e-10
+
+
+def test_one_cycle_removes_half_of_a_rough_residual() -> None:
+    problem = moes_contact(100.0, 10.0, nodes=(129, 129))
+    solution = solve_point_contact(problem)
+    scales = PointScales.of(problem)
+    hierarchy = build_hierarchy(problem, scales, "upwind-2")
+    level = hierarchy.levels[-1]
+    state = level.state(
+        scales.inward(solution.pressure / scales.pressure), solution.approach / scales.film
+    )
+    linear = level.linearise(state)
+    cycle = MultigridCycle(hierarchy, linear)
+    share = level.cell / level.scales.load
+    residual = np.where(linear.free, np.random.default_rng(0).standard_normal(level.shape), 0.0)
+    load = 0.0
+    for _ in range(8):
+        pressure, approach = cycle(residual, load)
+        left = residual - level.apply(linear, pressure, approach)
+        load -= share * float(pressure.sum())
+        factor = float(np.linalg.norm(left) / np.linalg.norm(residual))
+        residual = left
+    # 0.4 measured on this grid; above 1 the cycle would need its Krylov method to converge
+    assert factor < 0.6
+
+
+def test_the_finer_side_is_halved_first() -> None:
+    assert grid_shapes((65, 257), (4.0, 1.0))[-2] == (65, 129)
+    assert grid_shapes((257, 257), (1.0, 1.0))[0] == (33, 33)
+
+
+def test_a_grid_too_coarse_for_the_film_is_reported_with_a_cure() -> None:
+    problem = moes_contact(200.0, 10.0, nodes=(33, 33))
+    settings = PointSolverSettings(newton_steps=1)
+    with pytest.raises(ConvergenceError, match="Take more nodes"):
+        solve_point_contact(problem, settings)
+    solution = solve_point_contact(problem, settings, throw=False)
+    assert not solution.outcome.converged
+    assert solution.outcome.residual > settings.tolerance
+
+
+def test_unknown_stencils_and_still_surfaces_are_refused() -> None:
+    with pytest.raises(ParameterError, match="upwind-1"):
+        PointSolverSettings(wedge="downwind")
+    with pytest.raises(ParameterError, match="nodes along x"):
+        moes_contact(20.0, 5.0, nodes=(9, 65))
