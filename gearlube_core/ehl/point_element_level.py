@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -69,6 +70,8 @@ class ElementLevel(PointLevel):
     ) -> None:
         super().__init__(problem, scales, shape, "central")
         self.cross_factor = np.zeros(shape)
+        # waves of the length 2 d on a half-space: 2/(E* k), k = pi/d
+        self.compliance = 2.0 * min(self.dx, self.dy) / (math.pi * self.modulus)
 
     def _cubic_xy(self, state: FilmState) -> Array:
         return np.asarray(self.cross_factor * state.density * np.maximum(state.film, 0.0) ** 3)
@@ -85,6 +88,8 @@ class ElementLevel(PointLevel):
             state.cubic_y,
             state.fluidity,
             self.source,
+            self.compliance,
+            state.density,
             state.residual,
         )
         return state
@@ -104,6 +109,7 @@ class ElementLevel(PointLevel):
             state.density,
             state.density_slope,
             state.film,
+            self.compliance,
             base.free,
             by_pressure,
             by_film,

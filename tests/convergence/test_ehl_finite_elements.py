@@ -1,0 +1,293 @@
+"""Reynolds equation in finite elements: order, Jacobian, balance, and the films they give."""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.sparse.linalg import spsolve
+
+from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.point_element_level import ElementLevel, ElementLinearisation
+from gearlube_core.ehl.point_finite_elements import (
+    apply_element_derivatives,
+    element_derivatives,
+    element_residual,
+    upwind_shares,
+)
+from gearlube_core.ehl.point_newton import newton
+from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_solver import grid_shapes, solve_point_contact
+from gearlube_core.ehl.point_stencil import StencilParameters
+from gearlube_core.ehl.point_transfer import Transfer
+from gearlube_core.ehl.problem import elliptical_contact
+from gearlube_core.ehl.scaling import PointScales
+from gearlube_core.ehl.settings import PointSolverSettings
+
+CROSS = 0.4  # xy component of the flow factor tensor; xx 1, yy 0.7
+U, V, SQUEEZE = 0.9, 0.4, 0.3
+THICKENING, DENSENING = 1.5, 0.1  # eta = exp(1.5 p), rho = 1 + 0.1 p
+
+
+def parameters(nx, ny, upwind=0.0):
+    dx, dy = 1.0 / (nx - 1), 1.0 / (ny - 1)
+    half = 0.5 * (1.0 - upwind)
+    return StencilParameters(dx**-2, dy**-2, U / dx, V / dy, 1.0 - half, 0.0, half, SQUEEZE)
+
+
+def exact_pressure(x, y):
+    return np.sin(math.pi * x) * np.sin(math.pi * y) * (1.0 + 0.5 * x)
+
+
+def exact_film(x, y):
+    return 1.0 + 0.4 * x**2 - 0.2 * x * y + 0.3 * np.cos(2.0 * y)
+
+
+def exact_source(x, y):
+    """Return -R of the exact fields, by differences of sixth order on analytic functions."""
+    step = 2e-3
+    weights = {1: 0.75, 2: -0.15, 3: 1.0 / 60.0}
+
+    def by(function, axis):
+        def slope(x, y):
+            total = 0.0
+            for k, weight in weights.items():
+                a, b = (k * step, 0.0) if axis == 0 else (0.0, k * step)
+                total = total + weight * (function(x + a, y + b) - function(x - a, y - b))
+            return total / step
+
+        return slope
+
+    def mass(x, y):
+        return (1.0 + DENSENING * exact_pressure(x, y)) * exact_film(x, y)
+
+    def mobility(x, y):
+        return mass(x, y) * exact_film(x, y) ** 2 * np.exp(-THICKENING * exact_pressure(x, y))
+
+    p_x, p_y = by(exact_pressure, 0), by(exact_pressure, 1)
+
+    def flow_x(x, y):
+        return mobility(x, y) * (p_x(x, y) + CROSS * p_y(x, y)) - U * mass(x, y)
+
+    def flow_y(x, y):
+        return mobility(x, y) * (0.7 * p_y(x, y) + CROSS * p_x(x, y)) - V * mass(x, y)
+
+    return SQUEEZE * mass(x, y) - by(flow_x, 0)(x, y) - by(flow_y, 1)(x, y)
+
+
+def fields(pressure, film):
+    density = 1.0 + DENSENING * pressure
+    cubic = density * film**3
+    fluidity = np.exp(-THICKENING * pressure)
+    return density, cubic, fluidity
+
+
+def residual_of(grid, pressure, film, source, compliance):
+    density, cubic, fluidity = fields(pressure, film)
+    residual = np.empty(pressure.shape)
+    element_residual(
+        grid,
+        pressure,
+        density * film,
+        cubic,
+        CROSS * cubic,
+        0.7 * cubic,
+        fluidity,
+        source,
+        compliance,
+        density,
+        residual,
+    )
+    return residual
+
+
+def derivatives_of(grid, pressure, film, compliance, free=None):
+    density, cubic, fluidity = fields(pressure, film)
+    by_pressure, by_film = np.empty((2, 9, *pressure.shape))
+    element_derivatives(
+        grid,
+        pressure,
+        cubic,
+        CROSS * cubic,
+        0.7 * cubic,
+        fluidity,
+        np.full(pressure.shape, THICKENING),
+        density,
+        np.full(pressure.shape, DENSENING),
+        film,
+        compliance,
+        np.ones(pressure.shape, dtype=bool) if free is None else free,
+        by_pressure,
+        by_film,
+    )
+    return by_pressure, by_film
+
+
+def inner(shape):
+    free = np.zeros(shape, dtype=bool)
+    free[1:-1, 1:-1] = True
+    return free
+
+
+def manufactured_error(n, compliance):
+    """Return the largest error of pressure under a given film on n x (n + 4) nodes."""
+    nx, ny = n, n + 4
+    x, y = np.linspace(0.0, 1.0, nx)[None, :], np.linspace(0.0, 1.0, ny)[:, None]
+    exact, film, source = exact_pressure(x, y), exact_film(x, y), exact_source(x, y)
+    grid = parameters(nx, ny)
+    free, pressure = inner(exact.shape), np.zeros_like(exact)
+    for _ in range(8):
+        residual = residual_of(grid, pressure, film, source, compliance)
+        by_pressure, by_film = derivatives_of(grid, pressure, film, compliance, free)
+        linear = ElementLinearisation(
+            by_pressure, by_film, by_film.sum(axis=0), free, residual, by_pressure, by_film
+        )
+        matrix = linear.matrix().real[free.ravel()][:, free.ravel()].tocsc()
+        pressure[free] -= spsolve(matrix, residual[free])
+    assert np.abs(residual_of(grid, pressure, film, source, compliance)).max() < 1e-9
+    return np.abs(pressure - exact).max()
+
+
+@pytest.mark.parametrize("compliance", [0.0, 1.0])
+def test_manufactured_pressure_is_met_to_second_order(compliance):
+    # compliance stands for K, which shrinks with the spacing as it does on a half-space
+    errors = [manufactured_error(n, compliance / (n - 1)) for n in (17, 33, 65)]
+    assert errors[2] < 1e-3
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.15)
+    assert math.log2(errors[1] / errors[2]) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize("upwind", [0.0, 0.6])
+def test_derivatives_match_differences(upwind):
+    # central differences of 1e-6: truncation 1e-12, rounding 1e-16/1e-6 of 1/dx^2 = 100
+    rng = np.random.default_rng(2)
+    shape = (9, 8)
+    grid = parameters(shape[1], shape[0], upwind)
+    pressure, film = rng.random(shape), 1.0 + rng.random(shape)
+    by_pressure, by_film = derivatives_of(grid, pressure, film, 0.0)
+    for _ in range(5):
+        dp, dh = rng.normal(size=(2, *shape))
+        change = np.empty(shape)
+        apply_element_derivatives(by_pressure, by_film, dp, dh, change)
+        up, down = (
+            residual_of(grid, pressure + e * dp, film + e * dh, np.zeros(shape), 0.0)
+            for e in (1e-6, -1e-6)
+        )
+        assert change == pytest.approx((up - down) / 2e-6, abs=1e-6 * np.abs(change).max())
+
+
+def test_residuals_of_inner_elements_add_to_the_flow_over_their_border():
+    # shape functions sum to one: with pressure, film and source in the middle only, all flow stays
+    rng = np.random.default_rng(3)
+    shape = (12, 14)
+    pressure, film = np.zeros(shape), np.zeros(shape)
+    pressure[3:-3, 3:-3] = rng.random((6, 8))
+    film[3:-3, 3:-3] = rng.random((6, 8))
+    grid = parameters(14, 12)._replace(squeeze=0.0)
+    residual = residual_of(grid, pressure, film, np.zeros(shape), 0.1)
+    assert abs(residual.sum()) < 1e-13 * np.abs(residual).sum()
+    gathering = residual_of(
+        grid._replace(squeeze=SQUEEZE), pressure, film, np.zeros(shape), 0.1
+    ).sum()
+    mass = (1.0 + DENSENING * pressure) * film
+    assert gathering == pytest.approx(-SQUEEZE * mass.sum(), rel=1e-12)
+
+
+def test_matrix_rows_are_the_applied_derivatives():
+    rng = np.random.default_rng(4)
+    shape = (7, 8)
+    pressure, film = rng.random(shape), 1.0 + rng.random(shape)
+    free = inner(shape) & (rng.random(shape) > 0.2)
+    by_pressure, by_film = derivatives_of(parameters(8, 7), pressure, film, 0.2, free)
+    linear = ElementLinearisation(
+        by_pressure, by_film, by_film.sum(axis=0), free, film, by_pressure, by_film
+    )
+    dp, dh = np.where(free, rng.normal(size=shape), 0.0), rng.normal(size=shape)
+    applied = np.empty(shape)
+    apply_element_derivatives(by_pressure, by_film, dp, dh, applied)
+    matrix = linear.matrix()
+    product = matrix.real @ dp.ravel() + matrix.imag @ dh.ravel()
+    assert product == pytest.approx(applied.ravel(), abs=1e-12 * np.abs(applied).max())
+    assert np.all(applied[~free] == 0.0)
+
+
+def test_upwinding_is_of_third_order_where_pressure_flows_and_whole_where_it_does_not():
+    coarse, fine = (
+        upwind_shares(parameters(n, n), 0.1 / (n - 1), (n - 1.0) ** 2, (n - 1.0) ** 2, 1.0)[0]
+        for n in (65, 129)
+    )
+    assert coarse / fine == pytest.approx(4.0, rel=1e-3)  # times dx in the flow
+    assert upwind_shares(parameters(65, 65), 0.1, 1e-12, 1e-12, 1.0) == pytest.approx((0.5, 0.5))
+    assert upwind_shares(parameters(65, 65), 0.0, 1e-9, 1e-9, 1.0) == (0.0, 0.0)
+
+
+def contact(nodes):
+    """M 40, L 11: thick enough to be resolved by 65 nodes, thin enough to need upwinding."""
+    return elliptical_contact(
+        R_x=0.01,
+        R_y=0.02,
+        entrainment=(1.0, 0.3),
+        load=20.0,
+        contact_modulus=1.15e11,
+        lubricant=ehl_lubricant(eta0=0.04, alpha=2e-8),
+        nodes=nodes,
+    )
+
+
+def element_film(problem, start, compliance=None):
+    """Return pressure and film in SI by finite elements from a solution by differences."""
+    scales = PointScales.of(problem)
+    assert not scales.swap
+    shapes = grid_shapes(problem.nodes[::-1], (1.0, 1.0))
+    levels = [ElementLevel(problem, scales, shape) for shape in shapes]
+    transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
+    if compliance is not None:
+        for level in levels:
+            level.compliance = compliance
+    state = levels[-1].state(
+        scales.inward(start.pressure) / scales.pressure, start.approach / scales.film
+    )
+    state, record = newton(
+        Hierarchy(levels, transfers),
+        state,
+        tolerance=1e-7,
+        load_tolerance=1e-8,
+        most=40,
+        most_krylov=60,
+    )
+    assert record.converged
+    return scales.outward(state.pressure) * scales.pressure, scales.outward(
+        state.film
+    ) * scales.film
+
+
+def test_films_of_elements_and_differences_meet_at_refinement():
+    gaps = []
+    for n in (65, 129):
+        problem = contact((n, n))
+        differences = solve_point_contact(problem, PointSolverSettings(wedge="quick"))
+        pressure, film = element_film(problem, differences)
+        loaded = differences.pressure > 0.3 * differences.pressure.max()
+        off = np.abs(pressure - differences.pressure)[loaded].mean() / differences.pressure.max()
+        thin = abs(film.min() / differences.film.min() - 1.0)
+        middle = abs(np.median(film[loaded]) / np.median(differences.film[loaded]) - 1.0)
+        gaps.append([off, thin, middle])
+    # the 2 % that pictures of Jamali 2015 sec. 3.11 can show, and less on a finer grid; the tip of
+    # the pressure spike is left out, no scheme resolves it here
+    assert np.all(np.array(gaps[1]) < 0.02)
+    assert np.all(np.array(gaps[1]) < 0.5 * np.array(gaps[0]))
+
+
+def test_upwinding_removes_pressure_that_alternates_from_node_to_node():
+    problem = replace(contact((65, 65)), load=80.0)
+    differences = solve_point_contact(problem, PointSolverSettings(wedge="quick"))
+    pressure, _ = element_film(problem, differences)
+    galerkin, _ = element_film(problem, differences, compliance=0.0)
+    middle = np.abs(problem.x) < 0.5 * problem.hertz_contact[0]  # ahead of the spike
+
+    def ripple(values):
+        return np.abs(np.diff(values[middle, 32], 4)).max() / values.max() / 16.0
+
+    assert ripple(galerkin) > 0.02
+    assert ripple(pressure) < 0.002
