@@ -18,6 +18,7 @@ from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.scaling import PointScales
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_level import Conditions, MovingLevel
+from gearlube_core.ehl.transient_rows import row_shapes
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -96,11 +97,20 @@ class MovingFilm:
         return replace(self, nodes=(nx, ny))
 
     def grids(self, wedge: str) -> Hierarchy:
-        """Return the grids with the conditions of no time yet."""
+        """Return the nested grids with the conditions of no time yet."""
+        (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
+        return self._hierarchy(
+            grid_shapes((ny, nx), ((y1 - y0) / (ny - 1), (x1 - x0) / (nx - 1))), wedge
+        )
+
+    def row_grids(self, wedge: str) -> Hierarchy:
+        """Return grids that differ in the number of their rows alone."""
+        nx, ny = self.nodes
+        return self._hierarchy(row_shapes((ny, nx)), wedge)
+
+    def _hierarchy(self, shapes: list[tuple[int, int]], wedge: str) -> Hierarchy:
         problem = self.reference()
         scales = PointScales.of(problem)
-        (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
-        shapes = grid_shapes((ny, nx), ((y1 - y0) / (ny - 1), (x1 - x0) / (nx - 1)))
         levels = [MovingLevel(problem, scales, shape, wedge) for shape in shapes]
         transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
         return Hierarchy(levels, transfers)

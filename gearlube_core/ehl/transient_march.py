@@ -11,17 +11,21 @@ import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.point_level import FilmState
+from gearlube_core.ehl.point_newton import NewtonRecord
+from gearlube_core.ehl.point_preconditioner import MultigridCycle
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import FilmSolution, MovingFilm, film_solution, impose
 from gearlube_core.ehl.transient_level import MovingLevel
 from gearlube_core.ehl.transient_newton import KeptCycle, step_newton
 from gearlube_core.ehl.transient_record import MarchRecord
+from gearlube_core.ehl.transient_rows import RowCycle
 from gearlube_core.ehl.transient_steady import bordered, steady_state
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 SCHEMES = ("bdf2", "crank_nicolson")
+_LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
 
 
 @dataclass(slots=True)
@@ -85,16 +89,18 @@ class FilmMarch:
         settings = PointSolverSettings(tolerance=1e-5) if settings is None else settings
         self.film, self.time_step, self.start_time = film, time_step, start_time
         self.scheme, self.settings, self.steps = scheme, settings, 0
-        self._grids = film.grids(settings.wedge)
+        (nx, ny), (x0, x1), (y0, y1) = film.nodes, film.x_limits, film.y_limits
+        long = (y1 - y0) * (nx - 1) > _LONG * (x1 - x0) * (ny - 1)
+        self._grids = film.row_grids(settings.wedge) if long else film.grids(settings.wedge)
         level = self._grids.levels[-1]
         assert isinstance(level, MovingLevel)
         self._level = level
         self._unit = time_step * level.scales.speed / level.scales.length
-        self._kept = KeptCycle(self._grids)
+        self._kept = KeptCycle(self._grids, RowCycle if long else MultigridCycle)
         begin = clock.perf_counter()
         if record is None:
             impose(film, self._grids, start_time)
-            state, work = steady_state(film, self._grids, settings)
+            state, work = self._steady()
             self._past = _Past(state, state.mass, state.mass, level.outflow(state), None)
             count, krylov = len(work.residuals), work.krylov
         else:
@@ -122,7 +128,7 @@ class FilmMarch:
         ------
         ConvergenceError
         """
-        level, past, settings = self._level, self._past, self.settings
+        level, past = self._level, self._past
         begin = clock.perf_counter()
         self.steps += 1
         impose(self.film, self._grids, self.time, finest_only=True)
@@ -187,6 +193,12 @@ class FilmMarch:
         rise = (record.rise, record.approach_rise) if record.steps else None
         self._past = _Past(state, record.mass, record.mass_before, record.inflow, rise)
         state.residual = np.where(record.pressure > 0.0, 0.0, state.residual)
+
+    def _steady(self) -> tuple[FilmState, NewtonRecord]:
+        grids = self.film.grids(self.settings.wedge)
+        impose(self.film, grids, self.start_time)
+        state, work = steady_state(self.film, grids, self.settings)
+        return self._level.state(state.pressure, state.approach), work
 
     def _set_storage(self) -> None:
         past, unit = self._past, self._unit

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,8 +12,9 @@ import numpy as np
 from gearlube_core.ehl.point_krylov import flexible_gmres
 from gearlube_core.ehl.point_level import FilmState, Linearisation
 from gearlube_core.ehl.point_newton import flow_residual
-from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.ehl.point_stencil import CENTRE
+from gearlube_core.ehl.transient_rows import Inverse
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -43,22 +45,30 @@ class KeptCycle:
     ----------
     hierarchy
         Grids; the finest one is solved.
+    build
+        Of hierarchy and linearisation: the cycle.
     patience
         Krylov iterations of one linear solution after which the cycle is built anew.
     """
 
-    def __init__(self, hierarchy: Hierarchy, patience: int = 12) -> None:
+    def __init__(
+        self,
+        hierarchy: Hierarchy,
+        build: Callable[[Hierarchy, Linearisation], Inverse],
+        patience: int = 4,
+    ) -> None:
         self.hierarchy = hierarchy
+        self._build = build
         self.patience = patience
         self.renewals = 0
-        self._cycle: MultigridCycle | None = None
+        self._cycle: Inverse | None = None
         self._free: np.ndarray[Any, np.dtype[np.bool_]] | None = None
         self._new: np.ndarray[Any, np.dtype[np.bool_]] | None = None
         self._linear: Linearisation | None = None
 
     def renew(self, linear: Linearisation) -> None:
         """Build the cycle at a linearisation."""
-        self._cycle = MultigridCycle(self.hierarchy, linear)
+        self._cycle = self._build(self.hierarchy, linear)
         self._free = linear.free.copy()
         self.renewals += 1
 
