@@ -58,9 +58,12 @@ def robustness_map(nodes: int, stride: int) -> None:
         case += f"H_c {moes_film(problem, solution.central_film):.3f} {seconds[-1]:.1f} s"
         if not solution.outcome.converged:
             failed += 1
-            print(f"FAILED {case} {solution.outcome.sentence}", flush=True)
-    print(f"{len(cases) - failed} of {len(cases)} converged on {nodes} x {nodes} nodes")
-    print(f"median {statistics.median(seconds):.2f} s, longest {max(seconds):.1f} s")
+            sys.stdout.write(f"FAILED {case} {solution.outcome.sentence}\n")
+            sys.stdout.flush()
+    sys.stdout.write(
+        f"{len(cases) - failed} of {len(cases)} converged on {nodes} x {nodes} nodes\n"
+    )
+    sys.stdout.write(f"median {statistics.median(seconds):.2f} s, longest {max(seconds):.1f} s\n")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 _THINNEST = 0.2  # of the film before a step
 _GROWTH = 1.05  # of the residual that a step may cost
 _CUTS = 3
+_UNSOLVED = 0.3  # of a linear residual: the state is too rough to step from
 _FIRST_SHIFT = 0.3  # of the flow through a cell, as a fictitious squeeze rate
 _LARGEST_SHIFT = 100.0
 _LOAD_WEIGHT = 0.1
@@ -81,6 +82,7 @@ def newton(
     """
     level = hierarchy.levels[-1]
     record = NewtonRecord()
+    share = level.cell / level.scales.load
     shift = 0.0
     size = flow_residual(level, state)
     record.residuals.append(size)
@@ -89,9 +91,8 @@ def newton(
             break
         linear = level.linearise(state, squeeze=shift * level.flow_rate)
         cycle = MultigridCycle(hierarchy, linear)
-        share = level.cell / level.scales.load
         right = np.where(linear.free, -state.residual, 0.0)
-        pressure, approach, _, count = flexible_gmres(
+        pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),
                 share * float(p.sum()),
@@ -104,6 +105,9 @@ def newton(
             weight=_LOAD_WEIGHT * float(np.linalg.norm(linear.by_approach)),
         )
         record.krylov += count
+        if remainder > _UNSOLVED and shift < _LARGEST_SHIFT:
+            shift = max(_FIRST_SHIFT, 4.0 * shift)
+            continue
         thinnest = _THINNEST * max(float(state.film.min()), 0.0)
         length, accepted = 1.0, False
         for _ in range(_CUTS):

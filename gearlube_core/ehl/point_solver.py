@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -60,9 +61,7 @@ def build_hierarchy(problem: PointContactProblem, scales: PointScales, wedge: st
     nodes, steps = ((nx, ny), (dx, dy)) if scales.swap else ((ny, nx), (dy, dx))
     shapes = grid_shapes(nodes, steps)
     levels = [PointLevel(problem, scales, shape, wedge) for shape in shapes]
-    transfers = [
-        Transfer(fine, coarse) for coarse, fine in zip(shapes[:-1], shapes[1:], strict=True)
-    ]
+    transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
     return Hierarchy(levels, transfers)
 
 

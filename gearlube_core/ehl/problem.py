@@ -214,7 +214,11 @@ def elliptical_contact(
         share = component / speed  # 0: across the motion, 1: along it
         along = (-upstream, exit_reach) if share > 0.0 else (-exit_reach, upstream)
         weight = min(1.0, 2.0 * abs(share))
+        low, high = along
         limits.append(
-            tuple(weight * edge + (1.0 - weight) * math.copysign(spread, edge) for edge in along)
+            (
+                weight * low - (1.0 - weight) * spread,
+                weight * high + (1.0 - weight) * spread,
+            )
         )
     return replace(problem, x_limits=limits[0], y_limits=limits[1])
