@@ -17,6 +17,7 @@ from gearlube_core.dynamics.helical_pair.kernel_parameters import (
 )
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
+from gearlube_core.dynamics.helical_pair.mesh_match import check_line_mesh, effective_mass
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupport
 from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     printed_support_stiffness,
@@ -24,7 +25,6 @@ from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     support_stiffness,
 )
 from gearlube_core.errors import ParameterError
-from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
@@ -34,6 +34,7 @@ Friction = Literal["off", "constant", "film"]
 BearingMoments = Literal["consistent", "as_printed"]
 SupportDamping = Literal["total", "as_printed"]
 MeshSign = Literal["compression", "as_printed"]
+_MOST_LINES = 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,19 +122,8 @@ class HelicalPairParameters:
             raise ParameterError(
                 'film must be given with friction "film", got None. Give a FilmFriction.'
             )
-        self._check_mesh()
-
-    def _check_mesh(self) -> None:
-        pair, mesh = self.pair, self.mesh
-        if (mesh.pinion_teeth, mesh.gear_teeth) != (pair.pinion_teeth, pair.gear_teeth):
-            raise ParameterError(
-                f"mesh must belong to the pair of {pair.pinion_teeth} and {pair.gear_teeth} "
-                f"teeth, got {mesh.pinion_teeth} and {mesh.gear_teeth}. Compute it for this pair."
-            )
-        close = pair.base_pitch * (1.0 - 1e-9), pair.base_pitch * (1.0 + 1e-9)
-        check_within("mesh.base_pitch", mesh.base_pitch, *close, "m", "Compute it for this pair.")
-        check_within("mesh.lines", mesh.lines, line_count(pair.plane), 100, "", "Add lines.")
-        pack_lines(mesh, self.pinion_torque, 1)
+        check_line_mesh(self.mesh, self.pair, _MOST_LINES)
+        pack_lines(self.mesh, self.pinion_torque, 1)
 
     @property
     def mu(self) -> float:
@@ -148,8 +138,7 @@ class HelicalPairParameters:
     @property
     def effective_mass(self) -> float:
         """m_e of the relative rotation along the line of action [kg]."""
-        r_bp, r_bg = self.pair.pinion_base_radius, self.pair.gear_base_radius
-        return 1.0 / (r_bp**2 / self.pinion_polar_inertia + r_bg**2 / self.gear_polar_inertia)
+        return effective_mass(self.pair, self.pinion_polar_inertia, self.gear_polar_inertia)
 
     def kernel_parameters(self) -> PairConstants:
         """Return what the kernels take by value."""

@@ -183,6 +183,11 @@ def periodic_response(
     -----
     He et al. 2007 integrate (38)-(41) until transients are gone. Their pair turns on without limit
     under friction, see `linear_system`; its vibration does not depend on that.
+
+    As in the paper, the pinion does not feel that loaded springs enter, leave and change; the march
+    has it as an option, see `HelicalMarchParameters.equations` for the difference. It is quadratic
+    in the motion, and an impulse where whole lines of a spur pair enter or leave under load, so
+    that it is no part of a linear system with moments of the mesh.
     """
     check_positive("pinion_speed", pinion_speed, "rad/s")
     settings = settings or ResponseSettings()

@@ -17,13 +17,12 @@ from gearlube_core.dynamics.helical_pair.march.constants import (
 from gearlube_core.dynamics.helical_pair.march.mesh_data import all_stations
 from gearlube_core.dynamics.helical_pair.march.output_names import LINES_MAX
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
+from gearlube_core.dynamics.helical_pair.mesh_match import check_line_mesh, effective_mass
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupport
 from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     support_damping,
     support_stiffness,
 )
-from gearlube_core.errors import ParameterError
-from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.materials.lubricant import Lubricant
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
@@ -103,7 +102,10 @@ class HelicalMarchParameters:
         Six keeps x, y and rotation of both members and holds the rest.
     equations : {"consistent", "he_2007"}
         Whether the pinion feels that loaded springs enter, leave and change, as the balance of
-        energy asks, or not, as in the paper; about 1e-4 of the mesh torque, see `line_sums`.
+        energy asks, or not, as in the paper; about 1e-4 of the mesh torque, see `line_sums`. The
+        periodic response leaves it out, too: for the pair of He et al. at 1000 rpm its first
+        harmonic of u_xp is 5 percent larger at mu = 0.01, as much smaller at 0.1; that of the
+        transmission error differs by 0.01 percent.
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
     friction_updates_per_mesh_period : int
@@ -147,21 +149,12 @@ class HelicalMarchParameters:
             ("friction_updates_per_mesh_period", 4),
         ):
             check_within(name, getattr(self, name), low, 4096)
-        pair, mesh = self.pair, self.mesh
-        if (mesh.pinion_teeth, mesh.gear_teeth) != (pair.pinion_teeth, pair.gear_teeth):
-            raise ParameterError(
-                f"mesh must belong to the pair of {pair.pinion_teeth} and {pair.gear_teeth} "
-                f"teeth, got {mesh.pinion_teeth} and {mesh.gear_teeth}. Compute it for this pair."
-            )
-        close = pair.base_pitch * (1.0 - 1e-6), pair.base_pitch * (1.0 + 1e-6)
-        check_within("mesh.base_pitch", mesh.base_pitch, *close, "m", "Compute it for this pair.")
-        check_within("mesh.lines", mesh.lines, line_count(pair.plane), LINES_MAX)
+        check_line_mesh(self.mesh, self.pair, LINES_MAX)
 
     @property
     def effective_mass(self) -> float:
         """m_e of the relative rotation along the line of action [kg]."""
-        r_bp, r_bg = self.pair.pinion_base_radius, self.pair.gear_base_radius
-        return 1.0 / (r_bp**2 / self.pinion.polar_inertia + r_bg**2 / self.gear.polar_inertia)
+        return effective_mass(self.pair, self.pinion.polar_inertia, self.gear.polar_inertia)
 
     @property
     def coast_phase(self) -> float:
