@@ -7,8 +7,9 @@ from typing import Any
 from drivetrain.helical.settings import HelicalSettings
 from gearlube_core import __version__
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
-from gearlube_core.dynamics.helical_pair.linear.periodic_response import BEARING_FORCES, COMPOSITES
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import COMPOSITES
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]

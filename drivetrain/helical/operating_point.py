@@ -16,12 +16,12 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     natural_frequencies,
 )
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
-    BEARING_FORCES,
     harmonics,
     periodic_response,
     with_friction,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 
 
 def operating_point(

@@ -23,11 +23,11 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     natural_frequencies,
 )
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
-    BEARING_FORCES,
     harmonics,
     periodic_response,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 
 Array = NDArray[np.float64]
 _FORMAT = 1  # raise with every change of the model that changes results

@@ -10,7 +10,6 @@ from separation_cases import separated_motion, separating_pair, spur_geometry
 from gearlube_core.dynamics.helical_pair.accelerations import pair_accelerations
 from gearlube_core.dynamics.helical_pair.linear.linear_system import linear_system, relative_rows
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
-    BEARING_FORCES,
     ResponseSettings,
     periodic_response,
 )
@@ -29,6 +28,7 @@ from gearlube_core.dynamics.helical_pair.separation.march import (
 )
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.dynamics.helical_pair.separation.system import relative_masses
+from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import symmetric_support
 from gearlube_core.periodic.shooting import solve_periodic
 

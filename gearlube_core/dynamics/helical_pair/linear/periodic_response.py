@@ -19,12 +19,10 @@ from gearlube_core.dynamics.helical_pair.linear.period_march import PeriodMarch,
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmConstants, FilmField
 from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import wrench_columns
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.supports.bearing_forces import bearing_forces
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.periodic.floquet import floquet_multipliers
 
-BEARING_FORCES = tuple(
-    f"{kind}_{axis}{member}" for member in "pg" for kind in "FM" for axis in "xyz"
-)
 _INSIDE = 1e-9  # share of an interval
 _FILM_ITERATIONS = 30
 _FILM_TOLERANCE = 1e-6  # of the strains' swing
@@ -118,19 +116,8 @@ class PeriodicResponse:
 
     @property
     def bearing_force(self) -> Array:
-        """Forces and moments of both members' bearings on them, `BEARING_FORCES`, shape (N, 12).
-
-        F = -K u - c du/dt; [N, N.m]. He et al. 2007 sec. 6, where du/dt is missing.
-        """
-        supports = self.parameters.support_arrays()
-        forces = []
-        for member in range(2):
-            columns = slice(5 * member, 5 * member + 5)
-            u, v = self.displacement[:, columns], self.rate[:, columns]
-            force = -u @ supports.stiffness[member, :, :5].T
-            force[:, :5] -= v * supports.damping[member, :5]
-            forces.append(force)
-        return np.concatenate(forces, axis=1)
+        """Forces and moments of both members' bearings on them, see `bearing_forces`."""
+        return bearing_forces(self.parameters.support_arrays(), self.displacement, self.rate)
 
     @property
     def friction_power(self) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.supports.bearing_forces import bearing_forces
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -81,16 +82,5 @@ class SeparationOrbit:
 
     @property
     def bearing_force(self) -> Array:
-        """Forces and moments of the bearings on pinion, then gear, shape (N, 12) [N, N.m].
-
-        F = -K u - c du/dt in the order of `periodic_response.BEARING_FORCES`.
-        """
-        supports = self.parameters.support_arrays()
-        forces = np.zeros((self.phase.size, 12))
-        for member in range(2):
-            columns = slice(5 * member, 5 * member + 5)
-            u, v = self.displacement[:, columns], self.rate[:, columns]
-            rows = slice(6 * member, 6 * member + 6)
-            forces[:, rows] = -u @ supports.stiffness[member, :, :5].T
-            forces[:, 6 * member : 6 * member + 5] -= v * supports.damping[member, :5]
-        return forces
+        """Forces and moments of both members' bearings on them, see `bearing_forces`."""
+        return bearing_forces(self.parameters.support_arrays(), self.displacement, self.rate)
