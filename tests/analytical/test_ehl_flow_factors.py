@@ -69,12 +69,12 @@ def test_values_of_conry(sigma, a, value):
 
 
 def test_without_cross_slope_the_one_dimensional_factor_returns():
-    # quadrature against closed form: 1e-10 over what a film meets, slopes 1e-9
+    # quadrature and an iteration to 1e-9 against the closed form; slopes a digit less
     for sigma in (0.0, 1e-7, 3e-5, 0.02, 0.4, 2.4, 6.9, 19.0, -70.0):
         for a in (0.0, 1e-3, 2.0, -1e4, 1e30):
             flow = eyring_flow(sigma, 0.0, a, UNLIMITED)
             factor, by_sigma, by_a = eyring_flow_factor(sigma, a)
-            assert flow.along == pytest.approx(factor, rel=1e-10)
+            assert flow.along == pytest.approx(factor, rel=2e-9)
             assert flow.flow_ss == pytest.approx(factor + sigma * by_sigma, rel=1e-8)
             scale = factor * (abs(sigma) + 1e-3)
             assert flow.flow_s_a * a == pytest.approx(sigma * by_a * a, abs=1e-9 * scale)
