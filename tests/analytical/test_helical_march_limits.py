@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from gearlube_core.dynamics.helical_pair.accelerations import points_damping
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
@@ -21,7 +22,10 @@ from gearlube_core.dynamics.helical_pair.march.flank_wrench import flank_wrench,
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
+    MESH_DAMPING,
+    N_ODE,
     N_STATE,
     PHI_P,
     PSI,
@@ -29,8 +33,10 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     TH_P,
     U_G,
     U_P,
+    W_P,
 )
 from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helical_dynamics_cases import loaded_points
 from tests.helical_march_cases import (
     PERIOD,
     SPEED,
@@ -228,3 +234,33 @@ def test_the_start_is_the_mean_of_what_follows() -> None:
     assert rows.min() - 0.1 * np.ptp(rows) < begin < rows.max() + 0.1 * np.ptp(rows)
     later = rows[100:]
     assert np.ptp(rows[:100]) < 1.2 * np.ptp(later)
+
+
+@pytest.mark.parametrize("psi_rate", [2e-3, -2e-3])
+@pytest.mark.parametrize(
+    ("psi", "tilt", "tolerance"),
+    [
+        (20e-6, 5e-5, 1e-10),  # all lines deep in contact
+        # in part: two points of the march stand for all that touches, built up or not, while
+        # 0.5 um of penetration under this tilt are 1.25 mm of lines of some 30 mm
+        (2e-6, 4e-4, 0.04),
+        # on the back, whose lines the other form takes to be the drive's; lengths swing by 14 %
+        (-130e-6, 0.0, 0.08),
+    ],
+)
+def test_mesh_damping_is_that_of_the_pair_in_all_coordinates(
+    psi: float, tilt: float, tolerance: float, psi_rate: float
+) -> None:
+    march = he_march(friction="off", backlash=1e-4)
+    p, data = flanks(march)
+    s, ds = np.zeros(N_STATE), np.zeros(N_ODE)
+    s[PSI], s[TH_P + 1], s[PHI_P] = psi, tilt, 0.3 * p.plane.pitch / p.plane.r_bp
+    s[W_P] = psi_rate / p.plane.r_bp
+    march_rates(s, 0.0, 0.0, data, ds)
+    whole = replace(he_2007_pair(0.0), contact="one_sided", line_divisions=64)
+    q = np.zeros(12)
+    q[4], q[5] = tilt, -psi / p.plane.r_bp
+    points = loaded_points(whole, 0.3, q)[0]
+    force = points_damping(-psi_rate, whole.kernel_parameters(), points, len(points))
+    assert ds[MESH_DAMPING] > 0.0
+    assert ds[MESH_DAMPING] == pytest.approx(-force * psi_rate, rel=tolerance)
