@@ -48,7 +48,7 @@ def test_cold_solution(benchmark: BenchmarkFixture, nodes: int, M: float, L: flo
 def robustness_map(nodes: int, stride: int) -> None:
     """Solve every `stride`-th contact of the map and print what failed and the share."""
     cases = [(k, M, L) for k in ELLIPTICITIES for M in LOADS for L in MATERIALS][::stride]
-    seconds, failed = [], 0
+    seconds, failed, lower = [], 0, 0
     for ellipticity, M, L in cases:
         begin = time.perf_counter()
         problem = moes_contact(M, L, nodes=(nodes, nodes), radius_ratio=radius_ratio(ellipticity))
@@ -56,6 +56,7 @@ def robustness_map(nodes: int, stride: int) -> None:
         seconds.append(time.perf_counter() - begin)
         case = f"ellipticity {ellipticity:g} M {M:g} L {L:g}: "
         case += f"H_c {moes_film(problem, solution.central_film):.3f} {seconds[-1]:.1f} s"
+        lower += solution.outcome.converged and solution.outcome.wedge == "upwind-1"
         if not solution.outcome.converged:
             failed += 1
             sys.stdout.write(f"FAILED {case} {solution.outcome.sentence}\n")

@@ -71,15 +71,17 @@ def solve_level(
     Notes
     -----
     In turn: directly; from thicker films (less mobility is more viscosity or speed); the same
-    with first-order upwind differences, then back to the order asked for.
+    with first-order upwind differences, then back to the order asked for; where that fails, the
+    first-order solution itself, if the settings allow, and the level keeps its stencil.
     """
     level = hierarchy.levels[-1]
     last = start
+    exact = False  # also the first-order problem
 
     def attempt(begin: FilmState, mobility: float, order: float) -> FilmState | None:
         nonlocal last
         level.ease(mobility, order)
-        easy = mobility < 1.0 or order < 1.0
+        easy = (mobility < 1.0 or order < 1.0) and not exact
         state, report = newton(
             hierarchy,
             level.state(begin.pressure, begin.approach),
@@ -104,11 +106,18 @@ def solve_level(
     elif state is None:
         state = _return_to_mobility(attempt, start, 1.0)
     if state is None and not only_start and settings.wedge != "upwind-1":
-        state = attempt(start, 1.0, 0.0)
-        if state is None:
-            state = _return_to_mobility(attempt, start, 0.0)
+        first = attempt(start, 1.0, 0.0)
+        if first is None:
+            first = _return_to_mobility(attempt, start, 0.0)
+        state = first
         for order in (0.5, 0.8, 1.0):
             if state is not None:
                 state = attempt(state, 1.0, order)
+        if state is None and first is not None and settings.fall_back:
+            exact = True
+            state = attempt(first, 1.0, 0.0)
+            if state is not None:
+                record.converged = record.first_order = True
+                return state
     level.ease(1.0, 1.0)
     return level.state(last.pressure, last.approach) if state is None else state

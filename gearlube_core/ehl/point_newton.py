@@ -32,6 +32,7 @@ class NewtonRecord:
     residuals: list[float] = field(default_factory=list)
     krylov: int = 0
     stalled: bool = False
+    first_order: bool = False  # the answer of upwind-1, where the chosen stencil found none
 
 
 def flow_residual(level: PointLevel, state: FilmState) -> float:

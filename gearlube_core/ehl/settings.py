@@ -29,6 +29,9 @@ class PointSolverSettings:
         flow through the width of the dry contact at the central film [1].
     load_tolerance
         Limit of the relative error of the load [1].
+    fall_back
+        Where the stencil has no solution with a film above zero on the grid, take that of
+        `upwind-1`; the outcome says so.
     newton_steps
         Most Newton steps on one grid.
     krylov_steps
@@ -38,6 +41,7 @@ class PointSolverSettings:
     wedge: str = "upwind-2"
     tolerance: float = 1e-6
     load_tolerance: float = 1e-6
+    fall_back: bool = True
     newton_steps: int = 60
     krylov_steps: int = 40
 

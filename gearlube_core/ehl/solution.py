@@ -32,6 +32,8 @@ class PointOutcome:
         Missing share of the load [1].
     smallest_film
         Over the domain [m]; above zero if sound.
+    wedge
+        Stencil of the answer.
     sentence
         What happened and what to do.
     """
@@ -40,6 +42,7 @@ class PointOutcome:
     residual: float
     load_error: float
     smallest_film: float
+    wedge: str
     sentence: str
 
     @classmethod
@@ -65,12 +68,16 @@ class PointOutcome:
         )
         failed = [text for good, text in checks if not good]
         steps = len(record.residuals)
+        wedge = "upwind-1" if record.first_order else settings.wedge
+        good = f"Converged in {steps} steps."
+        if record.first_order:
+            good += f" With upwind-1: too few nodes for {settings.wedge} at this film; take more."
         sentence = (
-            f"Converged in {steps} steps."
+            good
             if not failed
             else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
         )
-        return cls(not failed, residual, state.load_error, smallest, sentence)
+        return cls(not failed, residual, state.load_error, smallest, wedge, sentence)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

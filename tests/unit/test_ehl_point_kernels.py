@@ -144,3 +144,16 @@ def test_unknown_stencils_and_still_surfaces_are_refused() -> None:
         PointSolverSettings(wedge="downwind")
     with pytest.raises(ParameterError, match="nodes along x"):
         moes_contact(20.0, 5.0, nodes=(9, 65))
+
+
+@pytest.mark.slow
+def test_a_film_too_thin_for_second_order_falls_back_and_says_so() -> None:
+    # slender along the motion, isoviscous: side lobes a few cells wide
+    problem = moes_contact(100.0, 0.0, nodes=(65, 65), radius_ratio=0.0894)
+    solution = solve_point_contact(problem)
+    assert solution.outcome.converged
+    assert solution.outcome.wedge == "upwind-1"
+    assert "upwind-1" in solution.outcome.sentence
+    assert solution.minimum_film > 0.0
+    strict = PointSolverSettings(fall_back=False)
+    assert not solve_point_contact(problem, strict, throw=False).outcome.converged
