@@ -15,6 +15,7 @@ from rich.logging import RichHandler
 from fmu_src.arguments import speeds_from
 from fmu_src.build_command import build_fmu
 from fmu_src.contact_command import ContactCommand, contact
+from fmu_src.ehl_command import ehl
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from fmu_src.helical_command import HelicalCommand, helical
 from fmu_src.resonance_command import resonance
@@ -173,6 +174,7 @@ app.command("build-fmu")(build_fmu)
 app.command("contact", cls=ContactCommand)(contact)
 app.command("resonance")(resonance)
 app.command("helical", cls=HelicalCommand)(helical)
+app.add_typer(ehl, name="ehl")
 
 
 def main() -> None:

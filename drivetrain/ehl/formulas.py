@@ -1,0 +1,90 @@
+"""Published film formulas beside a computed film, each where it has a meaning."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlube_core.ehl.groups import point_contact_groups
+from gearlube_core.ehl.line_problem import LineProblem
+from gearlube_core.ehl.lubricant import pressure_viscosity
+from gearlube_core.ehl.problem import PointContactProblem
+from gearlube_core.film.chittenden_1985 import (
+    central_film_thickness,
+    film_geometry,
+    minimum_film_geometry,
+    minimum_film_thickness,
+)
+from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
+from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+
+_ALONG_AXIS = math.radians(1.0)
+
+
+class FilmFormula(NamedTuple):
+    """Film of a formula."""
+
+    quantity: str  # "central film" or "minimum film"
+    source: str
+    film: float  # [m]
+
+
+def line_film_formulas(problem: LineProblem) -> list[FilmFormula]:
+    """Return films of formulas for a line contact; none for a constant viscosity."""
+    oil, u = problem.lubricant, abs(problem.entrainment_speed)
+    alpha = pressure_viscosity(oil)
+    if not alpha > 0.0:
+        return []
+    contact = (problem.radius, oil.eta0, alpha, u, problem.line_load, problem.reduced_modulus)
+    return [
+        FilmFormula("central film", "Dowson and Toyoda 1979", line_film_thickness(*contact)),
+        FilmFormula("minimum film", "Dowson 1968", minimum_line_film_thickness(*contact)),
+    ]
+
+
+def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
+    """Return films of formulas for a point contact; none for a constant viscosity.
+
+    H_c = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)),
+    H_m = 3.63 U^0.68 G^0.49 W^-0.073 (1 - e^(-0.68 k)),  k = 1.0339 (R_y/R_x)^0.636
+
+    Notes
+    -----
+    Hamrock and Dowson's are given where entrainment lies within a degree of the minor axis of the
+    contact, k from 1 up; Chittenden's at any angle.
+    Sources: Hamrock and Dowson 1977, with the ellipticity of Hamrock and Brewe 1983; Chittenden
+    et al. 1985.
+    """
+    oil, (u, v) = problem.lubricant, problem.entrainment
+    alpha, speed = pressure_viscosity(oil), math.hypot(u, v)
+    if not alpha > 0.0:
+        return []
+    R_x, R_y, psi = problem.hertz.R_x, problem.hertz.R_y, math.atan2(abs(v), abs(u))
+    if R_x > R_y:
+        R_x, R_y, psi = R_y, R_x, 0.5 * math.pi - psi
+    modulus = 2.0 * problem.contact_modulus
+    operation = (oil.eta0, alpha, speed, problem.load, modulus)
+    central = central_film_thickness(*film_geometry(R_x, R_y, psi), *operation)
+    smallest = minimum_film_thickness(*minimum_film_geometry(R_x, R_y, psi), *operation)
+    found = [
+        FilmFormula("central film", "Chittenden et al. 1985", central),
+        FilmFormula("minimum film", "Chittenden et al. 1985", smallest),
+    ]
+    if psi > _ALONG_AXIS and R_y > R_x:
+        return found
+    g = point_contact_groups(
+        viscosity=oil.eta0,
+        pressure_viscosity=alpha,
+        entrainment_speed=speed,
+        load=problem.load,
+        radius=R_x,
+        reduced_modulus=modulus,
+    )
+    k = 1.0339 * (R_y / R_x) ** 0.636
+    H_c = 2.69 * g.U**0.67 * g.G**0.53 * g.W**-0.067 * (1.0 - 0.61 * math.exp(-0.73 * k))
+    H_m = 3.63 * g.U**0.68 * g.G**0.49 * g.W**-0.073 * (1.0 - math.exp(-0.68 * k))
+    return [
+        FilmFormula("central film", "Hamrock and Dowson 1977", R_x * H_c),
+        FilmFormula("minimum film", "Hamrock and Dowson 1977", R_x * H_m),
+        *found,
+    ]

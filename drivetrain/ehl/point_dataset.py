@@ -1,0 +1,106 @@
+"""A lubricated point contact as a labelled dataset."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from drivetrain.ehl.formulas import point_film_formulas
+from drivetrain.ehl.point_traction import point_traction
+from drivetrain.ehl.variables import formula_variables, unit_note
+from gearlube_core.ehl.case_file import PointCase
+from gearlube_core.ehl.groups import point_contact_groups
+from gearlube_core.ehl.lubricant import pressure_viscosity
+from gearlube_core.ehl.solution import PointSolution
+
+
+def point_dataset(case: PointCase, solution: PointSolution) -> xr.Dataset:
+    """Return pressure, film, shear and history of a point contact, each with units.
+
+    Parameters
+    ----------
+    case
+        What was solved.
+    solution
+        Its film.
+
+    Returns
+    -------
+    xr.Dataset
+        On `x` and `y` [m]. Films of published formulas lie along `formula`. Attributes hold
+        scalars in SI and the outcome.
+    """
+    problem, outcome = solution.problem, solution.outcome
+    u, v = problem.entrainment
+    a_x, a_y, largest = problem.hertz_contact
+    x, y = problem.x, problem.y
+    dry = largest * np.sqrt(
+        np.maximum(1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2, 0.0)
+    )
+    shear = point_traction(solution, case.sliding)
+    modulus = 2.0 * problem.contact_modulus
+    variables = {
+        "pressure": (("x", "y"), solution.pressure, unit_note("Pa", "pressure")),
+        "film": (("x", "y"), solution.film, unit_note("m", "film thickness")),
+        "viscosity": (("x", "y"), shear.viscosity, unit_note("Pa s", "viscosity")),
+        "density": (("x", "y"), shear.density, unit_note("kg/m3", "density")),
+        "mean_stress": (
+            ("x", "y"),
+            shear.mean_stress,
+            unit_note("Pa", "shear stress at mid-film along the sliding velocity"),
+        ),
+        "hertz_pressure": (("x", "y"), dry, unit_note("Pa", "pressure of the dry contact")),
+        "residual_history": (
+            "iteration",
+            np.array(solution.residuals, dtype=float),
+            unit_note("1", "unbalanced flow over flow, all grids in turn"),
+        ),
+    }
+    groups = {}
+    if pressure_viscosity(problem.lubricant) > 0.0:
+        groups = point_contact_groups(
+            viscosity=problem.lubricant.eta0,
+            pressure_viscosity=pressure_viscosity(problem.lubricant),
+            entrainment_speed=math.hypot(u, v),
+            load=problem.load,
+            radius=problem.hertz.R_x,
+            reduced_modulus=modulus,
+        )._asdict()
+    return xr.Dataset(
+        variables | formula_variables(point_film_formulas(problem)),
+        coords={
+            "x": ("x", x, unit_note("m", "place along x")),
+            "y": ("y", y, unit_note("m", "place along y")),
+        },
+        attrs={
+            "contact": "point",
+            "name": case.name,
+            "source": case.source,
+            "radius_x": problem.hertz.R_x,
+            "radius_y": problem.hertz.R_y,
+            "load": problem.load,
+            "reduced_modulus": modulus,
+            "entrainment_x": u,
+            "entrainment_y": v,
+            "sliding_x": case.sliding[0],
+            "sliding_y": case.sliding[1],
+            "semi_axis_x": a_x,
+            "semi_axis_y": a_y,
+            "hertz_pressure_max": largest,
+            **{f"group_{key}": value for key, value in groups.items()},
+            "pressure_max": solution.maximum_pressure,
+            "central_film": solution.central_film,
+            "minimum_film": solution.minimum_film,
+            "friction_coefficient": shear.force / problem.load,
+            "friction_force": shear.force,
+            "residual": float(outcome.residual),
+            "load_error": float(outcome.load_error),
+            "iterations": len(solution.residuals),
+            "krylov_steps": solution.krylov_steps,
+            "seconds": solution.seconds,
+            "converged": int(outcome.converged),
+            "outcome": outcome.sentence,
+        },
+    )

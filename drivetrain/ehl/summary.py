@@ -1,0 +1,80 @@
+"""What a solution of a line or point contact found, beside Hertz and film formulas."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from typing import NamedTuple
+
+import xarray as xr
+
+SOLUTION = "solution"
+
+
+class Row(NamedTuple):
+    """One number of the summary."""
+
+    quantity: str
+    source: str  # "solution", or whose formula
+    value: float
+    unit: str
+    deviation: float  # of the source from the solution [1]; nan for the solution itself
+
+
+def summary_rows(dataset: xr.Dataset) -> list[Row]:
+    """Return the numbers of a line or point contact."""
+    of = dataset.attrs
+    rows = [
+        *_compared("largest pressure", of["pressure_max"], "Pa",
+                   [("Hertz", of["hertz_pressure_max"])]),
+        *_compared("central film", of["central_film"], "m", _formulas(dataset, "central film")),
+        *_compared("minimum film", of["minimum_film"], "m", _formulas(dataset, "minimum film")),
+        _own("friction coefficient", abs(of["friction_coefficient"]), "1"),
+    ]  # fmt: skip
+    if of["contact"] == "line":
+        rows.append(_own("force of the film on body 1", of["friction_1"], "N/m"))
+        rows.append(_own("force of the film on body 2", of["friction_2"], "N/m"))
+        if math.isfinite(of["temperature_max"]):
+            rise = of["temperature_max"] - of["temperature_inlet"]
+            rows.append(_own("highest temperature above the inlet", rise, "K"))
+            rows.append(_own("turns of film and energy", of["turns"], "1"))
+    rows += [_own(f"group {key}", of[f"group_{key}"], "1") for key in "ML" if f"group_{key}" in of]
+    return [
+        *rows,
+        _own("unbalanced flow", of["residual"], "1"),
+        _own("load error", of["load_error"], "1"),
+        _own("iterations", of["iterations"], "1"),
+        _own("time", of["seconds"], "s"),
+    ]
+
+
+def summary_csv(rows: list[Row]) -> str:
+    """Return rows as text with a head, comma between; no deviation is left empty."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(Row._fields)
+    for row in rows:
+        deviation = f"{row.deviation:.4g}" if math.isfinite(row.deviation) else ""
+        writer.writerow([row.quantity, row.source, f"{row.value:.6g}", row.unit, deviation])
+    return text.getvalue()
+
+
+def _own(quantity: str, value: float, unit: str) -> Row:
+    return Row(quantity, SOLUTION, float(value), unit, math.nan)
+
+
+def _compared(quantity: str, value: float, unit: str, others: list[tuple[str, float]]) -> list[Row]:
+    return [
+        _own(quantity, value, unit),
+        *(Row(quantity, who, other, unit, other / value - 1.0) for who, other in others),
+    ]
+
+
+def _formulas(dataset: xr.Dataset, quantity: str) -> list[tuple[str, float]]:
+    if "formula_film" not in dataset:
+        return []
+    of_quantity = dataset["formula_quantity"].values == quantity
+    sources = dataset["formula_source"].values[of_quantity]
+    films = dataset["formula_film"].values[of_quantity]
+    return [(str(who), float(film)) for who, film in zip(sources, films, strict=True)]

@@ -1,0 +1,1 @@
+"""Figures of lubricated contacts: functions from a dataset to a matplotlib Figure."""

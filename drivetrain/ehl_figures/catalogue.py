@@ -1,0 +1,54 @@
+"""The figures of line and point contacts, in reading order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from drivetrain.ehl_figures.history import residual_history
+from drivetrain.ehl_figures.line_contact import (
+    line_profile,
+    line_profile_hertz,
+    line_shear,
+    line_temperature,
+)
+from drivetrain.ehl_figures.point_contact import point_contours, point_sections, point_shear
+
+Draw = Callable[[xr.Dataset], Any]
+LINE_CATALOGUE: dict[str, Draw] = {
+    "profile": line_profile,
+    "profile_hertz": line_profile_hertz,
+    "shear": line_shear,
+    "temperature": line_temperature,
+    "residuals": residual_history,
+}
+POINT_CATALOGUE: dict[str, Draw] = {
+    "contours": point_contours,
+    "sections": point_sections,
+    "shear": point_shear,
+    "residuals": residual_history,
+}
+
+
+def save_ehl_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
+    """Draw every figure for which there are data into `directory` as PNG; return the files."""
+    directory.mkdir(parents=True, exist_ok=True)
+    catalogue = LINE_CATALOGUE if dataset.attrs["contact"] == "line" else POINT_CATALOGUE
+    files = []
+    for name in drawn_figures(dataset):
+        path = directory / f"{name}.png"
+        catalogue[name](dataset).savefig(path, dpi=150)
+        files.append(path)
+    return files
+
+
+def drawn_figures(dataset: xr.Dataset) -> list[str]:
+    """Return the names of the figures for which a dataset holds data."""
+    of = dataset.attrs
+    if of["contact"] == "line":
+        return [n for n in LINE_CATALOGUE if n != "temperature" or "temperature" in dataset]
+    slides = of["sliding_x"] != 0.0 or of["sliding_y"] != 0.0
+    return [n for n in POINT_CATALOGUE if n != "shear" or slides]

@@ -1,0 +1,171 @@
+"""The commands `gearlube ehl line` and `gearlube ehl point`."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+import typer
+from rich.console import Console
+
+from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube_core.checks import check_finite
+from gearlube_core.errors import GearLubeError, ParameterError
+
+if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
+    from gearlube_core.ehl.case_file import EhlCase
+
+logger = logging.getLogger("gearlube")
+console = Console(stderr=True)
+
+Case = TypeVar("Case", bound="EhlCase")
+
+ehl = typer.Typer(
+    name="ehl",
+    help="Lubricated contacts: film, pressure and friction of lines and points.",
+    no_args_is_help=True,
+)
+
+_Entrainment = Annotated[
+    float | None,
+    typer.Option(help="Mean surface speed along x [m/s].", metavar="SPEED"),
+]
+_SlideRoll = Annotated[
+    float | None,
+    typer.Option(help="Slide-roll ratio along x, 2 (u1 - u2)/(u1 + u2).", metavar="RATIO"),
+]
+_Example = Annotated[
+    bool,
+    typer.Option("--example", help="Print the shipped case as a file to start from, and stop."),
+]
+
+
+@ehl.command("line")
+def line(
+    case: Annotated[
+        str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
+    ] = "jamali_2015",
+    load: Annotated[
+        float | None, typer.Option(help="Load per length [N/mm].", metavar="LOAD")
+    ] = None,
+    entrainment: _Entrainment = None,
+    slide_roll: _SlideRoll = None,
+    nodes: Annotated[
+        int | None, typer.Option(help="Nodes of the finest grid.", metavar="N")
+    ] = None,
+    stencil: Annotated[
+        str | None,
+        typer.Option(help="Of the wedge.", metavar="upwind_2|central|upwind_1|galerkin"),
+    ] = None,
+    temperature: Annotated[
+        str | None,
+        typer.Option(
+            help="thermal: with the energy balance of oil and bodies.",
+            metavar="isothermal|thermal",
+        ),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
+    example: _Example = False,
+) -> None:
+    """Solve a lubricated line contact; write line.nc, summary.csv and figures.
+
+    Shipped cases: jamali_2015, jamali_2015_thermal. Options given here replace those of the case.
+    """
+    from fmu_src.ehl_console import console_line
+    from gearlube_core.ehl.case_file import LineCase
+
+    with _told(out):
+        if example:
+            typer.echo(LineCase.shipped_text(case), nl=False)
+            return
+        changes = {
+            "load_n_per_mm": load,
+            "solver.nodes": nodes,
+            "solver.stencil": stencil,
+            "temperature": temperature,
+        }
+        file = _changed(_read(LineCase, case), changes, entrainment, slide_roll)
+        _verdict(console_line(console, case=file, out=out))
+
+
+@ehl.command("point")
+def point(
+    case: Annotated[
+        str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
+    ] = "mourier_2006",
+    load: Annotated[float | None, typer.Option(help="Load [N].", metavar="LOAD")] = None,
+    entrainment: _Entrainment = None,
+    slide_roll: _SlideRoll = None,
+    nodes: Annotated[
+        int | None, typer.Option(help="Nodes along x and along y.", metavar="N")
+    ] = None,
+    wedge: Annotated[
+        str | None,
+        typer.Option(help="Stencil of the wedge.", metavar="upwind-2|upwind-1|central|quick"),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
+    example: _Example = False,
+) -> None:
+    """Solve a lubricated point contact; write point.nc, summary.csv and figures.
+
+    Shipped cases: mourier_2006, elliptical. Options given here replace those of the case.
+    """
+    from fmu_src.ehl_console import console_point
+    from gearlube_core.ehl.case_file import PointCase
+
+    with _told(out):
+        if example:
+            typer.echo(PointCase.shipped_text(case), nl=False)
+            return
+        changes = {
+            "load_n": load,
+            "solver.nodes_x": nodes,
+            "solver.nodes_y": nodes,
+            "solver.wedge": wedge,
+        }
+        file = _changed(_read(PointCase, case), changes, entrainment, slide_roll)
+        _verdict(console_point(console, case=file, out=out))
+
+
+def _read(kind: type[Case], case: str) -> Case:
+    is_file = case.endswith(".toml") or Path(case).exists()
+    return kind.from_toml(case) if is_file else kind.named(case)
+
+
+def _changed(
+    case: Case, changes: dict[str, Any], entrainment: float | None, slide_roll: float | None
+) -> Case:
+    """Return the case with what the options replace."""
+    given = {field: value for field, value in changes.items() if value is not None}
+    for name, value, unit in (
+        ("--entrainment", entrainment, "m/s"),
+        ("--slide-roll", slide_roll, ""),
+    ):
+        if value is not None:
+            check_finite(name, value, unit)
+    return (case.varied(given) if given else case).moved(entrainment, slide_roll)
+
+
+def _verdict(outcome: str) -> None:
+    if outcome:
+        logger.error("%s", outcome)
+        raise typer.Exit(FAILED)
+
+
+@contextmanager
+def _told(out: Path) -> Iterator[None]:
+    """Turn errors into messages and exit codes."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        logger.warning("Stopped; %s may be incomplete.", out)
+        raise typer.Exit(INTERRUPTED) from None
+    except ParameterError as error:
+        logger.error("%s", error)
+        raise typer.Exit(BAD_ARGUMENT) from None
+    except (GearLubeError, OSError) as error:
+        logger.error("%s", error)
+        raise typer.Exit(FAILED) from None

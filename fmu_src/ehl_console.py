@@ -1,0 +1,115 @@
+"""A lubricated contact with messages, a progress bar, files and a summary."""
+
+from __future__ import annotations
+
+import logging
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import xarray as xr
+from rich.console import Console
+from rich.table import Table
+
+from drivetrain.ehl.line_dataset import line_dataset
+from drivetrain.ehl.point_dataset import point_dataset
+from drivetrain.ehl.summary import SOLUTION, Row, summary_csv, summary_rows
+from drivetrain.ehl_figures.catalogue import save_ehl_figures
+from fmu_src.progress_bar import progress_bar
+from gearlube_core.ehl.case_file import EhlCase, LineCase, PointCase
+from gearlube_core.ehl.line_solver import solve_line
+from gearlube_core.ehl.line_thermal import solve_thermal_line
+from gearlube_core.ehl.point_solver import solve_point_contact
+
+logger = logging.getLogger("gearlube")
+_STAGES = 3  # solution, files, figures
+_SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm")}
+
+
+def console_line(console: Console, *, case: LineCase, out: Path) -> str:
+    """Solve a line contact, write to `out`; return why it failed, or an empty text."""
+
+    def solve() -> xr.Dataset:
+        began = time.monotonic()
+        problem, settings = case.problem(), case.settings()
+        if case.temperature == "thermal":
+            warm = solve_thermal_line(problem, *case.solids, settings, throw=False)
+            return line_dataset(case, warm, time.monotonic() - began)
+        film = solve_line(problem, settings, throw=False)
+        return line_dataset(case, film, time.monotonic() - began)
+
+    return _console(console, case, f"film on {case.solver.nodes} nodes", solve, out)
+
+
+def console_point(console: Console, *, case: PointCase, out: Path) -> str:
+    """Solve a point contact, write to `out`; return why it failed, or an empty text."""
+    if case.problem().lubricant.tau0 > 0.0:
+        logger.warning(
+            "The film of a point contact flows as a Newtonian one; the Eyring stress acts on its "
+            "friction alone."
+        )
+
+    def solve() -> xr.Dataset:
+        return point_dataset(
+            case, solve_point_contact(case.problem(), case.settings(), throw=False)
+        )
+
+    nodes = f"{case.solver.nodes_x} x {case.solver.nodes_y}"
+    return _console(console, case, f"film on {nodes} nodes", solve, out)
+
+
+def _console(
+    console: Console, case: EhlCase, what: str, solve: Callable[[], xr.Dataset], out: Path
+) -> str:
+    out.mkdir(parents=True, exist_ok=True)
+    with progress_bar(console) as bar:
+        task = bar.add_task(what, total=_STAGES)
+        dataset = solve()
+        rows = summary_rows(dataset)
+        bar.update(task, advance=1, description="files")
+        _write(dataset, out / f"{case.kind}.nc")
+        _replace_text(out / "summary.csv", summary_csv(rows))
+        bar.update(task, advance=1, description="figures")
+        save_ehl_figures(dataset, out / "figures")
+        bar.update(task, advance=1, description="done")
+    console.print(_table(case, rows))
+    logger.info("Results: %s, %s", out / f"{case.kind}.nc", out / "figures")
+    outcome = str(dataset.attrs["outcome"])
+    if not dataset.attrs["converged"]:
+        return outcome
+    logger.info("%s", outcome)
+    return ""
+
+
+def _write(dataset: xr.Dataset, path: Path) -> None:
+    partial = path.with_suffix(".part")
+    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
+    os.replace(partial, path)
+
+
+def _replace_text(path: Path, text: str) -> None:
+    partial = path.with_suffix(".part")
+    partial.write_text(text, encoding="utf-8")
+    os.replace(partial, path)
+
+
+def _table(case: EhlCase, rows: list[Row]) -> Table:
+    table = Table(title=f"{case.name}: lubricated {case.kind} contact")
+    for heading, justify in (
+        ("quantity", "left"),
+        ("value", "right"),
+        ("unit", "left"),
+        ("deviation", "right"),
+    ):
+        table.add_column(heading, justify=justify)  # type: ignore[arg-type]
+    for row in rows:
+        factor, unit = _SCALES.get(row.unit, (1.0, row.unit))
+        own = row.source == SOLUTION
+        table.add_row(
+            row.quantity if own else f"  {row.source}",
+            f"{factor * row.value:.4g}",
+            "" if unit == "1" else unit,
+            "" if own else f"{100.0 * row.deviation:+.1f} %",
+        )
+    return table

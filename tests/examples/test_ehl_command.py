@@ -1,0 +1,195 @@
+"""The commands `gearlube ehl line` and `gearlube ehl point`: what they write and refuse."""
+
+import csv
+import logging
+import math
+import tomllib
+
+import numpy as np
+import pytest
+import xarray as xr
+from typer.testing import CliRunner
+
+from drivetrain.ehl.line_dataset import hertz_line
+from drivetrain.ehl_figures.catalogue import drawn_figures
+from fmu_src import cli, ehl_console
+from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube_core.ehl.case_file import LineCase, PointCase
+from gearlube_core.errors import ConvergenceError
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, ["ehl", *map(str, arguments)])
+
+
+@pytest.fixture
+def asked(monkeypatch):
+    """The cases that the command would have solved."""
+    calls = []
+
+    def remember(_, **given):
+        calls.append(given)
+        return ""
+
+    monkeypatch.setattr(ehl_console, "console_line", remember)
+    monkeypatch.setattr(ehl_console, "console_point", remember)
+    return calls
+
+
+def written(out, kind):
+    dataset = xr.load_dataset(out / f"{kind}.nc", engine="scipy")
+    figures = {path.stem for path in (out / "figures").glob("*.png")}
+    assert figures == set(drawn_figures(dataset))
+    for name, variable in {**dataset.data_vars, **dataset.coords}.items():
+        if not str(name).startswith("formula_"):
+            assert variable.attrs["units"], name
+            assert variable.attrs["long_name"], name
+    with (out / "summary.csv").open(newline="") as file:
+        return dataset, list(csv.DictReader(file))
+
+
+def test_a_line_writes_dataset_summary_and_figures(tmp_path):
+    result = run("line", "--nodes", 201, "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    dataset, summary = written(tmp_path, "line")
+    assert dataset.sizes["x"] == 201
+    # the load of 360 N/mm is carried by the pressure that is written
+    assert np.trapezoid(dataset["pressure"], dataset["x"]) == pytest.approx(3.6e5, rel=1e-6)
+    # what goes in comes out: between the surfaces the flow is one number
+    full = (dataset["pressure"].values[1:] > 0.0) & (dataset["pressure"].values[:-1] > 0.0)
+    flow = dataset["mass_flow"].values[full]
+    assert np.ptp(flow) < 1e-6 * flow.mean()
+    # u1 > u2: the film holds body 1 back and drives body 2
+    assert dataset.attrs["friction_1"] < 0.0 < dataset.attrs["friction_2"]
+    assert dataset["residual_history"][-1] <= 1e-8
+    assert dataset["nodes_history"][-1] == 201
+    films = {row["source"]: row for row in summary if row["quantity"] == "central film"}
+    assert set(films) == {"solution", "Dowson and Toyoda 1979"}
+    own, formula = (float(films[who]["value"]) for who in films)
+    assert float(films["Dowson and Toyoda 1979"]["deviation"]) == pytest.approx(
+        formula / own - 1.0, abs=1e-3
+    )
+
+
+def test_a_thermal_line_writes_its_temperatures(tmp_path):
+    result = run("line", "jamali_2015_thermal", "--nodes", 201, "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    dataset, summary = written(tmp_path, "line")
+    rise = float(dataset["temperature"].max()) - 363.15
+    (row,) = [r for r in summary if r["quantity"] == "highest temperature above the inlet"]
+    assert 0.0 < rise == pytest.approx(float(row["value"]), rel=1e-4)
+    assert dataset["temperature_change"][-1] <= 1e-3
+
+
+def test_a_point_writes_dataset_summary_and_figures(tmp_path):
+    result = run("point", "--nodes", 33, "--slide-roll", 0.1, "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    dataset, summary = written(tmp_path, "point")
+    assert dict(dataset.sizes)["x"] == dict(dataset.sizes)["y"] == 33
+    carried = np.trapezoid(np.trapezoid(dataset["pressure"], dataset["y"]), dataset["x"])
+    # pressure vanishes on the border, so that both sums are the same
+    assert carried == pytest.approx(15.0, rel=1e-6)
+    # a Newtonian film: shear force of eta |du|/h over the plane, |du| = 0.1 u
+    stress = dataset["viscosity"] * 0.009 / dataset["film"]
+    force = np.trapezoid(np.trapezoid(stress, dataset["y"]), dataset["x"])
+    assert dataset.attrs["friction_force"] == pytest.approx(force, rel=1e-9)
+    sources = {row["source"] for row in summary if row["quantity"] == "minimum film"}
+    assert sources == {"solution", "Hamrock and Dowson 1977", "Chittenden et al. 1985"}
+
+
+def test_the_dry_line_is_that_of_hertz():
+    b, p, R = 2e-4, 1e9, 0.014
+    x = np.linspace(-3.0 * b, 3.0 * b, 60001)
+    pressure, gap = hertz_line(x, b, p, R)
+    assert np.trapezoid(pressure, x) == pytest.approx(0.5 * math.pi * b * p, rel=1e-5)
+    # the gap's slope d/dx = (X^2 - 1)^(1/2) b/R outside, none inside
+    outside = x > 1.01 * b
+    slope = np.gradient(gap, x)[outside][:-1]
+    exact = (b / R) * np.sqrt((x[outside][:-1] / b) ** 2 - 1.0)
+    np.testing.assert_allclose(slope, exact, rtol=1e-3)
+    assert not gap[np.abs(x) < b].any()
+
+
+def test_defaults_are_shipped_cases(asked):
+    assert run("line").exit_code == 0
+    assert run("point").exit_code == 0
+    line, point = asked
+    assert line["case"] == LineCase.named("jamali_2015")
+    assert point["case"] == PointCase.named("mourier_2006")
+    assert (str(line["out"]), str(point["out"])) == ("gearlube_ehl_line", "gearlube_ehl_point")
+
+
+def test_options_replace_what_the_case_says(asked):
+    options = ("--load", 100, "--entrainment", 2.0, "--slide-roll", 0.5, "--nodes", 301)
+    assert run("line", *options, "--stencil", "central").exit_code == 0
+    assert run("point", *options, "--wedge", "quick").exit_code == 0
+    line, point = (call["case"] for call in asked)
+    assert (line.load_n_per_mm, point.load_n) == (100.0, 100.0)
+    for case in (line, point):
+        assert (case.speed_1_m_s, case.speed_2_m_s) == pytest.approx((2.5, 1.5))
+    assert (line.solver.nodes, line.solver.stencil) == (301, "central")
+    assert (point.solver.nodes_x, point.solver.nodes_y) == (301, 301)
+    assert point.solver.wedge == "quick"
+
+
+@pytest.mark.parametrize(("kind", "model"), [("line", LineCase), ("point", PointCase)])
+def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
+    result = run(kind, "--example")
+    assert result.exit_code == 0
+    assert not asked
+    data = tomllib.loads(result.stdout)
+    path = tmp_path / "own.toml"
+    path.write_text(result.stdout)
+    assert run(kind, path).exit_code == 0
+    assert asked[0]["case"] == model.from_data(data, "own")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (("line", "no_such_case"), "no_such_case"),
+        (("line", "no_such_file.toml"), "no_such_file.toml"),
+        (("line", "mourier_2006"), "mourier_2006"),
+        (("line", "--nodes", 3), "nodes"),
+        (("line", "--load", -5), "load_n_per_mm"),
+        (("line", "--stencil", "upwind"), "upwind_1"),
+        (("line", "--entrainment", "nan"), "--entrainment"),
+        (("line", "--temperature", "warm"), "thermal"),
+        (("line", "--temperature", "thermal"), "houpert"),
+        (("point", "--wedge", "none"), "quick"),
+        (("point", "--entrainment", 0.0), "entrainment"),
+        (("point", "no_such_case", "--example"), "no_such_case"),
+    ],
+)
+def test_what_is_out_of_range_ends_with_bad_argument(arguments, word, tmp_path, caplog):
+    with caplog.at_level(logging.ERROR, "gearlube"):
+        assert run(*arguments, "--out", tmp_path).exit_code == BAD_ARGUMENT
+    assert word in caplog.text
+    assert not list(tmp_path.glob("*.nc"))
+
+
+def test_a_film_that_does_not_converge_is_written_and_fails(tmp_path, caplog):
+    case = tmp_path / "hard.toml"
+    text = LineCase.shipped_text("jamali_2015").replace("nodes = 1001", "nodes = 101")
+    case.write_text(text + "max_iterations = 1\n")
+    with caplog.at_level(logging.ERROR, "gearlube"):
+        assert run("line", case, "--out", tmp_path / "out").exit_code == FAILED
+    assert "Not converged" in caplog.text
+    dataset, _ = written(tmp_path / "out", "line")
+    assert not dataset.attrs["converged"]
+
+
+@pytest.mark.parametrize(
+    ("reason", "code"),
+    [(ConvergenceError("no film"), FAILED), (OSError("disk full"), FAILED),
+     (KeyboardInterrupt(), INTERRUPTED)],
+)  # fmt: skip
+def test_a_failed_or_stopped_run_says_so(reason, code, monkeypatch, caplog):
+    def fail(_, **given):
+        raise reason
+
+    monkeypatch.setattr(ehl_console, "console_point", fail)
+    with caplog.at_level(logging.WARNING, "gearlube"):
+        assert run("point").exit_code == code
+    assert str(reason) in caplog.text
+    assert caplog.text

@@ -1,0 +1,130 @@
+"""Case files of lubricated contacts: units, completion, and what is refused."""
+
+import math
+
+import pytest
+
+from gearlube_core.ehl.case_file import LineCase, PointCase
+from gearlube_core.errors import ParameterError
+from gearlube_core.materials.lubricant import Lubricant
+
+OIL = {"viscosity_pa_s": 0.02, "pressure_viscosity_per_gpa": 18.0}
+SHARED = {"name": "own", "source": "test", "speed_1_m_s": 3.0, "speed_2_m_s": 1.0, "oil": OIL}
+LINE = {**SHARED, "radius_mm": 20.0, "load_n_per_mm": 150.0}
+POINT = {**SHARED, "radius_x_mm": 12.0, "radius_y_mm": 60.0, "load_n": 80.0}
+
+
+def line(**changes):
+    return LineCase.from_data({**LINE, **changes}, "own.toml")
+
+
+def point(**changes):
+    return PointCase.from_data({**POINT, **changes}, "own.toml")
+
+
+@pytest.mark.parametrize("kind", [LineCase, PointCase])
+def test_every_shipped_case_is_a_problem(kind):
+    assert kind.shipped()
+    for name in kind.shipped():
+        case = kind.named(name)
+        assert case.name == name
+        assert case.problem().lubricant.eta0 == pytest.approx(case.oil.viscosity_pa_s)
+
+
+def test_the_line_of_the_thesis_is_its_table_7_1():
+    problem = LineCase.named("jamali_2015").problem()
+    assert problem.radius == pytest.approx(0.014)
+    assert problem.line_load == pytest.approx(720.0 / 0.002)
+    assert problem.entrainment_speed == pytest.approx(6.71)
+    slide_roll = (problem.speed_1 - problem.speed_2) / problem.entrainment_speed
+    assert slide_roll == pytest.approx(0.36)
+
+
+def test_mouriers_contact_has_the_groups_of_its_source():
+    # Hansen's solver prints M 63.78, L 5.788 for it
+    problem = PointCase.named("mourier_2006").problem()
+    E, R = 2.0 * problem.contact_modulus, problem.hertz.R_x
+    U = 0.25 * problem.entrainment[0] / (E * R)
+    assert problem.load / (E * R**2) * (2.0 * U) ** -0.75 == pytest.approx(63.78, rel=1e-3)
+    assert pytest.approx(5.788, rel=1e-3) == 22e-9 * E * (2.0 * U) ** 0.25
+
+
+def test_a_line_is_read_in_engineers_units():
+    oil = {**OIL, "eyring_stress_mpa": 5.0, "temperature_degc": 60.0}
+    case = line(oil=oil, domain={"first_mm": -1.0, "last_mm": 0.5}, solver={"nodes": 201})
+    problem = case.problem()
+    assert (problem.radius, problem.line_load) == pytest.approx((0.02, 1.5e5))
+    assert problem.extent() == pytest.approx((-1e-3, 0.5e-3))
+    assert problem.lubricant.tau0 == pytest.approx(5e6)
+    assert problem.lubricant.temperature == pytest.approx(333.15)
+    assert case.settings().nodes == 201
+
+
+def test_modulus_of_the_bodies_is_that_of_hertz_and_gives_way_to_a_given_one():
+    # steel 210 GPa, 0.3: E' = 2 E* = E/(1 - nu^2)
+    assert line().problem().reduced_modulus == pytest.approx(210e9 / (1.0 - 0.09))
+    glass = {"youngs_modulus_gpa": 75.0, "poisson_ratio": 0.22}
+    compliance = (1.0 - 0.22**2) / 75e9 + 0.91 / 210e9
+    assert point(body_1=glass).problem().contact_modulus == pytest.approx(1.0 / compliance)
+    assert line(reduced_modulus_gpa=110.0).problem().reduced_modulus == pytest.approx(110e9)
+
+
+def test_side_speeds_turn_entrainment_and_sliding():
+    case = point(side_speed_1_m_s=0.5, side_speed_2_m_s=1.5)
+    assert case.problem().entrainment == pytest.approx((2.0, 1.0))
+    assert case.sliding == pytest.approx((-2.0, 1.0))
+
+
+def test_an_oil_of_the_library_comes_at_its_temperature():
+    oil = {"library": "karagiannis_2012", "temperature_degc": 80.0, "shear": "newtonian"}
+    lubricant = line(oil=oil).problem().lubricant
+    viscosity = Lubricant.named("karagiannis_2012").dynamic_viscosity(353.15)
+    assert lubricant.eta0 == pytest.approx(viscosity)
+    assert lubricant.tau0 == 0.0
+
+
+@pytest.mark.parametrize(
+    ("entrainment", "slide_roll", "speeds"),
+    [(None, None, (3.0, 1.0)), (4.0, None, (6.0, 2.0)), (None, 0.0, (2.0, 2.0)),
+     (1.0, -0.5, (0.75, 1.25))],
+)  # fmt: skip
+def test_another_speed_keeps_the_slide_roll_ratio_and_the_other_way_round(
+    entrainment, slide_roll, speeds
+):
+    case = line().moved(entrainment, slide_roll)
+    assert (case.speed_1_m_s, case.speed_2_m_s) == pytest.approx(speeds)
+
+
+def test_a_ratio_needs_a_mean_speed():
+    with pytest.raises(ParameterError, match="mean speed of 0"):
+        line(speed_2_m_s=-3.0).moved(None, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("build", "changes", "words"),
+    [
+        (line, {"radius_mm": -3.0}, ["radius_mm", "-3", "mm"]),
+        (line, {"load_n_per_mm": math.nan}, ["load_n_per_mm"]),
+        (line, {"radiusmm": 3.0}, ["radiusmm", "radius_mm"]),
+        (line, {"domain": {"first_mm": 1.0, "last_mm": -1.0}}, ["domain"]),
+        (line, {"oil": {"viscosity_pa_s": 0.02}}, ["pressure_viscosity_per_gpa", "missing"]),
+        (line, {"oil": {**OIL, "library": "karagiannis_2012"}}, ["viscosity_pa_s", "library"]),
+        (line, {"oil": {"library": "no_such_oil"}}, ["no_such_oil"]),
+        (line, {"oil": {**OIL, "law": "reynolds"}}, ["oil.law", "barus or roelands"]),
+        (line, {"oil": {**OIL, "limiting_stress_slope": 0.05}}, ["limiting_stress_mpa"]),
+        (line, {"solver": {"stencil": "galerkin", "cavitation": "mass_conserving"}}, ["galerkin"]),
+        (point, {"solver": {"nodes_x": 3}}, ["nodes_x", "17"]),
+        (point, {"speed_2_m_s": -3.0}, ["entrainment", "0"]),
+        (point, {"load_n_per_mm": 3.0}, ["load_n_per_mm"]),
+    ],
+)
+def test_what_is_wrong_is_named(build, changes, words):
+    with pytest.raises(ParameterError) as refusal:
+        build(**changes)
+    for word in words:
+        assert word in str(refusal.value)
+
+
+def test_an_unknown_name_lists_the_shipped_cases():
+    with pytest.raises(ParameterError, match=r"No line contact .* jamali_2015"):
+        LineCase.named("mourier_2006")
