@@ -66,6 +66,28 @@ def upwind_shares(
 
 
 @kernel
+def _centre_shares(
+    parameters: StencilParameters,
+    compliance: float,
+    cubic_x: np.ndarray,
+    cubic_y: np.ndarray,
+    fluidity: np.ndarray,
+    density: np.ndarray,
+    j: int,
+    i: int,
+) -> tuple[float, float]:
+    # with the means over the nodes of the element that begins at (j, i)
+    sx = sy = rho = 0.0
+    for k in range(4):
+        jj, ii = j + k // 2, i + k % 2
+        sx += 0.25 * cubic_x[jj, ii] * fluidity[jj, ii]
+        sy += 0.25 * cubic_y[jj, ii] * fluidity[jj, ii]
+        rho += 0.25 * density[jj, ii]
+    flow_x, flow_y = parameters.poiseuille_x * sx, parameters.poiseuille_y * sy
+    return upwind_shares(parameters, compliance, flow_x, flow_y, rho)
+
+
+@kernel
 def element_residual(
     parameters: StencilParameters,
     pressure: np.ndarray,
@@ -111,8 +133,11 @@ def element_residual(
     ux, uy = parameters.wedge_x, parameters.wedge_y
     for j in range(ny - 1):
         for i in range(nx - 1):
+            back_x, back_y = _centre_shares(
+                parameters, compliance, cubic_x, cubic_y, fluidity, density, j, i
+            )
             for g in range(4):
-                rho = slope_x = slope_y = sx = sxy = sy = m = m_x = m_y = gather = 0.0
+                slope_x = slope_y = sx = sxy = sy = m = m_x = m_y = gather = 0.0
                 for k in range(4):
                     jj, ii = j + k // 2, i + k % 2
                     N, NX, NY, f = _N[g, k], _NX[g, k], _NY[g, k], fluidity[jj, ii]
@@ -121,12 +146,10 @@ def element_residual(
                     sx += N * cubic_x[jj, ii] * f
                     sxy += N * cubic_xy[jj, ii] * f
                     sy += N * cubic_y[jj, ii] * f
-                    rho += N * density[jj, ii]
                     m += N * mass[jj, ii]
                     m_x += NX * mass[jj, ii]
                     m_y += NY * mass[jj, ii]
                     gather += N * (parameters.squeeze * mass[jj, ii] - source[jj, ii])
-                back_x, back_y = upwind_shares(parameters, compliance, px * sx, py * sy, rho)
                 flow_x = px * sx * slope_x + pxy * sxy * slope_y - ux * (m - back_x * m_x)
                 flow_y = py * sy * slope_y + pxy * sxy * slope_x - uy * (m - back_y * m_y)
                 for k in range(4):
@@ -180,18 +203,19 @@ def element_derivatives(
     ux, uy = parameters.wedge_x, parameters.wedge_y
     for j in range(ny - 1):
         for i in range(nx - 1):
+            back_x, back_y = _centre_shares(
+                parameters, compliance, cubic_x, cubic_y, fluidity, density, j, i
+            )
             for g in range(4):
-                mean = slope_x = slope_y = sx = sxy = sy = 0.0
+                slope_x = slope_y = sx = sxy = sy = 0.0
                 for k in range(4):
                     jj, ii = j + k // 2, i + k % 2
-                    mean += _N[g, k] * density[jj, ii]
                     slope_x += _NX[g, k] * pressure[jj, ii]
                     slope_y += _NY[g, k] * pressure[jj, ii]
                     share = _N[g, k] * fluidity[jj, ii]
                     sx += share * cubic_x[jj, ii]
                     sxy += share * cubic_xy[jj, ii]
                     sy += share * cubic_y[jj, ii]
-                back_x, back_y = upwind_shares(parameters, compliance, px * sx, py * sy, mean)
                 for n in range(4):
                     jj, ii = j + n // 2, i + n % 2
                     N, NX, NY, f = _N[g, n], _NX[g, n], _NY[g, n], fluidity[jj, ii]
