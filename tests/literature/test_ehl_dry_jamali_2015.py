@@ -79,7 +79,7 @@ def test_design_b_step_75_over_the_power_of_relief(beta, value):
 def test_crowned_line_without_relief_fills_093_of_the_face_at_the_largest_load():
     # printed to two digits, sec. 4.3
     pair, X = jamali_2015("a").pair, float(jamali_2015_steps("a").line(278))
-    crowned = FlankModification(crown=Crown(amount=8e-6))
+    crowned = FlankModification(crown=Crown(amount=8e-6, start=0.0))
     gap = UndeformedGap(modified=ModifiedPair(pair=pair, pinion=crowned, gear=crowned))
     width = pair.face_width / math.cos(pair.base_helix_angle)
     x = np.linspace(-2.0 * HALF_WIDTH, 2.0 * HALF_WIDTH, 101)
