@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from docs.field_tables import field_tables
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.flank_surface.tooth import Tooth
 from gearlube_core.flank_surface.tooth_solid import Solid, gear_solid
-from gearlube_core.input_file.field_notes import FieldNote, field_notes
 from gearlube_core.tooth_contact.pair import FlankPair
 from gearlube_core.tooth_contact.placement import Placement
 
@@ -123,27 +123,7 @@ depth.
 
 def page() -> str:
     """Return docs/gear_file.md."""
-    groups: dict[str, list[FieldNote]] = {section: [] for section in SECTIONS}
-    for name, note in field_notes(HypoidGearFile).items():
-        section = name.rpartition(".")[0]
-        if section in groups:
-            groups[section].append(note)
-    tables = [_table(SECTIONS[section], notes) for section, notes in groups.items()]
-    return HEAD + "\n## Fields\n" + "".join(tables) + TAIL
-
-
-def _table(title: str, notes: list[FieldNote]) -> str:
-    lines = [
-        f"\n### {title}\n",
-        "| Field | Unit | Value | Without it | Meaning |",
-        "|---|---|---|---|---|",
-    ]
-    for note in notes:
-        value = f"{note.kind}, {note.limits}" if note.limits else note.kind
-        field = note.name.rpartition(".")[2]
-        without = note.default or "required"
-        lines.append(f"| `{field}` | {note.unit or '-'} | {value} | {without} | {note.meaning} |")
-    return "\n".join(lines) + "\n"
+    return HEAD + "\n## Fields\n" + field_tables(HypoidGearFile, SECTIONS) + TAIL
 
 
 def picture(name: str = "mohammadpour_2015") -> Figure:

@@ -1,31 +1,42 @@
-"""The reference page of the gear file says what the data model says."""
+"""The reference pages of the gear files say what the data models say."""
 
 import re
 from pathlib import Path
 
-from docs.gear_file import page
+import pytest
+
+from docs import gear_file, helical_gear_file
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.input_file.field_notes import field_notes
 
 FOLDER = Path(__file__).parents[2] / "docs"
-PAGE = (FOLDER / "gear_file.md").read_text(encoding="utf-8")
+PAGES = {gear_file: HypoidGearFile, helical_gear_file: HelicalGearFile}
 
 
-def test_page_is_up_to_date():
-    """If not: python -m docs.gear_file."""
-    assert page() == PAGE
+def stored(script):
+    return Path(script.__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 
-def test_every_field_stands_on_the_page():
-    for name, note in field_notes(HypoidGearFile).items():
+@pytest.mark.parametrize("script", PAGES)
+def test_page_is_up_to_date(script):
+    """If not: python -m docs.gear_file, python -m docs.helical_gear_file."""
+    assert script.page() == stored(script)
+
+
+@pytest.mark.parametrize(("script", "model"), PAGES.items())
+def test_every_field_stands_on_the_page(script, model):
+    for name, note in field_notes(model).items():
         field = name.rpartition(".")[2]
-        assert re.search(rf"\| `{field}` \|.*{re.escape(note.meaning)} \|", PAGE), name
+        assert re.search(rf"\| `{field}` \|.*{re.escape(note.meaning)} \|", stored(script)), name
 
 
-def test_what_the_page_points_to_exists():
-    links = re.findall(r"\]\(([^)#]+)", PAGE)
-    assert "images/gear_pair.png" in links
+@pytest.mark.parametrize("script", PAGES)
+def test_what_the_page_points_to_exists(script):
+    text = stored(script)
+    links = re.findall(r"\]\(([^)#]+)", text)
+    assert links
     for link in links:
         assert (FOLDER / link).is_file(), link
-    for path in re.findall(r"`((?:examples|tests|gearlube_core)/[\w./]+)`", PAGE):
-        assert (FOLDER.parent / path).is_file(), path
+    for path in re.findall(r"`((?:examples|tests|gearlube_core)/[\w./]+)`", text):
+        assert (FOLDER.parent / path).exists(), path

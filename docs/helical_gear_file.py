@@ -1,0 +1,67 @@
+"""Rewrite docs/helical_gear_file.md: python -m docs.helical_gear_file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from docs.field_tables import field_tables
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+
+PAGE = Path(__file__).with_suffix(".md")
+SECTIONS = {
+    "": "The file",
+    "pair": "[pair]",
+    "pinion": "[pinion] and [gear]",
+    "pinion.flank": "[pinion.flank] and [gear.flank]: modifications",
+    "pinion.body": "[pinion.body] and [gear.body]",
+    "pinion.bearing_1": "[pinion.bearing_1], [pinion.bearing_2], and of the gear",
+    "damping": "[damping]",
+    "operation": "[operation]: torque and speed where none are asked for",
+    "oil": "[oil]: of the source, for films",
+}
+
+HEAD = """# The gear file of a helical pair
+
+The tables are written by `python -m docs.helical_gear_file` from the data model
+(`gearlube_core/helical_geometry/gear_file.py`), the text with them; not edited by hand.
+
+External helical or spur gears on parallel axes, in millimetres and degrees, in one TOML file. From it
+come contact lines, gaps, loaded contact, vibration and the FMU. Three ship: `he_2007`,
+`jamali_2015_a` and `jamali_2015_b` (`gearlube_core/helical_geometry/data/`).
+
+- Module and pressure angle are those of the normal or of the transverse section: exactly one of each.
+- Without a root diameter the teeth are 2.25 normal modules deep; without mass or inertia a member is
+  a steel disc as wide as its face and as large as its root circle. Such data count as completed.
+- Frame, hand and the signs of the slopes: [conventions](conventions.md#frame-of-the-helical-pair).
+- `inferred` and `completed` list fields by their dotted names with the reason; all others count as
+  printed in the source.
+
+## Fields
+"""
+
+TAIL = """
+## Write your own
+
+Copy a shipped file, change it, and read it: every wrong field is named with its value, its range and
+what to do.
+
+```python
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+
+file = HelicalGearFile.from_toml("my_pair.toml")
+pair = file.helical_pair()
+print(pair.total_contact_ratio, file.provenance("pair.backlash_mm"))
+```
+
+`gearlube helical my_pair.toml` analyses it, `gearlube build-fmu --model helical-pair --gear
+my_pair.toml` makes it an FMU.
+"""
+
+
+def page() -> str:
+    """Return docs/helical_gear_file.md."""
+    return HEAD + field_tables(HelicalGearFile, SECTIONS) + TAIL
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
