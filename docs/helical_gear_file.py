@@ -25,13 +25,13 @@ HEAD = """# The gear file of a helical pair
 The tables are written by `python -m docs.helical_gear_file` from the data model
 (`gearlube_core/helical_geometry/gear_file.py`), the text with them; not edited by hand.
 
-External helical or spur gears on parallel axes, in millimetres and degrees, in one TOML file. From it
-come contact lines, gaps, loaded contact, vibration and the FMU. Three ship: `he_2007`,
+External helical or spur gears on parallel axes, in millimetres and degrees, in one TOML file. From
+it come contact lines, gaps, loaded contact, vibration and the FMU. Three ship: `he_2007`,
 `jamali_2015_a` and `jamali_2015_b` (`gearlube_core/helical_geometry/data/`).
 
-- Module and pressure angle are those of the normal or of the transverse section: exactly one of each.
-- Without a root diameter the teeth are 2.25 normal modules deep; without mass or inertia a member is
-  a steel disc as wide as its face and as large as its root circle. Such data count as completed.
+- Module and pressure angle are those of the normal or of the transverse section: one of each.
+- Without a root diameter the teeth are 2.25 normal modules deep; without mass or inertia a member
+  is a steel disc as wide as its face and as large as its root circle. Such data count as completed.
 - Frame, hand and the signs of the slopes: [conventions](conventions.md#frame-of-the-helical-pair).
 - `inferred` and `completed` list fields by their dotted names with the reason; all others count as
   printed in the source.
@@ -42,8 +42,8 @@ come contact lines, gaps, loaded contact, vibration and the FMU. Three ship: `he
 TAIL = """
 ## Write your own
 
-Copy a shipped file, change it, and read it: every wrong field is named with its value, its range and
-what to do.
+Copy a shipped file, change it, and read it: every wrong field is named with its value, its range
+and what to do.
 
 ```python
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
