@@ -24,6 +24,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 _CONTACT_MODULUS = 0.5 * 227.5e9  # Pa; E 207 GPa and nu 0.3 follow from Jamali 2015 ch. 7
 _TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: Jamali 2015 ch. 4
 _LARGEST_GAP = 50e-6  # m
+_OPEN_FILM = 10e-6  # m
 _DOMAIN = (-2.75, 1.775)  # of the largest Hertz semi-width; Jamali 2015 covers 4.5 of them
 _SLENDEST = 2000.0  # R_y/R_x that stands for a line
 
@@ -54,7 +55,10 @@ class HelicalFilm:
     extent
         Domain along x over the largest Hertz semi-width [1].
     largest_gap
-        The gap is cut there [m]: a hundred films and more carry no load.
+        The gap is cut there [m].
+    open_film
+        Thicker films [m] are at ambient pressure: forty films and more carry no load, but small
+        pressures in them come and go over whole rows as the relief moves.
 
     Raises
     ------
@@ -79,6 +83,7 @@ class HelicalFilm:
     form: str = "involute"
     extent: tuple[float, float] = _DOMAIN
     largest_gap: float = _LARGEST_GAP
+    open_film: float = _OPEN_FILM
 
     def __post_init__(self) -> None:
         check_positive("torque", self.torque, "N m", "The pinion drives.")
@@ -166,6 +171,7 @@ class HelicalFilm:
             nodes=self.nodes,
             hertz=radii,
             load=load,
+            open_film=self.open_film,
             speed=0.5 * float(speeds[0][0] + speeds[1][0]),
         )
 

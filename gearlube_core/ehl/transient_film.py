@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -48,6 +49,8 @@ class MovingFilm:
         Along x and along y, border included: 17 to 2049.
     hertz, load, speed
         Relative radii, W [N] and entrainment [m/s] that set scales; any typical ones.
+    open_film
+        Where the film is thicker [m] the oil is held at ambient pressure.
 
     Raises
     ------
@@ -64,6 +67,7 @@ class MovingFilm:
     hertz: EllipticParaboloid
     load: float
     speed: float
+    open_film: float = math.inf
 
     def __post_init__(self) -> None:
         self.reference()

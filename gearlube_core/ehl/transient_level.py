@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.checks import check_positive
+from gearlube_core.ehl.eyring_flow import eyring_flow_factor
 from gearlube_core.ehl.flow_factors import eyring_flow
 from gearlube_core.ehl.lubricant import fill_properties
 from gearlube_core.ehl.point_level import FilmState, Linearisation, PointLevel
@@ -20,6 +21,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.jit import kernel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 # below, an Eyring film flows as a Newtonian one to 1e-4: S = 1 + (Sigma^2 + 5 a^2)/10
 _NEWTONIAN = 1.0e-2
@@ -60,6 +62,8 @@ def fill_shear_factors(
     sigma_y: float,
     factor_x: np.ndarray,
     factor_y: np.ndarray,
+    steepness: np.ndarray,
+    stiffness: np.ndarray,
 ) -> None:
     """Fill the flow factors of an Eyring film that slides along x, by rows of other sliding.
 
@@ -74,10 +78,15 @@ def fill_shear_factors(
         nodes on both sides [1].
     factor_x, factor_y : ndarray, shape (ny, nx)
         Result [1]; 1 on the border.
+    steepness, stiffness : ndarray, shape (ny, nx)
+        d ln(flow)/d ln(dp/dx) and -d ln(flow)/d ln(eta) along x, as without dp/dy [1]; 1 where the
+        film is Newtonian.
     """
     ny, nx = pressure.shape
     factor_x[:] = 1.0
     factor_y[:] = 1.0
+    steepness[:] = 1.0
+    stiffness[:] = 1.0
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
             h = film[j, i]
@@ -91,6 +100,24 @@ def fill_shear_factors(
             flow = eyring_flow(along, across, a, math.inf)
             factor_x[j, i] = flow.along
             factor_y[j, i] = flow.across
+            S, by_sigma, by_a = eyring_flow_factor(along, a)
+            steepness[j, i] = 1.0 + along * by_sigma / S
+            stiffness[j, i] = 1.0 - a * by_a / S
+
+
+@dataclass(slots=True)
+class MovingState(FilmState):
+    """State of a film that is open in places, with what flow factors add to its slopes."""
+
+    closed: Flags | None = None  # where oil may be above ambient pressure
+    steepness: Array | None = None  # d ln(flow)/d ln(dp/dx) [1]
+    stiffness: Array | None = None  # -d ln(flow)/d ln(eta) [1]
+
+    @property
+    def free(self) -> Flags:
+        """Return where the Reynolds equation holds: pressure, or a residual that calls for it."""
+        free = (self.pressure > 0.0) | (self.residual > 0.0)
+        return free if self.closed is None else free & self.closed
 
 
 class MovingLevel(PointLevel):
@@ -120,6 +147,7 @@ class MovingLevel(PointLevel):
         self.couette = np.zeros(ny)
         self.storage = np.zeros(shape)  # factor of rho h, per time of the scales
         tau0 = problem.lubricant.tau0
+        self.closed: Flags | None = None
         self._shear = 0.0 if tau0 == 0.0 else scales.speed / (tau0 * scales.film)
         self._shear *= problem.lubricant.eta0
         drop = 0.0 if tau0 == 0.0 else scales.film * scales.pressure / (4.0 * tau0)
@@ -142,6 +170,10 @@ class MovingLevel(PointLevel):
         sliding = (conditions.speed_2 - conditions.speed_1) / scales.speed
         self.couette = self._shear * sliding
 
+    def open_where_thicker(self, film: Array, limit: float) -> None:
+        """Hold ambient pressure where a film [m over the unit of films] passes a limit [m]."""
+        self.closed = film <= limit / self.scales.film
+
     def keep(self, storage: Array | float, source: Array | float) -> None:
         """Set storage and what earlier times give, both in units of the scales."""
         self.storage = np.broadcast_to(np.asarray(storage, dtype=np.float64), self.shape)
@@ -151,6 +183,8 @@ class MovingLevel(PointLevel):
 
     def state(self, pressure: Array, approach: float, film: Array | None = None) -> FilmState:
         """Return the state at a pressure, zero on the border, and an approach."""
+        if self.closed is not None:
+            pressure = np.where(self.closed, pressure, 0.0)
         if film is None:
             film = self.film(pressure, approach)
         viscosity, viscosity_slope, density, density_slope = np.empty((4, *self.shape))
@@ -166,10 +200,19 @@ class MovingLevel(PointLevel):
         cubic_x = density * np.maximum(film, 0.0) ** 3
         cubic_y = cubic_x
         fluidity, log_viscosity = 1.0 / viscosity, np.log(viscosity)
+        steepness, stiffness = None, None
         if self._shear > 0.0:
-            factor_x, factor_y = np.empty((2, *self.shape))
+            factor_x, factor_y, steepness, stiffness = np.empty((4, *self.shape))
             fill_shear_factors(
-                pressure, film, fluidity, self.couette, *self._sigma, factor_x, factor_y
+                pressure,
+                film,
+                fluidity,
+                self.couette,
+                *self._sigma,
+                factor_x,
+                factor_y,
+                steepness,
+                stiffness,
             )
             cubic_x, cubic_y = cubic_x * factor_x, cubic_x * factor_y
         residual = np.empty(self.shape)
@@ -186,7 +229,7 @@ class MovingLevel(PointLevel):
         )
         residual[1:-1, 1:-1] -= (self.storage * mass)[1:-1, 1:-1]
         load_error = (self.scales.load - self.cell * float(pressure.sum())) / self.scales.load
-        return FilmState(
+        return MovingState(
             pressure=pressure,
             approach=approach,
             film=film,
@@ -200,15 +243,25 @@ class MovingLevel(PointLevel):
             log_viscosity=log_viscosity,
             residual=residual,
             load_error=load_error,
+            closed=self.closed,
+            steepness=steepness,
+            stiffness=stiffness,
         )
 
     def linearise(self, state: FilmState, squeeze: float = 0.0) -> Linearisation:
-        """Return the derivatives of the residual at a state; flow factors are held."""
+        """Return the derivatives of the residual at a state.
+
+        Flow factors answer to slopes of pressure and to viscosity, not to the film.
+        """
+        assert isinstance(state, MovingState)
         carried = replace(
             state,
             density=self.rate * state.density,
             density_slope=self.rate * state.density_slope,
         )
+        if carried.steepness is not None:
+            carried.cubic_x = state.cubic_x * carried.steepness
+            carried.viscosity_slope = state.viscosity_slope * carried.stiffness
         linear = super().linearise(carried, squeeze)
         kept = np.where(linear.free, self.storage, 0.0)
         kept[[0, -1]] = 0.0

@@ -133,6 +133,9 @@ class FilmMarch:
         self.steps += 1
         impose(self.film, self._grids, self.time, finest_only=True)
         self._set_storage()
+        level.open_where_thicker(
+            level.film(past.state.pressure, past.state.approach), self.film.open_film
+        )
         state, record = self._attempt(self._predicted())
         if not record.converged:
             self._kept.forget()
@@ -150,8 +153,11 @@ class FilmMarch:
             raise ConvergenceError(f"Step {self.steps}: {self.solution.outcome}")
         return self.solution
 
-    def save(self, path: Path | str) -> None:
-        """Write a record from which a march goes on as if it had not stopped."""
+    def save(self, path: Path | str, curves: Array | None = None) -> None:
+        """Write a record from which a march goes on as if it had not stopped.
+
+        `curves` is kept with it, for the caller.
+        """
         past = self._past
         empty = np.zeros_like(past.mass)
         rise, approach_rise = (empty, 0.0) if past.rise is None else past.rise
@@ -167,7 +173,7 @@ class FilmMarch:
             inflow=past.inflow,
             rise=rise,
             approach_rise=approach_rise,
-            converged=self.solution.converged,
+            curves=np.zeros(0) if curves is None else curves,
         ).write(path)
         # what goes on and what is read again start from the same preconditioner: none
         self._kept.forget()
@@ -190,14 +196,17 @@ class FilmMarch:
         self.steps = record.steps
         impose(self.film, self._grids, self.time)
         state = level.state(record.pressure, record.approach)
+        state.residual = np.zeros(level.shape)  # it was solved with storage
         rise = (record.rise, record.approach_rise) if record.steps else None
         self._past = _Past(state, record.mass, record.mass_before, record.inflow, rise)
-        state.residual = np.where(record.pressure > 0.0, 0.0, state.residual)
 
     def _steady(self) -> tuple[FilmState, NewtonRecord]:
         grids = self.film.grids(self.settings.wedge)
         impose(self.film, grids, self.start_time)
         state, work = steady_state(self.film, grids, self.settings)
+        finest = grids.levels[-1]
+        assert isinstance(finest, MovingLevel)
+        self._level.closed = finest.closed
         return self._level.state(state.pressure, state.approach), work
 
     def _set_storage(self) -> None:

@@ -30,7 +30,7 @@ class MarchRecord:
     inflow: Array
     rise: Array  # of the pressure in the last step
     approach_rise: float
-    converged: bool
+    curves: Array  # what a caller has gathered so far, any shape
 
     def write(self, path: Path | str) -> None:
         """Write the record; an older one at `path` stays whole until the new one is complete."""

@@ -45,7 +45,9 @@ def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
     )
     pressure = bordered(scales.inward(dry.pressure / scales.pressure))
     lowest = float(level.film(pressure, 0.0).min())
-    return level.state(pressure, expected_film(film.reference()) / scales.film - lowest)
+    approach = expected_film(film.reference()) / scales.film - lowest
+    level.open_where_thicker(level.film(pressure, approach), film.open_film)
+    return level.state(pressure, approach)
 
 
 def steady_state(
@@ -60,10 +62,12 @@ def steady_state(
     for k in range(count):
         part = grids.below(k + 1)
         level = part.levels[-1]
+        assert isinstance(level, MovingLevel)
         if k:
             pressure = bordered(grids.transfers[k - 1].up_smoothly(state.pressure))
             # interpolation leaves ripples of the film; it starts no thinner than it was
             thinnest = float(state.film.min())
+            level.open_where_thicker(level.film(pressure, state.approach), film.open_film)
             state = level.state(pressure, state.approach)
             lift = max(0.0, thinnest - float(state.film.min()))
             state = level.state(pressure, state.approach + lift)
