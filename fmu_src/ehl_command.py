@@ -1,4 +1,4 @@
-"""The commands `gearlube ehl line` and `gearlube ehl point`."""
+"""The commands `gearlube ehl line`, `gearlube ehl point` and `gearlube ehl helical`."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ import typer
 from rich.console import Console
 
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube_core.checks import check_finite
+from gearlube_core.checks import check_finite, check_within
 from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
     from gearlube_core.ehl.case_file import EhlCase
@@ -25,7 +26,7 @@ Case = TypeVar("Case", bound="EhlCase")
 
 ehl = typer.Typer(
     name="ehl",
-    help="Lubricated contacts: film, pressure and friction of lines and points.",
+    help="Lubricated contacts: film, pressure and friction of lines, points and helical teeth.",
     no_args_is_help=True,
 )
 
@@ -128,6 +129,84 @@ def point(
         }
         file = _changed(_read(PointCase, case), changes, entrainment, slide_roll)
         _verdict(console_point(console, case=file, out=out))
+
+
+@ehl.command("helical")
+def helical(
+    gear: Annotated[
+        str,
+        typer.Argument(
+            help="jamali_2015_a, jamali_2015_b, he_2007 or a gear file (TOML).", metavar="GEAR"
+        ),
+    ] = "jamali_2015_a",
+    step: Annotated[
+        float | None,
+        typer.Option(help="Step of the meshing cycle, 0.04 mm each.", metavar="N"),
+    ] = None,
+    position: Annotated[
+        float | None,
+        typer.Option(
+            help="Place of the line's end on the line of action, from the pitch line [mm]. "
+            "Default: where the line carries most.",
+            metavar="MM",
+        ),
+    ] = None,
+    torque: Annotated[
+        float | None,
+        typer.Option(help="Pinion torque [N.m]. Default: that of the gear file.", metavar="TORQUE"),
+    ] = None,
+    speed_rpm: Annotated[
+        float | None,
+        typer.Option(help="Pinion speed [rpm]. Default: that of the gear file.", metavar="SPEED"),
+    ] = None,
+    oil: Annotated[
+        str | None,
+        typer.Option(help="Oil of the library. Default: that of the gear file."),
+    ] = None,
+    oil_temperature: Annotated[
+        float, typer.Option(help="Temperature of an oil of the library [degC].", metavar="DEGC")
+    ] = 80.0,
+    newtonian: Annotated[
+        bool, typer.Option("--newtonian", help="Leave the oil's Eyring stress out.")
+    ] = False,
+    load_sharing: Annotated[
+        str,
+        typer.Option(
+            help="Load of all lines: normal to the flanks, or as in the thesis, T/r_b.",
+            metavar="normal|thesis",
+        ),
+    ] = "normal",
+    nodes_across: Annotated[int, typer.Option(help="Nodes across the line.", metavar="N")] = 97,
+    nodes_along: Annotated[int, typer.Option(help="Nodes along the line.", metavar="N")] = 257,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
+) -> None:
+    """Solve the film on a helical pair's contact line at one position, without squeeze.
+
+    Writes helical.nc, summary.csv and figures.
+    """
+    from drivetrain.ehl.helical_case import HelicalLineCase
+    from fmu_src.ehl_console import console_helical_line
+    from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+
+    with _told(out):
+        is_file = gear.endswith(".toml") or Path(gear).exists()
+        file = HelicalGearFile.from_toml(gear) if is_file else HelicalGearFile.named(gear)
+        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        if speed_rpm is not None:
+            check_within("--speed-rpm", speed_rpm, 0.1, 1e6, "rpm", "Give its magnitude.")
+        case = HelicalLineCase(
+            file=file,
+            torque=torque,
+            pinion_speed=None if speed_rpm is None else rpm_to_rads(speed_rpm),
+            step=step,
+            position=None if position is None else 1e-3 * position,
+            oil=oil,
+            oil_temperature=celsius_to_kelvin(oil_temperature),
+            newtonian=newtonian,
+            convention=load_sharing,
+            nodes=(nodes_across, nodes_along),
+        )
+        _verdict(console_helical_line(console, case=case, out=out))
 
 
 def _read(kind: type[Case], case: str) -> Case:

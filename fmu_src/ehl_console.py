@@ -12,15 +12,18 @@ import xarray as xr
 from rich.console import Console
 from rich.table import Table
 
+from drivetrain.ehl.helical_case import HelicalLineCase
+from drivetrain.ehl.helical_dataset import helical_dataset
 from drivetrain.ehl.line_dataset import line_dataset
 from drivetrain.ehl.point_dataset import point_dataset
 from drivetrain.ehl.summary import SOLUTION, Row, summary_csv, summary_rows
 from drivetrain.ehl_figures.catalogue import save_ehl_figures
 from fmu_src.progress_bar import progress_bar
-from gearlube_core.ehl.case_file import EhlCase, LineCase, PointCase
+from gearlube_core.ehl.case_file import LineCase, PointCase
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_thermal import solve_thermal_line
 from gearlube_core.ehl.point_solver import solve_point_contact
+from gearlube_core.ehl.transient_steady import solve_steady_film
 
 logger = logging.getLogger("gearlube")
 _STAGES = 3  # solution, files, figures
@@ -39,7 +42,9 @@ def console_line(console: Console, *, case: LineCase, out: Path) -> str:
         film = solve_line(problem, settings, throw=False)
         return line_dataset(case, film, time.monotonic() - began)
 
-    return _console(console, case, f"film on {case.solver.nodes} nodes", solve, out)
+    return _console(
+        console, (case.kind, case.name), f"film on {case.solver.nodes} nodes", solve, out
+    )
 
 
 def console_point(console: Console, *, case: PointCase, out: Path) -> str:
@@ -56,25 +61,50 @@ def console_point(console: Console, *, case: PointCase, out: Path) -> str:
         )
 
     nodes = f"{case.solver.nodes_x} x {case.solver.nodes_y}"
-    return _console(console, case, f"film on {nodes} nodes", solve, out)
+    return _console(console, (case.kind, case.name), f"film on {nodes} nodes", solve, out)
+
+
+def console_helical_line(console: Console, *, case: HelicalLineCase, out: Path) -> str:
+    """Solve a helical pair's contact line, write to `out`; return why it failed, or nothing."""
+    film = case.film()
+    step = case.step_of(film)
+    if film.modified.pinion.crown is None and film.modified.gear.crown is None:
+        logger.warning(
+            "Neither flank is crowned: the line ends abruptly, where the film may not converge."
+        )
+
+    def solve() -> xr.Dataset:
+        time = step * film.time_step
+        return helical_dataset(
+            case, film, step, solve_steady_film(film.moving_film(), time, throw=False)
+        )
+
+    nodes = f"{case.nodes[0]} x {case.nodes[1]}"
+    return _console(console, ("helical", case.file.name), f"film on {nodes} nodes", solve, out)
 
 
 def _console(
-    console: Console, case: EhlCase, what: str, solve: Callable[[], xr.Dataset], out: Path
+    console: Console,
+    what: tuple[str, str],
+    announced: str,
+    solve: Callable[[], xr.Dataset],
+    out: Path,
 ) -> str:
+    """Solve and write a contact, `what` its kind and name."""
+    kind, name = what
     out.mkdir(parents=True, exist_ok=True)
     with progress_bar(console) as bar:
-        task = bar.add_task(what, total=_STAGES)
+        task = bar.add_task(announced, total=_STAGES)
         dataset = solve()
         rows = summary_rows(dataset)
         bar.update(task, advance=1, description="files")
-        _write(dataset, out / f"{case.kind}.nc")
+        _write(dataset, out / f"{kind}.nc")
         _replace_text(out / "summary.csv", summary_csv(rows))
         bar.update(task, advance=1, description="figures")
         save_ehl_figures(dataset, out / "figures")
         bar.update(task, advance=1, description="done")
-    console.print(_table(case, rows))
-    logger.info("Results: %s, %s", out / f"{case.kind}.nc", out / "figures")
+    console.print(_table(kind, name, rows))
+    logger.info("Results: %s, %s", out / f"{kind}.nc", out / "figures")
     outcome = str(dataset.attrs["outcome"])
     if not dataset.attrs["converged"]:
         return outcome
@@ -94,8 +124,8 @@ def _replace_text(path: Path, text: str) -> None:
     os.replace(partial, path)
 
 
-def _table(case: EhlCase, rows: list[Row]) -> Table:
-    table = Table(title=f"{case.name}: lubricated {case.kind} contact")
+def _table(kind: str, name: str, rows: list[Row]) -> Table:
+    table = Table(title=f"{name}: lubricated {kind} contact")
     for heading, justify in (
         ("quantity", "left"),
         ("value", "right"),

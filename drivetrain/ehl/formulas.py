@@ -8,6 +8,7 @@ from typing import NamedTuple
 from gearlube_core.ehl.groups import point_contact_groups
 from gearlube_core.ehl.line_problem import LineProblem
 from gearlube_core.ehl.lubricant import pressure_viscosity
+from gearlube_core.ehl.nijenbanning_1994 import central_film_group
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.film.chittenden_1985 import (
     central_film_thickness,
@@ -19,6 +20,7 @@ from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
 
 _ALONG_AXIS = math.radians(1.0)
+_SMALLEST_RATIO = 0.01  # R_x/R_y of Nijenbanning's fit
 
 
 class FilmFormula(NamedTuple):
@@ -50,10 +52,10 @@ def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
 
     Notes
     -----
-    Hamrock and Dowson's are given where entrainment lies within a degree of the minor axis of the
-    contact, k from 1 up; Chittenden's at any angle.
+    Hamrock and Dowson's and Nijenbanning's are given where entrainment lies within a degree of
+    the minor axis of the contact, k from 1 up; Chittenden's at any angle.
     Sources: Hamrock and Dowson 1977, with the ellipticity of Hamrock and Brewe 1983; Chittenden
-    et al. 1985.
+    et al. 1985; Nijenbanning, Venner and Moes 1994.
     """
     oil, (u, v) = problem.lubricant, problem.entrainment
     alpha, speed = pressure_viscosity(oil), math.hypot(u, v)
@@ -83,6 +85,9 @@ def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
     k = 1.0339 * (R_y / R_x) ** 0.636
     H_c = 2.69 * g.U**0.67 * g.G**0.53 * g.W**-0.067 * (1.0 - 0.61 * math.exp(-0.73 * k))
     H_m = 3.63 * g.U**0.68 * g.G**0.49 * g.W**-0.073 * (1.0 - math.exp(-0.68 * k))
+    if R_x >= _SMALLEST_RATIO * R_y:
+        H = central_film_group(g.M, g.L, R_x / R_y) * math.sqrt(2.0 * g.U)
+        found.append(FilmFormula("central film", "Nijenbanning et al. 1994", R_x * H))
     return [
         FilmFormula("central film", "Hamrock and Dowson 1977", R_x * H_c),
         FilmFormula("minimum film", "Hamrock and Dowson 1977", R_x * H_m),

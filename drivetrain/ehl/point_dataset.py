@@ -100,6 +100,7 @@ def point_dataset(case: PointCase, solution: PointSolution) -> xr.Dataset:
             "iterations": len(solution.residuals),
             "krylov_steps": solution.krylov_steps,
             "seconds": solution.seconds,
+            "wedge": outcome.wedge,
             "converged": int(outcome.converged),
             "outcome": outcome.sentence,
         },

@@ -23,15 +23,23 @@ class Row(NamedTuple):
 
 
 def summary_rows(dataset: xr.Dataset) -> list[Row]:
-    """Return the numbers of a line or point contact."""
+    """Return the numbers of a line or point contact or of a contact line of a helical pair."""
     of = dataset.attrs
-    rows = [
-        *_compared("largest pressure", of["pressure_max"], "Pa",
-                   [("Hertz", of["hertz_pressure_max"])]),
-        *_compared("central film", of["central_film"], "m", _formulas(dataset, "central film")),
-        *_compared("minimum film", of["minimum_film"], "m", _formulas(dataset, "minimum film")),
-        _own("friction coefficient", abs(of["friction_coefficient"]), "1"),
-    ]  # fmt: skip
+    # formulas for a helical pair's line are those of a line with its mean load
+    basis = ", mean load" if of["contact"] == "helical" else ""
+    hertz = [(f"Hertz{basis}", of["hertz_pressure_max"])]
+    rows = _compared("largest pressure", of["pressure_max"], "Pa", hertz)
+    for name in ("central film", "minimum film"):
+        value = of[name.replace(" ", "_")]
+        rows += _compared(name, value, "m", _formulas(dataset, name, basis))
+    rows.append(_own("friction coefficient", abs(of["friction_coefficient"]), "1"))
+    if of["contact"] == "helical":
+        rows += [
+            _own("load of the line", of["load"], "N"),
+            _own("loaded length", 1e3 * of["loaded_length"], "mm"),
+            _own("largest pressure at y", 1e3 * of["pressure_max_y"], "mm"),
+            _own("minimum film at y", 1e3 * of["minimum_film_y"], "mm"),
+        ]
     if of["contact"] == "line":
         rows.append(_own("force of the film on body 1", of["friction_1"], "N/m"))
         rows.append(_own("force of the film on body 2", of["friction_2"], "N/m"))
@@ -71,10 +79,10 @@ def _compared(quantity: str, value: float, unit: str, others: list[tuple[str, fl
     ]
 
 
-def _formulas(dataset: xr.Dataset, quantity: str) -> list[tuple[str, float]]:
+def _formulas(dataset: xr.Dataset, quantity: str, basis: str) -> list[tuple[str, float]]:
     if "formula_film" not in dataset:
         return []
     of_quantity = dataset["formula_quantity"].values == quantity
     sources = dataset["formula_source"].values[of_quantity]
     films = dataset["formula_film"].values[of_quantity]
-    return [(str(who), float(film)) for who, film in zip(sources, films, strict=True)]
+    return [(f"{who}{basis}", float(film)) for who, film in zip(sources, films, strict=True)]

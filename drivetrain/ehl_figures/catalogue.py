@@ -8,6 +8,11 @@ from typing import Any
 
 import xarray as xr
 
+from drivetrain.ehl_figures.helical_line import (
+    helical_along,
+    helical_contours,
+    helical_sections,
+)
 from drivetrain.ehl_figures.history import residual_history
 from drivetrain.ehl_figures.line_contact import (
     line_profile,
@@ -31,12 +36,18 @@ POINT_CATALOGUE: dict[str, Draw] = {
     "shear": point_shear,
     "residuals": residual_history,
 }
+HELICAL_CATALOGUE: dict[str, Draw] = {
+    "contours": helical_contours,
+    "along": helical_along,
+    "sections": helical_sections,
+}
+_CATALOGUES = {"line": LINE_CATALOGUE, "point": POINT_CATALOGUE, "helical": HELICAL_CATALOGUE}
 
 
 def save_ehl_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
     """Draw every figure for which there are data into `directory` as PNG; return the files."""
     directory.mkdir(parents=True, exist_ok=True)
-    catalogue = LINE_CATALOGUE if dataset.attrs["contact"] == "line" else POINT_CATALOGUE
+    catalogue = _CATALOGUES[dataset.attrs["contact"]]
     files = []
     for name in drawn_figures(dataset):
         path = directory / f"{name}.png"
@@ -48,7 +59,9 @@ def save_ehl_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
 def drawn_figures(dataset: xr.Dataset) -> list[str]:
     """Return the names of the figures for which a dataset holds data."""
     of = dataset.attrs
-    if of["contact"] == "line":
-        return [n for n in LINE_CATALOGUE if n != "temperature" or "temperature" in dataset]
-    slides = of["sliding_x"] != 0.0 or of["sliding_y"] != 0.0
-    return [n for n in POINT_CATALOGUE if n != "shear" or slides]
+    left_out = set()
+    if of["contact"] == "line" and "temperature" not in dataset:
+        left_out.add("temperature")
+    if of["contact"] == "point" and of["sliding_x"] == of["sliding_y"] == 0.0:
+        left_out.add("shear")
+    return [name for name in _CATALOGUES[of["contact"]] if name not in left_out]

@@ -25,12 +25,12 @@ def point_contours(dataset: xr.Dataset) -> Any:
         left, right = figure.subplots(1, 2)
         pressure, film = 1e-9 * dataset["pressure"].values.T, 1e6 * dataset["film"].values.T
         places = (1e3 * dataset["x"].values, 1e3 * dataset["y"].values)
-        levels = _levels(0.0, float(pressure.max()))[1:]
+        levels = contour_levels(0.0, float(pressure.max()))[1:]
         drawn = left.contourf(*places, pressure, levels=levels, cmap="magma_r")
         figure.colorbar(drawn, ax=left, label="pressure [GPa]")
         left.set_title(f"pressure, up to {1e-9 * of['pressure_max']:.3f} GPa")
         lowest, central = 1e6 * of["minimum_film"], 1e6 * of["central_film"]
-        levels = _levels(lowest, max(_THICK * central, 1.1 * lowest))
+        levels = contour_levels(lowest, max(_THICK * central, 1.1 * lowest))
         drawn = right.contourf(*places, film, levels=levels, cmap="viridis", extend="max")
         right.contour(*places, film, levels=levels, colors="white", linewidths=0.4)
         figure.colorbar(drawn, ax=right, label="film [µm]")
@@ -82,7 +82,7 @@ def point_shear(dataset: xr.Dataset) -> Any:
             1e3 * dataset["x"].values,
             1e3 * dataset["y"].values,
             stress,
-            levels=_levels(0.0, float(stress.max()))[1:],
+            levels=contour_levels(0.0, float(stress.max()))[1:],
             cmap="magma_r",
         )
         figure.colorbar(drawn, ax=ax, label="shear stress along the sliding [MPa]")
@@ -92,6 +92,13 @@ def point_shear(dataset: xr.Dataset) -> Any:
             _title(dataset, f"coefficient of friction {coefficient:.4f}"), fontsize=11.5
         )
     return figure
+
+
+def contour_levels(low: float, high: float) -> Any:
+    """Return round numbers from the one below `low` to the one above `high`."""
+    from matplotlib.ticker import MaxNLocator
+
+    return MaxNLocator(_LINES).tick_values(low, high)
 
 
 def _plan(ax: Any, dataset: xr.Dataset, colour: str) -> None:
@@ -121,12 +128,6 @@ def _plan(ax: Any, dataset: xr.Dataset, colour: str) -> None:
         start,
         arrowprops={"arrowstyle": "->", "color": "black", "lw": 1.6},
     )
-
-
-def _levels(low: float, high: float) -> Any:
-    from matplotlib.ticker import MaxNLocator
-
-    return MaxNLocator(_LINES).tick_values(low, high)
 
 
 def _shown(dataset: xr.Dataset, axis: str) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""The commands `gearlube ehl line` and `gearlube ehl point`: what they write and refuse."""
+"""The commands `gearlube ehl line`, `point` and `helical`: what they write and refuse."""
 
 import csv
 import logging
@@ -33,6 +33,7 @@ def asked(monkeypatch):
 
     monkeypatch.setattr(ehl_console, "console_line", remember)
     monkeypatch.setattr(ehl_console, "console_point", remember)
+    monkeypatch.setattr(ehl_console, "console_helical_line", remember)
     return calls
 
 
@@ -97,6 +98,26 @@ def test_a_point_writes_dataset_summary_and_figures(tmp_path):
     assert sources == {"solution", "Hamrock and Dowson 1977", "Chittenden et al. 1985"}
 
 
+def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
+    grid = ("--nodes-across", 41, "--nodes-along", 49)
+    result = run("helical", "--step", 300, *grid, "--newtonian", "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    dataset, summary = written(tmp_path, "helical")
+    assert dict(dataset.sizes)["x"] == 41
+    # Jamali 2015 sec. 4.4: s_i = -18.7 mm + 300 * 0.04 mm
+    assert dataset.attrs["position"] == pytest.approx(-6.7e-3)
+    # sec. 4.1: at most 14.4 kN of a load that leaves out cos(beta_b), 18.38 deg; change points
+    # move it by 4.3 %
+    assert dataset.attrs["load"] == pytest.approx(14.4e3 / math.cos(math.radians(18.38)), rel=0.043)
+    carried = np.trapezoid(np.trapezoid(dataset["pressure"], dataset["y"]), dataset["x"])
+    assert carried == pytest.approx(dataset.attrs["load"], rel=1e-5)
+    # rolling without sliding at the pitch point alone, which the line crosses at one place
+    slide = (dataset["speed_2"] - dataset["speed_1"]).values
+    assert (np.diff(slide) < 0.0).all()
+    assert slide[0] > 0.0 > slide[-1]
+    assert "Hertz, mean load" in {row["source"] for row in summary}
+
+
 def test_the_dry_line_is_that_of_hertz():
     b, p, R = 2e-4, 1e9, 0.014
     x = np.linspace(-3.0 * b, 3.0 * b, 60001)
@@ -132,6 +153,20 @@ def test_options_replace_what_the_case_says(asked):
     assert point.solver.wedge == "quick"
 
 
+def test_a_line_of_a_pair_is_placed_by_step_or_position_or_its_largest_load(asked):
+    assert run("helical", "--step", 75).exit_code == 0
+    assert run("helical", "jamali_2015_b", "--position", -15.7).exit_code == 0
+    assert run("helical", "--load-sharing", "thesis", "--torque", 530).exit_code == 0
+    by_step, by_position, by_load = (call["case"] for call in asked)
+    assert by_step.step_of(by_step.film()) == 75.0
+    assert by_position.step_of(by_position.film()) == pytest.approx(75.0)
+    film = by_load.film()
+    assert film.nodes == (97, 257)
+    X = float(film.steps.line(by_load.step_of(film)))
+    # half of the thesis' torque: half of his largest load, 14.4 kN
+    assert film.load(X) == pytest.approx(7.2e3, rel=0.01)
+
+
 @pytest.mark.parametrize(("kind", "model"), [("line", LineCase), ("point", PointCase)])
 def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
     result = run(kind, "--example")
@@ -159,6 +194,14 @@ def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
         (("point", "--wedge", "none"), "quick"),
         (("point", "--entrainment", 0.0), "entrainment"),
         (("point", "no_such_case", "--example"), "no_such_case"),
+        (("helical", "no_such_pair"), "no_such_pair"),
+        (("helical", "he_2007"), "oil"),
+        (("helical", "--step", 10, "--position", 1.0), "not both"),
+        (("helical", "--step", 1000), "575"),
+        (("helical", "--position", 50), "mm"),
+        (("helical", "--nodes-along", 5), "along"),
+        (("helical", "--torque", -5), "torque"),
+        (("helical", "--load-sharing", "equal"), "thesis"),
     ],
 )
 def test_what_is_out_of_range_ends_with_bad_argument(arguments, word, tmp_path, caplog):
