@@ -151,6 +151,13 @@ def helical(
             metavar="MM",
         ),
     ] = None,
+    march: Annotated[
+        str | None,
+        typer.Option(
+            help="March in time over these steps of the cycle, with squeeze.",
+            metavar="all|FIRST:LAST",
+        ),
+    ] = None,
     torque: Annotated[
         float | None,
         typer.Option(help="Pinion torque [N.m]. Default: that of the gear file.", metavar="TORQUE"),
@@ -180,12 +187,13 @@ def helical(
     nodes_along: Annotated[int, typer.Option(help="Nodes along the line.", metavar="N")] = 257,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
 ) -> None:
-    """Solve the film on a helical pair's contact line at one position, without squeeze.
+    """Solve the film on a helical pair's contact line, at rest at one position or marching.
 
-    Writes helical.nc, summary.csv and figures.
+    At rest: helical.nc, summary.csv and figures. With --march: cycle.nc and its figure; a stopped
+    march goes on from its record in OUT when the same command runs again.
     """
     from drivetrain.ehl.helical_case import HelicalLineCase
-    from fmu_src.ehl_console import console_helical_line
+    from fmu_src.ehl_console import console_helical_cycle, console_helical_line
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     with _told(out):
@@ -206,7 +214,16 @@ def helical(
             convention=load_sharing,
             nodes=(nodes_across, nodes_along),
         )
-        _verdict(console_helical_line(console, case=case, out=out))
+        if march is None:
+            _verdict(console_helical_line(console, case=case, out=out))
+            return
+        if step is not None or position is not None:
+            raise ParameterError(
+                f"--march must not be given with --step or --position, got {march!r}. "
+                "Leave one out."
+            )
+        first, last = _steps(march)
+        _verdict(console_helical_cycle(console, case=case, first=first, last=last, out=out))
 
 
 def _read(kind: type[Case], case: str) -> Case:
@@ -228,6 +245,19 @@ def _changed(
     return (case.varied(given) if given else case).moved(entrainment, slide_roll)
 
 
+def _steps(text: str) -> tuple[int, int | None]:
+    """Return the two whole numbers of "100:200", or those of the whole cycle."""
+    if text == "all":
+        return 0, None
+    pieces = text.split(":")
+    if len(pieces) != 2 or not all(piece.isdecimal() for piece in pieces):
+        raise ParameterError(
+            f"--march must be all or two whole numbers, got {text!r}. Write FIRST:LAST, for "
+            "instance 100:200."
+        )
+    return int(pieces[0]), int(pieces[1])
+
+
 def _verdict(outcome: str) -> None:
     if outcome:
         logger.error("%s", outcome)
@@ -240,7 +270,7 @@ def _told(out: Path) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        logger.warning("Stopped; %s may be incomplete.", out)
+        logger.warning("Stopped; %s may be incomplete. Run the same command again.", out)
         raise typer.Exit(INTERRUPTED) from None
     except ParameterError as error:
         logger.error("%s", error)

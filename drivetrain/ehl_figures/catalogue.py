@@ -8,6 +8,7 @@ from typing import Any
 
 import xarray as xr
 
+from drivetrain.ehl_figures.helical_cycle import cycle_curves
 from drivetrain.ehl_figures.helical_line import (
     helical_along,
     helical_contours,
@@ -41,7 +42,13 @@ HELICAL_CATALOGUE: dict[str, Draw] = {
     "along": helical_along,
     "sections": helical_sections,
 }
-_CATALOGUES = {"line": LINE_CATALOGUE, "point": POINT_CATALOGUE, "helical": HELICAL_CATALOGUE}
+CYCLE_CATALOGUE: dict[str, Draw] = {"cycle": cycle_curves}
+_CATALOGUES = {
+    "line": LINE_CATALOGUE,
+    "point": POINT_CATALOGUE,
+    "helical": HELICAL_CATALOGUE,
+    "helical_cycle": CYCLE_CATALOGUE,
+}
 
 
 def save_ehl_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:

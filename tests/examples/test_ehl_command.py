@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
+from drivetrain.ehl.cycle_dataset import march_key
 from drivetrain.ehl.line_dataset import hertz_line
 from drivetrain.ehl_figures.catalogue import drawn_figures
 from fmu_src import cli, ehl_console
@@ -34,6 +35,7 @@ def asked(monkeypatch):
     monkeypatch.setattr(ehl_console, "console_line", remember)
     monkeypatch.setattr(ehl_console, "console_point", remember)
     monkeypatch.setattr(ehl_console, "console_helical_line", remember)
+    monkeypatch.setattr(ehl_console, "console_helical_cycle", remember)
     return calls
 
 
@@ -118,6 +120,45 @@ def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
     assert "Hertz, mean load" in {row["source"] for row in summary}
 
 
+def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(tmp_path, monkeypatch):
+    march = ("helical", "--march", "300:305", "--nodes-across", 33, "--nodes-along", 33)
+    whole, stopped = tmp_path / "whole", tmp_path / "stopped"
+    assert run(*march, "--newtonian", "--out", whole).exit_code == 0
+    said = ehl_console.smallest_film_nm
+    steps = []
+
+    def stopping(solution):
+        steps.append(solution)
+        if len(steps) == 3:
+            raise KeyboardInterrupt
+        return said(solution)
+
+    monkeypatch.setattr(ehl_console, "RECORD_EVERY", 2)
+    monkeypatch.setattr(ehl_console, "smallest_film_nm", stopping)
+    assert run(*march, "--newtonian", "--out", stopped).exit_code == INTERRUPTED
+    assert not (stopped / "cycle.nc").exists()
+    assert run(*march, "--newtonian", "--out", stopped).exit_code == 0
+    # steps 301 to 303, the record of 302, then 303 to 305
+    assert len(steps) == 6
+    one, other = (xr.load_dataset(out / "cycle.nc", engine="scipy") for out in (whole, stopped))
+    np.testing.assert_array_equal(other["step"], np.arange(300.0, 306.0))
+    np.testing.assert_allclose(other["min_film"], one["min_film"], rtol=1e-6)
+    np.testing.assert_allclose(other["max_pressure"], one["max_pressure"], rtol=1e-6)
+    np.testing.assert_allclose(one["position"][0], -6.7e-3)
+    assert (whole / "figures" / "cycle.png").exists()
+
+
+def test_a_record_is_for_one_pair_operation_oil_and_first_step(asked):
+    options = ((), ("--torque", 1000), ("--newtonian",), ("--nodes-along", 129))
+    for extra in options:
+        assert run("helical", "--march", "all", *extra).exit_code == 0
+    films = [call["case"].film() for call in asked]
+    keys = {march_key(film, 0) for film in films} | {march_key(films[0], 1)}
+    assert len(keys) == len(options) + 1
+    assert march_key(asked[0]["case"].film(), 0) in keys
+    assert (asked[0]["first"], asked[0]["last"]) == (0, None)
+
+
 def test_the_dry_line_is_that_of_hertz():
     b, p, R = 2e-4, 1e9, 0.014
     x = np.linspace(-3.0 * b, 3.0 * b, 60001)
@@ -198,6 +239,10 @@ def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
         (("helical", "he_2007"), "oil"),
         (("helical", "--step", 10, "--position", 1.0), "not both"),
         (("helical", "--step", 1000), "575"),
+        (("helical", "--march", "10"), "FIRST:LAST"),
+        (("helical", "--march", "10:x"), "FIRST:LAST"),
+        (("helical", "--march", "20:10"), "last"),
+        (("helical", "--march", "all", "--step", 3), "--step"),
         (("helical", "--position", 50), "mm"),
         (("helical", "--nodes-along", 5), "along"),
         (("helical", "--torque", -5), "torque"),

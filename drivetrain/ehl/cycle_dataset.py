@@ -1,0 +1,70 @@
+"""The film of a helical pair's contact line through its meshing cycle as a labelled dataset."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Any
+
+import xarray as xr
+
+from drivetrain.ehl.helical_case import HelicalLineCase
+from drivetrain.ehl.variables import unit_note
+from gearlube_core.ehl.helical_cycle import HelicalCycle
+from gearlube_core.ehl.helical_film import HelicalFilm
+
+_NOTES = {
+    "load": ("N", "load that the pressure carries"),
+    "max_pressure": ("Pa", "largest pressure"),
+    "max_pressure_y": ("m", "its place along the line"),
+    "min_film": ("m", "smallest film"),
+    "min_film_x": ("m", "its place across the line"),
+    "min_film_y": ("m", "its place along the line"),
+    "loaded_length": ("m", "length of the line that carries"),
+    "load_error": ("1", "missing share of the load"),
+    "converged": ("1", "1 where the step converged"),
+    "newton_steps": ("1", "Newton steps"),
+    "krylov_steps": ("1", "iterations of the linear solutions"),
+    "seconds": ("s", "time that the step took"),
+}
+
+
+def cycle_dataset(case: HelicalLineCase, film: HelicalFilm, cycle: HelicalCycle) -> xr.Dataset:
+    """Return the curves over the steps of a meshing cycle, each with units.
+
+    Parameters
+    ----------
+    case
+        What was asked for.
+    film
+        The line through its cycle.
+    cycle
+        Its curves.
+    """
+    steps = cycle["step"]
+    variables: dict[str, Any] = {
+        name: ("step", cycle[name], unit_note(*note)) for name, note in _NOTES.items()
+    }
+    position = film.steps.position(steps)
+    variables["position"] = ("step", position, unit_note("m", "s_i, from the pitch line"))
+    return xr.Dataset(
+        variables,
+        coords={"step": ("step", steps, unit_note("1", "step of the meshing cycle"))},
+        attrs={
+            "contact": "helical_cycle",
+            "name": case.file.name,
+            "source": case.file.source,
+            "torque": film.torque,
+            "pinion_speed": film.pinion_speed,
+            "load_convention": film.convention,
+            "time_step": film.time_step,
+            "nodes_across": film.nodes[0],
+            "nodes_along": film.nodes[1],
+            "failures": cycle.failures,
+            "converged": int(cycle.failures == 0),
+        },
+    )
+
+
+def march_key(film: HelicalFilm, first: int) -> str:
+    """Return a short name that differs where pair, operation, oil, grid or first step do."""
+    return hashlib.sha256(repr((film, first)).encode()).hexdigest()[:12]
