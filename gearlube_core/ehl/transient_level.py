@@ -259,7 +259,7 @@ class MovingLevel(PointLevel):
             density=self.rate * state.density,
             density_slope=self.rate * state.density_slope,
         )
-        if carried.steepness is not None:
+        if carried.steepness is not None and carried.stiffness is not None:
             carried.cubic_x = state.cubic_x * carried.steepness
             carried.viscosity_slope = state.viscosity_slope * carried.stiffness
         linear = super().linearise(carried, squeeze)

@@ -62,8 +62,7 @@ class KeptCycle:
         self.patience = patience
         self.renewals = 0
         self._cycle: Inverse | None = None
-        self._free: np.ndarray[Any, np.dtype[np.bool_]] | None = None
-        self._new: np.ndarray[Any, np.dtype[np.bool_]] | None = None
+        self._free = self._new = np.zeros(0, dtype=np.bool_)
         self._linear: Linearisation | None = None
 
     def renew(self, linear: Linearisation) -> None:
