@@ -32,7 +32,7 @@ ehl = typer.Typer(
 
 _Entrainment = Annotated[
     float | None,
-    typer.Option(help="Mean surface speed along x [m/s].", metavar="SPEED"),
+    typer.Option(help="Mean surface speed along x [m/s].", metavar="M/S"),
 ]
 _SlideRoll = Annotated[
     float | None,
@@ -50,7 +50,7 @@ def line(
         str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
     ] = "jamali_2015",
     load: Annotated[
-        float | None, typer.Option(help="Load per length [N/mm].", metavar="LOAD")
+        float | None, typer.Option(help="Load per length [N/mm].", metavar="N/MM")
     ] = None,
     entrainment: _Entrainment = None,
     slide_roll: _SlideRoll = None,
@@ -97,7 +97,7 @@ def point(
     case: Annotated[
         str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
     ] = "mourier_2006",
-    load: Annotated[float | None, typer.Option(help="Load [N].", metavar="LOAD")] = None,
+    load: Annotated[float | None, typer.Option(help="Load [N].", metavar="NEWTON")] = None,
     entrainment: _Entrainment = None,
     slide_roll: _SlideRoll = None,
     nodes: Annotated[
@@ -164,7 +164,7 @@ def helical(
     ] = None,
     speed_rpm: Annotated[
         float | None,
-        typer.Option(help="Pinion speed [rpm]. Default: that of the gear file.", metavar="SPEED"),
+        typer.Option(help="Pinion speed [rpm]. Default: that of the gear file.", metavar="RPM"),
     ] = None,
     oil: Annotated[
         str | None,

@@ -39,13 +39,13 @@ def helical_dataset(
     xr.Dataset
         On `x`, across the line, and `y`, along it [m]. Films of formulas are those of a line
         with the middle's radius and the mean load of the loaded length. Attributes hold scalars
-        in SI and the outcome.
+        in SI and the outcome; the coefficient of friction counts shear of both signs alike.
     """
     x, y = solution.x, solution.y
     position, X = line_of_step(film.steps, step)
     speed_1, speed_2 = film.surface_speeds(y, X)
     stress = _mean_stress(film, solution, speed_2 - speed_1)
-    force = float(np.trapezoid(np.trapezoid(stress, y, axis=1), x))
+    across = np.trapezoid(stress, x, axis=0)  # N/m; changes sign at the pitch line
     load = film.load(X)
     middle = _middle_line(film, X, load, solution.loaded_length)
     top = np.unravel_index(int(solution.pressure.argmax()), solution.pressure.shape)
@@ -86,8 +86,9 @@ def helical_dataset(
             "minimum_film_x": float(x[thin[0]]),
             "minimum_film_y": float(y[thin[1]]),
             "loaded_length": solution.loaded_length,
-            "friction_coefficient": force / load,
-            "friction_force": force,
+            "friction_coefficient": float(np.trapezoid(np.abs(across), y)) / load,
+            "friction_force": float(np.trapezoid(across, y)),
+            "sliding_power": float(np.trapezoid(across * (speed_2 - speed_1), y)),
             "residual": float(solution.residual),
             "load_error": float(solution.load_error),
             "iterations": solution.newton_steps,

@@ -35,6 +35,7 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
     rows.append(_own("friction coefficient", abs(of["friction_coefficient"]), "1"))
     if of["contact"] == "helical":
         rows += [
+            _own("power lost to sliding", of["sliding_power"], "W"),
             _own("load of the line", of["load"], "N"),
             _own("loaded length", 1e3 * of["loaded_length"], "mm"),
             _own("largest pressure at y", 1e3 * of["pressure_max_y"], "mm"),

@@ -117,6 +117,13 @@ def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
     slide = (dataset["speed_2"] - dataset["speed_1"]).values
     assert (np.diff(slide) < 0.0).all()
     assert slide[0] > 0.0 > slide[-1]
+    # mid-film shear follows the sliding on both sides of the pitch point: all of it is lost
+    stress = dataset["mean_stress"].values
+    power = np.trapezoid(np.trapezoid(stress * slide, dataset["y"], axis=1), dataset["x"])
+    assert dataset.attrs["sliding_power"] == pytest.approx(power, rel=1e-9)
+    assert (stress * slide >= 0.0).all()
+    largest = np.abs(slide).max()
+    assert 0.0 < power < dataset.attrs["friction_coefficient"] * dataset.attrs["load"] * largest
     assert "Hertz, mean load" in {row["source"] for row in summary}
 
 
