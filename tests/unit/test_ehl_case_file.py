@@ -41,7 +41,7 @@ def test_the_line_of_the_thesis_is_its_table_7_1():
 
 
 def test_mouriers_contact_has_the_groups_of_its_source():
-    # Hansen's solver prints M 63.78, L 5.788 for it
+    # M 63.78, L 5.788 in the open solver ErikHansenGit/EHL
     problem = PointCase.named("mourier_2006").problem()
     E, R = 2.0 * problem.contact_modulus, problem.hertz.R_x
     U = 0.25 * problem.entrainment[0] / (E * R)
