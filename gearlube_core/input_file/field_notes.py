@@ -56,7 +56,7 @@ def sentence(error: Any, notes: dict[str, FieldNote]) -> str:
         return f"{field} is missing{f': {note.meaning}' if note else ''}."
     if kind == "extra_forbidden":
         near = get_close_matches(field, notes, n=1)
-        return f"{field} is not a field of a gear file" + (f"; is it {near[0]}?" if near else ".")
+        return f"{field} is not a field of this file" + (f"; is it {near[0]}?" if near else ".")
     if note is None:
         return f"{field or 'The file'}: {error['msg'].lower()}, got {error['input']!r}."
     limits = f", {note.limits}" if note.limits else ""
