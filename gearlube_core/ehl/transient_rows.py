@@ -56,6 +56,7 @@ def fill_row_matrices(
     free: np.ndarray,
     local: np.ndarray,
     across: np.ndarray,
+    first: int,
     matrices: np.ndarray,
 ) -> None:
     """Fill the matrices of all rows of nodes, uncoupled from each other.
@@ -70,28 +71,31 @@ def fill_row_matrices(
         Deflection at a distance along the row per unit pressure.
     across : ndarray, shape (5,)
         Share of it that neighbours 0 to 4 rows away see.
-    matrices : ndarray, shape (ny, nx, nx)
-        Result; zero on entry.
+    first : int
+        Index of the first node of every row that the matrices hold.
+    matrices : ndarray, shape (ny, n, n)
+        Result, of n nodes from `first` on; zero on entry.
     """
     ny, nx = free.shape
+    n = matrices.shape[1]
     for j in range(ny):
-        for i in range(nx):
+        for i in range(first, first + n):
             row = j * nx + i
             if not free[j, i]:
-                matrices[j, i, i] = 1.0
+                matrices[j, i - first, i - first] = 1.0
                 continue
             for k in range(start[row], start[row + 1]):
                 jj = column[k] // nx
                 ii = column[k] - jj * nx
                 if jj == j and free[jj, ii]:
-                    matrices[j, i, ii] += entry[k].real
+                    matrices[j, i - first, ii - first] += entry[k].real
                 slope = entry[k].imag * across[min(abs(jj - j), 4)]
                 if slope != 0.0:
-                    for m in range(nx):
-                        matrices[j, i, m] += slope * local[abs(m - ii)]
-            for m in range(nx):
-                if not free[j, m]:
-                    matrices[j, i, m] = 0.0
+                    for m in range(n):
+                        matrices[j, i - first, m] += slope * local[abs(first + m - ii)]
+            for m in range(n):
+                if not free[j, first + m]:
+                    matrices[j, i - first, m] = 0.0
 
 
 @kernel
@@ -117,8 +121,12 @@ class RowInverses:
     """Inverse of every row of one linearisation; float32 is enough for a preconditioner."""
 
     def __init__(self, level: PointLevel, operator: SparseOperator) -> None:
-        ny, nx = level.shape
-        matrices = np.zeros((ny, nx, nx), dtype=np.float32)
+        ny = level.shape[0]
+        # columns without any free node drop out: much of the inlet and of the outlet
+        columns = np.flatnonzero(operator.free.any(axis=0))
+        first, count = (int(columns[0]), int(np.ptp(columns)) + 1) if columns.size else (0, 1)
+        self._held = slice(first, first + count)
+        matrices = np.zeros((ny, count, count), dtype=np.float32)
         fill_row_matrices(
             operator.matrix.indptr,
             operator.matrix.indices,
@@ -126,18 +134,21 @@ class RowInverses:
             operator.free,
             wave_deflection(level).astype(np.float32),
             np.cos(_WAVE * np.arange(5.0)).astype(np.float32),
+            first,
             matrices,
         )
         inverses = np.linalg.inv(matrices)
         self._transposed = np.ascontiguousarray(inverses.transpose(0, 2, 1))
         self._free = operator.free
-        self._products = np.empty((ny, nx))
+        self._products = np.empty((ny, count))
 
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
-        right = np.where(self._free, residual, 0.0)
+        right = np.where(self._free, residual, 0.0)[:, self._held]
         multiply_matrices(self._transposed, right, _DAMPING, self._products)
-        return self._products.copy()
+        pressure = np.zeros(residual.shape)
+        pressure[:, self._held] = self._products
+        return pressure
 
 
 class RowCycle:
