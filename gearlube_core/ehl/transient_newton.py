@@ -159,7 +159,9 @@ def step_newton(
                 state.approach + length * approach,
             )
             trial_size = flow_residual(level, trial)
-            if float(trial.film.min()) > thinnest and trial_size < _GROWTH * size:
+            # a change of load unbalances flow before it balances it
+            allowed = _GROWTH * (size + abs(state.load_error))
+            if float(trial.film.min()) > thinnest and trial_size < allowed:
                 accepted = True
                 break
             length *= 0.4

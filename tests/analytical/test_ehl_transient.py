@@ -183,19 +183,18 @@ def test_film_left_by_a_ridge_travels_at_the_mean_speed():
     smooth = solve_steady_film(moving(nodes=nodes), 0.0)
     march = FilmMarch(moving(gap=ridge, speeds=lambda t: (u1, u2), nodes=nodes), dt)
     middle = nodes[1] // 2
-    inside = np.abs(smooth.x) < 0.7 * A
+    inside = np.abs(smooth.x) < 0.8 * A
     times, places = [], []
-    for _ in range(60):
+    for _ in range(80):
         step = march.step()
-        ridge_at = -2.0 * A + u1 * step.time
-        change = np.abs(step.film[:, middle] - smooth.film[:, middle])
-        # away from the ridge itself and inside the flat of the contact
-        away = inside & (step.x > ridge_at + 0.5 * A)
-        if away.any() and ridge_at > -1.2 * A:
-            peak = int(np.argmax(np.where(away, change, 0.0)))
-            if -0.6 * A < step.x[peak] < 0.6 * A:
-                times.append(step.time)
-                places.append(float(step.x[peak]))
-    assert len(times) > 8
+        change = (step.film - smooth.film)[:, middle][inside]
+        k = int(np.argmin(change))
+        place = float(step.x[inside][k])
+        # the ridge itself is pressed flat; the thin film that it let in is tens of nm deep
+        if change[k] < -1e-8 and abs(place) < 0.6 * A:
+            times.append(step.time)
+            places.append(place)
+    assert len(times) > 15
     slope = np.polyfit(times, places, 1)[0]
-    assert slope == pytest.approx(SPEED, rel=0.15)  # a node in eight steps; u1 is half of it
+    # within 15 %: the trough widens as it goes; the ridge moves at half the mean speed
+    assert slope == pytest.approx(SPEED, rel=0.15)
