@@ -52,7 +52,8 @@ class FilmMarch:
     scheme : {"bdf2", "crank_nicolson"}
         Of the storage term; the first step of "bdf2" is a backward Euler step.
     settings
-        Stencil and tolerances; a looser residual, 1e-5, by default.
+        Stencil and tolerances; by default "quick", which keeps thin films that a gap has left on
+        half the nodes of "upwind-2", and a residual of 1e-5.
     record
         Goes on from there instead of from a steady state.
     throw
@@ -86,7 +87,8 @@ class FilmMarch:
         check_option("scheme", scheme, SCHEMES)
         check_positive("time_step", time_step, "s")
         check_within("start_time", start_time, -1e9, 1e9, "s")
-        settings = PointSolverSettings(tolerance=1e-5) if settings is None else settings
+        if settings is None:
+            settings = PointSolverSettings(wedge="quick", tolerance=1e-5)
         self.film, self.time_step, self.start_time = film, time_step, start_time
         self.scheme, self.settings, self.steps = scheme, settings, 0
         (nx, ny), (x0, x1), (y0, y1) = film.nodes, film.x_limits, film.y_limits

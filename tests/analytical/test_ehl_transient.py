@@ -69,7 +69,7 @@ def test_film_after_a_change_of_load_goes_to_the_steady_one():
     march = FilmMarch(film, STEP)
     for _ in range(80):  # the film is renewed in 2a/u, 20 steps
         later = march.step()
-    steady = solve_steady_film(film, later.time)
+    steady = solve_steady_film(film, later.time, march.settings)
     assert later.minimum_film == pytest.approx(steady.minimum_film, rel=1e-3)
     assert later.maximum_pressure == pytest.approx(steady.maximum_pressure, rel=1e-3)
 
