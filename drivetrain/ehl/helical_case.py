@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.helical_film import HelicalFilm
-from gearlube_core.ehl.lubricant import EhlLubricant, ehl_lubricant, lubricant_from_library
+from gearlube_core.ehl.lubricant import EhlLubricant, ehl_lubricant
+from gearlube_core.ehl.named_lubricants import lubricant_from_library
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.meshing_steps import (

@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from gearlube_core.ehl.lubricant import EhlLubricant, ehl_lubricant, lubricant_from_library
+from gearlube_core.ehl.lubricant import EhlLubricant, ehl_lubricant
+from gearlube_core.ehl.named_lubricants import lubricant_from_library
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.materials.lubricant import Lubricant
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid

@@ -9,7 +9,8 @@ import numpy as np
 
 from gearlube_core.checks import check_option, check_positive
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.ehl.lubricant import EhlLubricant, jamali_2015_oil
+from gearlube_core.ehl.lubricant import EhlLubricant
+from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 from gearlube_core.ehl.problem import EllipticParaboloid
 from gearlube_core.ehl.transient_film import MovingFilm
 from gearlube_core.ehl.transient_level import FilmConditions

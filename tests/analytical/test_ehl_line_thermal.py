@@ -20,7 +20,8 @@ from gearlube_core.ehl.line_energy import (
 from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_thermal import ThermalSettings, solve_thermal_line
-from gearlube_core.ehl.lubricant import ehl_lubricant, jamali_2015_oil, thermal_viscosity
+from gearlube_core.ehl.lubricant import ehl_lubricant, thermal_viscosity
+from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 

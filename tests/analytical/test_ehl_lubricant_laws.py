@@ -15,14 +15,13 @@ from gearlube_core.ehl.lubricant import (
     density_slope,
     ehl_lubricant,
     fill_properties,
-    jamali_2015_oil,
     limiting_stress,
-    lubricant_from_library,
     pressure_viscosity,
     thermal_viscosity,
     viscosity,
     viscosity_slope,
 )
+from gearlube_core.ehl.named_lubricants import jamali_2015_oil, lubricant_from_library
 from gearlube_core.errors import ParameterError
 from gearlube_core.materials.lubricant import Lubricant
 

@@ -9,7 +9,8 @@ import pytest
 
 from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_solver import solve_line
-from gearlube_core.ehl.lubricant import ehl_lubricant, jamali_2015_oil
+from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 
 THESIS = LineProblem(
     lubricant=jamali_2015_oil(newtonian=True),

@@ -12,7 +12,8 @@ from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_rows import fill_jacobian
 from gearlube_core.ehl.line_solver import hertz_start, solve_line
 from gearlube_core.ehl.line_system import LineState, LineSystem
-from gearlube_core.ehl.lubricant import ehl_lubricant, jamali_2015_oil
+from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 
 THESIS = LineProblem(
     lubricant=jamali_2015_oil(),

@@ -10,7 +10,7 @@ from gearlube_core.ehl.line_rows import fill_rows, local_rows
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_system import LineState, LineSystem
 from gearlube_core.ehl.line_transient import LineHistory, LineMarch
-from gearlube_core.ehl.lubricant import jamali_2015_oil
+from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 
 LENGTH = 2e-3  # of the profiles, which repeat [m]
 
