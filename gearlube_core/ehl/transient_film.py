@@ -30,7 +30,8 @@ _CURE = "Take smaller time steps, or more nodes where the film is thin."
 class MovingFilm:
     """A film over a rectangle whose gap, load and speeds follow from time.
 
-    d/dx(F_x dp/dx) + d/dy(F_y dp/dy) = d(u(y,t) rho h)/dx + d(rho h)/dt,  p = 0 on the border,
+    d/dx(F_x dp/dx) + d/dy(F_y dp/dy) = d(u rho h)/dx + d(v rho h)/dy + d(rho h)/dt,
+    u = u(y, t),  v = s(t) u,  p = 0 on the border,
     h = h_0(t) + h_u(x, y, t) + 1/(pi E*) int p/r,  int p = W(t),  p >= 0
 
     F is rho h^3/(12 eta), times the flow factors of an Eyring oil.

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.checks import check_positive
+from gearlube_core.checks import check_positive, check_within
 from gearlube_core.ehl.eyring_flow import eyring_flow_factor
 from gearlube_core.ehl.flow_factors import eyring_flow
 from gearlube_core.ehl.lubricant import fill_properties
@@ -25,6 +25,7 @@ Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 # below, an Eyring film flows as a Newtonian one to 1e-4: S = 1 + (Sigma^2 + 5 a^2)/10
 _NEWTONIAN = 1.0e-2
+_STEEPEST = 20.0  # of entrainment against x
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +41,15 @@ class FilmConditions:
     speed_1, speed_2 : ndarray, shape (ny,)
         Surface speeds along x [m/s]; their mean is above zero. They may vary across the motion,
         not along it.
+    slope : float
+        Entrainment along y over that along x [1], not below zero; sliding along y is left out.
     """
 
     gap: Array
     load: float
     speed_1: Array
     speed_2: Array
+    slope: float = 0.0
 
 
 # (x, y, time) to what acts then: nodes [m], shapes (nx,) and (ny,); time [s]
@@ -124,7 +128,7 @@ class MovingLevel(PointLevel):
     """Grid with surface speeds that vary across the motion, storage of oil and an Eyring film.
 
     The equation of a row is divided by nothing: its wedge is its own share of the speed of the
-    scales. Entrainment is along x towards larger x.
+    scales. Entrainment points to larger x and not to smaller y.
     """
 
     def __init__(
@@ -162,9 +166,13 @@ class MovingLevel(PointLevel):
                 "the mean of both surface speeds must be above 0 m/s on every row, got "
                 f"{mean.min():.4g} m/s. Turn the x axis."
             )
+        check_within("slope", conditions.slope, 0.0, _STEEPEST, "", "Turn the y axis or the axes.")
         scales = self.scales
         unit = scales.pressure * scales.length**2
         self.scales = replace(scales, load=conditions.load / unit)
+        # of a row's own speed along x
+        self.stencil = self.stencil._replace(wedge_y=conditions.slope / self.dy)
+        self.flow_rate = self.stencil.wedge_x + self.stencil.wedge_y
         self.gap = np.ascontiguousarray(conditions.gap.T / scales.film)
         self.rate = (mean / scales.speed)[:, None]
         sliding = (conditions.speed_2 - conditions.speed_1) / scales.speed
