@@ -36,6 +36,7 @@ _SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm")}
 
 def console_line(console: Console, *, case: LineCase, out: Path) -> str:
     """Solve a line contact, write to `out`; return why it failed, or an empty text."""
+    _warn_of_heights(case)
 
     def solve() -> xr.Dataset:
         began = time.monotonic()
@@ -58,6 +59,7 @@ def console_point(console: Console, *, case: PointCase, out: Path) -> str:
             "The film of a point contact flows as a Newtonian one; the Eyring stress acts on its "
             "friction alone."
         )
+    _warn_of_heights(case)
 
     def solve() -> xr.Dataset:
         return point_dataset(
@@ -122,6 +124,14 @@ def console_helical_cycle(
             f"{failed[0]:.0f}. Take more nodes."
         )
     return ""
+
+
+def _warn_of_heights(case: LineCase | PointCase) -> None:
+    if case.heights_travel:
+        logger.warning(
+            "The heights are held at rest while both surfaces move. Those that do not lie along "
+            "the motion would travel through the contact and squeeze its film."
+        )
 
 
 def smallest_film_nm(solution: FilmSolution) -> str:

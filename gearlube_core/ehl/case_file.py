@@ -3,17 +3,30 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 from importlib.resources import files
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from gearlube_core.ehl.case_grids import LineDomain, LineSolver, PointDomain, PointSolver
 from gearlube_core.ehl.case_sections import Body, Modulus, Oil
+from gearlube_core.ehl.case_surfaces import (
+    DentShape,
+    MapFile,
+    ProfileFile,
+    RidgeShape,
+    WavinessShape,
+    with_places,
+)
 from gearlube_core.ehl.line_problem import LineProblem, LineSettings
+from gearlube_core.ehl.micro_geometry import RoughGap
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.input_file.input_file import InputFile, read_toml
 from gearlube_core.materials.solid import Solid, reduced_modulus
 from gearlube_core.units import MILLIMETRE
 
@@ -24,13 +37,7 @@ Radius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Speed = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
 LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
-Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
-Reach = Annotated[float, Field(ge=1.05, le=1000.0, allow_inf_nan=False)]
 Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
-Tolerance = Annotated[float, Field(gt=0.0, le=1e-2, allow_inf_nan=False)]
-LineNodes = Annotated[int, Field(ge=17, le=20001)]
-PointNodes = Annotated[int, Field(ge=17, le=2049)]
-Steps = Annotated[int, Field(ge=1, le=1000)]
 
 
 class EhlCase(InputFile):
@@ -41,15 +48,20 @@ class EhlCase(InputFile):
 
     name: Text = Field(description="What reports and plots call the case")
     source: Text = Field(description="Where the numbers are from")
-    speed_1_m_s: Speed = Field(description="Surface speed of body 1, below, along x [m/s]")
-    speed_2_m_s: Speed = Field(description="Surface speed of body 2, above, along x [m/s]")
+    speed_1_m_s: Speed = Field(description="Surface speed of body 1, below, along x")
+    speed_2_m_s: Speed = Field(description="Surface speed of body 2, above, along x")
     reduced_modulus_gpa: Modulus | None = Field(
         default=None,
-        description="E' = 2 E* [GPa]; left out, that of body_1 and body_2",
+        description="E' = 2 E*; left out, that of body_1 and body_2",
     )
     oil: Oil
     body_1: Body = Body()
     body_2: Body = Body()
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a file, what it names counted from its own folder; see `InputFile`."""
+        return cls.from_data(with_places(read_toml(path), Path(path).parent), str(path))
 
     @classmethod
     def shipped(cls) -> tuple[str, ...]:
@@ -87,6 +99,10 @@ class EhlCase(InputFile):
         """Body 1 and body 2, in SI units."""
         return self.body_1.solid(), self.body_2.solid()
 
+    @property
+    def _both_move(self) -> bool:
+        return self.speed_1_m_s != 0.0 and self.speed_2_m_s != 0.0
+
     def moved(self, entrainment: float | None, slide_roll: float | None) -> Self:
         """Return the case with another mean speed along x or slide-roll ratio.
 
@@ -116,34 +132,13 @@ class EhlCase(InputFile):
         return self.varied(speeds)
 
 
-class LineDomain(Section):
-    """Where the film is computed."""
-
-    first_mm: Place = Field(description="First x [mm]")
-    last_mm: Place = Field(description="Last x [mm]")
-
-
-class LineSolver(Section):
-    """How a line contact is solved."""
-
-    nodes: LineNodes = Field(default=1001, description="Of the finest grid")
-    stencil: Literal["upwind_2", "central", "upwind_1", "galerkin"] = Field(
-        default="upwind_2", description="Of the wedge, or the finite elements of Jamali 2015"
-    )
-    cavitation: Literal["reynolds", "mass_conserving"] = Field(
-        default="reynolds", description="Where the film breaks"
-    )
-    tolerance: Tolerance = Field(default=1e-8, description="Unbalanced flow and load [1]")
-    max_iterations: Steps = Field(default=40, description="Newton steps on each grid")
-
-
 class LineCase(EhlCase):
     """A lubricated line contact."""
 
     kind: ClassVar[str] = "line"
 
-    radius_mm: Radius = Field(description="Relative radius of curvature along x [mm]")
-    load_n_per_mm: LineLoad = Field(description="Load per length of the line [N/mm]")
+    radius_mm: Radius = Field(description="Relative radius of curvature along x")
+    load_n_per_mm: LineLoad = Field(description="Load per length of the line")
     inlet_fill: Fill = Field(
         default=1.0, description="Share of the inlet gap that holds oil; 1: flooded"
     )
@@ -151,15 +146,27 @@ class LineCase(EhlCase):
         default="isothermal", description="thermal: with the energy balance of oil and bodies"
     )
     domain: LineDomain | None = None
+    profile: ProfileFile | None = None
     solver: LineSolver = LineSolver()
 
     @model_validator(mode="after")
     def _hangs_together(self) -> LineCase:
-        _in_si(self.problem, self.settings)
+        _in_si(self._smooth, self.settings)
+        _refused(self.problem)
         return self
 
     def problem(self) -> LineProblem:
         """Return the contact, in SI units."""
+        smooth, given = self._smooth(), self.profile
+        if given is None:
+            return smooth
+        profile = given.surface()
+        profile.check_serves(np.linspace(*smooth.extent(), self.solver.nodes))
+        if given.holds == "gap":
+            return replace(smooth, gap=profile)
+        return replace(smooth, gap=lambda x: smooth.undeformed_gap(x) - profile(x))
+
+    def _smooth(self) -> LineProblem:
         d = self.domain
         return LineProblem(
             lubricant=self.oil.ehl_lubricant(),
@@ -172,48 +179,37 @@ class LineCase(EhlCase):
             inlet_fill=self.inlet_fill,
         )
 
+    @property
+    def heights_travel(self) -> bool:
+        """Tell whether heights would move with a surface, which a steady solution leaves out."""
+        return self.profile is not None and self.profile.holds == "heights" and self._both_move
+
     def settings(self) -> LineSettings:
         """Return how it is solved."""
         return LineSettings(**self.solver.model_dump())
 
 
-class PointDomain(Section):
-    """How far the film is computed, in semi-axes of the dry contact along the same axis."""
-
-    inlet: Reach | None = Field(default=None, description="Upstream [semi-axes]")
-    outlet: Reach | None = Field(default=None, description="Downstream [semi-axes]")
-    side: Reach | None = Field(default=None, description="To the sides [semi-axes]")
-
-
-class PointSolver(Section):
-    """How a point contact is solved."""
-
-    nodes_x: PointNodes = Field(default=129, description="Along x, border included")
-    nodes_y: PointNodes = Field(default=129, description="Along y, border included")
-    wedge: Literal["upwind-1", "upwind-2", "central", "quick"] = Field(
-        default="upwind-2", description="Stencil of the wedge"
-    )
-    tolerance: Tolerance = Field(default=1e-6, description="Unbalanced flow [1]")
-    load_tolerance: Tolerance = Field(default=1e-6, description="Error of the load [1]")
-    newton_steps: Steps = Field(default=60, description="Most Newton steps on each grid")
-
-
 class PointCase(EhlCase):
-    """A lubricated point contact with smooth solids."""
+    """A lubricated point contact."""
 
     kind: ClassVar[str] = "point"
 
-    radius_x_mm: Radius = Field(description="Relative radius of curvature along x [mm]")
-    radius_y_mm: Radius = Field(description="Relative radius of curvature along y [mm]")
-    load_n: Load = Field(description="Load [N]")
-    side_speed_1_m_s: Speed = Field(default=0.0, description="Of body 1 along y [m/s]")
-    side_speed_2_m_s: Speed = Field(default=0.0, description="Of body 2 along y [m/s]")
+    radius_x_mm: Radius = Field(description="Relative radius of curvature along x")
+    radius_y_mm: Radius = Field(description="Relative radius of curvature along y")
+    load_n: Load = Field(description="Load")
+    side_speed_1_m_s: Speed = Field(default=0.0, description="Of body 1 along y")
+    side_speed_2_m_s: Speed = Field(default=0.0, description="Of body 2 along y")
     domain: PointDomain = PointDomain()
+    height_map: MapFile | None = None
+    ridge: RidgeShape | None = None
+    dent: DentShape | None = None
+    waviness: WavinessShape | None = None
     solver: PointSolver = PointSolver()
 
     @model_validator(mode="after")
     def _hangs_together(self) -> PointCase:
-        _in_si(self.problem, self.settings)
+        _in_si(self._smooth, self.settings)
+        _refused(self.problem)
         return self
 
     @property
@@ -234,6 +230,19 @@ class PointCase(EhlCase):
 
     def problem(self) -> PointContactProblem:
         """Return the contact, in SI units."""
+        smooth = self._smooth()
+        given = (self.ridge, self.dent, self.waviness, self.height_map)
+        shapes = [one.surface() for one in given if one is not None]
+        if not shapes:
+            return smooth
+        for one in shapes:
+            one.check_serves(smooth.x, smooth.y)
+        if self.height_map is not None and self.height_map.holds == "gap":
+            *heights, whole = shapes
+            return replace(smooth, gap=RoughGap(whole, tuple(heights)))
+        return replace(smooth, gap=RoughGap(smooth.gap, tuple(shapes)))
+
+    def _smooth(self) -> PointContactProblem:
         return elliptical_contact(
             R_x=self.radius_x_mm * MILLIMETRE,
             R_y=self.radius_y_mm * MILLIMETRE,
@@ -247,15 +256,27 @@ class PointCase(EhlCase):
             side=self.domain.side,
         )
 
+    @property
+    def heights_travel(self) -> bool:
+        """Tell whether heights would move with a surface, which a steady solution leaves out."""
+        heights = [self.dent, self.waviness, self.ridge, self.height_map]
+        whole = self.height_map is not None and self.height_map.holds == "gap"
+        return any(one is not None for one in heights[: -1 if whole else None]) and self._both_move
+
     def settings(self) -> PointSolverSettings:
         """Return how it is solved."""
         return PointSolverSettings(**self.solver.model_dump(exclude={"nodes_x", "nodes_y"}))
 
 
 def _in_si(*builders: Any) -> None:
-    """Refuse what no field can see alone, as pydantic wants it refused."""
+    """Refuse what no field can see alone, where messages are in SI units."""
+    _refused(*builders, head="In SI units: ")
+
+
+def _refused(*builders: Any, head: str = "") -> None:
+    """Refuse as pydantic wants it refused."""
     try:
         for build in builders:
             build()
     except ParameterError as reason:
-        raise ValueError(f"In SI units: {str(reason).removesuffix('.')}") from None
+        raise ValueError(f"{head}{str(reason).removesuffix('.')}") from None

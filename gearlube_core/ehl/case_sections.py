@@ -51,10 +51,10 @@ class Oil(Section):
         description="Of an oil of the library: Eyring, Newtonian, or Eyring up to a limit",
     )
     viscosity_pa_s: Viscosity | None = Field(
-        default=None, description="At ambient pressure and the inlet's temperature [Pa.s]"
+        default=None, description="At ambient pressure and the inlet's temperature"
     )
     pressure_viscosity_per_gpa: PressureViscosity | None = Field(
-        default=None, description="alpha, slope of ln(viscosity) at ambient pressure [1/GPa]"
+        default=None, description="alpha, slope of ln(viscosity) at ambient pressure"
     )
     law: Literal["barus", "roelands", "houpert"] = Field(
         default="roelands", description="Viscosity against pressure; houpert also temperature"
@@ -62,28 +62,26 @@ class Oil(Section):
     density_law: Literal["dowson_higginson", "incompressible"] = Field(
         default="dowson_higginson", description="Density against pressure"
     )
-    eyring_stress_mpa: Stress | None = Field(
-        default=None, description="Eyring stress [MPa]; left out: Newtonian"
-    )
+    eyring_stress_mpa: Stress | None = Field(default=None, description="Left out: Newtonian")
     limiting_stress_mpa: Stress | None = Field(
-        default=None, description="Limiting shear stress at ambient pressure [MPa]"
+        default=None, description="Limiting shear stress at ambient pressure"
     )
     limiting_stress_slope: Slope = Field(
-        default=0.0, description="Slope of the limiting shear stress with pressure [1]"
+        default=0.0, description="Slope of the limiting shear stress with pressure"
     )
-    density_kg_m3: OilDensity = Field(default=870.0, description="At ambient pressure [kg/m3]")
-    temperature_degc: Temperature = Field(default=40.0, description="At the inlet [degC]")
+    density_kg_m3: OilDensity = Field(default=870.0, description="At ambient pressure")
+    temperature_degc: Temperature = Field(default=40.0, description="At the inlet")
     temperature_exponent: TemperatureExponent = Field(
-        default=0.0, description="S0 of Houpert's law, for thermal solutions [1]"
+        default=0.0, description="S0 of Houpert's law, for thermal solutions"
     )
     expansion_per_k: Expansion = Field(
-        default=0.0, description="Thermal expansion of volume, for thermal solutions [1/K]"
+        default=0.0, description="Thermal expansion of volume, for thermal solutions"
     )
     conductivity_w_m_k: Conductivity = Field(
-        default=0.14, description="Heat conduction, for thermal solutions [W/(m K)]"
+        default=0.14, description="Heat conduction, for thermal solutions"
     )
     heat_capacity_j_kg_k: HeatCapacity = Field(
-        default=2000.0, description="Heat capacity, for thermal solutions [J/(kg K)]"
+        default=2000.0, description="Heat capacity, for thermal solutions"
     )
 
     @model_validator(mode="after")
@@ -135,19 +133,15 @@ class Body(Section):
     """One of the two solids; steel where nothing is said."""
 
     youngs_modulus_gpa: Modulus = Field(
-        default=_STEEL.youngs_modulus / _GIGA, description="Young's modulus [GPa]"
+        default=_STEEL.youngs_modulus / _GIGA, description="Young's modulus"
     )
-    poisson_ratio: PoissonRatio = Field(
-        default=_STEEL.poisson_ratio, description="Poisson's ratio [1]"
-    )
-    density_kg_m3: Density = Field(
-        default=_STEEL.density, description="For thermal solutions [kg/m3]"
-    )
+    poisson_ratio: PoissonRatio = Field(default=_STEEL.poisson_ratio, description="Poisson's ratio")
+    density_kg_m3: Density = Field(default=_STEEL.density, description="For thermal solutions")
     conductivity_w_m_k: Conductivity = Field(
-        default=_STEEL.conductivity, description="For thermal solutions [W/(m K)]"
+        default=_STEEL.conductivity, description="For thermal solutions"
     )
     heat_capacity_j_kg_k: HeatCapacity = Field(
-        default=_STEEL.heat_capacity, description="For thermal solutions [J/(kg K)]"
+        default=_STEEL.heat_capacity, description="For thermal solutions"
     )
 
     def solid(self) -> Solid:

@@ -8,20 +8,38 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
-_UNITS = {  # of names; where two endings fit, the first counts
+_UNITS = {  # of names' endings; the longest that fits counts
     "_rpm": "rpm",
-    "_n_per_um": "N/um",
-    "_kn_per_rad": "kN/rad",
-    "_knm_per_rad": "kN.m/rad",
+    "_m_s": "m/s",
     "_mm": "mm",
     "_um": "um",
     "_deg": "deg",
+    "_degc": "degC",
     "_kg": "kg",
+    "_kg_m3": "kg/m3",
     "_kg_mm2": "kg.mm2",
+    "_n": "N",
+    "_kn": "kN",
     "_n_m": "N.m",
-    "_pa_s": "Pa.s",
-    "_per_gpa": "1/GPa",
+    "_n_per_mm": "N/mm",
+    "_n_per_um": "N/um",
+    "_kn_per_rad": "kN/rad",
+    "_knm_per_rad": "kN.m/rad",
     "_mpa": "MPa",
+    "_gpa": "GPa",
+    "_per_gpa": "1/GPa",
+    "_pa_s": "Pa.s",
+    "_per_k": "1/K",
+    "_w_m_k": "W/(m.K)",
+    "_j_kg_k": "J/(kg.K)",
+}
+_KINDS = {
+    "number": "number",
+    "integer": "whole number",
+    "boolean": "true or false",
+    "string": "text",
+    "array": "list",
+    "object": "table",
 }
 
 
@@ -61,7 +79,8 @@ def sentence(error: Any, notes: dict[str, FieldNote]) -> str:
         return f"{field or 'The file'}: {error['msg'].lower()}, got {error['input']!r}."
     limits = f", {note.limits}" if note.limits else ""
     unit = f" {note.unit}" if note.unit else ""
-    return f"{field} must be a {note.kind}{limits}{unit}, got {error['input']!r}. {note.meaning}."
+    what = note.kind if note.kind == _KINDS["boolean"] else f"a {note.kind}"
+    return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}."
 
 
 def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]]:
@@ -77,7 +96,7 @@ def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]
         note = FieldNote(
             name=name,
             kind=_kind(value),
-            unit=next((unit for suffix, unit in _UNITS.items() if key.endswith(suffix)), ""),
+            unit=_unit(key),
             limits=_limits(value),
             default=_default(entry),
             meaning=entry.get("description", ""),
@@ -86,20 +105,22 @@ def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]
     return notes
 
 
+def _unit(key: str) -> str:
+    endings = [ending for ending in _UNITS if key.endswith(ending)]
+    return _UNITS[max(endings, key=len)] if endings else ""
+
+
 def _kind(value: Any) -> str:
-    names = {
-        "number": "number",
-        "integer": "whole number",
-        "string": "text",
-        "array": "list of texts",
-        "object": "table of texts",
-    }
-    return names[value["type"]]
+    kind = _KINDS[value["type"]]
+    entries = value.get("items", value.get("additionalProperties"))
+    return f"{kind} of {_KINDS[entries['type']]}s" if isinstance(entries, dict) else kind
 
 
 def _limits(value: Any) -> str:
     if "enum" in value:
         return " or ".join(value["enum"])
+    if "const" in value:
+        return str(value["const"])
     low, above, high = (value.get(k) for k in ("minimum", "exclusiveMinimum", "maximum"))
     if high is None:
         return ""
@@ -112,4 +133,6 @@ def _default(entry: Any) -> str:
     value = entry["default"]
     if value is None or value in ([], {}):
         return "none"
+    if isinstance(value, bool):
+        return str(value).lower()
     return f"{value:g}" if isinstance(value, float) else str(value)

@@ -27,11 +27,7 @@ class InputFile(Section):
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
         """Read a file; raise ParameterError that names every field that is wrong."""
-        try:
-            data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
-            raise ParameterError(f"{path} is not a readable TOML file: {reason}.") from None
-        return cls.from_data(data, str(path))
+        return cls.from_data(read_toml(path), str(path))
 
     @classmethod
     def shipped(cls) -> tuple[str, ...]:
@@ -73,3 +69,11 @@ class InputFile(Section):
             if value is None:
                 del section[key]
         return self.from_data(data, f"{data.get('name', 'The file')} varied")
+
+
+def read_toml(path: str | Path) -> dict[str, Any]:
+    """Return the data of a TOML file; raise ParameterError where it cannot be read."""
+    try:
+        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
+        raise ParameterError(f"{path} is not a readable TOML file: {reason}.") from None

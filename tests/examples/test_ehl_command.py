@@ -274,6 +274,23 @@ def test_a_film_that_does_not_converge_is_written_and_fails(tmp_path, caplog):
     assert not dataset.attrs["converged"]
 
 
+def test_heights_at_rest_between_moving_surfaces_are_warned_of(tmp_path, caplog):
+    x = np.linspace(-2.0, 1.0, 601)
+    table = np.stack([x, 0.02 * np.cos(8.0 * x)], 1)
+    np.savetxt(tmp_path / "own.csv", table, "%.9g", ",", header="x_mm,height_um", comments="")
+    text = LineCase.shipped_text("jamali_2015").replace("nodes = 1001", "nodes = 201")
+    text += '[domain]\nfirst_mm = -1.5\nlast_mm = 0.5\n[profile]\nfile = "own.csv"\n'
+    standing = text.replace("speed_2_m_s = 5.5022", "speed_2_m_s = 0.0")
+    for case, warned in ((text, True), (standing, False)):
+        caplog.clear()
+        (tmp_path / "own.toml").write_text(case)
+        result = run("line", tmp_path / "own.toml", "--out", tmp_path / "out")
+        assert result.exit_code == 0, result.output
+        assert ("heights are held at rest" in caplog.text) == warned
+    dataset, _ = written(tmp_path / "out", "line")
+    assert np.trapezoid(dataset["pressure"], dataset["x"]) == pytest.approx(3.6e5, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("reason", "code"),
     [(ConvergenceError("no film"), FAILED), (OSError("disk full"), FAILED),

@@ -1,17 +1,22 @@
-"""The reference pages of the gear files say what the data models say."""
+"""The reference pages of the input files say what the data models say."""
 
 import re
 from pathlib import Path
 
 import pytest
 
-from docs import gear_file, helical_gear_file
+from docs import ehl_case_file, gear_file, helical_gear_file
+from gearlube_core.ehl.case_file import LineCase, PointCase
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.input_file.field_notes import field_notes
 
 FOLDER = Path(__file__).parents[2] / "docs"
-PAGES = {gear_file: HypoidGearFile, helical_gear_file: HelicalGearFile}
+PAGES = {
+    gear_file: (HypoidGearFile,),
+    helical_gear_file: (HelicalGearFile,),
+    ehl_case_file: (LineCase, PointCase),
+}
 
 
 def stored(script):
@@ -20,11 +25,13 @@ def stored(script):
 
 @pytest.mark.parametrize("script", PAGES)
 def test_page_is_up_to_date(script):
-    """If not: python -m docs.gear_file, python -m docs.helical_gear_file."""
+    """If not: python -m docs.gear_file, docs.helical_gear_file or docs.ehl_case_file."""
     assert script.page() == stored(script)
 
 
-@pytest.mark.parametrize(("script", "model"), PAGES.items())
+@pytest.mark.parametrize(
+    ("script", "model"), [(script, model) for script, models in PAGES.items() for model in models]
+)
 def test_every_field_stands_on_the_page(script, model):
     for name, note in field_notes(model).items():
         field = name.rpartition(".")[2]

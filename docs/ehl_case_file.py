@@ -1,0 +1,118 @@
+"""Rewrite docs/ehl_case_file.md: python -m docs.ehl_case_file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from docs.field_tables import field_tables
+from gearlube_core.ehl.case_file import LineCase, PointCase
+
+PAGE = Path(__file__).with_suffix(".md")
+OIL = {
+    "oil": "[oil]",
+    "body_1": "[body_1] and [body_2]: the solids",
+}
+LINE = {
+    "": "Line contact: the file",
+    "domain": "[domain]: left out, as far as load and film need",
+    "profile": "[profile]: heights from a file",
+    "solver": "[solver]",
+}
+POINT = {
+    "": "Point contact: the file",
+    "domain": "[domain]: left out, as far as load and film need",
+    "height_map": "[height_map]: heights from a file",
+    "ridge": "[ridge]",
+    "dent": "[dent]",
+    "waviness": "[waviness]",
+    "solver": "[solver]",
+}
+
+HEAD = """# The case files of lubricated line and point contacts
+
+The tables are written by `python -m docs.ehl_case_file` from the data model
+(`gearlube_core/ehl/case_file.py` and its sections), the text with them; not edited by hand.
+
+`gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts
+ship, `jamali_2015` and `jamali_2015_thermal`, and two point contacts, `mourier_2006` and
+`elliptical` (`gearlube_core/ehl/data/`); `gearlube ehl line --example` prints one to start from.
+Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md).
+
+- Body 1 lies below the film, body 2 above. Speeds are those of the surfaces against the contact,
+  positive along x; their mean is the entrainment speed, and body 2 less body 1 slides. Against
+  the motion is negative.
+- `reduced_modulus_gpa` is E' = 2 E*, with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Left out, it is
+  that of the bodies, which are steel where nothing is said.
+- An oil is one of the library at a temperature, or its own numbers.
+
+## Shapes of the gap
+
+The smooth gap is x^2/(2 R) or x^2/(2 R_x) + y^2/(2 R_y). Heights are taken off it: what stands out
+of a surface is positive and narrows the gap. With `holds = "gap"` the file is the whole undeformed
+gap itself, up to a constant: tip relief, crown, a flank from a measuring machine. The radii then
+only choose scales, domain and start.
+
+- A profile is a CSV file, first line `x_mm,height_um`, lines with # left out. Between the places
+  lies a cubic spline.
+- A height map is a NetCDF file with the dimensions x and y, or an `.npz` file with the arrays `x`
+  (nx), `y` (ny) and `height` (nx, ny); mm, mm and um. Between the places lies a bicubic spline.
+- A file must cover the domain and be at least as fine as the finest grid, and hold finite numbers
+  alone; else the case is refused with both numbers. What is finer than the grid is not averaged:
+  take out wavelengths below about eight nodes first.
+- Ridge, dent and waviness of a point contact add up, with or without a map. Sections of ridge and
+  dent are Gaussian, z = A exp(-4 ln 2 (s/width)^2); waves are cosines.
+- These are steady solutions, so heights are at rest: on a standing surface, or constant along the
+  motion. On a moving surface they would travel and squeeze the film, and the command says so.
+- Formulas and Hertz contacts in the summary are those of the smooth gap.
+
+## Time and memory
+
+Of one core of a small server, from the dry contact on, without the compilation of the first run:
+
+| Contact | Nodes | CPU time | Memory of the process |
+|---|---|---|---|
+| line, `jamali_2015` | 1001 | 0.1 s | 0.26 GiB |
+| line, `jamali_2015` | 4001 | 1.3 s | below 0.6 GiB |
+| line with heat, `jamali_2015_thermal` | 1001 | 0.4 s | 0.26 GiB |
+| point, `mourier_2006` | 129 x 129 | 0.5 s | 0.31 GiB |
+| point, `mourier_2006` | 257 x 257 | 1.3 s | 0.38 GiB |
+| point, `mourier_2006` | 513 x 513 | 4.0 s | 0.62 GiB |
+
+0.20 GiB of each are the libraries. A point contact's share grows with the nodes, that of a line
+with their square.
+
+## What the commands write
+
+`line.nc` or `point.nc` (pressure, film, shear and history with units, scalars and the outcome as
+attributes), `summary.csv` and `figures/`. Files appear whole or not at all. A contact that does not
+converge is written all the same, is marked so, and ends with exit code 1.
+"""
+
+TAIL = """
+## Errors
+
+Every wrong field is named with its value, its range and its unit:
+
+```text
+my_case.toml has 1 wrong field(s). oil.viscosity_pa_s must be a number, 0.0001 to 10000 Pa.s, got
+800000.0. At ambient pressure and the inlet's temperature.
+```
+"""
+
+
+def page() -> str:
+    """Return docs/ehl_case_file.md."""
+    return (
+        HEAD
+        + "\n## Fields of both\n"
+        + field_tables(LineCase, OIL)
+        + "\n## Fields of a line contact\n"
+        + field_tables(LineCase, LINE)
+        + "\n## Fields of a point contact\n"
+        + field_tables(PointCase, POINT)
+        + TAIL
+    )
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

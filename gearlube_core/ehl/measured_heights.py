@@ -1,0 +1,228 @@
+"""Heights along a line or over a plane as an instrument writes them, and their files."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.interpolate import CubicSpline, RectBivariateSpline
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.units import MILLIMETRE
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_MICROMETRE = 1e-6  # m
+_FEWEST = 4  # points of a cubic spline
+_HEAD = ["x_mm", "height_um"]
+_ROUNDING = 1e-6  # of an interval or a range
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredProfile:
+    """Heights at places along x, between them a cubic spline.
+
+    Parameters
+    ----------
+    x
+        (n,) [m], rising.
+    height
+        (n,) [m].
+    name
+        In errors.
+
+    Raises
+    ------
+    ParameterError
+        Places do not rise, a number is not finite, or there are fewer than four.
+    """
+
+    x: Array
+    height: Array
+    name: str = "profile"
+    _spline: CubicSpline = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        _check_axis(self.name, "x", self.x)
+        _check_heights(self.name, self.height, (self.x.size,))
+        object.__setattr__(self, "_spline", CubicSpline(self.x, self.height))
+
+    def __call__(self, x: Array) -> Array:
+        """Return the heights [m] at x [m]."""
+        return np.asarray(self._spline(x))
+
+    def check_serves(self, x: Array) -> None:
+        """Refuse a grid x (m,) [m] that goes beyond the places or is finer than they are."""
+        _check_serves(self.name, "x", self.x, x)
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredMap:
+    """Heights over a rectangle, between the points a bicubic spline.
+
+    Parameters
+    ----------
+    x, y
+        (nx,), (ny,) [m], rising.
+    height
+        (nx, ny) [m].
+    name
+        In errors.
+
+    Raises
+    ------
+    ParameterError
+        As for a profile, or the shape is another one.
+    """
+
+    x: Array
+    y: Array
+    height: Array
+    name: str = "height map"
+    _spline: RectBivariateSpline = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        _check_axis(self.name, "x", self.x)
+        _check_axis(self.name, "y", self.y)
+        _check_heights(self.name, self.height, (self.x.size, self.y.size))
+        object.__setattr__(self, "_spline", RectBivariateSpline(self.x, self.y, self.height))
+
+    def __call__(self, x: Array, y: Array) -> Array:
+        """Return the heights [m] at points (x, y) [m], shaped as both together."""
+        return np.asarray(self._spline.ev(*np.broadcast_arrays(x, y)))
+
+    def check_serves(self, x: Array, y: Array) -> None:
+        """Refuse a grid x, y [m] that goes beyond the map or is finer than it is."""
+        _check_serves(self.name, "x", self.x, x)
+        _check_serves(self.name, "y", self.y, y)
+
+
+def read_profile(path: str | Path) -> MeasuredProfile:
+    """Read a CSV file with the columns x_mm and height_um; lines with # are left out.
+
+    Raises
+    ------
+    ParameterError
+        The file is missing or not such a file.
+    """
+    try:
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as reason:
+        raise ParameterError(f"{path} is not a readable CSV file: {reason}.") from None
+    rows = [
+        (number, row)
+        for number, row in enumerate(csv.reader(lines), 1)
+        if row and not row[0].startswith("#")
+    ]
+    if not rows or [entry.strip() for entry in rows[0][1]] != _HEAD:
+        got = ",".join(rows[0][1])[:60] if rows else "an empty file"
+        raise ParameterError(f"{path} must begin with the line {','.join(_HEAD)}, got {got!r}.")
+    table = np.empty((len(rows) - 1, 2))
+    for k, (number, row) in enumerate(rows[1:]):
+        try:
+            table[k] = [float(entry) for entry in row]
+        except ValueError:
+            raise ParameterError(
+                f"{path}, line {number}: must be two numbers, got {','.join(row)[:60]!r}. "
+                "Write a point as decimal mark and a comma between the numbers."
+            ) from None
+    return MeasuredProfile(
+        table[:, 0] * MILLIMETRE, table[:, 1] * _MICROMETRE, name=f"profile {path}"
+    )
+
+
+def read_map(path: str | Path) -> MeasuredMap:
+    """Read heights over a plane: `x`, `y` [mm] and `height` [um] from NetCDF or an .npz file.
+
+    In NetCDF the dimensions are called x and y, in any order; in an .npz file `height` has the
+    shape (x, y).
+
+    Raises
+    ------
+    ParameterError
+        The file is missing or not such a file.
+    """
+    where = Path(path)
+    try:
+        x, y, height = _from_npz(where) if where.suffix == ".npz" else _from_netcdf(where)
+    except KeyError as missing:
+        raise ParameterError(
+            f"{path} must hold x and y in mm and height in um, {missing} is missing."
+        ) from None
+    except (OSError, ValueError, TypeError) as reason:
+        raise ParameterError(f"{path} is not a readable NetCDF or npz file: {reason}.") from None
+    return MeasuredMap(
+        x * MILLIMETRE, y * MILLIMETRE, height * _MICROMETRE, name=f"height map {path}"
+    )
+
+
+def _from_npz(path: Path) -> tuple[Array, Array, Array]:
+    with np.load(path, allow_pickle=False) as stored:
+        x, y, height = (np.asarray(stored[name], dtype=float) for name in ("x", "y", "height"))
+    return x, y, height
+
+
+def _from_netcdf(path: Path) -> tuple[Array, Array, Array]:
+    with xr.open_dataset(path) as stored:
+        height = stored["height"].transpose("x", "y")
+        x, y = stored["x"], stored["y"]
+        return tuple(np.asarray(one.values, dtype=float) for one in (x, y, height))  # type: ignore[return-value]
+
+
+def _check_axis(name: str, axis: str, places: Array) -> None:
+    if places.ndim != 1 or places.size < _FEWEST:
+        raise ParameterError(
+            f"{name} must have at least {_FEWEST} places along {axis}, got shape {places.shape}."
+        )
+    _check_finite(name, axis, places)
+    steps = np.diff(places)
+    if not (steps > 0.0).all():
+        k = int(np.argmax(steps <= 0.0))
+        raise ParameterError(
+            f"{name}: {axis} must rise from point to point, got {places[k] / MILLIMETRE:g} mm and "
+            f"then {places[k + 1] / MILLIMETRE:g} mm. Sort the points and leave out repeated ones."
+        )
+
+
+def _check_heights(name: str, height: Array, shape: tuple[int, ...]) -> None:
+    if height.shape != shape:
+        raise ParameterError(
+            f"{name}: heights must have the shape {shape} of their places, got {height.shape}."
+        )
+    _check_finite(name, "height", height)
+
+
+def _check_finite(name: str, what: str, values: Array) -> None:
+    wrong = int((~np.isfinite(values)).sum())
+    if wrong:
+        first = tuple(int(k) for k in np.argwhere(~np.isfinite(values))[0])
+        where = first[0] if len(first) == 1 else first
+        raise ParameterError(
+            f"{name}: {what} must be finite, {wrong} of {values.size} numbers are not, the first "
+            f"at index {where}. Fill the holes of the measurement before."
+        )
+
+
+def _check_serves(name: str, axis: str, places: Array, grid: Array) -> None:
+    slack = _ROUNDING * (grid[-1] - grid[0])
+    if places[0] > grid[0] + slack or places[-1] < grid[-1] - slack:
+        first, last, low, high = (
+            v / MILLIMETRE for v in (places[0], places[-1], grid[0], grid[-1])
+        )
+        raise ParameterError(
+            f"{name} must cover the domain {low:.5g} to {high:.5g} mm along {axis}, got "
+            f"{first:.5g} to {last:.5g} mm. Measure farther, or give a smaller [domain]."
+        )
+    near = (places[1:] > grid[0]) & (places[:-1] < grid[-1])
+    widest, step = float(np.diff(places)[near].max()), float(np.diff(grid).min())
+    if widest > step * (1.0 + _ROUNDING):
+        enough = int((grid[-1] - grid[0]) * (1.0 + _ROUNDING) / widest) + 1
+        raise ParameterError(
+            f"{name} must be at least as fine as the grid along {axis}, {step / _MICROMETRE:.4g} "
+            f"um, got places up to {widest / _MICROMETRE:.4g} um apart. Take at most {enough} "
+            "nodes, or resample the heights if they are smooth between their places."
+        )
