@@ -1,0 +1,92 @@
+"""The films of Jamali 2015 chapters 4 to 6 that the page needs, each with a name of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.helical_film import HelicalFilm, jamali_2015_film
+from gearlube_core.helical_geometry.sample_modifications import jamali_2015
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+STEPS = 575  # of the thesis' cycle; positions are named by them whatever the time step
+CYCLE, LINE, FACETED, FINE = (97, 161), (97, 257), (193, 257), (193, 513)  # nodes across, along
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilmCase:
+    """One design, modification, speed, grid and time step.
+
+    Parameters
+    ----------
+    design, k, beta, facets
+        As in `jamali_2015_film`.
+    crown_start
+        F_o over the face width.
+    speed
+        Over that of the thesis.
+    nodes
+        Across and along the line.
+    count
+        Time steps of the whole cycle.
+    """
+
+    design: str = "a"
+    k: float = 1.0
+    beta: float | None = None
+    crown_start: float = 0.0
+    facets: int = 0
+    speed: float = 1.0
+    nodes: tuple[int, int] = LINE
+    count: int = STEPS
+
+    @property
+    def name(self) -> str:
+        """Return the case in a file name."""
+        parts = [self.design, f"{self.nodes[0]}x{self.nodes[1]}"]
+        standard = FilmCase()
+        for label in ("k", "beta", "crown_start", "facets", "speed", "count"):
+            value = getattr(self, label)
+            if value != getattr(standard, label):
+                parts.append(f"{label}{value:g}")
+        return "_".join(parts)
+
+    def film(self) -> HelicalFilm:
+        """Return the film with its grid and time steps."""
+        face_width = jamali_2015(self.design).pair.face_width
+        film = jamali_2015_film(
+            self.design,
+            k=self.k,
+            beta=self.beta,
+            crown_start=self.crown_start * face_width,
+            facets=self.facets,
+            nodes=self.nodes,
+        )
+        steps = replace(film.steps, step=film.steps.step * STEPS / self.count, count=self.count)
+        return replace(film, steps=steps, pinion_speed=self.speed * film.pinion_speed)
+
+    def number(self, step: float) -> float:
+        """Return the number of one of the thesis' steps among those of this case."""
+        return step * self.count / STEPS
+
+
+def relief_starts(case: FilmCase, step: float) -> tuple[float, float]:
+    """Return y between which the contact line is clear of both tip reliefs [m]."""
+    film = case.film()
+    X = film.line(case.number(step) * film.time_step)
+    plane, modified = film.modified.pair.plane, film.modified
+    y = np.linspace(-0.5, 0.5, 8001) * film.line_length
+    s = X - 0.5 * plane.W * plane.sin_b / plane.cos_b + y * plane.sin_b
+    pinion, gear = np.hypot(plane.r_bp, s), np.hypot(plane.r_bg, plane.x_g - s)
+    clear = np.ones(y.size, dtype=bool)
+    pair = modified.pair
+    for flank, radius, tip in (
+        (modified.pinion, pinion, pair.pinion_tip_radius),
+        (modified.gear, gear, pair.gear_tip_radius),
+    ):
+        if flank.tip_relief is not None:
+            clear &= radius < tip - flank.tip_relief.extent
+    return float(y[clear][0]), float(y[clear][-1])

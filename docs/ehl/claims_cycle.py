@@ -1,0 +1,196 @@
+"""Statements of Jamali 2015 on the whole meshing cycle: J1 to J9."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from docs.ehl.cases import CYCLE, Array, FilmCase
+from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed, span
+from docs.ehl.lines import March
+from docs.ehl.measures import highest_near, jumps, largest_change, off_range, peaks
+from docs.ehl.runs import COUNT_RANGE, COUNTS, CROWNS, POSITIONS, SPARSE
+from docs.ehl.store import Store
+
+_PRESSURE, _FILM = 0.05, 0.15
+_SIDE = 200  # steps at both ends of the cycle
+
+
+def cycle(store: Store, design: str) -> March:
+    """Return the whole cycle of a design as the thesis takes it by default."""
+    return store.march(FilmCase(design=design, nodes=CYCLE), 0, 575, POSITIONS)
+
+
+def crowned(store: Store, start: float) -> March:
+    """Return the cycle of design A for F_o over F."""
+    if start == 0.0:
+        return cycle(store, "a")
+    return store.march(FilmCase(crown_start=start, nodes=CYCLE, count=SPARSE), 0, 575)
+
+
+def _load(store: Store) -> Verdict:
+    """J1."""
+    marches = {d: cycle(store, d) for d in "ab"}
+    most = [float(np.abs(m["load_error"]).max()) for m in marches.values()]
+    steps = [len(m.step) - m.failures for m in marches.values()]
+    return Verdict(
+        f"A / B: at most {listed(most, '{:.0e}')} over {listed(steps, '{:.0f}')} steps",
+        judge(max(most) < 5e-3 and all(m.failures == 0 for m in marches.values())),
+        "load and film are solved together",
+    )
+
+
+def _step_counts(store: Store) -> Verdict:
+    """J2."""
+    first, last = COUNT_RANGE
+    at = np.linspace(0.5 * (first + last), last - 2, 40)
+    curves: dict[int, dict[str, Array]] = {}
+    for count in COUNTS:
+        march = store.march(FilmCase(nodes=CYCLE, count=count), first, last)
+        curves[count] = {
+            name: np.interp(at, march.step, march[name]) for name in ("max_pressure", "min_film")
+        }
+    finest = curves[COUNTS[-1]]
+    off = {
+        count: [100.0 * largest_change(finest[name], curves[count][name]) for name in finest]
+        for count in COUNTS[:-1]
+    }
+    return Verdict(
+        "; ".join(f"{count}: {p:.2f} %, {h:.2f} %" for count, (p, h) in off.items())
+        + f" off {COUNTS[-1]} (pressure, film)",
+        judge(max(off[400]) < 1.0 and max(off[575]) < 1.0),
+        f"steps {at[0]:.0f} to {at[-1]:.0f} of design A, from rest at step {first}",
+    )
+
+
+def _ranges(store: Store, design: str, pressures: tuple[float, float], films: tuple[float, float]):  # type: ignore[no-untyped-def]
+    march = cycle(store, design)
+    p, h = GPA * march["max_pressure"], UM * march["min_film"]
+    at_rest = [UM * store.steady(FilmCase(design=design), n).min_film for n in POSITIONS]
+    thinnest = int(march.step[h.argmin()])
+    rest = span(min(at_rest), max(at_rest), "{:.3f}")
+    return Verdict(
+        f"{span(p.min(), p.max(), '{:.3f}')} GPa, {span(h.min(), h.max(), '{:.3f}')} um",
+        judge(off_range(p, *pressures) < _PRESSURE, off_range(h, *films) < _FILM),
+        f"thinnest at step {thinnest}, where the relief has passed; films at rest at steps 75, "
+        f"300, 500 are {rest} um; see the grid's part in it below",
+    )
+
+
+def _range_a(store: Store) -> Verdict:
+    """J3."""
+    return _ranges(store, "a", (1.02, 1.25), (0.16, 0.22))
+
+
+def _range_b(store: Store) -> Verdict:
+    """J4."""
+    return _ranges(store, "b", (0.82, 1.12), (0.16, 0.25))
+
+
+def _best_crown(store: Store) -> Verdict:
+    """J5."""
+    marches = {f: crowned(store, f) for f in CROWNS}
+    tops = {f: GPA * float(m["max_pressure"].max()) for f, m in marches.items()}
+    films = {f: UM * float(m["min_film"].min()) for f, m in marches.items()}
+    p, h = GPA * marches[0.25]["max_pressure"], UM * marches[0.25]["min_film"]
+    sound = [f for f in CROWNS if films[f] > 0.95 * films[0.0]]
+    best = min(sound, key=lambda f: tops[f])
+    return Verdict(
+        f"{span(p.min(), p.max())} GPa, {span(h.min(), h.max(), '{:.3f}')} um; the five: at most "
+        f"{listed(tops.values())} GPa, at least {listed(films.values(), '{:.3f}')} um",
+        judge(off_range(p, 0.98, 1.17) < _PRESSURE, off_range(h, 0.16, 0.22) < _FILM, best == 0.25),
+        f"lowest pressure without a film thinner by 5 % than for F_o = 0: F_o = {best:g} F",
+    )
+
+
+def _crown_films(store: Store) -> Verdict:
+    """J6."""
+    plain, sharp, even = (crowned(store, f) for f in (0.0, 0.45, 0.25))
+    films = [UM * m.at("min_film", 300) for m in (plain, sharp)]
+    tops = [GPA * m.at("max_pressure", 300) for m in (sharp, even)]
+    place = MM * sharp.at("max_pressure_y", 300)
+    return Verdict(
+        f"{listed(films, '{:.3f}')} um; at step 300 0.45 F {tops[0]:.3f} GPa at y = "
+        f"{place:.1f} mm, 0.25 F {tops[1]:.3f} GPa",
+        judge(
+            abs(films[0] / 0.21 - 1.0) < _FILM, abs(films[1] / 0.14 - 1.0) < _FILM,
+            tops[0] > 1.02 * tops[1] and abs(place) > 10.0,
+        ),
+        "spike: above 0.25 F by 2 % and away from mid-face",
+    )  # fmt: skip
+
+
+def _crown_order(store: Store) -> Verdict:
+    """J7."""
+    sides = []
+    for start in CROWNS:
+        march = crowned(store, start)
+        side = (march.step <= _SIDE) | (march.step >= 575 - _SIDE)
+        sides.append(GPA * float(march["max_pressure"][side].mean()))
+    counts = [peaks(store.steady(FilmCase(crown_start=f), 300).along, 0.01) for f in CROWNS]
+    return Verdict(
+        f"mean over both ends {listed(sides, '{:.3f}')} GPa; peaks along the line at step 300: "
+        f"{listed(counts, '{:.0f}')}",
+        judge(bool((np.diff(sides) < 0.0).all()), counts[0] == 1 and min(counts[1:]) >= 2),
+        "F_o = " + listed(CROWNS, "{:g}") + " F; peaks that rise by 1 % of the largest pressure",
+    )
+
+
+def _places(store: Store) -> Verdict:
+    """J8."""
+    printed = {"a": [(210, 360), (204, 370)], "b": [(180, 370)]}
+    words, good = [], []
+    for design, ranges in printed.items():
+        march = cycle(store, design)
+        found = jumps(march.step, march["max_pressure_y"], 3e-3)
+        ends = (found[0], found[-1]) if len(found) > 1 else (np.nan, np.nan)
+        words.append(f"{design.upper()} {ends[0]:.0f} to {ends[1]:.0f}")
+        off = [max(abs(ends[0] - low), abs(ends[1] - high)) for low, high in ranges]
+        good.append(min(off) <= 20.0)
+    return Verdict(
+        ", ".join(words), judge(*good), "where the place of the largest pressure jumps by 3 mm"
+    )
+
+
+def _highest(store: Store) -> Verdict:
+    """J9."""
+    found = []
+    for design in "ab":
+        march = cycle(store, design)
+        found += [*highest_near(march.step, march["max_pressure"], 290.0)]
+    off = [abs(v - printed) for v, printed in zip(found, (100, 500, 100, 500), strict=True)]
+    return Verdict(
+        f"A {found[0]:.0f}, {found[1]:.0f}; B {found[2]:.0f}, {found[3]:.0f}",
+        judge(max(off) <= 50.0),
+        "the largest of either half of the cycle",
+    )
+
+
+CYCLES = (
+    Claim("J1", "The load is met in every step", "sec. 4.5", "0.5 %", _load),
+    Claim("J2", "More than 400 time steps change nothing", "sec. 4.4", "1 %", _step_counts),
+    Claim(
+        "J3", "A: 1.02 to 1.25 GPa, 0.16 to 0.22 um", "sec. 4.6, 5.3, fig. 5.5",
+        "pressure 5 %, film 15 %", _range_a,
+    ),
+    Claim(
+        "J4", "B: 0.82 to 1.12 GPa, 0.16 to 0.25 um", "sec. 5.3, fig. 5.5",
+        "pressure 5 %, film 15 %", _range_b,
+    ),
+    Claim(
+        "J5", "F_o = 0.25 F: 0.98 to 1.17 GPa, 0.16 to 0.22 um, the best of five",
+        "sec. 4.6, fig. 4.10", "pressure 5 %, film 15 %", _best_crown,
+    ),
+    Claim(
+        "J6", "Step 300: 0.21 um for F_o = 0, 0.14 um and a spike for 0.45 F",
+        "sec. 4.6, fig. 4.10", "15 %", _crown_films,
+    ),
+    Claim(
+        "J7", "Pressure falls with F_o in the first and last 200 steps; two peaks for F_o > 0",
+        "sec. 4.6, fig. 4.11", "order", _crown_order,
+    ),
+    Claim(
+        "J8", "Largest pressure in mid-contact in steps 210 to 360, 204 to 370 (A), 180 to 370 (B)",
+        "sec. 4.6, 5.3", "20 steps, either range of A", _places,
+    ),
+    Claim("J9", "Pressure is highest near steps 100 and 500", "sec. 5.3", "50 steps", _highest),
+)  # fmt: skip

@@ -1,0 +1,181 @@
+"""Statements of Jamali 2015 chapter 6 on faceted flanks: F1 to F8."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from docs.ehl.cases import FACETED, Array, FilmCase
+from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed, span
+from docs.ehl.measures import exponent, peaks
+from docs.ehl.runs import FACET_MARCH, FACET_STEPS, FACETS
+from docs.ehl.store import Steady, Store
+
+_PRESSURE, _FILM = 0.1, 0.2
+_MARCHED = (40, 100)
+_SPIKE = 0.2  # of the largest pressure
+
+
+def faceted(store: Store, facets: int, step: int = 300) -> Steady:
+    """Return design A with faceted flanks at rest; 0 facets: smooth."""
+    return store.steady(FilmCase(facets=facets, nodes=FACETED), step)
+
+
+def _found(store: Store, facets: int) -> tuple[Array, Array, int, int]:
+    """Return pressures [GPa] and films [um], at rest and in motion, films and failures."""
+    films = [faceted(store, facets, n) for n in (300, *FACET_STEPS)]
+    p = [GPA * f.max_pressure for f in films]
+    h = [UM * f.min_film for f in films]
+    count, failed = len(films), sum(not f.converged for f in films)
+    if facets in _MARCHED:
+        march = store.march(FilmCase(facets=facets, nodes=FACETED), *FACET_MARCH, FACET_MARCH[1:])
+        p += list(GPA * march["max_pressure"])
+        h += list(UM * march["min_film"])
+        count, failed = count + len(march.step), failed + march.failures
+    return np.array(p), np.array(h), count, failed
+
+
+def _within(values: Array, low: float, high: float, tolerance: float) -> bool:
+    return bool(values.min() > low * (1 - tolerance) and values.max() < high * (1 + tolerance))
+
+
+def _values(p: Array, h: Array, count: int, failed: int) -> str:
+    words = f"{span(p.min(), p.max())} GPa, {span(h.min(), h.max(), '{:.3f}')} um"
+    return f"{words}; {failed} of {count} films not converged"
+
+
+def _twenty(store: Store) -> Verdict:
+    """F1."""
+    p, h, count, failed = _found(store, 20)
+    return Verdict(
+        _values(p, h, count, failed),
+        judge(_within(p, 2.44, 3.16, _PRESSURE), failed > 0 or h.min() < 0.02),
+        "at rest; a pressure at a corner hangs on the grid; film fails: none found, or below "
+        "0.02 um",
+    )
+
+
+def _thirty(store: Store) -> Verdict:
+    """F2."""
+    p, h, count, failed = _found(store, 30)
+    drop = 1.0 - p.max() / _found(store, 20)[0].max()
+    return Verdict(
+        f"{_values(p, h, count, failed)}; {-100.0 * drop:+.0f} % from 20",
+        judge(
+            abs(p.max() / 2.27 - 1.0) < _PRESSURE, abs(drop - 0.28) < 0.05,
+            failed > 0 or h.min() < 0.02,
+        ),
+        "at rest",
+    )  # fmt: skip
+
+
+def _forty(store: Store) -> Verdict:
+    """F3."""
+    p, h, count, failed = _found(store, 40)
+    return Verdict(
+        _values(p, h, count, failed),
+        judge(
+            _within(p, 1.6, 1.9, _PRESSURE), _within(h, 0.11, 0.16, _FILM),
+            failed == 0 and h.min() > 0.02,
+        ),
+        "three steps at rest and steps 281 to 300 in motion",
+    )  # fmt: skip
+
+
+def _hundred(store: Store) -> Verdict:
+    """F4."""
+    p, h, count, failed = _found(store, 100)
+    smooth = max(GPA * faceted(store, 0, n).max_pressure for n in (300, *FACET_STEPS))
+    rise = p.max() / smooth - 1.0
+    return Verdict(
+        f"{_values(p, h, count, failed)}; {100.0 * rise:+.1f} % on the smooth pressure",
+        judge(
+            _within(p, 1.18, 1.42, _PRESSURE), _within(h, 0.14, 0.20, _FILM),
+            abs(rise - 0.136) < 0.05,
+        ),
+        "three steps at rest and steps 281 to 300 in motion",
+    )  # fmt: skip
+
+
+def _monotone(store: Store) -> Verdict:
+    """F5."""
+    films = [faceted(store, n) for n in (*FACETS, 0)]
+    p = [GPA * f.max_pressure for f in films]
+    h = [UM * f.min_film for f in films]
+    return Verdict(
+        f"{listed(p)} GPa, {listed(h, '{:.3f}')} um",
+        judge(bool((np.diff(p) < 0.0).all()), bool((np.diff(h) > 0.0).all())),
+        f"step 300 at rest, n_f = {listed(FACETS, '{:g}')} / smooth",
+    )
+
+
+def _spikes(store: Store) -> Verdict:
+    """F6."""
+    found = peaks(faceted(store, 20).along, _SPIKE)
+    return Verdict(
+        f"{found}",
+        judge(abs(found - 13) <= 1),
+        "maxima of the sections along the line that rise by a fifth of the largest pressure; the "
+        "face crosses 11.7 facets of either flank",
+    )
+
+
+def _grids(store: Store) -> Verdict:
+    """F7."""
+    off = {}
+    for n in (20, 100):
+        coarse, fine = store.steady(FilmCase(facets=n), 300), faceted(store, n)
+        off[n] = [
+            100.0 * (coarse.max_pressure / fine.max_pressure - 1.0),
+            100.0 * (coarse.min_film / fine.min_film - 1.0),
+        ]
+    return Verdict(
+        "; ".join(f"n_f = {n}: {p:+.1f} %, {h:+.1f} %" for n, (p, h) in off.items())
+        + " (pressure, film)",
+        judge(max(map(abs, off[20])) < 10.0, max(map(abs, off[100])) < 2.0),
+        "half the nodes across, step 300; little: 10 %; very little: 2 %",
+    )
+
+
+def facet_gaps(counts: tuple[int, ...] = FACETS) -> list[float]:
+    """Return the largest difference of the faceted from the smooth gap at step 300 [m]."""
+    case = FilmCase()
+    smooth = case.film()
+    moving = smooth.moving_film()
+    X = smooth.line(300 * smooth.time_step)
+    y = moving.y[np.abs(moving.y) < 0.015]  # clear of both reliefs
+    gap = smooth.gap(moving.x, y, X)
+    return [
+        float(np.abs(FilmCase(facets=n).film().gap(moving.x, y, X) - gap).max()) for n in counts
+    ]
+
+
+def _geometry(_: Store) -> Verdict:
+    """F8."""
+    gaps = facet_gaps()
+    slope = exponent(FACETS, gaps)
+    pair = FilmCase().film().modified.pair
+    length = MM * (pair.contact_end - pair.contact_start) / 20
+    return Verdict(
+        f"{length:.2f} mm; gap off by {listed([UM * g for g in gaps], '{:.3f}')} um, power "
+        f"{slope:.2f}",
+        judge(abs(length - 1.0) < 0.1, abs(slope + 2.0) < 0.1),
+        "20 facets on the line of action; the power follows from chords of an arc",
+    )
+
+
+FACETED_FLANKS = (
+    Claim("F1", "n_f = 20: 2.44 to 3.16 GPa; film fails", "sec. 6.2.2, fig. 6.7",
+          "10 %", _twenty),
+    Claim("F2", "n_f = 30: at most 2.27 GPa, 28 % less than 20; film fails in places",
+          "sec. 6.2.2, fig. 6.7", "10 %, 5 points", _thirty),
+    Claim("F3", "n_f = 40: 1.6 to 1.9 GPa, 0.11 to 0.16 um, always parted",
+          "sec. 6.2.2, fig. 6.7", "10 %, 20 %", _forty),
+    Claim("F4", "n_f = 100: 1.18 to 1.42 GPa, 13.6 % above smooth; 0.14 to 0.20 um",
+          "sec. 6.2.2, fig. 6.7", "10 %, 20 %, 5 points", _hundred),
+    Claim("F5", "More facets: less pressure, more film", "sec. 6.2.2", "monotone", _monotone),
+    Claim("F6", "13 spikes at step 300 for n_f = 20", "sec. 6.2.2, fig. 6.11", "1", _spikes),
+    Claim("F7", "The grid matters little; very little for n_f = 100", "sec. 6.2.1, fig. 6.6",
+          "10 %, 2 %", _grids),
+    Claim("F8", "20 facets about 1 mm long; gap goes to the smooth one", "sec. 6.1, ch. 8",
+          "0.1 mm; power -2 to 0.1", _geometry),
+)  # fmt: skip

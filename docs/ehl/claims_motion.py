@@ -1,0 +1,156 @@
+"""Statements of Jamali 2015 on motion, sections, speed and method: J14 to J18."""
+
+from __future__ import annotations
+
+from docs.ehl.cases import CYCLE, FACETED, LINE, FilmCase
+from docs.ehl.claims import MM, Claim, Verdict, judge, listed
+from docs.ehl.measures import exponent
+from docs.ehl.runs import APPROACH, POSITIONS, SPEEDS
+from docs.ehl.sections import line_contact, section
+from docs.ehl.store import Store
+from gearlube_core.ehl.dry_contact import dry_contact_of_gap
+from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.sample_modifications import jamali_2015
+from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+
+# y of the thesis' sections [mm] at steps 75, 300, 500
+_APART = {75: (2.0, 5.0), 300: (19.0, 19.8), 500: (-2.0, -5.0)}
+_ALIKE = {75: (12.0,), 300: (-19.0, -10.0, 0.0, 16.0), 500: (-10.0,)}
+_LINES = (-18.0, -10.0, 0.0, 10.0, 17.0)
+_LOAD = 14.4e3  # N: sec. 4.1
+
+
+def _motion(store: Store) -> Verdict:
+    """J14."""
+    apart = [(n, y, section(store, "a", n, y / MM)) for n, ys in _APART.items() for y in ys]
+    alike = [(n, y, section(store, "a", n, y / MM)) for n, ys in _ALIKE.items() for y in ys]
+    words = ", ".join(f"{n}/{y:g}: {s.film_ratio:.2f}" for n, y, s in apart)
+    same = ", ".join(f"{n}/{y:g}: {s.film_ratio:.2f}" for n, y, s in alike)
+    pressure = max(s.pressure_off for _, _, s in (*apart, *alike))
+    return Verdict(
+        f"film over that at rest, step/y: in the relief {words}; away from it {same}; largest "
+        f"pressures of the sections within {100.0 * pressure:.1f} %",
+        judge(
+            all(s.film_ratio < 0.97 for _, _, s in apart),
+            all(abs(s.film_ratio - 1.0) < 0.05 for _, _, s in alike),
+            pressure < 0.05,
+        ),
+        "smallest films of sections at y, mm, of design A; thinner: by 3 % and more",
+    )
+
+
+def _lines(store: Store) -> Verdict:
+    """J15."""
+    case = FilmCase(design="b", nodes=FACETED)
+    rest = store.steady(case, 300)
+    off = []
+    for y in _LINES:
+        j, line = rest.column(y / MM), line_contact(store, case, 300, y / MM)
+        off.append(
+            (
+                100.0 * (float(rest.pressure[:, j].max()) / line.max_pressure - 1.0),
+                100.0 * (float(rest.film[:, j].min()) / line.min_film - 1.0),
+            )
+        )
+    worst = [max(abs(p), abs(h)) for p, h in off]
+    return Verdict(
+        "; ".join(f"{y:g} mm: {p:+.1f}, {h:+.1f} %" for y, (p, h) in zip(_LINES, off, strict=True))
+        + " (pressure, film)",
+        judge(max(worst[:-1]) < 3.0, worst[-1] < 15.0),
+        "contact line over line contact of the same load per length, gap and speeds; 17 mm may be "
+        "15 % off",
+    )
+
+
+def _speeds(store: Store) -> Verdict:
+    """J16."""
+    slopes, tops = [], []
+    for n in POSITIONS:
+        films = [store.steady(FilmCase(speed=s), n) for s in SPEEDS]
+        slopes.append(exponent(SPEEDS, [f.min_film for f in films]))
+        tops.append(max(abs(f.max_pressure / films[0].max_pressure - 1.0) for f in films))
+    marches = [store.march(FilmCase(speed=s, nodes=CYCLE), 500 - APPROACH, 500) for s in SPEEDS]
+    moving = exponent(SPEEDS, [m.at("min_film", 500) for m in marches])
+    p = [m.at("max_pressure", 500) for m in marches]
+    moved = max(abs(v / p[0] - 1.0) for v in p)
+    return Verdict(
+        f"at rest {listed(slopes, '{:.3f}')}, transient at step 500 {moving:.3f}; pressure within "
+        f"{100.0 * max(tops):.1f} % at rest, {100.0 * moved:.1f} % transient",
+        judge(all(abs(v - 0.68) <= 0.02 for v in (*slopes, moving)), max(*tops, moved) < 0.03),
+        "slope of log h_min over log speed at 1, 2, 5, 10 times; at rest at steps 75 / 300 / 500",
+    )
+
+
+def _elements(store: Store) -> Verdict:
+    """J17."""
+    worst = []
+    for design in "ab":
+        for y in (-0.010, 0.0, 0.010):
+            fields = [
+                line_contact(store, FilmCase(design=design), 300, y, stencil=stencil)
+                for stencil in ("galerkin", "central", "upwind_2")
+            ]
+            elements = fields[0]
+            worst += [
+                max(
+                    abs(elements.max_pressure / other.max_pressure - 1.0),
+                    abs(elements.min_film / other.min_film - 1.0),
+                    abs(elements.central_film / other.central_film - 1.0),
+                )
+                for other in fields[1:]
+            ]
+    return Verdict(
+        f"largest pressure, smallest and central film within {100.0 * max(worst):.2f} %",
+        judge(max(worst) < 0.02),
+        "sections of A and B at step 300 as line contacts: Galerkin against central and upwind "
+        "differences",
+    )
+
+
+def _length(store: Store) -> Verdict:
+    """J18."""
+    pair = jamali_2015("a").pair
+    case = FilmCase()
+    film = case.film()
+    _, X = film.largest_load()
+    crowned = FlankModification(crown=Crown(amount=8e-6, start=0.0))
+    moving = film.moving_film()
+    shares = []
+    for gear in (crowned, FlankModification()):
+        gap = UndeformedGap(modified=ModifiedPair(pair=pair, pinion=crowned, gear=gear))
+        heights = gap.heights(moving.x[:, None], moving.y[None, :], X)
+        dry = dry_contact_of_gap(
+            heights, moving.x[1] - moving.x[0], moving.y[1] - moving.y[0], film.contact_modulus,
+            _LOAD, tolerance=1e-4,
+        )  # fmt: skip
+        shares.append(float((dry.pressure > 0.0).any(axis=0).mean()))
+    lubricated = store.steady(FilmCase(), 300).length / film.line_length
+    return Verdict(
+        f"{shares[0]:.3f} w; with one crowned tooth {shares[1]:.2f} w; with relief and film at "
+        f"step 300 {lubricated:.2f} w",
+        judge(abs(shares[0] - 0.93) <= 0.01),
+        f"dry, no relief, 14.4 kN, crown on both teeth, {LINE[1]} rows",
+    )
+
+
+MOTIONS = (
+    Claim(
+        "J14", "Films in motion are thinner in the relief and the same elsewhere; pressures equal",
+        "sec. 5.3, figs 5.7 to 5.11", "5 %", _motion,
+    ),
+    Claim(
+        "J15", "B, step 300: sections at y = -18 to 10 mm are line contacts, at 17 nearly",
+        "sec. 5.3, fig. 5.13", "3 %", _lines,
+    ),
+    Claim(
+        "J16", "h_min grows as speed to the 0.68; pressure does not", "sec. 5.5, figs 5.19, 5.20",
+        "0.02; 3 %", _speeds,
+    ),
+    Claim(
+        "J17", "Finite elements = finite differences", "ch. 3, figs 3.6, 3.7", "2 %", _elements,
+    ),
+    Claim(
+        "J18", "Contact over 0.93 w at the largest load, without relief", "sec. 4.3", "0.01",
+        _length,
+    ),
+)  # fmt: skip

@@ -1,0 +1,48 @@
+"""Largest dry pressure over a meshing cycle: what the films' pressures are held against."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from docs.ehl.cases import Array, FilmCase
+from docs.ehl.lines import write_arrays
+from gearlube_core.ehl.dry_contact import dry_contact_of_gap
+
+STEPS = np.arange(0, 576, 25)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DryCycle:
+    """Dry pressures over the steps of the thesis."""
+
+    step: Array
+    y: Array  # [m]
+    pressure: Array  # largest of every section [Pa], (steps, y)
+
+    @property
+    def max_pressure(self) -> Array:
+        """Return the largest pressure of each step [Pa]."""
+        return np.asarray(self.pressure.max(axis=1))
+
+
+def dry_cycle(folder: Path, case: FilmCase) -> DryCycle:
+    """Return the dry contact of a case at every 25th step, kept in a folder."""
+    path = folder / f"dry_{case.name}.npz"
+    if not path.exists():
+        film = case.film()
+        moving = film.moving_film()
+        x, y = moving.x, moving.y
+        rows = []
+        for step in STEPS:
+            X = film.line(case.number(float(step)) * film.time_step)
+            dry = dry_contact_of_gap(
+                film.gap(x, y, X), x[1] - x[0], y[1] - y[0], film.contact_modulus, film.load(X),
+                tolerance=1e-4,
+            )  # fmt: skip
+            rows.append(dry.pressure.max(axis=0))
+        write_arrays(path, {"step": STEPS, "y": y, "pressure": np.array(rows)})
+    with np.load(path) as data:
+        return DryCycle(step=data["step"], y=data["y"], pressure=data["pressure"])

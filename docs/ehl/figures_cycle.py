@@ -1,0 +1,237 @@
+"""Curves over the meshing cycle and over parameters, for docs/ehl.md."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from docs.ehl.cases import CYCLE, FACETED, FilmCase
+from docs.ehl.claims import GPA, MM, UM
+from docs.ehl.claims_cycle import crowned, cycle
+from docs.ehl.dry_cycle import dry_cycle
+from docs.ehl.lines import March
+from docs.ehl.runs import (
+    APPROACH,
+    CROWNS,
+    FACET_MARCH,
+    FACET_STEPS,
+    MARCHED_PARABOLAS,
+    PARABOLAS,
+    POSITIONS,
+    POWERS,
+    SPARSE,
+    SPEEDS,
+    power_case,
+)
+from docs.ehl.store import Store
+from drivetrain.figures.style import BLUE, GREY, SERIES, VERMILLION, house_style, new_figure
+
+COLOURS = dict(zip("ab", (BLUE, VERMILLION), strict=True))
+
+
+def _two_panels(height: float = 6.0) -> tuple[Any, Any, Any]:
+    figure = new_figure(8.2, height)
+    top, bottom = figure.subplots(2, 1, sharex=True)
+    top.set_ylabel("largest pressure [GPa]")
+    bottom.set(ylabel="smallest film [µm]", xlabel="step of the cycle", xlim=(0, 575))
+    return figure, top, bottom
+
+
+def _curves(top: Any, bottom: Any, march: March, label: str, **style: Any) -> None:
+    top.plot(march.step, GPA * march["max_pressure"], label=label, **style)
+    bottom.plot(march.step, UM * march["min_film"], label=label, **style)
+    failed = march["converged"] == 0.0
+    bottom.plot(march.step[failed], UM * march["min_film"][failed], "x", color=GREY)
+
+
+def designs(store: Store) -> Any:
+    """Return pressure and film of both designs over the cycle: fig. 5.5."""
+    with house_style():
+        figure, top, bottom = _two_panels()
+        for d in "ab":
+            colour = COLOURS[d]
+            _curves(top, bottom, cycle(store, d), f"design {d.upper()}", color=colour)
+            dry = dry_cycle(store.folder, FilmCase(design=d, nodes=CYCLE))
+            top.plot(
+                dry.step, GPA * dry.max_pressure, ".", color=colour, ms=5,
+                label=f"{d.upper()}, dry",
+            )  # fmt: skip
+            rest = [store.steady(FilmCase(design=d, nodes=CYCLE), n) for n in POSITIONS]
+            bottom.plot(
+                POSITIONS, [UM * f.min_film for f in rest], "o", color=colour, mfc="white",
+                label=f"{d.upper()}, at rest",
+            )  # fmt: skip
+        top.legend(ncols=2)
+        bottom.legend(ncols=2)
+        bottom.set_ylim(0.0, None)
+        figure.suptitle("Parabolic relief, k = 1, F_o = 0", fontsize=11)
+    return figure
+
+
+def crowns(store: Store) -> Any:
+    """Return the five forms of crowning over the cycle: fig. 4.10."""
+    with house_style():
+        figure, top, bottom = _two_panels()
+        for row, start in enumerate(CROWNS):
+            _curves(
+                top,
+                bottom,
+                crowned(store, start),
+                f"$F_o$ = {start:g} F",
+                color=SERIES[row],
+                lw=1.3,
+            )
+        top.legend(ncols=5, loc="lower center")
+        bottom.set_ylim(0.0, None)
+        figure.suptitle("Design A, crown from $F_o$ on", fontsize=11)
+    return figure
+
+
+def linear_relief(store: Store) -> Any:
+    """Return the largest pressure with straight relief: fig. 5.6."""
+    with house_style():
+        figure = new_figure(8.2, 3.6)
+        ax = figure.subplots()
+        for d in "ab":
+            dry = dry_cycle(store.folder, FilmCase(design=d, k=0.0))
+            ax.plot(
+                dry.step, GPA * dry.max_pressure, ".-", color=COLOURS[d], lw=1.0,
+                label=f"design {d.upper()}, dry",
+            )  # fmt: skip
+            steps = (75, 500) if d == "a" else (75,)
+            films = [store.steady(FilmCase(design=d, k=0.0), n) for n in steps]
+            ax.plot(
+                steps, [GPA * f.max_pressure for f in films], "s", color=COLOURS[d], mfc="white",
+                label=f"{d.upper()}, film at rest",
+            )  # fmt: skip
+        ax.set(xlabel="step of the cycle", ylabel="largest pressure [GPa]", xlim=(0, 575))
+        ax.set_ylim(0.0, None)
+        ax.legend(ncols=2)
+        figure.suptitle("Straight relief, k = 0: a corner of the gap, on a fixed grid", fontsize=11)
+    return figure
+
+
+def parabolas(store: Store) -> Any:
+    """Return pressure and film over the parabolic share of the relief: fig. 5.18."""
+    with house_style():
+        figure = new_figure(8.2, 4.0)
+        left, right = figure.subplots(1, 2)
+        rest = [store.steady(FilmCase(k=k), 500) for k in PARABOLAS]
+        left.plot(PARABOLAS, [GPA * f.max_pressure for f in rest], "o-", label="A, at rest")
+        left.plot(
+            PARABOLAS, [GPA * f.dry_pressure for f in rest], "x--", color=GREY, label="A, dry"
+        )
+        right.plot(PARABOLAS, [UM * f.min_film for f in rest], "o-", label="A, at rest")
+        shares = (1.0, *MARCHED_PARABOLAS)
+        marches = [store.march(FilmCase(k=k), 500 - APPROACH, 500) for k in shares]
+        done = [(k, m) for k, m in zip(shares, marches, strict=True) if m.complete]
+        for ax, name, unit in ((left, "max_pressure", GPA), (right, "min_film", UM)):
+            ax.plot(
+                [k for k, _ in done], [unit * m.at(name, 500) for _, m in done], "s",
+                color=VERMILLION, label="A, transient",
+            )  # fmt: skip
+        b = [store.steady(FilmCase(design="b", k=k), 500) for k in shares]
+        left.plot(
+            shares, [GPA * f.max_pressure for f in b], "^:", color=SERIES[2], label="B, at rest"
+        )
+        right.plot(shares, [UM * f.min_film for f in b], "^:", color=SERIES[2], label="B, at rest")
+        left.set(xlabel="k", ylabel="largest pressure [GPa]", ylim=(0.0, None))
+        right.set(xlabel="k", ylabel="smallest film [µm]", ylim=(0.0, None))
+        left.legend()
+        right.legend()
+        figure.suptitle("Step 500, parabolic share k of the tip relief", fontsize=11)
+    return figure
+
+
+def speeds(store: Store) -> Any:
+    """Return pressure and scaled film at four speeds: figs 5.19 and 5.20."""
+    with house_style():
+        figure = new_figure(8.2, 4.0)
+        left, right = figure.subplots(1, 2)
+        for row, s in enumerate(SPEEDS):
+            films = [store.steady(FilmCase(speed=s), n) for n in POSITIONS]
+            march = store.march(FilmCase(speed=s, nodes=CYCLE), 500 - APPROACH, 500)
+            colour, scale = SERIES[row], UM / s**0.68
+            left.plot(POSITIONS, [GPA * f.max_pressure for f in films], "o", color=colour)
+            left.plot(march.step, GPA * march["max_pressure"], color=colour, label=f"{s:g} times")
+            right.plot(
+                POSITIONS, [scale * f.min_film for f in films], "o", color=colour, mfc="white"
+            )
+            right.plot(march.step, scale * march["min_film"], color=colour, label=f"{s:g} times")
+        left.set(xlabel="step", ylabel="largest pressure [GPa]", ylim=(0.0, None))
+        right.set(xlabel="step", ylabel="smallest film / speed$^{0.68}$ [µm]", ylim=(0.0, None))
+        left.legend()
+        figure.suptitle("Design A at 1, 2, 5, 10 times the speed; circles: at rest", fontsize=11)
+    return figure
+
+
+def power_march(store: Store, design: str, beta: float) -> March:
+    """Return the cycle of a power law; 2 is the parabola."""
+    if beta == 2.0:
+        return cycle(store, design)
+    return store.march(power_case(design, beta, nodes=CYCLE, count=SPARSE), 0, 575)
+
+
+def powers(store: Store) -> Any:
+    """Return both designs over the cycle for three power laws: fig. 5.22."""
+    with house_style():
+        figure = new_figure(9.6, 6.0)
+        axes = figure.subplots(2, 2, sharex=True, sharey="row")
+        for d, (top, bottom) in zip("ab", axes.T, strict=True):
+            for row, beta in enumerate(POWERS[1:]):
+                _curves(
+                    top, bottom, power_march(store, d, beta), f"beta = {beta:g}", color=SERIES[row],
+                    lw=1.4,
+                )  # fmt: skip
+            top.set_title(f"design {d.upper()}")
+            bottom.set(xlabel="step of the cycle", xlim=(0, 575), ylim=(0.0, None))
+            top.legend()
+        axes[0, 0].set_ylabel("largest pressure [GPa]")
+        axes[1, 0].set_ylabel("smallest film [µm]")
+    return figure
+
+
+def facets(store: Store) -> Any:
+    """Return pressure and film over the number of facets, and sections: figs 6.7 and 6.14."""
+    with house_style():
+        figure = new_figure(9.6, 7.0)
+        axes = figure.subplots(2, 2)
+        for row, step in enumerate((300, *FACET_STEPS)):
+            films = [
+                store.steady(FilmCase(facets=n, nodes=FACETED), step) for n in (20, 30, 40, 100)
+            ]
+            films += [store.steady(FilmCase(nodes=FACETED), step)]
+            places = range(5)
+            axes[0, 0].plot(
+                places, [GPA * f.max_pressure for f in films], "o-", color=SERIES[row],
+                label=f"step {step}, at rest", lw=1.0,
+            )  # fmt: skip
+            axes[0, 1].plot(
+                places, [UM * f.min_film for f in films], "o-", color=SERIES[row], lw=1.0
+            )
+        for place, n in ((2, 40), (3, 100)):
+            march = store.march(FilmCase(facets=n, nodes=FACETED), *FACET_MARCH, FACET_MARCH[1:])
+            for ax, name, unit in ((axes[0, 0], "max_pressure", GPA), (axes[0, 1], "min_film", UM)):
+                values = unit * march[name]
+                ax.vlines(place + 0.12, values.min(), values.max(), color=GREY, lw=5)
+        for ax in axes[0]:
+            ax.set_xticks(range(5), ["20", "30", "40", "100", "smooth"])
+            ax.set(xlabel="facets $n_f$", ylim=(0.0, None))
+        axes[0, 0].set_ylabel("largest pressure [GPa]")
+        axes[0, 1].set_ylabel("smallest film [µm]")
+        axes[0, 0].legend()
+        for row, n in enumerate((20, 40, 100, 0)):
+            film = store.steady(FilmCase(facets=n, nodes=FACETED), 300)
+            j, label = film.column(0.0), f"$n_f$ = {n}" if n else "smooth"
+            x = MM * film.x
+            axes[1, 0].plot(x, GPA * film.pressure[:, j], color=SERIES[row], lw=1.1, label=label)
+            axes[1, 1].plot(x, UM * film.film[:, j], color=SERIES[row], lw=1.1)
+        for ax in axes[1]:
+            ax.set(xlabel="across the line, x [mm], y = 0", xlim=(-0.45, 0.4))
+        axes[1, 0].set_ylabel("pressure [GPa]")
+        axes[1, 0].legend()
+        axes[1, 1].set(ylabel="film [µm]", ylim=(0.0, 1.0))
+        figure.suptitle(
+            "Design A with faceted flanks; below: step 300. Grey bars: steps 281 to 300 in motion",
+            fontsize=11,
+        )
+    return figure

@@ -1,0 +1,137 @@
+"""Contours and sections of films, for docs/ehl.md."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase
+from docs.ehl.claims import GPA, MM, UM
+from docs.ehl.claims_cycle import cycle
+from docs.ehl.dry_cycle import dry_cycle
+from docs.ehl.figures_cycle import power_march
+from docs.ehl.runs import POSITIONS, POWERS, power_case
+from docs.ehl.sections import line_contact, section
+from docs.ehl.store import Store
+from drivetrain.figures.style import BLUE, GREY, VERMILLION, house_style, new_figure
+
+_FILMS = np.array([0.1, 0.14, 0.18, 0.22, 0.26, 0.3, 0.4, 0.6, 1.0])  # um
+_PRESSURES = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 1.1, 1.3])  # GPa
+_SECTIONS = (-18.0, -10.0, 0.0, 10.0, 17.0, 18.0)  # mm
+
+
+def _maps(axes: Any, x: Array, y: Array, pressure: Array, film: Array, levels: Array) -> Any:
+    places = (MM * y, MM * x)
+    thick = axes[0].contourf(*places, UM * film, levels=_FILMS, cmap="viridis", extend="both")
+    dense = axes[1].contourf(*places, GPA * pressure, levels=levels, cmap="magma_r", extend="max")
+    for ax in axes:
+        ax.grid(visible=False)
+        ax.set_ylim(-0.5, 0.45)
+    return thick, dense
+
+
+def transient_steady(store: Store) -> Any:
+    """Return film and pressure in motion and at rest at the detailed steps: fig. 5.7."""
+    with house_style():
+        figure = new_figure(10.0, 9.0)
+        axes = figure.subplots(6, 2, sharex=True, sharey=True)
+        for i, step in enumerate(POSITIONS):
+            rest = store.steady(FilmCase(nodes=CYCLE), step)
+            moving = cycle(store, "a").fields(step)
+            for j, (words, fields) in enumerate(
+                (("transient", moving), ("at rest", (rest.pressure, rest.film)))
+            ):
+                row = axes[2 * i + j]
+                thick, dense = _maps(row, rest.x, rest.y, *fields, _PRESSURES)
+                row[0].set_title(f"step {step}, {words}: film", fontsize=9)
+                row[1].set_title(f"step {step}, {words}: pressure", fontsize=9)
+                row[0].set_ylabel("x [mm]")
+        for ax in axes[-1]:
+            ax.set_xlabel("along the line, y [mm]")
+        figure.colorbar(thick, ax=axes[:, 0], label="film [µm]", location="bottom", aspect=40)
+        figure.colorbar(dense, ax=axes[:, 1], label="pressure [GPa]", location="bottom", aspect=40)
+    return figure
+
+
+def sections(store: Store) -> Any:
+    """Return sections of B at step 300: transient, at rest and line contact: fig. 5.13."""
+    case = FilmCase(design="b", nodes=FACETED)
+    with house_style():
+        figure = new_figure(10.0, 6.4)
+        for ax, y in zip(figure.subplots(2, 3).ravel(), _SECTIONS, strict=True):
+            both = section(store, "b", 300, y / MM)
+            fine = store.steady(case, 300)
+            j, x = fine.column(y / MM), MM * both.x
+            right = ax.twinx()
+            ax.plot(MM * fine.x, GPA * fine.pressure[:, j], color=BLUE, lw=2.4)
+            ax.plot(x, GPA * both.pressure, "--", color=VERMILLION, lw=1.4)
+            right.plot(MM * fine.x, UM * fine.film[:, j], color=BLUE, lw=2.4, label="at rest")
+            right.plot(x, UM * both.film, "--", color=VERMILLION, lw=1.4, label="transient")
+            if y < 18.0:
+                line = line_contact(store, case, 300, y / MM)
+                ax.plot(MM * line.x, GPA * line.pressure, ":", color="black", lw=1.2)
+                right.plot(
+                    MM * line.x, UM * line.film, ":", color="black", lw=1.2, label="line contact"
+                )
+            if y == _SECTIONS[0]:
+                right.legend(loc="upper left", fontsize=7.5)
+            ax.set(xlim=(-0.6, 0.5), ylim=(0.0, 1.0), title=f"y = {y:g} mm")
+            right.set_ylim(0.0, 1.2)
+            right.grid(visible=False)
+        figure.supxlabel("across the line, x [mm]", fontsize=10)
+        figure.supylabel("pressure [GPa]; film [µm] on the right", fontsize=10)
+        figure.suptitle("Design B, step 300", fontsize=11)
+    return figure
+
+
+def power_contours(store: Store) -> Any:
+    """Return film and pressure of B at step 75 for four power laws: fig. 5.23."""
+    levels = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 1.1, 1.5, 2.0, 3.0])
+    with house_style():
+        figure = new_figure(10.0, 7.6)
+        axes = figure.subplots(4, 2, sharex=True, sharey=True)
+        for row, beta in zip(axes, POWERS, strict=True):
+            film = store.steady(power_case("b", beta), 75)
+            thick, dense = _maps(row, film.x, film.y, film.pressure, film.film, levels)
+            row[0].set_title(
+                f"beta = {beta:g}: film, {UM * film.min_film:.3f} µm at least", fontsize=9
+            )
+            row[1].set_title(f"pressure, {GPA * film.max_pressure:.2f} GPa at most", fontsize=9)
+            row[0].set_ylabel("x [mm]")
+            row[0].set_xlim(-10.0, 24.0)
+        for ax in axes[-1]:
+            ax.set_xlabel("along the line, y [mm]")
+        figure.colorbar(thick, ax=axes[:, 0], label="film [µm]", location="bottom", aspect=40)
+        figure.colorbar(dense, ax=axes[:, 1], label="pressure [GPa]", location="bottom", aspect=40)
+        figure.suptitle("Design B, step 75, at rest", fontsize=11)
+    return figure
+
+
+def power_lines(store: Store) -> Any:
+    """Return the pressure of the whole cycle over step and y for four power laws: fig. 5.24."""
+    levels = np.array([0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.5, 2.0, 3.0])
+    with house_style():
+        figure = new_figure(10.0, 6.4)
+        axes = figure.subplots(2, 4, sharex=True, sharey=True)
+        for d, row in zip("ab", axes, strict=True):
+            for ax, beta in zip(row, POWERS, strict=True):
+                if beta == 1.0:
+                    dry = dry_cycle(store.folder, FilmCase(design=d, k=0.0))
+                    step, y, pressure = dry.step, dry.y, dry.pressure
+                else:
+                    march = power_march(store, d, beta)
+                    step, y, pressure = march.step, march.y, march.pressure
+                drawn = ax.contourf(
+                    step, MM * y, GPA * pressure.T, levels=levels, cmap="magma_r", extend="max"
+                )
+                ax.contour(
+                    step, MM * y, GPA * pressure.T, levels=levels, colors=GREY, linewidths=0.3
+                )
+                words = ", dry" if beta == 1.0 else ""
+                ax.set_title(f"{d.upper()}, beta = {beta:g}{words}", fontsize=9)
+                ax.grid(visible=False)
+            row[0].set_ylabel("along the line, y [mm]")
+        figure.supxlabel("step of the cycle", fontsize=10)
+        figure.colorbar(drawn, ax=axes, label="largest pressure of the section [GPa]")
+    return figure

@@ -1,0 +1,136 @@
+"""What is kept of every step of a march: curves, and the extremes of every section."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from docs.ehl.cases import Array
+from gearlube_core.ehl.transient_film import FilmSolution
+
+COLUMNS = (
+    "number", "max_pressure", "max_pressure_y", "min_film", "min_film_y", "load_error",
+    "converged", "seconds",
+)  # fmt: skip
+
+
+def write_arrays(path: Path, arrays: dict[str, Any]) -> None:
+    """Write arrays to a file that is either whole or not there."""
+    part = path.with_name(path.name + ".part")
+    with part.open("wb") as stream:
+        np.savez_compressed(stream, **arrays)
+    part.replace(path)
+
+
+@dataclass(slots=True)
+class Lines:
+    """Steps of a march that goes on."""
+
+    rows: list[Array] = field(default_factory=list)  # COLUMNS
+    pressure: list[Array] = field(default_factory=list)  # largest of every section [Pa]
+    film: list[Array] = field(default_factory=list)  # smallest of every section [m]
+    kept: dict[int, tuple[Array, Array]] = field(default_factory=dict)  # whole fields
+
+    def add(self, n: int, solution: FilmSolution, keep: bool) -> None:
+        """Add a step."""
+        pressure, film = solution.pressure, solution.film
+        row = int(pressure.max(axis=0).argmax())
+        thin = int(film.min(axis=0).argmin())
+        self.rows.append(
+            np.array(
+                [n, pressure.max(), solution.y[row], film.min(), solution.y[thin],
+                 solution.load_error, solution.converged, solution.seconds]
+            )
+        )  # fmt: skip
+        self.pressure.append(pressure.max(axis=0).astype(np.float32))
+        self.film.append(film.min(axis=0).astype(np.float32))
+        if keep:
+            self.kept[n] = (pressure.astype(np.float32), film.astype(np.float32))
+
+    def failed_on_end(self) -> int:
+        """Return how many of the last steps failed one after the other."""
+        failed = 0
+        for row in reversed(self.rows):
+            if row[COLUMNS.index("converged")]:
+                break
+            failed += 1
+        return failed
+
+    def arrays(self, scale: float = 1.0) -> dict[str, Any]:
+        """Return everything as arrays; `scale` turns numbers of steps into those of the thesis."""
+        table = np.array(self.rows).reshape(-1, len(COLUMNS))
+        numbers = sorted(self.kept)
+        return {
+            "step": table[:, 0] * scale,
+            "table": table,
+            "pressure": np.array(self.pressure),
+            "film": np.array(self.film),
+            "kept_steps": np.array(numbers, dtype=float) * scale,
+            "kept_pressure": np.array([self.kept[n][0] for n in numbers]),
+            "kept_film": np.array([self.kept[n][1] for n in numbers]),
+        }
+
+    def write(self, path: Path) -> None:
+        """Write the steps so far."""
+        write_arrays(path, self.arrays())
+
+    @classmethod
+    def read(cls, path: Path) -> Lines:
+        """Return the steps in a file; none if it is not there."""
+        if not path.exists():
+            return cls()
+        with np.load(path) as data:
+            kept = {
+                int(n): (data["kept_pressure"][i], data["kept_film"][i])
+                for i, n in enumerate(data["kept_steps"])
+            }
+            return cls(list(data["table"]), list(data["pressure"]), list(data["film"]), kept)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class March:
+    """Curves over part of a cycle, without the steady film at its beginning."""
+
+    step: Array  # of the thesis' 575
+    table: Array  # (steps, COLUMNS)
+    x: Array  # [m]
+    y: Array  # [m]
+    pressure: Array  # largest of every section [Pa], (steps, y)
+    film: Array  # smallest of every section [m], (steps, y)
+    kept_steps: Array
+    kept_pressure: Array  # [Pa], (kept, x, y)
+    kept_film: Array  # [m]
+    complete: bool  # False: given up after steps that failed
+
+    @classmethod
+    def read(cls, path: Path) -> March:
+        """Return the march in a file."""
+        with np.load(path) as data:
+            values: dict[str, Any] = {name: data[name] for name in cls.__dataclass_fields__}
+        values["complete"] = bool(values["complete"])
+        return cls(**values)
+
+    def __getitem__(self, column: str) -> Array:
+        """Return a column by its name."""
+        return np.asarray(self.table[:, COLUMNS.index(column)])
+
+    @property
+    def failures(self) -> int:
+        """Return the number of steps that did not converge."""
+        return int((self["converged"] == 0.0).sum())
+
+    def row(self, step: float) -> int:
+        """Return the row of the nearest step."""
+        return int(np.abs(self.step - step).argmin())
+
+    def at(self, column: str, step: float) -> float:
+        """Return a column at the nearest step."""
+        return float(self[column][self.row(step)])
+
+    def fields(self, step: float) -> tuple[Array, Array]:
+        """Return pressure [Pa] and film [m] of a kept step, shape (x, y)."""
+        i = int(np.abs(self.kept_steps - step).argmin())
+        return self.kept_pressure[i], self.kept_film[i]
