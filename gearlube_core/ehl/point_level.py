@@ -23,6 +23,10 @@ from gearlube_core.ehl.settings import WEDGE_WEIGHTS
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
+# rho h at a face over that of the node upstream of it; reached where the film halves in a cell
+_LEAST_FACE = 0.5
+_MOST_FACE = 2.0
+
 
 @dataclass(slots=True)
 class FilmState:
@@ -102,6 +106,8 @@ class PointLevel:
             upstream=upstream,
             downstream=downstream,
             squeeze=0.0,
+            least=_LEAST_FACE,
+            most=_MOST_FACE,
         )
         self.source = np.zeros(shape)
         self.cell = self.dx * self.dy

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.ehl.point_level import FilmState, PointLevel
+from gearlube_core.ehl.point_limiter import limited_faces
 from gearlube_core.ehl.point_newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.ehl.settings import PointSolverSettings
@@ -15,6 +16,7 @@ from gearlube_core.ehl.settings import PointSolverSettings
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _CURE = "Take more nodes where the film is thin, upwind-1 to start from, or a lower load first."
+_LIMITED = 0.01  # share of first-order faces worth a word
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +36,9 @@ class PointOutcome:
         Over the domain [m]; above zero if sound.
     wedge
         Stencil of the answer.
+    limited
+        Share of the faces under pressure where rho h falls by more than a factor of 2 in a cell
+        or so and the stencil is limited to first order [1]; 0 on grids that resolve the inlet.
     sentence
         What happened and what to do.
     """
@@ -43,6 +48,7 @@ class PointOutcome:
     load_error: float
     smallest_film: float
     wedge: str
+    limited: float
     sentence: str
 
     @classmethod
@@ -69,7 +75,12 @@ class PointOutcome:
         failed = [text for good, text in checks if not good]
         steps = len(record.residuals)
         wedge = "upwind-1" if record.first_order else settings.wedge
+        limited, faces = limited_faces(level.stencil, state.pressure, state.mass)
+        share = limited / max(faces, 1)
         good = f"Converged in {steps} steps."
+        if share > _LIMITED:
+            good += f" {100.0 * share:.1f} % of the faces are of first order: too few nodes at"
+            good += " the inlet or the sides for this film; take more."
         if record.first_order:
             good += f" With upwind-1: too few nodes for {settings.wedge} at this film; take more."
         sentence = (
@@ -77,7 +88,7 @@ class PointOutcome:
             if not failed
             else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
         )
-        return cls(not failed, residual, state.load_error, smallest, wedge, sentence)
+        return cls(not failed, residual, state.load_error, smallest, wedge, share, sentence)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

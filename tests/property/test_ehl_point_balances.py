@@ -39,7 +39,7 @@ def _flow_out(solution: PointSolution, i0: int, i1: int, j0: int, j1: int) -> fl
             rising, np.log(eta[a, rows] / eta[b, rows]), 1.0
         )
         fluidity = np.where(rising, logarithmic, fluidity)
-        cubic = 0.5 * (rho[a, rows] * h[a, rows] ** 3 + rho[b, rows] * h[b, rows] ** 3)
+        cubic = np.sqrt(rho[a, rows] * h[a, rows] ** 3 * rho[b, rows] * h[b, rows] ** 3)
         couette = 0.5 * problem.entrainment[0] * (rho * h)[i : i + 2, rows].sum(axis=0)
         poiseuille = cubic * fluidity / 12.0 * (p[b, rows] - p[a, rows]) / dx
         return float((couette - poiseuille[0]).sum() * dy)
@@ -47,7 +47,7 @@ def _flow_out(solution: PointSolution, i0: int, i1: int, j0: int, j1: int) -> fl
     def along_y(j: int) -> float:
         columns = slice(i0, i1 + 1)
         a, b = (columns, j), (columns, j + 1)
-        cubic = 0.5 * (rho[a] * h[a] ** 3 + rho[b] * h[b] ** 3)
+        cubic = np.sqrt(rho[a] * h[a] ** 3 * rho[b] * h[b] ** 3)
         fluidity = 0.5 * (1.0 / eta[a] + 1.0 / eta[b])
         return float(-(cubic * fluidity / 12.0 * (p[b] - p[a]) / dy).sum() * dx)
 
