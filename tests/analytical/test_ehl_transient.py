@@ -120,7 +120,7 @@ def test_oil_in_a_box_grows_by_what_flows_in():
         m, c = rho * h, rho * h**3 / 12.0
         f, g = 1.0 / eta[i, k], 1.0 / eta[i + 1, k]
         mean = np.where(p[i + 1, k] > p[i, k], log_mean(f, g), 0.5 * (f + g))
-        pumped = 0.5 * (c[i, k] + c[i + 1, k]) * mean * (p[i + 1, k] - p[i, k]) / dx
+        pumped = np.sqrt(c[i, k] * c[i + 1, k]) * mean * (p[i + 1, k] - p[i, k]) / dx
         return float((SPEED * 0.5 * (m[i, k] + m[i + 1, k]) - pumped).sum() * dy)
 
     def flow_y(j):
@@ -128,7 +128,7 @@ def test_oil_in_a_box_grows_by_what_flows_in():
         c = rho * h**3 / 12.0
         mean = 0.5 * (1.0 / eta[k, j] + 1.0 / eta[k, j + 1])
         return float(
-            -(0.5 * (c[k, j] + c[k, j + 1]) * mean * (p[k, j + 1] - p[k, j])).sum() * dx / dy
+            -(np.sqrt(c[k, j] * c[k, j + 1]) * mean * (p[k, j + 1] - p[k, j])).sum() * dx / dy
         )
 
     inflow = flow_x(i0 - 1) - flow_x(i1) + flow_y(j0 - 1) - flow_y(j1)
