@@ -85,7 +85,7 @@ def test_measures_on_curves_known_in_closed_form():
     waves = 2.0 + np.cos(26.0 * np.pi * phase)  # 13 whole waves: 12 inside and two half ones
     assert measures.peaks(waves, 0.2) == 14
     arch = 1.0 - (2.0 * phase - 1.0) ** 2
-    assert measures.peaks(arch + 1e-2 * np.cos(26.0 * np.pi * phase), 0.2) == 1
+    assert measures.peaks(arch + 1e-2 * np.sin(26.0 * np.pi * phase), 0.2) == 1
 
 
 @pytest.mark.parametrize(
@@ -151,7 +151,8 @@ def test_facets_sink_into_the_arc_by_the_square_of_their_length():
 
 
 def test_relief_begins_where_the_thesis_reads_it():
-    # sec. 5.2: y = 6.4 mm at step 75, half a digit and a node; the other three are read from a figure to a millimetre
+    # sec. 5.2: y = 6.4 mm at step 75, to half a digit and a node; the others are read from a
+    # figure to a millimetre
     assert relief_starts(FilmCase(), 75)[0] == pytest.approx(6.4e-3, abs=6e-5)
     low, high = relief_starts(FilmCase(), 300)
     assert low == pytest.approx(-21.5e-3, abs=1e-3)
