@@ -1,25 +1,22 @@
-"""The commands `gearlube ehl line`, `gearlube ehl point` and `gearlube ehl helical`."""
+"""The commands `gearlube ehl line`, `point`, `helical` and `compare`."""
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 from rich.console import Console
 
-from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from fmu_src.ehl_compare_command import compare
+from fmu_src.ehl_outcome import told, verdict
 from gearlube_core.checks import check_finite, check_within
-from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
     from gearlube_core.ehl.case_file import EhlCase
 
-logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
 
 Case = TypeVar("Case", bound="EhlCase")
@@ -61,6 +58,10 @@ def line(
         str | None,
         typer.Option(help="Of the wedge.", metavar="upwind_2|central|upwind_1|galerkin"),
     ] = None,
+    cavitation: Annotated[
+        str | None,
+        typer.Option(help="Where the film breaks.", metavar="reynolds|mass_conserving"),
+    ] = None,
     temperature: Annotated[
         str | None,
         typer.Option(
@@ -78,7 +79,7 @@ def line(
     from fmu_src.ehl_console import console_line
     from gearlube_core.ehl.case_file import LineCase
 
-    with _told(out):
+    with told(out):
         if example:
             typer.echo(LineCase.shipped_text(case), nl=False)
             return
@@ -86,10 +87,11 @@ def line(
             "load_n_per_mm": load,
             "solver.nodes": nodes,
             "solver.stencil": stencil,
+            "solver.cavitation": cavitation,
             "temperature": temperature,
         }
         file = _changed(_read(LineCase, case), changes, entrainment, slide_roll)
-        _verdict(console_line(console, case=file, out=out))
+        verdict(console_line(console, case=file, out=out))
 
 
 @ehl.command("point")
@@ -117,7 +119,7 @@ def point(
     from fmu_src.ehl_console import console_point
     from gearlube_core.ehl.case_file import PointCase
 
-    with _told(out):
+    with told(out):
         if example:
             typer.echo(PointCase.shipped_text(case), nl=False)
             return
@@ -128,7 +130,7 @@ def point(
             "solver.wedge": wedge,
         }
         file = _changed(_read(PointCase, case), changes, entrainment, slide_roll)
-        _verdict(console_point(console, case=file, out=out))
+        verdict(console_point(console, case=file, out=out))
 
 
 @ehl.command("helical")
@@ -176,6 +178,29 @@ def helical(
     newtonian: Annotated[
         bool, typer.Option("--newtonian", help="Leave the oil's Eyring stress out.")
     ] = False,
+    facets: Annotated[
+        int | None,
+        typer.Option(help="Facets of both flanks in place of the involute; 0: none.", metavar="N"),
+    ] = None,
+    crown_start: Annotated[
+        float | None,
+        typer.Option(help="Of both crowns, from mid-face [mm].", metavar="MM"),
+    ] = None,
+    relief_parabola: Annotated[
+        float | None,
+        typer.Option(help="Parabolic share k of both tip reliefs.", metavar="K"),
+    ] = None,
+    relief_exponent: Annotated[
+        float | None,
+        typer.Option(help="Exponent of both tip reliefs as powers of the depth.", metavar="BETA"),
+    ] = None,
+    snapshots: Annotated[
+        str | None,
+        typer.Option(
+            help="Steps of a march whose film is written and drawn beside the line at rest.",
+            metavar="N,N,...",
+        ),
+    ] = None,
     load_sharing: Annotated[
         str,
         typer.Option(
@@ -189,16 +214,39 @@ def helical(
 ) -> None:
     """Solve the film on a helical pair's contact line, at rest at one position or marching.
 
-    At rest: helical.nc, summary.csv and figures. With --march: cycle.nc and its figure; a stopped
-    march goes on from its record in OUT when the same command runs again.
+    At rest: helical.nc, summary.csv, figures. With --march: cycle.nc, its figures and step_*.nc of
+    the snapshots; a stopped march goes on from its record in OUT when the same command runs again.
+    Tip relief, crown and facets are those of the gear file; options replace them on both flanks.
     """
     from drivetrain.ehl.helical_case import HelicalLineCase
-    from fmu_src.ehl_console import console_helical_cycle, console_helical_line
+    from fmu_src.ehl_console import console_helical_line
+    from fmu_src.ehl_march_console import console_helical_cycle
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
-    with _told(out):
+    with told(out):
         is_file = gear.endswith(".toml") or Path(gear).exists()
         file = HelicalGearFile.from_toml(gear) if is_file else HelicalGearFile.named(gear)
+        flanks = {
+            "facets": facets,
+            "crown_start_mm": crown_start,
+            "tip_relief_parabola": relief_parabola,
+            "tip_relief_exponent": relief_exponent,
+            "tip_relief_form": None if relief_exponent is None else "power",
+        }
+        if relief_parabola is not None and relief_exponent is not None:
+            raise ParameterError(
+                f"--relief-parabola must not be given with --relief-exponent, got "
+                f"{relief_parabola:g} and {relief_exponent:g}. Leave one out."
+            )
+        if relief_parabola is not None:
+            flanks["tip_relief_form"] = "blended"
+        changes = {
+            f"{role}.flank.{field}": value
+            for role in ("pinion", "gear")
+            for field, value in flanks.items()
+            if value is not None
+        }
+        file = file.varied(changes) if changes else file
         check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
         if speed_rpm is not None:
             check_within("--speed-rpm", speed_rpm, 0.1, 1e6, "rpm", "Give its magnitude.")
@@ -215,7 +263,11 @@ def helical(
             nodes=(nodes_across, nodes_along),
         )
         if march is None:
-            _verdict(console_helical_line(console, case=case, out=out))
+            if snapshots is not None:
+                raise ParameterError(
+                    f"--snapshots must be given with --march, got {snapshots!r} alone. Give both."
+                )
+            verdict(console_helical_line(console, case=case, out=out))
             return
         if step is not None or position is not None:
             raise ParameterError(
@@ -223,7 +275,19 @@ def helical(
                 "Leave one out."
             )
         first, last = _steps(march)
-        _verdict(console_helical_cycle(console, case=case, first=first, last=last, out=out))
+        verdict(
+            console_helical_cycle(
+                console,
+                case=case,
+                first=first,
+                last=last,
+                snapshots=_snapshots(snapshots),
+                out=out,
+            )
+        )
+
+
+ehl.command("compare")(compare)
 
 
 def _read(kind: type[Case], case: str) -> Case:
@@ -258,23 +322,11 @@ def _steps(text: str) -> tuple[int, int | None]:
     return int(pieces[0]), int(pieces[1])
 
 
-def _verdict(outcome: str) -> None:
-    if outcome:
-        logger.error("%s", outcome)
-        raise typer.Exit(FAILED)
-
-
-@contextmanager
-def _told(out: Path) -> Iterator[None]:
-    """Turn errors into messages and exit codes."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        logger.warning("Stopped; %s may be incomplete. Run the same command again.", out)
-        raise typer.Exit(INTERRUPTED) from None
-    except ParameterError as error:
-        logger.error("%s", error)
-        raise typer.Exit(BAD_ARGUMENT) from None
-    except (GearLubeError, OSError) as error:
-        logger.error("%s", error)
-        raise typer.Exit(FAILED) from None
+def _snapshots(text: str | None) -> tuple[int, ...]:
+    """Return the whole numbers of "75,300"."""
+    pieces = [] if text is None else [piece.strip() for piece in text.split(",")]
+    if not all(piece.isdecimal() for piece in pieces):
+        raise ParameterError(
+            f"--snapshots must be whole numbers, got {text!r}. Write N,N,..., for instance 75,300."
+        )
+    return tuple(sorted({int(piece) for piece in pieces}))

@@ -12,7 +12,6 @@ import xarray as xr
 from rich.console import Console
 from rich.table import Table
 
-from drivetrain.ehl.cycle_dataset import cycle_dataset, march_key
 from drivetrain.ehl.helical_case import HelicalLineCase
 from drivetrain.ehl.helical_dataset import helical_dataset
 from drivetrain.ehl.line_dataset import line_dataset
@@ -21,15 +20,14 @@ from drivetrain.ehl.summary import SOLUTION, Row, summary_csv, summary_rows
 from drivetrain.ehl_figures.catalogue import save_ehl_figures
 from fmu_src.progress_bar import progress_bar
 from gearlube_core.ehl.case_file import LineCase, PointCase
-from gearlube_core.ehl.helical_cycle import march_helical_cycle, solve_helical_line
+from gearlube_core.ehl.helical_cycle import solve_helical_line
 from gearlube_core.ehl.helical_film import HelicalFilm
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_thermal import solve_thermal_line
 from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.transient_film import FilmSolution
+from gearlube_core.ehl.transient_march import MARCH_SETTINGS
 
 logger = logging.getLogger("gearlube")
-RECORD_EVERY = 5  # steps of a march
 _STAGES = 3  # solution, files, figures
 _SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm")}
 
@@ -74,56 +72,15 @@ def console_helical_line(console: Console, *, case: HelicalLineCase, out: Path) 
     """Solve a helical pair's contact line, write to `out`; return why it failed, or nothing."""
     film = case.film()
     step = case.step_of(film)
-    _warn_of_ends(film)
+    warn_of_ends(film)
 
     def solve() -> xr.Dataset:
-        return helical_dataset(case, film, step, solve_helical_line(film, step, throw=False))
+        # as in a march, so that both have one film where nothing moves
+        solution = solve_helical_line(film, step, MARCH_SETTINGS, throw=False)
+        return helical_dataset(case, film, step, solution)
 
     nodes = f"{case.nodes[0]} x {case.nodes[1]}"
     return _console(console, ("helical", case.file.name), f"film on {nodes} nodes", solve, out)
-
-
-def console_helical_cycle(
-    console: Console, *, case: HelicalLineCase, first: int, last: int | None, out: Path
-) -> str:
-    """March a contact line through its cycle, write to `out`; return why it failed, or nothing.
-
-    The march goes on from its last record in `out`, if there is one.
-    """
-    film = case.film()
-    _warn_of_ends(film)
-    last = film.steps.count if last is None else last
-    out.mkdir(parents=True, exist_ok=True)
-    with progress_bar(console) as bar:
-        task = bar.add_task("steady film at the first step", total=last - first)
-
-        def observe(n: int, _: int, solution: FilmSolution) -> None:
-            words = f"smallest film {smallest_film_nm(solution)} nm"
-            bar.update(task, completed=n - first, description=words)
-
-        cycle = march_helical_cycle(
-            film,
-            first=first,
-            last=last,
-            checkpoint=out / f"march_{march_key(film, first)}.npz",
-            checkpoint_every=RECORD_EVERY,
-            progress=observe,
-            throw=False,
-        )
-        bar.update(task, completed=last - first, description="files and figures")
-        dataset = cycle_dataset(case, film, cycle).isel(step=slice(0, last - first + 1))
-        _write(dataset, out / "cycle.nc")
-        save_ehl_figures(dataset, out / "figures")
-    logger.info("Largest pressure %.3f GPa.", 1e-9 * float(dataset["max_pressure"].max()))
-    logger.info("Smallest film %.1f nm.", 1e9 * float(dataset["min_film"].min()))
-    logger.info("Results: %s, %s", out / "cycle.nc", out / "figures")
-    failed = dataset["step"].values[dataset["converged"].values == 0.0]
-    if failed.size:
-        return (
-            f"{failed.size} of {dataset.sizes['step']} steps did not converge, the first is step "
-            f"{failed[0]:.0f}. Take more nodes."
-        )
-    return ""
 
 
 def _warn_of_heights(case: LineCase | PointCase) -> None:
@@ -134,12 +91,8 @@ def _warn_of_heights(case: LineCase | PointCase) -> None:
         )
 
 
-def smallest_film_nm(solution: FilmSolution) -> str:
-    """Return the smallest film [nm] as the progress bar shows it."""
-    return f"{1e9 * solution.minimum_film:.0f}"
-
-
-def _warn_of_ends(film: HelicalFilm) -> None:
+def warn_of_ends(film: HelicalFilm) -> None:
+    """Warn where lines end at the full face width."""
     if film.modified.pinion.crown is None and film.modified.gear.crown is None:
         logger.warning(
             "Neither flank is crowned: the line ends abruptly, where the film may not converge."
@@ -161,7 +114,7 @@ def _console(
         dataset = solve()
         rows = summary_rows(dataset)
         bar.update(task, advance=1, description="files")
-        _write(dataset, out / f"{kind}.nc")
+        write_dataset(dataset, out / f"{kind}.nc")
         _replace_text(out / "summary.csv", summary_csv(rows))
         bar.update(task, advance=1, description="figures")
         save_ehl_figures(dataset, out / "figures")
@@ -175,7 +128,8 @@ def _console(
     return ""
 
 
-def _write(dataset: xr.Dataset, path: Path) -> None:
+def write_dataset(dataset: xr.Dataset, path: Path) -> None:
+    """Write a dataset as NetCDF; an older file stays whole until the new one is complete."""
     partial = path.with_suffix(".part")
     dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
     os.replace(partial, path)

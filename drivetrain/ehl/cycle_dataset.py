@@ -7,6 +7,7 @@ from typing import Any
 
 import xarray as xr
 
+from drivetrain.ehl.cycle_lines import CycleLines
 from drivetrain.ehl.helical_case import HelicalLineCase
 from drivetrain.ehl.variables import unit_note
 from gearlube_core.ehl.helical_cycle import HelicalCycle
@@ -28,7 +29,9 @@ _NOTES = {
 }
 
 
-def cycle_dataset(case: HelicalLineCase, film: HelicalFilm, cycle: HelicalCycle) -> xr.Dataset:
+def cycle_dataset(
+    case: HelicalLineCase, film: HelicalFilm, cycle: HelicalCycle, lines: CycleLines
+) -> xr.Dataset:
     """Return the curves over the steps of a meshing cycle, each with units.
 
     Parameters
@@ -39,11 +42,13 @@ def cycle_dataset(case: HelicalLineCase, film: HelicalFilm, cycle: HelicalCycle)
         The line through its cycle.
     cycle
         Its curves.
+    lines
+        Pressure and film along the line at its steps.
     """
     steps = cycle["step"]
     variables: dict[str, Any] = {
         name: ("step", cycle[name], unit_note(*note)) for name, note in _NOTES.items()
-    }
+    } | lines.variables(steps)
     position = film.steps.position(steps)
     variables["position"] = ("step", position, unit_note("m", "s_i, from the pitch line"))
     return xr.Dataset(

@@ -8,12 +8,13 @@ from typing import Any
 
 import xarray as xr
 
-from drivetrain.ehl_figures.helical_cycle import cycle_curves
+from drivetrain.ehl_figures.helical_cycle import cycle_curves, cycle_map
 from drivetrain.ehl_figures.helical_line import (
     helical_along,
     helical_contours,
     helical_sections,
 )
+from drivetrain.ehl_figures.helical_step import step_contours, step_sections
 from drivetrain.ehl_figures.history import residual_history
 from drivetrain.ehl_figures.line_contact import (
     line_profile,
@@ -42,22 +43,27 @@ HELICAL_CATALOGUE: dict[str, Draw] = {
     "along": helical_along,
     "sections": helical_sections,
 }
-CYCLE_CATALOGUE: dict[str, Draw] = {"cycle": cycle_curves}
+CYCLE_CATALOGUE: dict[str, Draw] = {"cycle": cycle_curves, "cycle_map": cycle_map}
+STEP_CATALOGUE: dict[str, Draw] = {"contours": step_contours, "sections": step_sections}
 _CATALOGUES = {
     "line": LINE_CATALOGUE,
     "point": POINT_CATALOGUE,
     "helical": HELICAL_CATALOGUE,
     "helical_cycle": CYCLE_CATALOGUE,
+    "helical_step": STEP_CATALOGUE,
 }
 
 
-def save_ehl_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
-    """Draw every figure for which there are data into `directory` as PNG; return the files."""
+def save_ehl_figures(dataset: xr.Dataset, directory: Path, prefix: str = "") -> list[Path]:
+    """Draw every figure for which there are data into `directory` as PNG; return the files.
+
+    `prefix` begins the names of the files.
+    """
     directory.mkdir(parents=True, exist_ok=True)
     catalogue = _CATALOGUES[dataset.attrs["contact"]]
     files = []
     for name in drawn_figures(dataset):
-        path = directory / f"{name}.png"
+        path = directory / f"{prefix}{name}.png"
         catalogue[name](dataset).savefig(path, dpi=150)
         files.append(path)
     return files
@@ -71,4 +77,6 @@ def drawn_figures(dataset: xr.Dataset) -> list[str]:
         left_out.add("temperature")
     if of["contact"] == "point" and of["sliding_x"] == of["sliding_y"] == 0.0:
         left_out.add("shear")
+    if of["contact"] == "helical_cycle" and dataset.sizes["step"] < 2:
+        left_out.add("cycle_map")
     return [name for name in _CATALOGUES[of["contact"]] if name not in left_out]

@@ -36,10 +36,10 @@ def helical_contours(dataset: xr.Dataset) -> Any:
         bottom.set_title(f"film, smallest {lowest:.3f} µm (cross)")
         for ax in (top, bottom):
             ax.set_ylabel("across the line, x [mm]")
-            ax.set_ylim(_across(dataset))
+            ax.set_ylim(across_limits(dataset))
             ax.grid(visible=False)
         bottom.set_xlabel("along the line, y [mm]")
-        figure.suptitle(_title(dataset), fontsize=11.5)
+        figure.suptitle(line_title(dataset), fontsize=11.5)
     return figure
 
 
@@ -56,10 +56,10 @@ def helical_along(dataset: xr.Dataset) -> Any:
         smallest = 1e6 * dataset["film"].min("x").values
         right.plot(y, smallest, color=VERMILLION, label="smallest film")
         right.set_ylim(0.0, 1e6 * _HEADROOM * dataset.attrs["central_film"])
-        _two_scales(left, right)
+        two_scales(left, right)
         left.set(xlim=(y[0], y[-1]), ylim=(0.0, None), xlabel="along the line, y [mm]")
         figure.legend(ncols=2, loc="outside lower center")
-        figure.suptitle(_title(dataset), fontsize=11.5)
+        figure.suptitle(line_title(dataset), fontsize=11.5)
     return figure
 
 
@@ -67,9 +67,8 @@ def helical_sections(dataset: xr.Dataset) -> Any:
     """Return pressure and film across the line in its middle and near both ends."""
     with house_style():
         figure = new_figure(8.6, 9.0)
-        of, y = dataset.attrs, dataset["y"].values
-        rows = np.flatnonzero(dataset["pressure"].max("x").values > 1.0e6)
-        rows = rows if rows.size else np.arange(y.size)
+        of = dataset.attrs
+        rows = loaded_rows(dataset)
         places = {
             f"{what} of the loaded length": int(rows[round(share * (rows.size - 1))])
             for share, what in ((0.1, "first tenth"), (0.5, "middle"), (0.9, "last tenth"))
@@ -80,31 +79,43 @@ def helical_sections(dataset: xr.Dataset) -> Any:
             ax.plot(x, 1e-9 * section["pressure"].values, color=BLUE, label="pressure")
             film.plot(x, 1e6 * section["film"].values, color=VERMILLION, label="film")
             ax.axvline(0.0, color=GREY, lw=0.8, ls=":")
-            ax.set(xlim=_across(dataset), ylim=(0.0, top))
+            ax.set(xlim=across_limits(dataset), ylim=(0.0, top))
             film.set_ylim(0.0, 1e6 * _HEADROOM * of["central_film"])
-            _two_scales(ax, film)
+            two_scales(ax, film)
             ax.set_title(f"{what}, y = {1e3 * float(section['y']):.2f} mm")
         ax.set_xlabel("across the line, x [mm]")
         handles, labels = ax.get_legend_handles_labels()
         more, names = film.get_legend_handles_labels()
         figure.legend(handles + more, labels + names, ncols=2, loc="outside lower center")
-        figure.suptitle(_title(dataset), fontsize=11.5)
+        figure.suptitle(line_title(dataset), fontsize=11.5)
     return figure
 
 
-def _two_scales(left: Any, right: Any) -> None:
+def two_scales(left: Any, right: Any) -> None:
+    """Label the axes of a figure of pressure, on the left, and film."""
     left.set_ylabel("pressure [GPa]", color=BLUE)
     right.set_ylabel("film [µm]", color=VERMILLION)
     right.spines["right"].set_visible(True)
     right.grid(visible=False)
 
 
-def _across(dataset: xr.Dataset) -> tuple[float, float]:
+def across_limits(dataset: xr.Dataset) -> tuple[float, float]:
+    """Return the limits across the line that are shown [mm]."""
     x, side = dataset["x"].values, _SIDE * dataset.attrs["half_width"]
-    return 1e3 * max(-side, float(x[0])), 1e3 * min(side, float(x[-1]))
+    carried = dataset["pressure"].max("y").values
+    loaded = x[carried > 0.02 * carried.max()]
+    low, high = min(-side, 1.1 * float(loaded[0])), max(side, 1.1 * float(loaded[-1]))
+    return 1e3 * max(low, float(x[0])), 1e3 * min(high, float(x[-1]))
 
 
-def _title(dataset: xr.Dataset) -> str:
+def loaded_rows(dataset: xr.Dataset) -> Any:
+    """Return the indices along y of sections that carry a fiftieth of the largest pressure."""
+    along = dataset["pressure"].max("x").values
+    return np.flatnonzero(along > 0.02 * along.max())
+
+
+def line_title(dataset: xr.Dataset) -> str:
+    """Return pair, position and load of a line."""
     of = dataset.attrs
     state = "" if of["converged"] else "NOT CONVERGED, "
     return (

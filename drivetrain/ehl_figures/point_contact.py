@@ -37,9 +37,8 @@ def point_contours(dataset: xr.Dataset) -> Any:
         right.set_title(f"film, central {central:.3f} µm, smallest {lowest:.3f} µm")
         for ax, colour in ((left, GREY), (right, "white")):
             _plan(ax, dataset, colour)
-        figure.suptitle(
-            _title(dataset, "dry contact dashed, entrainment as the arrow"), fontsize=11.5
-        )
+        what = f"dry contact dashed, entrainment as the arrow{_stretch(dataset)}"
+        figure.suptitle(_title(dataset, what), fontsize=11.5)
     return figure
 
 
@@ -88,9 +87,8 @@ def point_shear(dataset: xr.Dataset) -> Any:
         figure.colorbar(drawn, ax=ax, label="shear stress along the sliding [MPa]")
         _plan(ax, dataset, GREY)
         coefficient = dataset.attrs["friction_coefficient"]
-        figure.suptitle(
-            _title(dataset, f"coefficient of friction {coefficient:.4f}"), fontsize=11.5
-        )
+        what = f"coefficient of friction {coefficient:.4f}{_stretch(dataset)}"
+        figure.suptitle(_title(dataset, what), fontsize=11.5)
     return figure
 
 
@@ -128,6 +126,13 @@ def _plan(ax: Any, dataset: xr.Dataset, colour: str) -> None:
         start,
         arrowprops={"arrowstyle": "->", "color": "black", "lw": 1.6},
     )
+
+
+def _stretch(dataset: xr.Dataset) -> str:
+    """Return words for a plan whose axes have two scales."""
+    (x_low, x_high), (y_low, y_high) = _shown(dataset, "x"), _shown(dataset, "y")
+    ratio = (y_high - y_low) / (x_high - x_low)
+    return "" if 1.0 / _SLENDER < ratio < _SLENDER else ", scales of x and y differ"
 
 
 def _shown(dataset: xr.Dataset, axis: str) -> tuple[float, float]:

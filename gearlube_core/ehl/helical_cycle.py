@@ -130,7 +130,7 @@ def march_helical_cycle(
     checkpoint
         File to write every `checkpoint_every` steps, and to go on from if it is there.
     progress
-        Called with the step, the last step and its solution.
+        Called with the step, the last step and its solution, from the first step on.
     throw
         Raise at the first step that does not converge; else go on and say so in the table.
 
@@ -165,6 +165,8 @@ def march_helical_cycle(
     kept: dict[int, FilmSolution] = {}
     if not rows:
         rows.append(_row(float(first), march.solution))
+        if progress is not None:
+            progress(first, last, march.solution)
     if first in keep and record is None:
         kept[first] = march.solution
     for n in range(first + len(rows), last + 1):

@@ -25,6 +25,8 @@ from gearlube_core.errors import ConvergenceError, ParameterError
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 SCHEMES = ("bdf2", "crank_nicolson")
+# "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"
+MARCH_SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
 _LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
 
 
@@ -52,8 +54,7 @@ class FilmMarch:
     scheme : {"bdf2", "crank_nicolson"}
         Of the storage term; the first step of "bdf2" is a backward Euler step.
     settings
-        Stencil and tolerances; by default "quick", which keeps thin films that a gap has left on
-        half the nodes of "upwind-2", and a residual of 1e-5.
+        Stencil and tolerances; `MARCH_SETTINGS` by default.
     record
         Goes on from there instead of from a steady state.
     throw
@@ -88,7 +89,7 @@ class FilmMarch:
         check_positive("time_step", time_step, "s")
         check_within("start_time", start_time, -1e9, 1e9, "s")
         if settings is None:
-            settings = PointSolverSettings(wedge="quick", tolerance=1e-5)
+            settings = MARCH_SETTINGS
         self.film, self.time_step, self.start_time = film, time_step, start_time
         self.scheme, self.settings, self.steps = scheme, settings, 0
         (nx, ny), (x0, x1), (y0, y1) = film.nodes, film.x_limits, film.y_limits

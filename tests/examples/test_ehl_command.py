@@ -13,9 +13,10 @@ from typer.testing import CliRunner
 from drivetrain.ehl.cycle_dataset import march_key
 from drivetrain.ehl.line_dataset import hertz_line
 from drivetrain.ehl_figures.catalogue import drawn_figures
-from fmu_src import cli, ehl_console
+from fmu_src import cli, ehl_console, ehl_march_console
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube_core.ehl.case_file import LineCase, PointCase
+from gearlube_core.ehl.helical_film import jamali_2015_film
 from gearlube_core.errors import ConvergenceError
 
 
@@ -35,7 +36,7 @@ def asked(monkeypatch):
     monkeypatch.setattr(ehl_console, "console_line", remember)
     monkeypatch.setattr(ehl_console, "console_point", remember)
     monkeypatch.setattr(ehl_console, "console_helical_line", remember)
-    monkeypatch.setattr(ehl_console, "console_helical_cycle", remember)
+    monkeypatch.setattr(ehl_march_console, "console_helical_cycle", remember)
     return calls
 
 
@@ -128,32 +129,76 @@ def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
 
 
 def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(tmp_path, monkeypatch):
-    march = ("helical", "--march", "300:305", "--nodes-across", 33, "--nodes-along", 33)
+    march = (
+        "helical", "--march", "300:305", "--snapshots", "302", "--newtonian",
+        "--nodes-across", 33, "--nodes-along", 33,
+    )  # fmt: skip
     whole, stopped = tmp_path / "whole", tmp_path / "stopped"
-    assert run(*march, "--newtonian", "--out", whole).exit_code == 0
-    said = ehl_console.smallest_film_nm
+    assert run(*march, "--out", whole).exit_code == 0
+    said = ehl_march_console.smallest_film_nm
     steps = []
 
     def stopping(solution):
         steps.append(solution)
-        if len(steps) == 3:
+        if len(steps) == 4:
             raise KeyboardInterrupt
         return said(solution)
 
-    monkeypatch.setattr(ehl_console, "RECORD_EVERY", 2)
-    monkeypatch.setattr(ehl_console, "smallest_film_nm", stopping)
-    assert run(*march, "--newtonian", "--out", stopped).exit_code == INTERRUPTED
+    monkeypatch.setattr(ehl_march_console, "RECORD_EVERY", 2)
+    monkeypatch.setattr(ehl_march_console, "smallest_film_nm", stopping)
+    assert run(*march, "--out", stopped).exit_code == INTERRUPTED
     assert not (stopped / "cycle.nc").exists()
-    assert run(*march, "--newtonian", "--out", stopped).exit_code == 0
-    # steps 301 to 303, the record of 302, then 303 to 305
-    assert len(steps) == 6
+    assert not list(stopped.glob("*.part"))
+    assert run(*march, "--out", stopped).exit_code == 0
+    # steps 300 to 303, the record of 302, then 303 to 305
+    assert len(steps) == 7
     one, other = (xr.load_dataset(out / "cycle.nc", engine="scipy") for out in (whole, stopped))
     np.testing.assert_array_equal(other["step"], np.arange(300.0, 306.0))
     # linear solutions of a fresh start differ within the tolerance of a step
-    np.testing.assert_allclose(other["min_film"], one["min_film"], rtol=1e-5)
-    np.testing.assert_allclose(other["max_pressure"], one["max_pressure"], rtol=1e-6)
+    for name in ("min_film", "max_pressure", "line_pressure", "line_film"):
+        largest = 1e-5 * float(one[name].max())
+        np.testing.assert_allclose(other[name], one[name], rtol=1e-5, atol=largest)
+    np.testing.assert_allclose(one["line_pressure"].max("y"), one["max_pressure"])
     np.testing.assert_allclose(one["position"][0], -6.7e-3)
-    assert (whole / "figures" / "cycle.png").exists()
+    names = {path.name for path in (whole / "figures").iterdir()}
+    steps_drawn = {"step_0302_contours.png", "step_0302_sections.png"}
+    assert names == {"cycle.png", "cycle_map.png", *steps_drawn}
+    # the film of the step, and of the line at rest there, which two steps of 0.04 mm cannot leave
+    one, other = (xr.load_dataset(out / "step_0302.nc", engine="scipy") for out in (whole, stopped))
+    np.testing.assert_allclose(one["film"], other["film"], rtol=1e-6)
+    middle = {"x": 0.0, "y": 0.0}
+    beside = one[["film", "steady_film"]].interp(middle)
+    assert float(beside["film"]) == pytest.approx(float(beside["steady_film"]), rel=0.02)
+    # marches side by side
+    result = run("compare", f"k = 1={whole}", stopped, "--out", tmp_path / "both")
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "both" / "compare.png").exists()
+
+
+def test_a_snapshot_that_was_asked_for_too_late_is_said(tmp_path, caplog):
+    march = (
+        "helical", "--march", "300:301", "--newtonian", "--nodes-across", 33, "--nodes-along", 33,
+        "--out", tmp_path,
+    )  # fmt: skip
+    assert run(*march).exit_code == 0
+    assert run(*march, "--snapshots", "300").exit_code == 0
+    assert "passed step 300" in caplog.text
+    assert not list(tmp_path.glob("step_*"))
+
+
+def test_options_replace_relief_crown_and_facets_of_both_flanks(asked):
+    given = (
+        (("--relief-parabola", 0.5, "--crown-start", 11.0), {"k": 0.5, "crown_start": 11e-3}),
+        (("--relief-exponent", 3.0), {"beta": 3.0}),
+        (("jamali_2015_b", "--facets", 40), {"facets": 40}),
+    )
+    for options, variant in given:
+        assert run("helical", *options).exit_code == 0
+        design = "b" if "jamali_2015_b" in options else "a"
+        film = asked[-1]["case"].film()
+        expected = jamali_2015_film(design, **variant)
+        assert film.modified == expected.modified
+        assert film.steps == expected.steps
 
 
 def test_a_record_is_for_one_pair_operation_oil_and_first_step(asked):
@@ -250,6 +295,15 @@ def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
         (("helical", "--march", "10"), "FIRST:LAST"),
         (("helical", "--march", "10:x"), "FIRST:LAST"),
         (("helical", "--march", "20:10"), "last"),
+        (("helical", "--march", "20:30", "--snapshots", "31"), "20 to 30"),
+        (("helical", "--march", "20:30", "--snapshots", "21;22"), "75,300"),
+        (("helical", "--step", 20, "--snapshots", "20"), "--march"),
+        (("helical", "--facets", -1), "facets"),
+        (("helical", "--crown-start", 30), "22 mm"),
+        (("helical", "--relief-parabola", 1, "--relief-exponent", 2), "Leave one out"),
+        (("compare", "no_such_folder"), "no_such_folder"),
+        (("compare", "a=x", "a=y"), "x"),
+        (("line", "--cavitation", "jfo"), "mass_conserving"),
         (("helical", "--march", "all", "--step", 3), "--step"),
         (("helical", "--position", 50), "mm"),
         (("helical", "--nodes-along", 5), "along"),
