@@ -27,7 +27,7 @@ from fmu_src.registration import register_variables
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
 from fmu_src.warm_start import compile_ahead
-from fmu_src.wrapper import guarded
+from fmu_src.wrapper import guarded, unload_with_python
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 
 LONGEST_STEP = 0.1  # s
@@ -52,6 +52,8 @@ class CoSimulationSlave(Fmi2Slave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        if self.resources:
+            unload_with_python(self.resources)
         self.definition = self.definition_of(Path(self.resources or ""))
         self.modelName = self.definition.name
         self._values = Values(self.definition, lambda text: self.report(Fmi2Status.error, text))

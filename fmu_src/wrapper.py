@@ -1,6 +1,6 @@
 """How the compiled wrapper of pythonfmu 0.7 treats Python objects, and what keeps it from crashing.
 
-pythonfmu's `PySlaveInstance.cpp` has three habits that its Python side must balance:
+pythonfmu's `PySlaveInstance.cpp` has four habits that its Python side must balance:
 
 * `findClass` releases the dictionary of the slave module, which it has only borrowed. After a few
   instantiations the dictionary is freed while in use.
@@ -8,17 +8,26 @@ pythonfmu's `PySlaveInstance.cpp` has three habits that its Python side must bal
   but keeps the pointers. The next call, even fmi2FreeInstance, then works on freed memory.
 * fmi2FreeInstance destroys the logger before the slave, which then sends it the messages still in
   the queue. The queue is emptied after each call, but not after instantiation.
+* On Linux the library stays loaded after fmi2FreeInstance, dlclose or not: it exports unique
+  symbols. When the process exits, the destructor of its static `pyState` runs before its unload
+  hook, which then releases that object a second time: it counts down a word of a freed block. Where
+  that word is a link of glibc's free list, the process aborts with "corrupted double-linked list".
 
 The first two are balanced by one more reference, given just before the wrapper takes it; the third
-by queueing what the constructor has to say in the first call that follows.
+by queueing what the constructor has to say in the first call that follows; the fourth by running
+the unload hook while Python ends. It leaves no pointer behind for a second release.
 """
 
 from __future__ import annotations
 
+import atexit
 import ctypes
+import os
 import sys
 from collections.abc import Callable
-from functools import wraps
+from contextlib import suppress
+from functools import cache, wraps
+from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 _Arguments = ParamSpec("_Arguments")
@@ -35,6 +44,23 @@ def forget_search_path(resources: str) -> None:
     """Undo the `sys.path` entry that the wrapper adds at every instantiation."""
     while resources in sys.path:
         sys.path.remove(resources)
+
+
+@cache
+def unload_with_python(resources: str) -> None:
+    """Run the unload hook of the library beside `resources` when Python ends, not after that.
+
+    Windows runs the hook before the static destructors, and there a handle on the library would
+    keep the host from removing the file.
+    """
+    if not sys.platform.startswith("linux"):
+        return
+    for path in Path(resources).parent.glob("binaries/linux64/*.so"):
+        # A library that is not loaded has no hook to run: the host has it somewhere else.
+        with suppress(OSError, AttributeError):
+            hook = ctypes.CDLL(str(path), mode=os.RTLD_NOLOAD).finalizePythonInterpreter
+            hook.restype = None
+            atexit.register(hook)
 
 
 def guarded(
