@@ -7,7 +7,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from docs.ehl.cases import CYCLE, FACETED, FilmCase
+from docs.ehl.cases import CYCLE, FACETED, STEPS, FilmCase
 from docs.ehl.store import Store
 
 logger = logging.getLogger("docs.ehl")
@@ -16,13 +16,13 @@ DESIGNS = ("a", "b")
 POSITIONS = (75, 300, 500)  # of the thesis' detailed results
 CROWNS = (0.0, 0.1, 0.25, 0.4, 0.45)  # F_o over F
 PARABOLAS = (1.0, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)  # k
-MARCHED_PARABOLAS = (0.5, 0.1, 0.02, 0.0)
+MARCHED_PARABOLAS = (0.3, 0.1, 0.02, 0.0)
 POWERS = (1.0, 2.0, 3.0, 4.0)  # beta
 SPEEDS = (1.0, 2.0, 5.0, 10.0)
 FACETS = (20, 30, 40, 60, 80, 100)
-COUNTS = (200, 400, 575, 800)
+COUNTS = (200, 400, 800)
 COUNT_RANGE = (440, 520)
-SPARSE = 288  # time steps of the cycles that are compared with each other
+SPARSE = 230  # time steps of most whole cycles; every fifth of the thesis' steps is one
 APPROACH = 40  # steps from rest before a step that is looked at
 FACET_STEPS = (75, 500)
 FACET_MARCH = (280, 300)
@@ -34,6 +34,11 @@ def power_case(design: str, beta: float, **rest: object) -> FilmCase:
     if beta in straight:
         return FilmCase(design=design, k=straight[beta], **rest)  # type: ignore[arg-type]
     return FilmCase(design=design, beta=beta, **rest)  # type: ignore[arg-type]
+
+
+def default_cycle(design: str) -> FilmCase:
+    """Return what a whole cycle is marched as: A with the thesis' time steps."""
+    return FilmCase(design=design, nodes=CYCLE, count=STEPS if design == "a" else SPARSE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,10 +65,11 @@ def _films(films: list[tuple[FilmCase, int]]) -> list[Run]:
 def _first() -> list[Run]:
     runs = _films([(FilmCase(design=d), n) for d in DESIGNS for n in POSITIONS])
     runs += _films([(FilmCase(design=d, nodes=CYCLE), n) for d in DESIGNS for n in POSITIONS])
-    return runs + [
-        Run(case=FilmCase(design=d, nodes=CYCLE), first=0, step=575, keep=POSITIONS)
-        for d in DESIGNS
-    ]
+    return [*runs, _cycle("a")]
+
+
+def _cycle(design: str) -> Run:
+    return Run(case=default_cycle(design), first=0, step=575, keep=POSITIONS)
 
 
 def _at_rest() -> list[Run]:
@@ -85,9 +91,9 @@ def _at_rest() -> list[Run]:
 
 def _marches() -> list[Run]:
     runs = [
-        Run(case=FilmCase(crown_start=f, nodes=CYCLE, count=SPARSE), first=0, step=575)
-        for f in (0.45, 0.25)
+        Run(case=FilmCase(speed=s, nodes=CYCLE), first=500 - APPROACH, step=500) for s in SPEEDS
     ]
+    runs += [_cycle("b")]
     runs += [
         Run(case=FilmCase(k=k), first=500 - APPROACH, step=500) for k in (1.0, *MARCHED_PARABOLAS)
     ]
@@ -100,16 +106,13 @@ def _marches() -> list[Run]:
         for n in (100, 40)
     ]
     runs += [
-        Run(case=FilmCase(speed=s, nodes=CYCLE), first=500 - APPROACH, step=500) for s in SPEEDS
-    ]
-    runs += [
         Run(case=FilmCase(crown_start=f, nodes=CYCLE, count=SPARSE), first=0, step=575)
-        for f in (0.1, 0.4)
+        for f in (0.45, 0.25, 0.1, 0.4)
     ]
     runs += [
         Run(case=power_case(d, b, nodes=CYCLE, count=SPARSE), first=0, step=575)
-        for b in POWERS[2:]
         for d in DESIGNS
+        for b in POWERS[2:]
     ]
     return runs
 
