@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from docs.ehl.store import Store
+from docs.ehl.store import MissingFilmError, Store
 from docs.validation.claims import FAILS, HOLDS, PARTLY, Verdict
 
 GPA, UM, MM = 1e-9, 1e6, 1e3
+MISSING = "not computed"
 
 __all__ = [
-    "FAILS", "GPA", "HOLDS", "MM", "PARTLY", "UM", "Claim", "Verdict", "judge", "listed", "span",
+    "FAILS", "GPA", "HOLDS", "MISSING", "MM", "PARTLY", "UM", "Claim", "Verdict", "judge", "listed",
+    "span", "verdicts",
 ]  # fmt: skip
 
 
@@ -24,6 +26,17 @@ class Claim:
     source: str
     tolerance: str
     evaluate: Callable[[Store], Verdict]
+
+
+def verdicts(claims: Iterable[Claim], store: Store) -> list[Verdict]:
+    """Return the verdict on every claim; on none whose films are missing."""
+    found = []
+    for claim in claims:
+        try:
+            found.append(claim.evaluate(store))
+        except MissingFilmError as error:
+            found.append(Verdict("-", MISSING, f"`{error}` is not computed yet"))
+    return found
 
 
 def judge(*parts: bool) -> str:

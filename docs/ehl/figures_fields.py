@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.colors import BoundaryNorm
 
 from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase
 from docs.ehl.claims import GPA, MM, UM
@@ -14,7 +15,7 @@ from docs.ehl.figures_cycle import power_march
 from docs.ehl.runs import POSITIONS, POWERS, power_case
 from docs.ehl.sections import line_contact, section
 from docs.ehl.store import Store
-from drivetrain.figures.style import BLUE, GREY, VERMILLION, house_style, new_figure
+from drivetrain.figures.style import BLUE, VERMILLION, house_style, new_figure
 
 _FILMS = np.array([0.1, 0.14, 0.18, 0.22, 0.26, 0.3, 0.4, 0.6, 1.0])  # um
 _PRESSURES = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 1.1, 1.3])  # GPa
@@ -23,12 +24,19 @@ _SECTIONS = (-18.0, -10.0, 0.0, 10.0, 17.0, 18.0)  # mm
 
 def _maps(axes: Any, x: Array, y: Array, pressure: Array, film: Array, levels: Array) -> Any:
     places = (MM * y, MM * x)
-    thick = axes[0].contourf(*places, UM * film, levels=_FILMS, cmap="viridis", extend="both")
-    dense = axes[1].contourf(*places, GPA * pressure, levels=levels, cmap="magma_r", extend="max")
+    thick = _filled(axes[0], places, UM * film, _FILMS, "viridis", "min")
+    dense = _filled(axes[1], places, GPA * pressure, levels, "magma_r", "max")
     for ax in axes:
         ax.grid(visible=False)
         ax.set_ylim(-0.5, 0.45)
     return thick, dense
+
+
+def _filled(ax: Any, places: Any, values: Array, levels: Array, colours: str, extend: Any) -> Any:
+    # one colour a band, however wide: the bands of thin films would be all alike otherwise
+    norm = BoundaryNorm(levels, 256, extend=extend)
+    ax.contour(*places, values, levels=levels, colors="black", linewidths=0.25)
+    return ax.contourf(*places, values, levels=levels, cmap=colours, norm=norm, extend=extend)
 
 
 def transient_steady(store: Store) -> Any:
@@ -122,12 +130,7 @@ def power_lines(store: Store) -> Any:
                 else:
                     march = power_march(store, d, beta)
                     step, y, pressure = march.step, march.y, march.pressure
-                drawn = ax.contourf(
-                    step, MM * y, GPA * pressure.T, levels=levels, cmap="magma_r", extend="max"
-                )
-                ax.contour(
-                    step, MM * y, GPA * pressure.T, levels=levels, colors=GREY, linewidths=0.3
-                )
+                drawn = _filled(ax, (step, MM * y), GPA * pressure.T, levels, "magma_r", "max")
                 words = ", dry" if beta == 1.0 else ""
                 ax.set_title(f"{d.upper()}, beta = {beta:g}{words}", fontsize=9)
                 ax.grid(visible=False)

@@ -34,15 +34,15 @@ class Lines:
     film: list[Array] = field(default_factory=list)  # smallest of every section [m]
     kept: dict[int, tuple[Array, Array]] = field(default_factory=dict)  # whole fields
 
-    def add(self, n: int, solution: FilmSolution, keep: bool) -> None:
-        """Add a step."""
+    def add(self, n: int, solution: FilmSolution, keep: bool, seconds: float) -> None:
+        """Add a step and what it took of the processor [s]."""
         pressure, film = solution.pressure, solution.film
         row = int(pressure.max(axis=0).argmax())
         thin = int(film.min(axis=0).argmin())
         self.rows.append(
             np.array(
                 [n, pressure.max(), solution.y[row], film.min(), solution.y[thin],
-                 solution.load_error, solution.converged, solution.seconds]
+                 solution.load_error, solution.converged, seconds]
             )
         )  # fmt: skip
         self.pressure.append(pressure.max(axis=0).astype(np.float32))

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from docs.ehl.cases import CYCLE, FACETED, LINE, FilmCase
-from docs.ehl.claims import GPA, MM, UM, Claim, Verdict
+from docs.ehl.claims import GPA, MISSING, MM, UM, Claim, Verdict
+from docs.ehl.lines import March
 from docs.ehl.runs import FACETS, MARCHED_PARABOLAS, POSITIONS, Run, power_case
-from docs.ehl.store import Steady, Store
+from docs.ehl.store import MissingFilmError, Steady, Store
 from docs.helical.pages import table
 
 
@@ -37,71 +39,86 @@ def dry_table(store: Store) -> str:
     ]
     rows = []
     for words, case, step in cases:
-        film = store.steady(case, step)
+        try:
+            film = store.steady(case, step)
+        except MissingFilmError:
+            continue
         over = 100.0 * (film.max_pressure / film.dry_pressure - 1.0)
         rows.append(
             [words, f"{GPA * film.dry_pressure:.3f}", f"{GPA * film.max_pressure:.3f}",
-             f"{over:+.1f} %", f"{UM * film.min_film:.3f}", "" if film.converged else "no"]
+             f"{over:+.1f} %", f"{UM * film.min_film:.3f}", "yes" if film.converged else "**no**"]
         )  # fmt: skip
-    heads = ["At rest", "dry, GPA", "with film, GPa", "film over dry", "smallest film, um"]
-    return table([h.replace("GPA", "GPa") for h in heads] + ["converged"], rows)
+    heads = ["At rest", "dry, GPa", "with film, GPa", "film over dry", "smallest film, um"]
+    return table([*heads, "converged"], rows)
 
 
 def grid_table(store: Store) -> str:
     """Return pressure and film at rest on three grids."""
+    grids: tuple[tuple[int, int], ...] = (CYCLE, LINE, FACETED)
+    cases = [(f"A, k = 1, step {n}", FilmCase(), n, grids) for n in POSITIONS]
+    cases += [(f"A, k = {k:g}, step 500", FilmCase(k=k), 500, grids[1:]) for k in (0.1, 0.0)]
+    cases += [(f"A, n_f = {n}, step 300", FilmCase(facets=n), 300, grids[1:]) for n in (100, 20)]
     rows = []
-    for step in POSITIONS:
-        films = [store.steady(FilmCase(nodes=n), step) for n in (CYCLE, LINE, FACETED)]
-        rows.append([f"A, k = 1, step {step}", *(_both(f) for f in films)])
-    for k in (0.1, 0.0):
-        films = [store.steady(FilmCase(k=k, nodes=n), 500) for n in (LINE, FACETED)]
-        rows.append([f"A, k = {k:g}, step 500", "", *(_both(f) for f in films)])
-    for facets in (100, 20):
-        films = [store.steady(FilmCase(facets=facets, nodes=n), 300) for n in (LINE, FACETED)]
-        rows.append([f"A, n_f = {facets}, step 300", "", *(_both(f) for f in films)])
-    heads = [f"{n[0]} x {n[1]}" for n in (CYCLE, LINE, FACETED)]
-    return table(["GPa, um", *heads], rows)
+    for words, case, step, ours in cases:
+        cells = [_at_rest(store, replace(case, nodes=n), step) if n in ours else "" for n in grids]
+        rows.append([words, *cells])
+    return table(["GPa, um", *(f"{n[0]} x {n[1]}" for n in grids)], rows)
 
 
-def _both(film: Steady) -> str:
+def _at_rest(store: Store, case: FilmCase, step: int) -> str:
+    try:
+        film = store.steady(case, step)
+    except MissingFilmError:
+        return MISSING
     failed = "" if film.converged else " (not converged)"
     return f"{GPA * film.max_pressure:.3f}, {UM * film.min_film:.3f}{failed}"
 
 
-def counts(store: Store, runs: Sequence[Run]) -> str:
-    """Return how many films and steps were solved and which failed."""
-    films = failed = steps = bad = 0
-    words: list[str] = []
+@dataclass(frozen=True, slots=True)
+class _Tally:
+    """What the list of runs came to."""
+
+    films: list[Steady]
+    marches: list[March]
+    failed: list[str]
+    missing: int
+
+
+def _tally(store: Store, runs: Sequence[Run]) -> _Tally:
+    films, marches, failed, missing = [], [], [], 0
     for run in runs:
-        if run.first is None:
-            film = store.steady(run.case, run.step)
-            films += 1
-            if not film.converged:
-                failed += 1
-                words.append(f"`{run.case.name}` at step {run.step}")
-        else:
+        name = f"`{run.case.name}`"
+        try:
+            if run.first is None:
+                film = store.steady(run.case, run.step)
+                films.append(film)
+                if not film.converged:
+                    failed.append(f"{name} at step {run.step}")
+                continue
             march = store.march(run.case, run.first, run.step, run.keep)
-            steps += len(march.step)
-            bad += march.failures
-            if march.failures or not march.complete:
-                state = "" if march.complete else ", given up"
-                words.append(f"`{run.case.name}`: {march.failures} of {len(march.step)}{state}")
-    listed = "; ".join(words) or "none"
-    return (
-        f"\nOf {films} films at rest {failed} did not converge, of {steps} time steps {bad}: "
-        f"{listed}.\n"
-    )
+        except MissingFilmError:
+            missing += 1
+            continue
+        marches.append(march)
+        if march.failures or not march.complete:
+            state = "" if march.complete else ", given up"
+            failed.append(f"{name}: {march.failures} of {len(march.step)} steps{state}")
+    return _Tally(films, marches, failed, missing)
 
 
-def cost(store: Store, runs: Sequence[Run]) -> str:
-    """Return what films and steps took."""
-    rest = [store.steady(r.case, r.step).seconds for r in runs if r.first is None]
-    moved = [store.march(r.case, r.first, r.step, r.keep) for r in runs if r.first is not None]
-    spent = sum(float(m["seconds"].sum()) for m in moved)
+def counts(store: Store, runs: Sequence[Run]) -> str:
+    """Return how many films and steps were solved, which failed and what they took."""
+    tally = _tally(store, runs)
+    rest = sorted(film.seconds for film in tally.films)
+    steps = sum(len(m.step) for m in tally.marches)
+    bad = sum(m.failures for m in tally.marches)
+    spent = sum(float(m["seconds"].sum()) for m in tally.marches)
+    lacking = f" {tally.missing} runs of the list are not computed yet." if tally.missing else ""
     return (
+        f"\nOf {len(rest)} films at rest {sum(not f.converged for f in tally.films)} did not "
+        f"converge, of {steps} time steps {bad}: {'; '.join(tally.failed) or 'none'}.{lacking}\n"
         f"\nFilms at rest took {sum(rest):.0f} s of one processor, a median of "
-        f"{sorted(rest)[len(rest) // 2]:.1f} s each; the marches {spent:.0f} s of a busy machine's "
-        "time.\n"
+        f"{rest[len(rest) // 2]:.1f} s each; time steps {spent:.0f} s.\n"
     )
 
 

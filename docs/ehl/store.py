@@ -73,17 +73,36 @@ class _Given(Exception):  # noqa: N818
     """A march is given up."""
 
 
-class Store:
-    """Films by their names in a folder; what is missing is computed."""
+class MissingFilmError(Exception):
+    """A film is not in the folder and may not be computed."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+
+class Store:
+    """Films by their names in a folder.
+
+    Parameters
+    ----------
+    folder
+        Made if it is not there.
+    compute
+        Whether what is missing is computed; else it raises `MissingFilmError`.
+    """
+
+    def __init__(self, folder: Path, compute: bool = True) -> None:
+        self.folder, self.compute = folder, compute
         folder.mkdir(parents=True, exist_ok=True)
+
+    def _lacks(self, path: Path) -> bool:
+        if path.exists():
+            return False
+        if not self.compute:
+            raise MissingFilmError(path.stem)
+        return True
 
     def steady(self, case: FilmCase, step: float) -> Steady:
         """Return the steady film of a case at one of the thesis' steps."""
         path = self.folder / f"steady_{case.name}_at{step:g}.npz"
-        if not path.exists():
+        if self._lacks(path):
             logger.info("steady film %s, step %g", case.name, step)
             write_arrays(path, _solve_steady(case, step))
         with np.load(path) as data:
@@ -102,7 +121,7 @@ class Store:
         """
         name = f"march_{case.name}_from{first}_to{last}"
         path = self.folder / f"{name}.npz"
-        if not path.exists():
+        if self._lacks(path):
             logger.info("march %s, steps %d to %d", case.name, first, last)
             write_arrays(path, self._march(case, first, last, keep, name))
             for part in self.folder.glob(f"{name}.*part.npz"):
@@ -121,9 +140,13 @@ class Store:
             record.unlink(missing_ok=True)
             lines = Lines()
         began, complete = time.monotonic(), True
+        spent = time.process_time()
 
         def follow(n: int, last: int, solution: FilmSolution) -> None:
-            lines.add(n, solution, n in wanted)
+            nonlocal spent
+            now = time.process_time()
+            lines.add(n, solution, n in wanted, now - spent)
+            spent = now
             given_up = lines.failed_on_end() >= _GIVE_UP
             if n % _EVERY == 0 or n == last or given_up:
                 lines.write(beside)

@@ -9,7 +9,7 @@ import pytest
 
 from docs.ehl import measures
 from docs.ehl.cases import CYCLE, FilmCase, relief_starts
-from docs.ehl.claims import FAILS, HOLDS, PARTLY, judge
+from docs.ehl.claims import FAILS, HOLDS, MISSING, PARTLY, judge, verdicts
 from docs.ehl.claims_cycle import CYCLES
 from docs.ehl.claims_facets import FACETED_FLANKS, facet_gaps
 from docs.ehl.claims_motion import MOTIONS
@@ -194,6 +194,7 @@ def test_lines_survive_a_file_and_count_failures(tmp_path):
                 newton_steps=1, krylov_steps=1, seconds=0.0,
             ),
             keep=n == 1,
+            seconds=0.5,
         )  # fmt: skip
     lines.write(tmp_path / "lines.npz")
     read = Lines.read(tmp_path / "lines.npz")
@@ -207,6 +208,14 @@ def test_lines_survive_a_file_and_count_failures(tmp_path):
     assert list(march.step) == [0.0, 2.0, 4.0]
     assert march.failures == 2
     assert march.fields(2.0)[0].max() == 2.0
+
+
+def test_what_is_missing_is_said_and_not_judged(tmp_path):
+    store = Store(tmp_path, compute=False)
+    found = verdicts([CLAIMS["J3"], CLAIMS["F5"], CLAIMS["F8"]], store)
+    assert [v.verdict for v in found] == [MISSING, MISSING, HOLDS]
+    assert "march_a_" in found[0].reason
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.slow

@@ -1,0 +1,69 @@
+"""The pictures of docs/ehl.md, in the order of the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from docs.ehl import figures_cycle, figures_fields
+from docs.ehl.store import MissingFilmError, Store
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture, its title and what is said below it."""
+
+    name: str
+    title: str
+    caption: str
+    draw: Callable[[Store], Any]
+
+
+CYCLE_PICTURES = (
+    Picture(
+        "cycle_designs",
+        "Pressure and film over the cycle",
+        "Lines: in motion. Dots: largest pressure of the dry contact of the same gap. Circles: "
+        "films at rest.",
+        figures_cycle.designs,
+    ),
+)
+SMOOTH_PICTURES = (
+    Picture(
+        "transient_steady",
+        "In motion and at rest",
+        "Design A; oil flows upwards, towards larger x. Pressures are alike; the film that a "
+        "relief moving along the line leaves behind is thinner than that of a line at rest (J14).",
+        figures_fields.transient_steady,
+    ),
+    Picture(
+        "sections",
+        "Sections",
+        "Line contact: of the same gap, speeds and load per length (J15).",
+        figures_fields.sections,
+    ),
+    Picture("crowning", "Crowning", "", figures_cycle.crowns),
+    Picture("linear_relief", "Straight relief", "", figures_cycle.linear_relief),
+    Picture("parabolas", "Parabolic share", "", figures_cycle.parabolas),
+    Picture("speeds", "Speed", "", figures_cycle.speeds),
+    Picture("powers", "Power laws over the cycle", "", figures_cycle.powers),
+    Picture("power_contours", "Power laws at step 75", "", figures_fields.power_contours),
+    Picture("power_lines", "Power laws along the line", "", figures_fields.power_lines),
+)
+FACET_PICTURES = (Picture("facets", "Facets", "", figures_cycle.facets),)
+
+
+def shown(store: Store, pictures: Iterable[Picture], images: Path) -> str:
+    """Draw pictures and return them as text; those whose films are missing are left out."""
+    text = ""
+    for picture in pictures:
+        try:
+            figure = picture.draw(store)
+        except MissingFilmError:
+            continue
+        figure.savefig(images / f"ehl_{picture.name}.png", dpi=100)
+        text += f"\n![{picture.title}](images/ehl_{picture.name}.png)\n"
+        text += f"\n{picture.caption}\n" if picture.caption else ""
+    return text
