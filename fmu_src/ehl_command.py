@@ -224,7 +224,7 @@ def helical(
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     with told(out):
-        is_file = gear.endswith(".toml") or Path(gear).exists()
+        is_file = gear.endswith(".toml") or Path(gear).is_file()
         file = HelicalGearFile.from_toml(gear) if is_file else HelicalGearFile.named(gear)
         flanks = {
             "facets": facets,
@@ -291,7 +291,7 @@ ehl.command("compare")(compare)
 
 
 def _read(kind: type[Case], case: str) -> Case:
-    is_file = case.endswith(".toml") or Path(case).exists()
+    is_file = case.endswith(".toml") or Path(case).is_file()
     return kind.from_toml(case) if is_file else kind.named(case)
 
 

@@ -68,6 +68,7 @@ def console_helical_cycle(
             progress=observe,
             throw=False,
         )
+        bar.update(task, completed=last - first)
         steady: dict[int, FilmSolution] = {}
         for n in snapshots:
             bar.update(task, description=f"step {n} at rest")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from drivetrain.ehl.helical_dataset import helical_dataset
 from drivetrain.ehl.variables import unit_note
 from gearlube_core.ehl.helical_film import HelicalFilm
 from gearlube_core.ehl.transient_film import FilmSolution
+from gearlube_core.errors import ParameterError
 
 Array = NDArray[np.float64]
 
@@ -26,6 +28,11 @@ class CycleLines:
     ----------
     path
         File that holds them between two runs of one march; read if it is there.
+
+    Raises
+    ------
+    ParameterError
+        The file is there but is not such a file.
     """
 
     def __init__(self, path: Path) -> None:
@@ -33,10 +40,18 @@ class CycleLines:
         self._rows: dict[int, tuple[Array, Array]] = {}
         self._y: Array = np.empty(0)
         if path.exists():
-            with np.load(path, allow_pickle=False) as stored:
+            self._read()
+
+    def _read(self) -> None:
+        try:
+            with np.load(self._path, allow_pickle=False) as stored:
                 self._y = stored["y"]
                 rows = zip(stored["step"], stored["pressure"], stored["film"], strict=True)
                 self._rows = {int(step): (pressure, film) for step, pressure, film in rows}
+        except (OSError, ValueError, KeyError, zipfile.BadZipFile) as reason:
+            raise ParameterError(
+                f"{self._path} must hold the lines of a march, got {reason}. Remove it."
+            ) from None
 
     def add(self, step: int, solution: FilmSolution) -> None:
         """Keep the lines of a step."""

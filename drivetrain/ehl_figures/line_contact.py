@@ -71,6 +71,10 @@ def _profile(dataset: xr.Dataset, dry: bool) -> Any:
         x, low_high = _milli(dataset), _shown(dataset)
         left.plot(x, 1e-9 * dataset["pressure"].values, color=BLUE, label="pressure")
         right.plot(x, 1e6 * dataset["film"].values, color=VERMILLION, label="film")
+        void = dataset["void"].values
+        if void.any():
+            right.plot(x, 1e6 * dataset["film"].values * (1.0 - void), color=GREEN, ls=":",
+                       label="oil in the gap")  # fmt: skip
         if dry:
             left.plot(
                 x, 1e-9 * dataset["hertz_pressure"].values, color=BLUE, ls="--", lw=1.1,

@@ -184,6 +184,19 @@ def test_a_snapshot_that_was_asked_for_too_late_is_said(tmp_path, caplog):
     assert run(*march, "--snapshots", "300").exit_code == 0
     assert "passed step 300" in caplog.text
     assert not list(tmp_path.glob("step_*"))
+    (lines,) = tmp_path.glob("lines_*.npz")
+    lines.write_bytes(lines.read_bytes()[:100])
+    assert run(*march).exit_code == BAD_ARGUMENT
+    assert lines.name in caplog.text
+
+
+def test_a_folder_does_not_hide_a_shipped_case(asked, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("elliptical", "jamali_2015_b"):
+        (tmp_path / name).mkdir()
+    assert run("point", "elliptical").exit_code == 0
+    assert run("helical", "jamali_2015_b").exit_code == 0
+    assert asked[1]["case"].file.name == "jamali_2015_b"
 
 
 def test_options_replace_relief_crown_and_facets_of_both_flanks(asked):
