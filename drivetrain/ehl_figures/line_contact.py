@@ -73,7 +73,8 @@ def _profile(dataset: xr.Dataset, dry: bool) -> Any:
         right.plot(x, 1e6 * dataset["film"].values, color=VERMILLION, label="film")
         void = dataset["void"].values
         if void.any():
-            right.plot(x, 1e6 * dataset["film"].values * (1.0 - void), color=GREEN, ls=":",
+            oil = 1e6 * dataset["film"].values * (1.0 - void)
+            right.plot(x[:-1], oil[:-1], color=GREEN, ls=":",
                        label="oil in the gap")  # fmt: skip
         if dry:
             left.plot(
