@@ -9,11 +9,14 @@ import math
 
 import numpy as np
 
-from gearlube_core.ehl.point_stencil import StencilParameters
+from gearlube_core.ehl.point_stencil import FlowSlopes, StencilParameters
 from gearlube_core.jit import kernel
 
 # a node and its eight neighbours: row by row from south-west to north-east
 ELEMENT_NEIGHBOURS = 9
+ELEMENT_CENTRE = 4
+# steps to them along y and along x
+ELEMENT_OFFSETS = np.array([[n // 3 - 1, n % 3 - 1] for n in range(ELEMENT_NEIGHBOURS)])
 
 # values and slopes of the four shape functions at the four Gauss points of the unit square;
 # node k lies k // 2 above and k % 2 to the right of the element's first one
@@ -174,6 +177,7 @@ def element_derivatives(
     density: np.ndarray,
     density_slope: np.ndarray,
     film: np.ndarray,
+    slopes: FlowSlopes,
     compliance: float,
     free: np.ndarray,
     by_pressure: np.ndarray,
@@ -187,13 +191,14 @@ def element_derivatives(
         As in `element_residual`.
     viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
         d ln eta/dp, rho, d rho/dp, h [1].
+    slopes
+        As in `reynolds_derivatives`.
     compliance
         As in `element_residual`; the shares of upwinding are held.
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero, as on the border.
     by_pressure, by_film : ndarray, shape (9, ny, nx)
-        Result [1], neighbour 3 (j' - j + 1) + i' - i + 1; the factors of `cubic_x` to `cubic_y`
-        beside rho h^3 are held.
+        Result [1], neighbour 3 (j' - j + 1) + i' - i + 1.
     """
     ny, nx = pressure.shape
     by_pressure[:] = 0.0
@@ -213,17 +218,17 @@ def element_derivatives(
                     slope_x += _NX[g, k] * pressure[jj, ii]
                     slope_y += _NY[g, k] * pressure[jj, ii]
                     share = _N[g, k] * fluidity[jj, ii]
-                    sx += share * cubic_x[jj, ii]
-                    sxy += share * cubic_xy[jj, ii]
-                    sy += share * cubic_y[jj, ii]
+                    sx += share * slopes.slope_x[jj, ii]
+                    sxy += share * slopes.slope_xy[jj, ii]
+                    sy += share * slopes.slope_y[jj, ii]
                 for n in range(4):
                     jj, ii = j + n // 2, i + n % 2
                     N, NX, NY, f = _N[g, n], _NX[g, n], _NY[g, n], fluidity[jj, ii]
                     rho, rho_p, h = density[jj, ii], density_slope[jj, ii], film[jj, ii]
                     pumped_x = px * cubic_x[jj, ii] * slope_x + pxy * cubic_xy[jj, ii] * slope_y
                     pumped_y = py * cubic_y[jj, ii] * slope_y + pxy * cubic_xy[jj, ii] * slope_x
-                    steep = rho_p / rho - viscosity_slope[jj, ii]
-                    cubed = 3.0 / max(h, 1e-30)
+                    steep = slopes.by_pressure[jj, ii] - viscosity_slope[jj, ii]
+                    cubed = slopes.film_power[jj, ii] / max(h, 1e-30)
                     carried_x, carried_y = ux * (N - back_x * NX), uy * (N - back_y * NY)
                     x_p = px * sx * NX + pxy * sxy * NY + N * f * pumped_x * steep
                     x_p -= carried_x * rho_p * h
@@ -248,75 +253,3 @@ def element_derivatives(
             values[neighbour, ny - 1] = 0.0
             values[neighbour, :, 0] = 0.0
             values[neighbour, :, nx - 1] = 0.0
-
-
-@kernel
-def apply_element_derivatives(
-    by_pressure: np.ndarray,
-    by_film: np.ndarray,
-    pressure: np.ndarray,
-    film: np.ndarray,
-    result: np.ndarray,
-) -> None:
-    """Write the change of the residual under changes of pressure and film, shape (ny, nx) [1].
-
-    Parameters
-    ----------
-    by_pressure, by_film : ndarray, shape (9, ny, nx)
-        From `element_derivatives`.
-    pressure, film : ndarray, shape (ny, nx)
-        Changes.
-    result : ndarray, shape (ny, nx)
-        Zero on the border and where rows are zero.
-    """
-    ny, nx = pressure.shape
-    result[:] = 0.0
-    for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
-            total = 0.0
-            for neighbour in range(9):
-                jj, ii = j + neighbour // 3 - 1, i + neighbour % 3 - 1
-                total += by_pressure[neighbour, j, i] * pressure[jj, ii]
-                total += by_film[neighbour, j, i] * film[jj, ii]
-            result[j, i] = total
-
-
-@kernel
-def element_entries(
-    by_pressure: np.ndarray,
-    by_film: np.ndarray,
-    free: np.ndarray,
-    start: np.ndarray,
-    column: np.ndarray,
-    entry: np.ndarray,
-) -> int:
-    """Write the rows of all free nodes in compressed form; return the number of entries.
-
-    Parameters
-    ----------
-    by_pressure, by_film : ndarray, shape (9, ny, nx)
-        Real and imaginary part of the entries.
-    free : ndarray of bool, shape (ny, nx)
-        Other nodes have no row and no pressure.
-    start, column, entry : ndarray
-        Result, of size ny nx + 1 and at least nine times the free nodes.
-
-    Returns
-    -------
-    int
-    """
-    _, ny, nx = by_pressure.shape
-    count = 0
-    for j in range(ny):
-        for i in range(nx):
-            start[j * nx + i] = count
-            if not free[j, i] or j == 0 or i == 0 or j == ny - 1 or i == nx - 1:
-                continue
-            for neighbour in range(9):
-                jj, ii = j + neighbour // 3 - 1, i + neighbour % 3 - 1
-                p = by_pressure[neighbour, j, i] if free[jj, ii] else 0.0
-                column[count] = jj * nx + ii
-                entry[count] = complex(p, by_film[neighbour, j, i])
-                count += 1
-    start[ny * nx] = count
-    return count

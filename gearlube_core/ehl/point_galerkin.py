@@ -20,6 +20,8 @@ _LEAST_FREE = 0.25  # share of free fine nodes around a free coarse node
 
 @kernel
 def stencil_entries(
+    order: np.ndarray,
+    offsets: np.ndarray,
     by_pressure: np.ndarray,
     by_film: np.ndarray,
     free: np.ndarray,
@@ -31,30 +33,31 @@ def stencil_entries(
 
     Parameters
     ----------
-    by_pressure, by_film : ndarray, shape (7, ny, nx)
+    order : ndarray of int, shape (n,)
+        Indices of neighbours by rising column.
+    offsets : ndarray of int, shape (m, 2), m >= n
+        Steps to the neighbours along y and x.
+    by_pressure, by_film : ndarray, shape (n, ny, nx)
         Real and imaginary part of the entries.
     free : ndarray of bool, shape (ny, nx)
         Other nodes have no row and no pressure.
     start, column, entry : ndarray
-        Result, of size ny nx + 1 and at least seven times the free nodes.
+        Result, of size ny nx + 1 and at least n times the free nodes.
 
     Returns
     -------
     int
     """
     _, ny, nx = by_pressure.shape
-    down = (-2, -1, 0, 0, 0, 0, 1)
-    right = (0, 0, -2, -1, 0, 1, 0)
-    which = (6, 4, 3, 1, 0, 2, 5)
     count = 0
     for j in range(ny):
         for i in range(nx):
             start[j * nx + i] = count
             if not free[j, i]:
                 continue
-            for k in range(7):
-                jj, ii = j + down[k], i + right[k]
-                p, h = by_pressure[which[k], j, i], by_film[which[k], j, i]
+            for k in order:
+                jj, ii = j + offsets[k, 0], i + offsets[k, 1]
+                p, h = by_pressure[k, j, i], by_film[k, j, i]
                 if (p == 0.0 and h == 0.0) or jj < 0 or ii < 0:
                     continue
                 if not free[jj, ii]:
@@ -108,14 +111,24 @@ class SparseOperator:
         return result
 
 
-def sparse_operator(level: PointLevel, linear: Linearisation) -> SparseOperator:
+def sparse_operator(linear: Linearisation) -> SparseOperator:
     """Return the operator of the finest grid."""
-    size = linear.free.size
-    most = 7 * int(linear.free.sum())
+    size, neighbours = linear.free.size, linear.by_pressure.shape[0]
+    most = neighbours * int(linear.free.sum())
+    order = np.lexsort(linear.offsets[:neighbours].T[::-1])
     start = np.empty(size + 1, dtype=np.int32)
     column = np.empty(most, dtype=np.int32)
     entry = np.empty(most, dtype=np.complex128)
-    count = stencil_entries(linear.by_pressure, linear.by_film, linear.free, start, column, entry)
+    count = stencil_entries(
+        order,
+        linear.offsets,
+        linear.by_pressure,
+        linear.by_film,
+        linear.free,
+        start,
+        column,
+        entry,
+    )
     matrix = csr_matrix((entry[:count], column[:count], start), shape=(size, size))
     return SparseOperator(matrix, linear.free, linear.by_approach)
 

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
+from gearlube_core.ehl.film_shear import FilmShear, ShearFactors
 from gearlube_core.ehl.lubricant import EhlLubricant, fill_properties
+from gearlube_core.ehl.point_cross_flow import add_cross_derivatives, add_cross_flow
 from gearlube_core.ehl.point_stencil import (
+    CENTRE,
+    CROSS_NEIGHBOURS,
     NEIGHBOURS,
+    OFFSETS,
+    FlowSlopes,
     StencilParameters,
     apply_derivatives,
     reynolds_derivatives,
@@ -22,6 +28,8 @@ from gearlube_core.ehl.scaling import PointScales
 from gearlube_core.ehl.settings import WEDGE_WEIGHTS
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+Offsets = np.ndarray[Any, np.dtype[np.int64]]
 
 # rho h at a face over that of the node upstream of it; reached where the film halves in a cell
 _LEAST_FACE = 0.5
@@ -45,26 +53,45 @@ class FilmState:
     log_viscosity: Array
     residual: Array
     load_error: float  # what the pressure lacks, relative to the load
+    cubic_xy: Array | None = None  # of the flow along x by dp/dy; None: no such flow
+    shear: ShearFactors | None = None  # of an Eyring film
+    closed: Flags | None = None  # where oil may be above ambient pressure; None: everywhere
 
     @property
-    def free(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    def free(self) -> Flags:
         """Return where the Reynolds equation holds: pressure, or a residual that calls for it."""
-        return (self.pressure > 0.0) | (self.residual > 0.0)
+        free = (self.pressure > 0.0) | (self.residual > 0.0)
+        return free if self.closed is None else free & self.closed
 
 
 @dataclass(slots=True)
 class Linearisation:
     """Derivatives of the residual on one grid at a state."""
 
-    by_pressure: Array  # (7, ny, nx)
-    by_film: Array  # (7, ny, nx)
+    offsets: Offsets  # (m, 2), m >= n, steps to the neighbours along y and x
+    by_pressure: Array  # (n, ny, nx)
+    by_film: Array  # (n, ny, nx)
     by_approach: Array  # (ny, nx)
-    free: np.ndarray[Any, np.dtype[np.bool_]]
+    free: Flags
     result: Array = field(repr=False)
 
 
 class PointLevel:
-    """Grid of shape (ny, nx) with the discrete equations of a problem."""
+    """Grid of shape (ny, nx) with the discrete equations of a problem.
+
+    Attributes
+    ----------
+    rate : ndarray, shape (ny, 1), or None
+        Entrainment of every row over that of the problem; None: 1.
+    storage : ndarray, shape (ny, nx), or None
+        Rate at which rho h is stored, per time of the scales; None: 0.
+    source : ndarray, shape (ny, nx)
+        What is stored already.
+    closed : ndarray of bool, shape (ny, nx), or None
+        Where oil may be above ambient pressure; None: everywhere.
+    shear : FilmShear or None
+        Of an Eyring film.
+    """
 
     def __init__(
         self, problem: PointContactProblem, scales: PointScales, shape: tuple[int, int], wedge: str
@@ -109,10 +136,30 @@ class PointLevel:
             least=_LEAST_FACE,
             most=_MOST_FACE,
         )
+        self.rate: Array | None = None
+        self.storage: Array | None = None
         self.source = np.zeros(shape)
+        self.closed: Flags | None = None
+        self.shear: FilmShear | None = None
+        self._newtonian = np.full(shape, 3.0)
+        if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
+            self.shear = self._film_shear(problem, scales.turned(problem.sliding))
         self.cell = self.dx * self.dy
         self.flow_rate = self.stencil.wedge_x + self.stencil.wedge_y
         self._dense: Array | None = None
+
+    def _film_shear(self, problem: PointContactProblem, sliding: tuple[float, float]) -> FilmShear:
+        """Return the constants of a film that slides along the axes of the grid [m/s]."""
+        scales = self.scales
+        return FilmShear.of(
+            problem.lubricant,
+            sliding,
+            (self.dx * scales.length, self.dy * scales.length),
+            self.shape[0],
+            film=scales.film,
+            pressure=scales.pressure,
+            viscosity=problem.lubricant.eta0,
+        )
 
     def dense_deflection(self) -> Array:
         """Return the matrix of deflection per unit pressure, shape (ny nx, ny nx)."""
@@ -129,6 +176,8 @@ class PointLevel:
 
     def state(self, pressure: Array, approach: float, film: Array | None = None) -> FilmState:
         """Return the state at a pressure, zero on the border, and an approach."""
+        if self.closed is not None:
+            pressure = np.where(self.closed, pressure, 0.0)
         if film is None:
             film = self.film(pressure, approach)
         viscosity, viscosity_slope, density, density_slope = np.empty((4, *self.shape))
@@ -140,37 +189,53 @@ class PointLevel:
             density.ravel(),
             density_slope.ravel(),
         )
-        mass = density * film
         cubic = density * np.maximum(film, 0.0) ** 3
-        fluidity, log_viscosity = 1.0 / viscosity, np.log(viscosity)
-        residual = np.empty(self.shape)
-        reynolds_residual(
-            self.stencil,
-            pressure,
-            mass,
-            cubic,
-            cubic,
-            fluidity,
-            log_viscosity,
-            self.source,
-            residual,
-        )
-        load_error = (self.scales.load - self.cell * float(pressure.sum())) / self.scales.load
-        return FilmState(
+        fluidity, shear = 1.0 / viscosity, None
+        cubic_x, cubic_xy, cubic_y = cubic, None, cubic
+        if self.shear is not None:
+            shear = self.shear.factors(pressure, film, fluidity)
+            cubic_x, cubic_y = cubic * shear.xx, cubic * shear.yy
+            cubic_xy = None if shear.xy is None else cubic * shear.xy
+        state = FilmState(
             pressure=pressure,
             approach=approach,
             film=film,
-            mass=mass,
+            mass=density * film,
             density=density,
             fluidity=fluidity,
             density_slope=density_slope,
             viscosity_slope=viscosity_slope * fluidity,
-            cubic_x=cubic,
-            cubic_y=cubic,
-            log_viscosity=log_viscosity,
-            residual=residual,
-            load_error=load_error,
+            cubic_x=cubic_x,
+            cubic_y=cubic_y,
+            log_viscosity=np.log(viscosity),
+            residual=np.empty(self.shape),
+            load_error=(self.scales.load - self.cell * float(pressure.sum())) / self.scales.load,
+            cubic_xy=cubic_xy,
+            shear=shear,
+            closed=self.closed,
         )
+        self._balance(state, state.mass if self.rate is None else self.rate * state.mass)
+        if self.storage is not None:
+            state.residual[1:-1, 1:-1] -= (self.storage * state.mass)[1:-1, 1:-1]
+        return state
+
+    def _balance(self, state: FilmState, carried: Array) -> None:
+        """Write the residual without storage; `carried` is rho h times the share of the speed."""
+        reynolds_residual(
+            self.stencil,
+            state.pressure,
+            carried,
+            state.cubic_x,
+            state.cubic_y,
+            state.fluidity,
+            state.log_viscosity,
+            self.source,
+            state.residual,
+        )
+        if state.cubic_xy is not None:
+            add_cross_flow(
+                self.stencil, state.pressure, state.cubic_xy, state.fluidity, state.residual
+            )
 
     def ease(self, mobility: float, order: float) -> None:
         """Set an easier problem of a continuation.
@@ -193,15 +258,51 @@ class PointLevel:
         )
 
     def linearise(self, state: FilmState, squeeze: float = 0.0) -> Linearisation:
-        """Return the derivatives of the residual at a state; flow factors are held.
+        """Return the derivatives of the residual at a state.
 
+        Flow factors answer to slopes of pressure along sliding, to viscosity and to the film.
         `squeeze` adds a rate of rho h that the residual does not contain.
         """
-        free = state.free
-        by_pressure = np.empty((NEIGHBOURS, *self.shape))
-        by_film = np.empty((NEIGHBOURS, *self.shape))
+        free, told, shear = state.free, state, state.shear
+        by_pressure, cubic = state.density_slope / state.density, state.cubic_x
+        slopes = FlowSlopes(cubic, state.cubic_y, cubic, by_pressure, self._newtonian)
+        if shear is not None:
+            cubic = state.density * np.maximum(state.film, 0.0) ** 3
+            slopes = FlowSlopes(
+                cubic * shear.slope_xx,
+                cubic * shear.slope_yy,
+                cubic if shear.slope_xy is None else cubic * shear.slope_xy,
+                by_pressure + (1.0 - shear.stiffness) * state.viscosity_slope,
+                shear.film_power,
+            )
+        if self.rate is not None:
+            told = replace(
+                state,
+                density=self.rate * state.density,
+                density_slope=self.rate * state.density_slope,
+            )
+        stencil = self.stencil._replace(squeeze=self.stencil.squeeze + squeeze)
+        offsets, by_pressure, by_film = self._derivatives(stencil, told, slopes, free)
+        if self.storage is not None:
+            kept = np.where(free, self.storage, 0.0)
+            kept[[0, -1]] = 0.0
+            kept[:, [0, -1]] = 0.0
+            centre = self._centre
+            by_pressure[centre] -= kept * state.density_slope * state.film
+            by_film[centre] -= kept * state.density
+        by_approach = by_film.sum(axis=0)
+        return Linearisation(offsets, by_pressure, by_film, by_approach, free, np.empty(self.shape))
+
+    _centre = CENTRE  # of the neighbours
+
+    def _derivatives(
+        self, stencil: StencilParameters, state: FilmState, slopes: FlowSlopes, free: Flags
+    ) -> tuple[Offsets, Array, Array]:
+        """Return steps to the neighbours and derivatives with respect to pressure and film."""
+        count = NEIGHBOURS if state.cubic_xy is None else CROSS_NEIGHBOURS
+        by_pressure, by_film = np.empty((2, count, *self.shape))
         reynolds_derivatives(
-            self.stencil._replace(squeeze=self.stencil.squeeze + squeeze),
+            stencil,
             state.pressure,
             state.cubic_x,
             state.cubic_y,
@@ -211,19 +312,39 @@ class PointLevel:
             state.density,
             state.density_slope,
             state.film,
+            slopes,
             free,
             by_pressure,
             by_film,
         )
-        return Linearisation(by_pressure, by_film, by_film.sum(axis=0), free, np.empty(self.shape))
+        if state.cubic_xy is not None:
+            add_cross_derivatives(
+                stencil,
+                state.pressure,
+                state.cubic_xy,
+                state.fluidity,
+                state.viscosity_slope,
+                state.film,
+                slopes,
+                free,
+                by_pressure,
+                by_film,
+            )
+        return OFFSETS, by_pressure, by_film
 
     def apply(self, linear: Linearisation, pressure: Array, approach: float) -> Array:
         """Return the change of the residual under changes of pressure and approach.
 
         The result is overwritten by the next call with the same `linear`.
         """
-        film = self.deflection(pressure)
-        apply_derivatives(linear.by_pressure, linear.by_film, pressure, film, linear.result)
+        apply_derivatives(
+            linear.offsets,
+            linear.by_pressure,
+            linear.by_film,
+            pressure,
+            self.deflection(pressure),
+            linear.result,
+        )
         if approach != 0.0:
             linear.result += approach * linear.by_approach
         return linear.result

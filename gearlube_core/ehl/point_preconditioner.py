@@ -43,7 +43,7 @@ class MultigridCycle:
         self._levels = hierarchy.levels
         self._transfers = hierarchy.transfers
         self._smoothers: list[RowSmoother] = []
-        operator = sparse_operator(self._levels[-1], linear)
+        operator = sparse_operator(linear)
         self._operators = [operator]
         for k in range(len(self._levels) - 1, 0, -1):
             fine, coarse = self._levels[k], self._levels[k - 1]

@@ -16,6 +16,25 @@ from gearlube_core.jit import kernel
 # coefficients of a node and its neighbours, in this order
 CENTRE, WEST, EAST, FAR_WEST, SOUTH, NORTH, FAR_SOUTH = range(7)
 NEIGHBOURS = 7
+# and of those that flow across the slope of pressure adds
+SOUTH_WEST, SOUTH_EAST, NORTH_WEST, NORTH_EAST = range(7, 11)
+CROSS_NEIGHBOURS = 11
+# steps to them along y and along x
+OFFSETS = np.array(
+    [
+        [0, 0],
+        [0, -1],
+        [0, 1],
+        [0, -2],
+        [-1, 0],
+        [1, 0],
+        [-2, 0],
+        [-1, -1],
+        [-1, 1],
+        [1, -1],
+        [1, 1],
+    ]
+)
 
 
 class StencilParameters(NamedTuple):
@@ -177,31 +196,14 @@ def reynolds_residual(
                     residual[j - 1, i] += flow
 
 
-@kernel
-def _face(
-    poiseuille: float,
-    step: float,
-    cubic: float,
-    cubic_there: float,
-    fluidity: float,
-    fluidity_there: float,
-    rise: float,
-    steep: bool,
-) -> tuple[float, float, float, float, float]:
-    """Return the flow per pressure step and the slopes of the flow.
+class FlowSlopes(NamedTuple):
+    """How the flow by pressure answers at every node; arrays of shape (ny, nx) [1]."""
 
-    With respect to ln(rho h^3) here and there and to ln(1/eta) here and there.
-    """
-    mean, slope, slope_there = mean_fluidity(fluidity, fluidity_there, rise, steep)
-    total = 2.0 * poiseuille * math.sqrt(cubic * cubic_there)
-    flow = 0.5 * total * mean * step
-    return (
-        total * mean,
-        flow,
-        flow,
-        total * slope * step,
-        (total * slope_there * step),
-    )
+    slope_x: np.ndarray  # rho h^3 times what a change of dp/dx meets
+    slope_y: np.ndarray
+    slope_xy: np.ndarray  # of dp/dy, in the flow along x
+    by_pressure: np.ndarray  # d ln(rho h^3 times its flow factor)/dp
+    film_power: np.ndarray  # d ln(the same)/d ln(h), 3 where the film is Newtonian
 
 
 @kernel
@@ -216,6 +218,7 @@ def reynolds_derivatives(
     density: np.ndarray,
     density_slope: np.ndarray,
     film: np.ndarray,
+    slopes: FlowSlopes,
     free: np.ndarray,
     by_pressure: np.ndarray,
     by_film: np.ndarray,
@@ -228,10 +231,12 @@ def reynolds_derivatives(
         As in `reynolds_residual`.
     viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
         d ln eta/dp, rho, d rho/dp, h [1].
+    slopes
+        Of the flow by pressure.
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero.
-    by_pressure, by_film : ndarray, shape (7, ny, nx)
-        Result [1]; flow factors are held.
+    by_pressure, by_film : ndarray, shape (7 or 11, ny, nx)
+        Result [1]; corners are zero.
     """
     ny, nx = pressure.shape
     by_pressure[:] = 0.0
@@ -254,31 +259,29 @@ def reynolds_derivatives(
             s0, s1, s2 = face_weights(parameters, j - 1, far_mass, south, here)
             n0, n1, n2 = face_weights(parameters, j, south, here, north)
             p, f, v = pressure[j, i], fluidity[j, i], log_viscosity[j, i]
-            density_here = density_slope[j, i] / density[j, i]
-            film_here = 3.0 / max(film[j, i], 1e-30)
+            film_here = slopes.film_power[j, i] / max(film[j, i], 1e-30)
             for k in (WEST, EAST, SOUTH, NORTH):
                 jj, ii = j + down[k], i + right[k]
-                along = right[k] != 0
-                cubic = cubic_x[j, i] if along else cubic_y[j, i]
-                cubic_there = cubic_x[jj, ii] if along else cubic_y[jj, ii]
-                flow, c, ct, m, mt = _face(
-                    px if along else py,
-                    pressure[jj, ii] - p,
-                    cubic,
-                    cubic_there,
-                    f,
-                    fluidity[jj, ii],
-                    v - log_viscosity[jj, ii],
-                    (right[k] + down[k]) * (pressure[jj, ii] - p) > 0.0 and (along or uy > 0.0),
+                if right[k] != 0:
+                    unit, cubic = px, cubic_x[j, i] * cubic_x[jj, ii]
+                    slope = slopes.slope_x[j, i] * slopes.slope_x[jj, ii]
+                else:
+                    unit, cubic = py, cubic_y[j, i] * cubic_y[jj, ii]
+                    slope = slopes.slope_y[j, i] * slopes.slope_y[jj, ii]
+                step = pressure[jj, ii] - p
+                steep = (right[k] + down[k]) * step > 0.0 and (right[k] != 0 or uy > 0.0)
+                mean, m, mt = mean_fluidity(f, fluidity[jj, ii], v - log_viscosity[jj, ii], steep)
+                flow = 2.0 * unit * mean * math.sqrt(slope)
+                total = 2.0 * unit * math.sqrt(cubic) * step
+                c = 0.5 * total * mean
+                by_pressure[CENTRE, j, i] += (
+                    c * slopes.by_pressure[j, i] - total * m * viscosity_slope[j, i] - flow
                 )
-                by_pressure[CENTRE, j, i] += c * density_here - m * viscosity_slope[j, i] - flow
                 by_film[CENTRE, j, i] += c * film_here
                 by_pressure[k, j, i] = (
-                    flow
-                    + ct * density_slope[jj, ii] / density[jj, ii]
-                    - mt * viscosity_slope[jj, ii]
+                    flow + c * slopes.by_pressure[jj, ii] - total * mt * viscosity_slope[jj, ii]
                 )
-                by_film[k, j, i] = ct * 3.0 / max(film[jj, ii], 1e-30)
+                by_film[k, j, i] = c * slopes.film_power[jj, ii] / max(film[jj, ii], 1e-30)
             wedge = (
                 -ux * (e0 - w2) - uy * (n0 - s2) - parameters.squeeze,
                 -ux * (e1 - w0),
@@ -296,6 +299,7 @@ def reynolds_derivatives(
 
 @kernel
 def apply_derivatives(
+    offsets: np.ndarray,
     by_pressure: np.ndarray,
     by_film: np.ndarray,
     pressure: np.ndarray,
@@ -306,36 +310,26 @@ def apply_derivatives(
 
     Parameters
     ----------
-    by_pressure, by_film : ndarray, shape (7, ny, nx)
-        From `reynolds_derivatives`.
+    offsets : ndarray of int, shape (n, 2)
+        Steps to the neighbours along y and x, at least.
+    by_pressure, by_film : ndarray, shape (m, ny, nx), m <= n
+        Derivatives with respect to each of them.
     pressure, film : ndarray, shape (ny, nx)
         Changes.
     result : ndarray, shape (ny, nx)
-        Zero where rows are zero.
+        Zero on the border and where rows are zero.
     """
     ny, nx = pressure.shape
-    result[0, :] = 0.0
-    result[ny - 1, :] = 0.0
+    result[:] = 0.0
     for j in range(1, ny - 1):
-        jj = max(j - 2, 0)
-        result[j, 0] = 0.0
-        result[j, nx - 1] = 0.0
-        result[j, 1] = 0.0
-        for i in range(1, nx - 1):
-            ii = max(i - 2, 0)
-            result[j, i] = (
-                by_pressure[0, j, i] * pressure[j, i]
-                + by_pressure[1, j, i] * pressure[j, i - 1]
-                + by_pressure[2, j, i] * pressure[j, i + 1]
-                + by_pressure[3, j, i] * pressure[j, ii]
-                + by_pressure[4, j, i] * pressure[j - 1, i]
-                + by_pressure[5, j, i] * pressure[j + 1, i]
-                + by_pressure[6, j, i] * pressure[jj, i]
-                + by_film[0, j, i] * film[j, i]
-                + by_film[1, j, i] * film[j, i - 1]
-                + by_film[2, j, i] * film[j, i + 1]
-                + by_film[3, j, i] * film[j, ii]
-                + by_film[4, j, i] * film[j - 1, i]
-                + by_film[5, j, i] * film[j + 1, i]
-                + by_film[6, j, i] * film[jj, i]
-            )
+        for k in range(by_pressure.shape[0]):
+            down, right = offsets[k, 0], offsets[k, 1]
+            if j + down < 0:
+                continue
+            first = max(1, -right)
+            row = result[j, first : nx - 1]
+            p = pressure[j + down, first + right : nx - 1 + right]
+            h = film[j + down, first + right : nx - 1 + right]
+            a, b = by_pressure[k, j, first : nx - 1], by_film[k, j, first : nx - 1]
+            for i in range(row.size):
+                row[i] += a[i] * p[i] + b[i] * h[i]

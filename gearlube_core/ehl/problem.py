@@ -49,8 +49,10 @@ class EllipticParaboloid:
 class PointContactProblem:
     """Steady film between two solids over a rectangle, pressure zero on its border.
 
-    d/dx(rho h^3/(12 eta) dp/dx) + d/dy(rho h^3/(12 eta) dp/dy) = d(u rho h)/dx + d(v rho h)/dy,
+    div(rho h^3/(12 eta) S grad p) = d(u rho h)/dx + d(v rho h)/dy,
     h = h_0 + h_u(x, y) + 1/(pi E*) int p/r,  int p = W,  p >= 0
+
+    S is 1, or the tensor of flow factors of an Eyring film.
 
     Parameters
     ----------
@@ -63,13 +65,16 @@ class PointContactProblem:
     contact_modulus
         E* [Pa]; half of E' = 2 E*.
     lubricant
-        Oil; its Eyring stress is not used here.
+        Oil; its Eyring stress is used where `sliding` is given, a limiting stress never.
     x_limits, y_limits
         Domain [m].
     nodes
         Number of nodes along x and along y, border included: 17 to 2049.
     hertz
         Radius that sets the scales and the start, if the gap is close to a paraboloid.
+    sliding
+        Difference of the surface velocities (u_2 - u_1, v_2 - v_1) [m/s] along x and y, for an
+        oil with an Eyring stress; None: it flows as a Newtonian one.
 
     Raises
     ------
@@ -86,11 +91,14 @@ class PointContactProblem:
     y_limits: tuple[float, float]
     nodes: tuple[int, int]
     hertz: EllipticParaboloid
+    sliding: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         for axis, speed in zip("xy", self.entrainment, strict=True):
             check_finite(f"entrainment along {axis}", speed, "m/s")
         check_positive("entrainment", math.hypot(*self.entrainment), "m/s", "Squeeze needs time.")
+        for axis, speed in zip("xy", self.sliding or (), strict=False):
+            check_finite(f"sliding along {axis}", speed, "m/s")
         check_positive("load", self.load, "N")
         check_within(
             "contact_modulus", self.contact_modulus, 1e5, 1e13, "Pa", "115 GPa is 1.15e11 Pa."
@@ -159,6 +167,7 @@ def elliptical_contact(
     contact_modulus: float,
     lubricant: EhlLubricant,
     nodes: tuple[int, int] = (129, 129),
+    sliding: tuple[float, float] | None = None,
     inlet: float | None = None,
     outlet: float | None = None,
     side: float | None = None,
@@ -169,7 +178,7 @@ def elliptical_contact(
     ----------
     R_x, R_y
         Relative radii of curvature along x and y [m].
-    entrainment, load, contact_modulus, lubricant, nodes
+    entrainment, load, contact_modulus, lubricant, nodes, sliding
         As in `PointContactProblem`.
     inlet, outlet, side
         Extent of the domain upstream, downstream and to the sides, in semi-axes of the dry
@@ -196,6 +205,7 @@ def elliptical_contact(
         y_limits=(-1.0, 1.0),
         nodes=nodes,
         hertz=shape,
+        sliding=sliding,
     )
     a_x, a_y, _ = problem.hertz_contact
     film = expected_film(problem)

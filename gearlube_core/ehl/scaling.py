@@ -73,6 +73,12 @@ class PointScales:
             values = values[:, ::-1]
         return np.ascontiguousarray(values)
 
+    def turned(self, velocity: tuple[float, float]) -> tuple[float, float]:
+        """Return a velocity along the axes of the solver's arrays."""
+        u, v = velocity
+        u, v = -u if self.flip_x else u, -v if self.flip_y else v
+        return (v, u) if self.swap else (u, v)
+
     def oil(self, lubricant: EhlLubricant) -> EhlLubricant:
         """Return the oil with viscosity, density and pressure in these units."""
         return lubricant._replace(

@@ -157,7 +157,7 @@ class RowCycle:
     def __init__(self, grids: Hierarchy, linear: Linearisation) -> None:
         self._levels, self._transfers = grids.levels, grids.transfers
         self._rows: list[RowInverses] = []
-        operator = sparse_operator(self._levels[-1], linear)
+        operator = sparse_operator(linear)
         self._operators = [operator]
         for k in range(len(self._levels) - 1, 0, -1):
             self._rows.insert(0, RowInverses(self._levels[k], operator))

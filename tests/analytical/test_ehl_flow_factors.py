@@ -8,7 +8,8 @@ from scipy.integrate import cumulative_simpson, simpson
 from scipy.optimize import root
 
 from gearlube_core.ehl.eyring_flow import eyring_flow_factor, eyring_mean_stress
-from gearlube_core.ehl.flow_factors import eyring_flow, fill_flow_factors, flow_scales
+from gearlube_core.ehl.film_shear import FilmShear
+from gearlube_core.ehl.flow_factors import eyring_flow
 from gearlube_core.ehl.lubricant import ehl_lubricant
 from gearlube_core.errors import ParameterError
 
@@ -174,48 +175,66 @@ def grid():
     return x * 1e-4, y * 1e-4, pressure, film, 1e-2 * np.exp(pressure / 1e8)
 
 
+def shear_of(oil, sliding, x, y, **units):
+    return FilmShear.of(oil, sliding, (x[1] - x[0], y[1] - y[0]), y.size, **units)
+
+
 def test_arrays_hold_the_tensor_of_every_node_and_turn_with_sliding():
     oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
     x, y, pressure, film, eta = grid()
-    dx, dy = x[1] - x[0], y[1] - y[0]
-    along_x, at_angle, reverse = (np.empty((3, *pressure.shape)) for _ in range(3))
-    fill_flow_factors(flow_scales(oil, (0.5, 0.0), dx, dy), pressure, film, eta, *along_x)
-    assert np.all(along_x[1] == 0.0)
+    fields = pressure, film, 1.0 / eta
+    along_x = shear_of(oil, (0.5, 0.0), x, y).factors(*fields)
+    assert along_x.xy is None
     j, i = 5, 13
-    slope_x = (pressure[j, i + 1] - pressure[j, i - 1]) / (2.0 * dx)
-    slope_y = (pressure[j + 1, i] - pressure[j - 1, i]) / (2.0 * dy)
+    slope_x = (pressure[j, i + 1] - pressure[j, i - 1]) / (2.0 * (x[1] - x[0]))
+    slope_y = (pressure[j + 1, i] - pressure[j - 1, i]) / (2.0 * (y[1] - y[0]))
     half = 0.5 * film[j, i] / 6e6
     flow = eyring_flow(
         half * slope_x, half * slope_y, 0.5 * eta[j, i] / (film[j, i] * 6e6), UNLIMITED
     )
-    assert along_x[0, j, i] == pytest.approx(flow.along, rel=1e-12)
-    assert along_x[2, j, i] == pytest.approx(flow.across, rel=1e-12)
+    assert along_x.xx[j, i] == pytest.approx(flow.along, rel=1e-12)
+    assert along_x.yy[j, i] == pytest.approx(flow.across, rel=1e-12)
     # mirrored in the diagonal, sliding along y is sliding along x
-    fill_flow_factors(
-        flow_scales(oil, (0.0, -0.5), dy, dx),
-        *(np.ascontiguousarray(values.T) for values in (pressure, film, eta)),
-        *(diagonal := np.empty((3, x.size, y.size))),
-    )
-    np.testing.assert_allclose(diagonal[2].T, along_x[0], rtol=1e-9)
-    np.testing.assert_allclose(diagonal[0].T, along_x[2], rtol=1e-9)
+    turned = (np.ascontiguousarray(values.T) for values in fields)
+    diagonal = shear_of(oil, (0.0, -0.5), y, x).factors(*turned)
+    np.testing.assert_allclose(diagonal.yy.T, along_x.xx, rtol=1e-9)
+    np.testing.assert_allclose(diagonal.xx.T, along_x.yy, rtol=1e-9)
     # sliding turned by 180 degrees changes nothing; the tensor stays positive definite
-    fill_flow_factors(flow_scales(oil, (0.4, 0.3), dx, dy), pressure, film, eta, *at_angle)
-    fill_flow_factors(flow_scales(oil, (-0.4, -0.3), dx, dy), pressure, film, eta, *reverse)
-    assert at_angle == pytest.approx(reverse, rel=1e-9)
-    assert np.all(at_angle[0] * at_angle[2] > at_angle[1] ** 2)
+    at_angle = shear_of(oil, (0.4, 0.3), x, y).factors(*fields)
+    reverse = shear_of(oil, (-0.4, -0.3), x, y).factors(*fields)
+    for name in ("xx", "xy", "yy", "slope_xx", "slope_xy", "slope_yy", "stiffness"):
+        assert getattr(at_angle, name) == pytest.approx(getattr(reverse, name), rel=1e-9)
+    assert np.all(at_angle.xx * at_angle.yy > at_angle.xy**2)
+    assert np.all(at_angle.slope_xx * at_angle.slope_yy > at_angle.slope_xy**2)
+
+
+def test_series_of_small_stress_meet_the_factors():
+    # sides of the switch at 0.01: terms of the fourth order, 1e-8, are left out below
+    oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=1e4)
+    values = []
+    for size in (0.00999, 0.01001):
+        shear = FilmShear.of(oil, (1.0, 0.0), (0.25, 0.25), 3, pressure=1e4)
+        shear.couette[:] = 0.7 * size
+        pressure = size * np.array([[0.0, 0.0, 0.6], [0.0, 0.3, 1.0], [0.4, 0.5, 1.2]])
+        ones = np.ones((3, 3))
+        values.append(shear.factors(pressure, ones, ones))
+    for name in ("xx", "yy", "slope_xx", "stiffness"):
+        low, high = (getattr(value, name)[1, 1] - 1.0 for value in values)
+        # both grow with the square of the stress
+        assert high == pytest.approx(low * (1.001 / 0.999) ** 2, abs=1e-7)
 
 
 def test_units_of_the_arrays_do_not_matter():
-    oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=6e6, limiting_shear=(1e7, 0.05))
+    oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
     x, y, pressure, film, eta = grid()
-    dx, dy = x[1] - x[0], y[1] - y[0]
-    si, scaled = np.empty((3, *pressure.shape)), np.empty((3, *pressure.shape))
-    fill_flow_factors(flow_scales(oil, (0.4, 0.3), dx, dy), pressure, film, eta, *si)
-    units = flow_scales(oil, (0.4, 0.3), dx, dy, film=1e-6, pressure=1e9, viscosity=0.01)
-    fill_flow_factors(units, pressure / 1e9, film / 1e-6, eta / 0.01, *scaled)
-    assert scaled == pytest.approx(si, rel=1e-9)
+    si = shear_of(oil, (0.4, 0.3), x, y).factors(pressure, film, 1.0 / eta)
+    scaled = shear_of(oil, (0.4, 0.3), x, y, film=1e-6, pressure=1e9, viscosity=0.01).factors(
+        pressure / 1e9, film / 1e-6, 0.01 / eta
+    )
+    for name in ("xx", "xy", "yy"):
+        assert getattr(scaled, name) == pytest.approx(getattr(si, name), rel=1e-9)
 
 
 def test_a_newtonian_oil_is_refused():
     with pytest.raises(ParameterError, match="tau0"):
-        flow_scales(ehl_lubricant(eta0=0.01, alpha=2e-8), (1.0, 0.0), 1e-6, 1e-6)
+        FilmShear.of(ehl_lubricant(eta0=0.01, alpha=2e-8), (1.0, 0.0), (1e-6, 1e-6), 3)

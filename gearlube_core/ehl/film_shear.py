@@ -1,0 +1,206 @@
+"""Flow factors of an Eyring film on a uniform grid, for sliding at any angle to its axes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_finite, check_positive
+from gearlube_core.ehl.eyring_flow import eyring_flow_factor
+from gearlube_core.ehl.flow_factors import eyring_factors
+from gearlube_core.ehl.lubricant import EhlLubricant
+from gearlube_core.jit import kernel
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+# below, series to the second order are right to 1e-8
+_SMALL_STRESS = 1.0e-2
+# of the product of cosine and sine: flow along an axis does not feel the slope along the other
+_ALIGNED = 1.0e-12
+
+
+@kernel
+def fill_shear_factors(
+    pressure: np.ndarray,
+    film: np.ndarray,
+    fluidity: np.ndarray,
+    couette: np.ndarray,
+    sigma_x: float,
+    sigma_y: float,
+    cosine: float,
+    sine: float,
+    along: np.ndarray,
+    across: np.ndarray,
+    steepness: np.ndarray,
+    stiffness: np.ndarray,
+) -> None:
+    """Fill the flow factors of an Eyring film, by rows of other sliding in one direction.
+
+    Parameters
+    ----------
+    pressure, film, fluidity : ndarray, shape (ny, nx)
+        p, h and 1/eta [1].
+    couette : ndarray, shape (ny,)
+        Shear stress of sliding over tau0, times film and fluidity, of every row [1].
+    sigma_x, sigma_y
+        Stress drop over half the film over tau0, over film and difference of pressure between the
+        nodes on both sides [1].
+    cosine, sine
+        Of the angle from x to sliding.
+    along, across : ndarray, shape (ny, nx)
+        Flow along and across sliding over its Newtonian value [1]; 1 on the border.
+    steepness, stiffness : ndarray, shape (ny, nx)
+        d ln(flow)/d ln(dp/ds) and -d ln(flow)/d ln(eta) along sliding, as without dp/dr [1].
+
+    Notes
+    -----
+    Pressure slopes are central. Small stresses: flow along grows by Sigma^2/10 + a^2/2, across
+    by Sigma^2/10 + a^2/6, the first terms of the series of `eyring_flow`.
+    """
+    ny, nx = pressure.shape
+    along[:] = 1.0
+    across[:] = 1.0
+    steepness[:] = 1.0
+    stiffness[:] = 1.0
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            h = film[j, i]
+            if h <= 0.0:
+                continue
+            x = sigma_x * h * (pressure[j, i + 1] - pressure[j, i - 1])
+            y = sigma_y * h * (pressure[j + 1, i] - pressure[j - 1, i])
+            s, r = cosine * x + sine * y, cosine * y - sine * x
+            a = couette[j] / (h * fluidity[j, i])
+            if max(abs(s), abs(r), abs(a)) < _SMALL_STRESS:
+                pumped = 0.1 * (s * s + r * r)
+                along[j, i] = 1.0 + pumped + 0.5 * a * a
+                across[j, i] = 1.0 + pumped + a * a / 6.0
+                steepness[j, i] = 1.0 + 0.2 * s * s
+                stiffness[j, i] = 1.0 - a * a
+                continue
+            along[j, i], across[j, i] = eyring_factors(s, r, a, math.inf)
+            S, by_sigma, by_a = eyring_flow_factor(s, a)
+            steepness[j, i] = 1.0 + s * by_sigma / S
+            stiffness[j, i] = 1.0 - a * by_a / S
+
+
+@dataclass(frozen=True, slots=True)
+class ShearFactors:
+    """Tensor of the flow by pressure over its Newtonian value, and how it answers; (ny, nx) [1].
+
+    flow = -rho h^3/(12 eta) [[xx, xy], [xy, yy]] grad p
+    """
+
+    xx: Array
+    xy: Array | None  # None: sliding is along an axis
+    yy: Array
+    slope_xx: Array  # what a change of grad p meets, as without dp/dr
+    slope_xy: Array | None
+    slope_yy: Array
+    stiffness: Array  # -d ln(flow)/d ln(eta) along sliding
+    film_power: Array  # d ln(flow)/d ln(h) along sliding
+
+
+@dataclass(slots=True)
+class FilmShear:
+    """Constants of an Eyring film on one grid; build it with `of`."""
+
+    unit: float  # shear stress over tau0 of sliding at 1 m/s, times film and fluidity [s/m]
+    sigma_x: float  # stress drop over tau0, over film and pressure between the nodes beside
+    sigma_y: float
+    couette: Array  # shear stress of sliding over tau0, times film and fluidity, (rows,) [1]
+    cosine: float  # of the angle from x to sliding
+    sine: float
+
+    @classmethod
+    def of(
+        cls,
+        lubricant: EhlLubricant,
+        sliding: tuple[float, float],
+        steps: tuple[float, float],
+        rows: int,
+        *,
+        film: float = 1.0,
+        pressure: float = 1.0,
+        viscosity: float = 1.0,
+    ) -> FilmShear:
+        """Return the constants.
+
+        Parameters
+        ----------
+        lubricant
+            Oil with an Eyring stress, in SI.
+        sliding
+            Difference of the surface velocities along x and y [m/s].
+        steps
+            Node spacing along x and y [m].
+        rows
+            Number of rows of nodes.
+        film, pressure, viscosity
+            Units of the arrays: [m], [Pa], [Pa s].
+
+        Raises
+        ------
+        ParameterError
+            An input is out of range, or the oil is Newtonian.
+        """
+        tau0 = check_positive(
+            "lubricant.tau0", lubricant.tau0, "Pa", "A Newtonian film has factors 1."
+        )
+        for axis, component, step in zip("xy", sliding, steps, strict=True):
+            check_finite(f"sliding along {axis}", component, "m/s")
+            check_positive(f"d{axis}", step, "m")
+        for name, value, si in (
+            ("film", film, "m"),
+            ("pressure", pressure, "Pa"),
+            ("viscosity", viscosity, "Pa s"),
+        ):
+            check_positive(name, value, si)
+        speed = math.hypot(*sliding)
+        unit = viscosity / (tau0 * film)
+        return cls(
+            unit=unit,
+            sigma_x=film * pressure / (4.0 * tau0 * steps[0]),
+            sigma_y=film * pressure / (4.0 * tau0 * steps[1]),
+            couette=np.full(rows, unit * speed),
+            cosine=sliding[0] / speed if speed > 0.0 else 1.0,
+            sine=sliding[1] / speed if speed > 0.0 else 0.0,
+        )
+
+    def factors(self, pressure: Array, film: Array, fluidity: Array) -> ShearFactors:
+        """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
+        along, across, steepness, stiffness = np.empty((4, *pressure.shape))
+        fill_shear_factors(
+            pressure,
+            film,
+            fluidity,
+            self.couette,
+            self.sigma_x,
+            self.sigma_y,
+            self.cosine,
+            self.sine,
+            along,
+            across,
+            steepness,
+            stiffness,
+        )
+        c, s = self.cosine, self.sine
+        slope = along * steepness
+        film_power = 1.0 + steepness + stiffness
+        if abs(c * s) < _ALIGNED:
+            if abs(c) > abs(s):
+                return ShearFactors(along, None, across, slope, None, across, stiffness, film_power)
+            return ShearFactors(across, None, along, across, None, slope, stiffness, film_power)
+        return ShearFactors(
+            c * c * along + s * s * across,
+            c * s * (along - across),
+            s * s * along + c * c * across,
+            c * c * slope + s * s * across,
+            c * s * (slope - across),
+            s * s * slope + c * c * across,
+            stiffness,
+            film_power,
+        )
