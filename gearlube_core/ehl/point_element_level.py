@@ -33,15 +33,14 @@ class ElementLevel(PointLevel):
         As for `PointLevel`.
     """
 
+    _centre = ELEMENT_CENTRE
+
     def __init__(
         self, problem: PointContactProblem, scales: PointScales, shape: tuple[int, int]
     ) -> None:
         super().__init__(problem, scales, shape, "central")
         # waves of the length 2 d on a half-space: 2/(E* k), k = pi/d
         self.compliance = 2.0 * min(self.dx, self.dy) / (math.pi * self.modulus)
-        self._aligned = np.zeros(shape)
-
-    _centre = ELEMENT_CENTRE
 
     def _cubic_xy(self, state: FilmState) -> Array:
         return self._aligned if state.cubic_xy is None else state.cubic_xy

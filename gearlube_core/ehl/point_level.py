@@ -93,6 +93,8 @@ class PointLevel:
         Of an Eyring film.
     """
 
+    _centre = CENTRE  # of the neighbours
+
     def __init__(
         self, problem: PointContactProblem, scales: PointScales, shape: tuple[int, int], wedge: str
     ) -> None:
@@ -141,7 +143,8 @@ class PointLevel:
         self.source = np.zeros(shape)
         self.closed: Flags | None = None
         self.shear: FilmShear | None = None
-        self._newtonian = np.full(shape, 3.0)
+        self._newtonian = np.full(shape, 3.0)  # power of the film in the flow by pressure
+        self._aligned = np.zeros(shape)  # no cross flow
         if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
             self.shear = self._film_shear(problem, scales.turned(problem.sliding))
         self.cell = self.dx * self.dy
@@ -265,13 +268,13 @@ class PointLevel:
         """
         free, told, shear = state.free, state, state.shear
         by_pressure, cubic = state.density_slope / state.density, state.cubic_x
-        slopes = FlowSlopes(cubic, state.cubic_y, cubic, by_pressure, self._newtonian)
+        slopes = FlowSlopes(cubic, state.cubic_y, self._aligned, by_pressure, self._newtonian)
         if shear is not None:
             cubic = state.density * np.maximum(state.film, 0.0) ** 3
             slopes = FlowSlopes(
                 cubic * shear.slope_xx,
                 cubic * shear.slope_yy,
-                cubic if shear.slope_xy is None else cubic * shear.slope_xy,
+                self._aligned if shear.slope_xy is None else cubic * shear.slope_xy,
                 by_pressure + (1.0 - shear.stiffness) * state.viscosity_slope,
                 shear.film_power,
             )
@@ -292,8 +295,6 @@ class PointLevel:
             by_film[centre] -= kept * state.density
         by_approach = by_film.sum(axis=0)
         return Linearisation(offsets, by_pressure, by_film, by_approach, free, np.empty(self.shape))
-
-    _centre = CENTRE  # of the neighbours
 
     def _derivatives(
         self, stencil: StencilParameters, state: FilmState, slopes: FlowSlopes, free: Flags
