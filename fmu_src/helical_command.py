@@ -11,11 +11,11 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from fmu_src.exit_codes import INTERRUPTED, told
 from fmu_src.spread_values import SpreadingCommand
 from fmu_src.value_range import values_from
 from gearlube_core.checks import check_within
-from gearlube_core.errors import GearLubeError, ParameterError, TableError
+from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin
 
 logger = logging.getLogger("gearlube")
@@ -123,7 +123,7 @@ def helical(
     from fmu_src.helical_console import console_helical
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
-    try:
+    with told(f"Stopped while results were written; {out} may be incomplete."):
         is_file = gear.endswith(".toml") or Path(gear).exists()
         file = HelicalGearFile.from_toml(gear) if is_file else HelicalGearFile.named(gear)
         if jobs is not None:
@@ -165,15 +165,6 @@ def helical(
             jobs=jobs,
             command_line=shlex.join(["gearlube", *sys.argv[1:]]),
         )
-    except KeyboardInterrupt:
-        logger.warning("Stopped while results were written; %s may be incomplete.", out)
-        raise typer.Exit(INTERRUPTED) from None
-    except (ParameterError, TableError) as error:
-        logger.error("%s", error)
-        raise typer.Exit(BAD_ARGUMENT) from None
-    except (GearLubeError, OSError) as error:
-        logger.error("%s", error)
-        raise typer.Exit(FAILED) from None
     if outcome == INTERRUPTED:
         logger.warning("Stopped. Run the same command again to go on from %s.", out / "parts")
     if outcome:

@@ -9,9 +9,9 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from fmu_src.exit_codes import INTERRUPTED, told
 from gearlube_core.checks import check_finite, check_option, check_within
-from gearlube_core.errors import GearLubeError, ParameterError, TableError
+from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import celsius_to_kelvin
 
@@ -91,7 +91,7 @@ def resonance(
     from drivetrain.resonance import ResonanceSettings, quick_settings
     from fmu_src.resonance_console import console_resonance
 
-    try:
+    with told(f"Stopped while results were written; {out} may be incomplete."):
         first, last = _range(frequency_range)
         check_option("--radii", radii, _RADII)
         check_option("--friction", friction, _FRICTION)
@@ -115,15 +115,6 @@ def resonance(
             out=out,
             load_at=load_at,
         )
-    except KeyboardInterrupt:
-        logger.warning("Stopped while results were written; %s may be incomplete.", out)
-        raise typer.Exit(INTERRUPTED) from None
-    except (ParameterError, TableError) as error:
-        logger.error("%s", error)
-        raise typer.Exit(BAD_ARGUMENT) from None
-    except (GearLubeError, OSError) as error:
-        logger.error("%s", error)
-        raise typer.Exit(FAILED) from None
     if not finished:
         logger.warning("Stopped. What was found until then is in %s.", out)
         raise typer.Exit(INTERRUPTED)
