@@ -9,6 +9,8 @@ from scipy.sparse import csr_matrix, kron
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
+_SPARSE = 5000  # entries, from which on a matrix with two or three a row is kept sparse
+
 
 def linear_interpolation(coarse: int, fine: int) -> Array:
     """Return the matrix, shape (fine, coarse), of linear interpolation along one side."""
@@ -50,15 +52,33 @@ class Transfer:
             self._restriction.append(weights / weights.sum(axis=1, keepdims=True))
         self.interpolation: csr_matrix = kron(*self._linear, format="csr")
         self.restriction: csr_matrix = kron(*self._restriction, format="csr")
+        self._short_up = [_short(m) for m in self._linear]
+        self._short_down = [_short(m) for m in self._restriction]
 
     def down(self, values: Array) -> Array:
         """Return weighted means of nodal values around each coarse node."""
-        return np.asarray(self._restriction[0] @ values @ self._restriction[1].T)
+        return _both(self._short_down, values)
 
     def up(self, values: Array) -> Array:
         """Return coarse values on the fine grid, linear between nodes."""
-        return np.asarray(self._linear[0] @ values @ self._linear[1].T)
+        return _both(self._short_up, values)
 
     def up_smoothly(self, values: Array) -> Array:
         """Return coarse values on the fine grid, cubic between nodes."""
         return np.asarray(self._cubic[0] @ values @ self._cubic[1].T)
+
+
+def _short(matrix: Array) -> csr_matrix | Array | None:
+    """Return a matrix as it multiplies fastest, None for the identity."""
+    if matrix.shape[0] == matrix.shape[1]:
+        return None
+    return csr_matrix(matrix) if matrix.size > _SPARSE else matrix
+
+
+def _both(matrices: list[csr_matrix | Array | None], values: Array) -> Array:
+    first, second = matrices
+    if first is not None:
+        values = first @ values
+    if second is not None:
+        values = (second @ values.T).T
+    return np.ascontiguousarray(values)

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
-from gearlube_core.ehl.point_level import FilmState
+from gearlube_core.ehl.point_level import FilmState, Linearisation
 from gearlube_core.ehl.point_newton import NewtonRecord
-from gearlube_core.ehl.point_preconditioner import MultigridCycle
+from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import FilmSolution, MovingFilm, film_solution, impose
 from gearlube_core.ehl.transient_level import MovingLevel
@@ -28,6 +28,10 @@ SCHEMES = ("bdf2", "crank_nicolson")
 # "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"
 MARCH_SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
 _LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
+
+
+def _multigrid(grids: Hierarchy, linear: Linearisation, _: object) -> MultigridCycle:
+    return MultigridCycle(grids, linear)
 
 
 @dataclass(slots=True)
@@ -99,7 +103,10 @@ class FilmMarch:
         assert isinstance(level, MovingLevel)
         self._level = level
         self._unit = time_step * level.scales.speed / level.scales.length
-        self._kept = KeptCycle(self._grids, RowCycle if long else MultigridCycle)
+        self._kept = KeptCycle(
+            self._grids,
+            RowCycle if long else lambda grids, linear, _: MultigridCycle(grids, linear),
+        )
         begin = clock.perf_counter()
         if record is None:
             impose(film, self._grids, start_time)

@@ -22,6 +22,7 @@ _THINNEST = 0.2  # of the film before a step
 _GROWTH = 1.2  # of the residual that a step may cost
 _CUTS = 4
 _LOAD_WEIGHT = 0.1
+_ENOUGH = 0.2  # of the residual that ends the iteration, for a linear solution
 
 
 @dataclass(slots=True)
@@ -46,41 +47,47 @@ class KeptCycle:
     hierarchy
         Grids; the finest one is solved.
     build
-        Of hierarchy and linearisation: the cycle.
+        Of hierarchy, linearisation and the cycle before, None at first: the cycle.
     patience
-        Krylov iterations of one linear solution after which the cycle is built anew.
+        Krylov iterations of one linear solution after which the cycle is brought up to date.
     """
 
     def __init__(
         self,
         hierarchy: Hierarchy,
-        build: Callable[[Hierarchy, Linearisation], Inverse],
-        patience: int = 4,
+        build: Callable[[Hierarchy, Linearisation, Any], Inverse],
+        patience: int = 8,
     ) -> None:
         self.hierarchy = hierarchy
         self._build = build
         self.patience = patience
         self.renewals = 0
         self._cycle: Inverse | None = None
+        self._stale = True
         self._free = self._new = np.zeros(0, dtype=np.bool_)
         self._linear: Linearisation | None = None
 
     def renew(self, linear: Linearisation) -> None:
         """Build the cycle at a linearisation."""
-        self._cycle = self._build(self.hierarchy, linear)
+        self._cycle = self._build(self.hierarchy, linear, self._cycle)
+        self._stale = False
         self._free = linear.free.copy()
         self.renewals += 1
 
     def serve(self, linear: Linearisation) -> None:
         """Use the cycle for another linearisation."""
-        if self._cycle is None:
+        if self._stale:
             self.renew(linear)
         self._linear = linear
         self._new = linear.free & ~self._free
 
+    def tire(self) -> None:
+        """Bring the cycle up to date before its next use."""
+        self._stale = True
+
     def forget(self) -> None:
         """Drop the cycle."""
-        self._cycle = None
+        self._cycle, self._stale = None, True
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
         """Return pressure and approach that cancel most of a residual."""
@@ -144,13 +151,13 @@ def step_newton(
             kept,
             right,
             state.load_error,
-            tolerance=min(0.03, max(1e-3, 0.1 * math.sqrt(size))),
+            tolerance=max(min(0.03, 0.1 * math.sqrt(size)), _ENOUGH * tolerance / size),
             most=most_krylov,
             weight=_LOAD_WEIGHT * float(np.linalg.norm(linear.by_approach)),
         )
         krylov += count
         if count > kept.patience:
-            kept.forget()
+            kept.tire()
         thinnest = _THINNEST * max(float(state.film.min()), 0.0)
         length, accepted = 1.0, False
         for _ in range(_CUTS):

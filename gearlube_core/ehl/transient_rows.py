@@ -8,10 +8,12 @@ deflection of a wave across the motion, and coarser grids have fewer of them.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from gearlube_core.contact.half_space import HalfSpaceConvolution
 from gearlube_core.ehl.point_coarse import CoarseSolution
 from gearlube_core.ehl.point_galerkin import SparseOperator, coarse_operator, sparse_operator
 from gearlube_core.ehl.point_level import Linearisation, PointLevel
@@ -19,11 +21,15 @@ from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.jit import kernel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
 Inverse = Callable[[Array, float], tuple[Array, float]]
 
 _DAMPING = 0.9
 # a row, of the wave across the motion whose deflection a row takes: longer ones would be amplified
 _WAVE = 0.12 * np.pi
+_SPARE = 4  # columns beside the free ones for those that come
+_CHANGE = 0.05  # mean relative change of a row from which on it is inverted anew
+_AT_ONCE = 64  # rows
 _DIRECT_NODES = 1700  # of the grid that is solved directly
 _FEWEST_ROWS = 7
 
@@ -57,9 +63,10 @@ def fill_row_matrices(
     local: np.ndarray,
     across: np.ndarray,
     first: int,
+    which: np.ndarray,
     matrices: np.ndarray,
 ) -> None:
-    """Fill the matrices of all rows of nodes, uncoupled from each other.
+    """Fill the matrices of rows of nodes, uncoupled from each other.
 
     Parameters
     ----------
@@ -73,29 +80,56 @@ def fill_row_matrices(
         Share of it that neighbours 0 to 4 rows away see.
     first : int
         Index of the first node of every row that the matrices hold.
-    matrices : ndarray, shape (ny, n, n)
+    which : ndarray of int, shape (m,)
+        Rows.
+    matrices : ndarray, shape (m, n, n)
         Result, of n nodes from `first` on; zero on entry.
     """
-    ny, nx = free.shape
+    nx = free.shape[1]
     n = matrices.shape[1]
-    for j in range(ny):
+    for place in range(which.size):
+        j = which[place]
         for i in range(first, first + n):
             row = j * nx + i
             if not free[j, i]:
-                matrices[j, i - first, i - first] = 1.0
+                matrices[place, i - first, i - first] = 1.0
                 continue
             for k in range(start[row], start[row + 1]):
                 jj = column[k] // nx
                 ii = column[k] - jj * nx
                 if jj == j and free[jj, ii]:
-                    matrices[j, i - first, ii - first] += entry[k].real
+                    matrices[place, i - first, ii - first] += entry[k].real
                 slope = entry[k].imag * across[min(abs(jj - j), 4)]
                 if slope != 0.0:
                     for m in range(n):
-                        matrices[j, i - first, m] += slope * local[abs(first + m - ii)]
+                        matrices[place, i - first, m] += slope * local[abs(first + m - ii)]
             for m in range(n):
                 if not free[j, first + m]:
-                    matrices[j, i - first, m] = 0.0
+                    matrices[place, i - first, m] = 0.0
+
+
+@kernel
+def subtract_rows(
+    start: np.ndarray,
+    column: np.ndarray,
+    entry: np.ndarray,
+    pressure: np.ndarray,
+    film: np.ndarray,
+    right: np.ndarray,
+    rest: np.ndarray,
+) -> None:
+    """Write right - Re(entry) pressure - Im(entry) film of all rows.
+
+    All arrays are one-dimensional but film, shape (ny, nx), of any strides.
+    """
+    nx = film.shape[1]
+    for row in range(rest.size):
+        total = right[row]
+        for k in range(start[row], start[row + 1]):
+            node = column[k]
+            j = node // nx
+            total -= entry[k].real * pressure[node] + entry[k].imag * film[j, node - j * nx]
+        rest[row] = total
 
 
 @kernel
@@ -118,29 +152,62 @@ def multiply_matrices(
 
 
 class RowInverses:
-    """Inverse of every row of one linearisation; float32 is enough for a preconditioner."""
+    """Inverse of every row of one linearisation; float32 is enough for a preconditioner.
 
-    def __init__(self, level: PointLevel, operator: SparseOperator) -> None:
-        ny = level.shape[0]
-        # columns without any free node drop out: much of the inlet and of the outlet
+    Rows whose derivatives have hardly changed keep their inverse when others are inverted anew.
+    """
+
+    def __init__(self, level: PointLevel) -> None:
+        self._local = wave_deflection(level)
+        self._held = slice(0, 0)
+        self._free = np.zeros(level.shape, dtype=np.bool_)
+        self._centre = np.zeros(level.shape, dtype=np.complex128)
+        self._transposed = np.empty((level.shape[0], 0, 0), dtype=np.float32)
+        self._products = np.empty((level.shape[0], 0))
+
+    def renew(self, operator: SparseOperator) -> int:
+        """Invert the rows that have changed; return their number."""
         columns = np.flatnonzero(operator.free.any(axis=0))
-        first, count = (int(columns[0]), int(np.ptp(columns)) + 1) if columns.size else (0, 1)
-        self._held = slice(first, first + count)
-        matrices = np.zeros((ny, count, count), dtype=np.float32)
-        fill_row_matrices(
-            operator.matrix.indptr,
-            operator.matrix.indices,
-            operator.matrix.data,
-            operator.free,
-            wave_deflection(level).astype(np.float32),
-            np.cos(_WAVE * np.arange(5.0)).astype(np.float32),
-            first,
-            matrices,
-        )
-        inverses = np.linalg.inv(matrices)
-        self._transposed = np.ascontiguousarray(inverses.transpose(0, 2, 1))
-        self._free = operator.free
-        self._products = np.empty((ny, count))
+        first, last = (int(columns[0]), int(columns[-1]) + 1) if columns.size else (0, 1)
+        centre = operator.matrix.diagonal().reshape(operator.free.shape)
+        if first < self._held.start or last > self._held.stop or self._held.stop == 0:
+            # columns without any free node drop out: much of the inlet and of the outlet
+            first, last = max(first - _SPARE, 0), min(last + _SPARE, centre.shape[1])
+            self._held = slice(first, last)
+            count = last - first
+            self._transposed = np.empty((centre.shape[0], count, count), dtype=np.float32)
+            self._products = np.empty((centre.shape[0], count))
+            rows = np.arange(centre.shape[0])
+        else:
+            rows = np.flatnonzero(self._changes(centre, operator.free) > _CHANGE)
+        for part in np.array_split(rows, max(1, rows.size // _AT_ONCE)):
+            matrices = np.zeros((part.size, *self._transposed.shape[1:]), dtype=np.float32)
+            fill_row_matrices(
+                operator.matrix.indptr,
+                operator.matrix.indices,
+                operator.matrix.data,
+                operator.free,
+                self._local.astype(np.float32),
+                np.cos(_WAVE * np.arange(5.0)).astype(np.float32),
+                self._held.start,
+                part,
+                matrices,
+            )
+            self._transposed[part] = np.linalg.inv(matrices).transpose(0, 2, 1)
+        self._free[rows] = operator.free[rows]
+        self._centre[rows] = centre[rows]
+        return int(rows.size)
+
+    def _changes(self, centre: np.ndarray, free: Flags) -> Array:
+        # mean relative change of the derivatives of a row; nodes that come or go count as one
+        weight = self._local[0]
+        old = self._centre
+        change = np.abs(centre.real - old.real) + weight * np.abs(centre.imag - old.imag)
+        size = np.abs(centre.real) + np.abs(old.real)
+        size += weight * (np.abs(centre.imag) + np.abs(old.imag))
+        share = np.divide(2.0 * change, size, out=np.zeros_like(size), where=size > 0.0)
+        share[free != self._free] = 1.0
+        return np.asarray(share.sum(axis=1) / np.maximum(free.sum(axis=1), 1))
 
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
@@ -151,37 +218,79 @@ class RowInverses:
         return pressure
 
 
-class RowCycle:
-    """One V-cycle as an approximate inverse; pressure and approach are found together."""
+@dataclass(frozen=True, slots=True)
+class _Halved:
+    """Operator in single precision; memory traffic is what it costs."""
 
-    def __init__(self, grids: Hierarchy, linear: Linearisation) -> None:
+    start: np.ndarray
+    column: np.ndarray
+    entry: np.ndarray
+    free: Flags
+    by_approach: Array
+
+    @classmethod
+    def of(cls, operator: SparseOperator) -> _Halved:
+        matrix = operator.matrix
+        entry = matrix.data.astype(np.complex64)
+        return cls(matrix.indptr, matrix.indices, entry, operator.free, operator.by_approach)
+
+
+class RowCycle:
+    """From coarse to fine as an approximate inverse; pressure and approach are found together.
+
+    A grid's rows are solved once, after the coarser grids: solving them before as well costs as
+    much again and saves no iteration. All but the coarsest grid is in single precision. `before`
+    is a cycle of the same grids whose rows serve again where little has changed; it cannot be
+    used any more.
+    """
+
+    def __init__(
+        self, grids: Hierarchy, linear: Linearisation, before: RowCycle | None = None
+    ) -> None:
         self._levels, self._transfers = grids.levels, grids.transfers
-        self._rows: list[RowInverses] = []
+        if before is None:
+            self._rows = [RowInverses(level) for level in self._levels[1:]]
+            self._deflections = [
+                HalfSpaceConvolution(level.coefficients, single=True) for level in self._levels
+            ]
+        else:
+            self._rows, self._deflections = before._rows, before._deflections
         operator = sparse_operator(linear)
-        self._operators = [operator]
+        self._operators = [_Halved.of(operator)]
         for k in range(len(self._levels) - 1, 0, -1):
-            self._rows.insert(0, RowInverses(self._levels[k], operator))
+            self._rows[k - 1].renew(operator)
             operator = coarse_operator(operator, self._transfers[k - 1])
-            self._operators.insert(0, operator)
+            self._operators.insert(0, _Halved.of(operator))
         self._direct = CoarseSolution(self._levels[0], operator)
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
         """Return pressure, shape (ny, nx), and approach that cancel most of a residual."""
         return self._cycle(len(self._levels) - 1, residual, load_residual)
 
+    def _rest(self, k: int, residual: Array, pressure: Array, approach: float) -> Array:
+        operator = self._operators[k]
+        film = self._deflections[k](pressure)
+        rest = np.empty(residual.shape)
+        subtract_rows(
+            operator.start,
+            operator.column,
+            operator.entry,
+            np.ascontiguousarray(pressure).ravel(),
+            film,
+            np.ascontiguousarray(residual).ravel(),
+            rest.ravel(),
+        )
+        if approach != 0.0:
+            rest -= approach * operator.by_approach
+        return rest
+
     def _cycle(self, k: int, residual: Array, load_residual: float) -> tuple[Array, float]:
         if k == 0:
             return self._direct(residual, load_residual)
-        level, operator, transfer = self._levels[k], self._operators[k], self._transfers[k - 1]
-        pressure = self._rows[k - 1](residual)
-        share = level.cell / level.scales.load
-        rest = residual - operator.apply(level, pressure, 0.0)
-        coarse, approach = self._cycle(
-            k - 1, transfer.down(rest), load_residual - share * float(pressure.sum())
-        )
-        correction = transfer.up(coarse)
-        correction[~operator.free] = 0.0
-        pressure += correction
-        rest = residual - operator.apply(level, pressure, approach)
-        pressure += self._rows[k - 1](rest)
-        return pressure, approach
+        free, transfer = self._operators[k].free, self._transfers[k - 1]
+        coarse, approach = self._cycle(k - 1, transfer.down(residual), load_residual)
+        pressure = transfer.up(coarse)
+        pressure[~free] = 0.0
+        after = self._rows[k - 1](self._rest(k, residual, pressure, approach))
+        after[~free] = 0.0
+        return pressure + after, approach
