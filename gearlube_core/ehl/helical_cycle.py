@@ -12,7 +12,7 @@ import numpy as np
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.helical_film import HelicalFilm
 from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.transient_film import FilmSolution
+from gearlube_core.ehl.transient_film import FilmSolution, unpack_solutions
 from gearlube_core.ehl.transient_march import FilmMarch
 from gearlube_core.ehl.transient_record import MarchRecord
 from gearlube_core.ehl.transient_steady import solve_steady_film
@@ -126,7 +126,7 @@ def march_helical_cycle(
     scheme, settings
         As in `FilmMarch`.
     keep
-        Steps whose whole solution is returned.
+        Steps whose whole solution is returned; a checkpoint holds those already reached.
     checkpoint
         File to write every `checkpoint_every` steps, and to go on from if it is there.
     progress
@@ -163,6 +163,14 @@ def march_helical_cycle(
         throw=throw,
     )
     kept: dict[int, FilmSolution] = {}
+    if record is not None:
+        kept = unpack_solutions(
+            march.film,
+            march.settings,
+            record.kept_steps,
+            record.kept_fields,
+            record.kept_values,
+        )
     if not rows:
         rows.append(_row(float(first), march.solution))
         if progress is not None:
@@ -178,7 +186,7 @@ def march_helical_cycle(
         if n in keep:
             kept[n] = solution
         if path is not None and (n % checkpoint_every == 0 or n == last):
-            march.save(path, np.array(rows))
+            march.save(path, np.array(rows), kept)
         if progress is not None:
             progress(n, last, solution)
     return HelicalCycle(np.array(rows), kept)

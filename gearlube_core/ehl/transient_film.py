@@ -168,6 +168,27 @@ class FilmSolution:
         return float(rows[-1] - rows[0]) if rows.size else 0.0
 
 
+def _failures(
+    pressure: Array, film: Array, residual: float, load_error: float, settings: PointSolverSettings
+) -> list[str]:
+    checks = (
+        (bool(np.isfinite(pressure).all()), "the pressure is not finite"),
+        (residual <= settings.tolerance, f"the flow residual is {residual:.1e}"),
+        (
+            abs(load_error) <= settings.load_tolerance,
+            f"the load is {100.0 * load_error:.1e} % off",
+        ),
+        (float(film.min()) > 0.0, "the film vanishes"),
+    )
+    return [text for good, text in checks if not good]
+
+
+def _outcome(failed: list[str], newton_steps: int) -> str:
+    if not failed:
+        return f"Converged in {newton_steps} steps."
+    return f"Not converged after {newton_steps} steps: {' and '.join(failed)}. {_CURE}"
+
+
 def film_solution(
     film: MovingFilm,
     level: MovingLevel,
@@ -182,21 +203,7 @@ def film_solution(
     """Return a state in SI with the judgement on it."""
     scales = level.scales
     residual = flow_residual(level, state)
-    checks = (
-        (bool(np.isfinite(state.pressure).all()), "the pressure is not finite"),
-        (residual <= settings.tolerance, f"the flow residual is {residual:.1e}"),
-        (
-            abs(state.load_error) <= settings.load_tolerance,
-            f"the load is {100.0 * state.load_error:.1e} % off",
-        ),
-        (float(state.film.min()) > 0.0, "the film vanishes"),
-    )
-    failed = [text for good, text in checks if not good]
-    outcome = (
-        f"Converged in {newton_steps} steps."
-        if not failed
-        else f"Not converged after {newton_steps} steps: {' and '.join(failed)}. {_CURE}"
-    )
+    failed = _failures(state.pressure, state.film, residual, state.load_error, settings)
     pressure = scales.outward(state.pressure) * scales.pressure
     cell = level.cell * scales.length**2
     return FilmSolution(
@@ -210,8 +217,52 @@ def film_solution(
         load_error=state.load_error,
         residual=residual,
         converged=not failed,
-        outcome=outcome,
+        outcome=_outcome(failed, newton_steps),
         newton_steps=newton_steps,
         krylov_steps=krylov_steps,
         seconds=seconds,
     )
+
+
+_NUMBERS = (
+    "time",
+    "approach",
+    "load",
+    "load_error",
+    "residual",
+    "newton_steps",
+    "krylov_steps",
+    "seconds",
+)
+
+
+def pack_solutions(solutions: dict[int, FilmSolution]) -> tuple[Array, Array, Array]:
+    """Return the numbers, fields and values of solutions as a `MarchRecord` holds them."""
+    steps = np.array(list(solutions), dtype=np.float64)
+    if not solutions:
+        return steps, np.zeros(0), np.zeros((0, len(_NUMBERS)))
+    fields = np.array([(s.pressure, s.film) for s in solutions.values()])
+    return steps, fields, np.array([[getattr(s, n) for n in _NUMBERS] for s in solutions.values()])
+
+
+def unpack_solutions(
+    film: MovingFilm, settings: PointSolverSettings, steps: Array, fields: Array, values: Array
+) -> dict[int, FilmSolution]:
+    """Return the solutions that `pack_solutions` has packed."""
+    solutions = {}
+    for step, (pressure, height), row in zip(steps, fields, values, strict=True):
+        numbers = dict(zip(_NUMBERS, row.tolist(), strict=True))
+        newton_steps, krylov_steps = int(numbers.pop("newton_steps")), numbers.pop("krylov_steps")
+        failed = _failures(pressure, height, numbers["residual"], numbers["load_error"], settings)
+        solutions[int(step)] = FilmSolution(
+            **numbers,
+            x=film.x,
+            y=film.y,
+            pressure=pressure,
+            film=height,
+            converged=not failed,
+            outcome=_outcome(failed, newton_steps),
+            newton_steps=newton_steps,
+            krylov_steps=int(krylov_steps),
+        )
+    return solutions

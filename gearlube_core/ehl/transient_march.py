@@ -14,7 +14,13 @@ from gearlube_core.ehl.point_level import FilmState, Linearisation
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.transient_film import FilmSolution, MovingFilm, film_solution, impose
+from gearlube_core.ehl.transient_film import (
+    FilmSolution,
+    MovingFilm,
+    film_solution,
+    impose,
+    pack_solutions,
+)
 from gearlube_core.ehl.transient_level import MovingLevel
 from gearlube_core.ehl.transient_newton import KeptCycle, step_newton
 from gearlube_core.ehl.transient_record import MarchRecord
@@ -163,11 +169,17 @@ class FilmMarch:
             raise ConvergenceError(f"Step {self.steps}: {self.solution.outcome}")
         return self.solution
 
-    def save(self, path: Path | str, curves: Array | None = None) -> None:
+    def save(
+        self,
+        path: Path | str,
+        curves: Array | None = None,
+        kept: dict[int, FilmSolution] | None = None,
+    ) -> None:
         """Write a record from which a march goes on as if it had not stopped.
 
-        `curves` is kept with it, for the caller.
+        `curves` and the solutions in `kept` go with it, for the caller.
         """
+        kept_steps, kept_fields, kept_values = pack_solutions(kept or {})
         past = self._past
         empty = np.zeros_like(past.mass)
         rise, approach_rise = (empty, 0.0) if past.rise is None else past.rise
@@ -184,6 +196,9 @@ class FilmMarch:
             rise=rise,
             approach_rise=approach_rise,
             curves=np.zeros(0) if curves is None else curves,
+            kept_steps=kept_steps,
+            kept_fields=kept_fields,
+            kept_values=kept_values,
         ).write(path)
         # what goes on and what is read again start from the same preconditioner: none
         self._kept.forget()

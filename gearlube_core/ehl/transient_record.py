@@ -31,6 +31,9 @@ class MarchRecord:
     rise: Array  # of the pressure in the last step
     approach_rise: float
     curves: Array  # what a caller has gathered so far, any shape
+    kept_steps: Array  # whole solutions that a caller keeps: their numbers, shape (m,)
+    kept_fields: Array  # pressure [Pa] and film [m], shape (m, 2, nx, ny)
+    kept_values: Array  # the numbers of `FilmSolution`, shape (m, 8)
 
     def write(self, path: Path | str) -> None:
         """Write the record; an older one at `path` stays whole until the new one is complete."""

@@ -61,8 +61,9 @@ def test_coarse_line_carries_its_load_close_to_the_dry_pressure():
 
 def test_interrupted_cycle_gives_the_same_curves(tmp_path):
     film = jamali_2015_film("a", newtonian=True, nodes=(33, 49))
+    keep = (300, 302, 304)
     whole = march_helical_cycle(film, first=300, last=304, checkpoint=tmp_path / "whole.npz",
-                                checkpoint_every=2)  # fmt: skip
+                                checkpoint_every=2, keep=keep)  # fmt: skip
     part = tmp_path / "part.npz"
 
     class StopError(Exception):
@@ -74,11 +75,19 @@ def test_interrupted_cycle_gives_the_same_curves(tmp_path):
 
     with pytest.raises(StopError):
         march_helical_cycle(film, first=300, last=304, checkpoint=part, checkpoint_every=2,
-                            progress=stop)  # fmt: skip
-    rest = march_helical_cycle(film, first=300, last=304, checkpoint=part, checkpoint_every=2)
+                            keep=keep, progress=stop)  # fmt: skip
+    rest = march_helical_cycle(film, first=300, last=304, checkpoint=part, checkpoint_every=2,
+                               keep=keep)  # fmt: skip
     assert whole.failures == 0
     for column in ("step", "load", "max_pressure", "min_film"):
         assert np.array_equal(whole[column], rest[column])
+    # also the solutions from before the interruption
+    assert set(rest.kept) == set(whole.kept) == set(keep)
+    for n in keep:
+        assert np.array_equal(rest.kept[n].pressure, whole.kept[n].pressure)
+        assert np.array_equal(rest.kept[n].film, whole.kept[n].film)
+        for name in ("time", "approach", "load", "residual", "outcome", "newton_steps"):
+            assert getattr(rest.kept[n], name) == getattr(whole.kept[n], name)
 
 
 @pytest.mark.slow
