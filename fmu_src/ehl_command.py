@@ -1,4 +1,4 @@
-"""The commands `gearlube ehl line`, `point`, `helical` and `compare`."""
+"""The commands `gearlube ehl line`, `point`, `helical`, `hypoid` and `compare`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import typer
 from rich.console import Console
 
 from fmu_src.ehl_compare_command import compare
+from fmu_src.ehl_hypoid_command import hypoid
 from fmu_src.ehl_outcome import told, verdict
 from gearlube_core.checks import check_finite, check_within
 from gearlube_core.errors import ParameterError
@@ -287,6 +288,7 @@ def helical(
         )
 
 
+ehl.command("hypoid")(hypoid)
 ehl.command("compare")(compare)
 
 

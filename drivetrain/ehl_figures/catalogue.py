@@ -16,6 +16,8 @@ from drivetrain.ehl_figures.helical_line import (
 )
 from drivetrain.ehl_figures.helical_step import step_contours, step_sections
 from drivetrain.ehl_figures.history import residual_history
+from drivetrain.ehl_figures.hypoid_contours import hypoid_contours
+from drivetrain.ehl_figures.hypoid_cycle import hypoid_curves, hypoid_ratios
 from drivetrain.ehl_figures.line_contact import (
     line_profile,
     line_profile_hertz,
@@ -45,12 +47,18 @@ HELICAL_CATALOGUE: dict[str, Draw] = {
 }
 CYCLE_CATALOGUE: dict[str, Draw] = {"cycle": cycle_curves, "cycle_map": cycle_map}
 STEP_CATALOGUE: dict[str, Draw] = {"contours": step_contours, "sections": step_sections}
+HYPOID_CATALOGUE: dict[str, Draw] = {
+    "curves": hypoid_curves,
+    "ratios": hypoid_ratios,
+    "contours": hypoid_contours,
+}
 _CATALOGUES = {
     "line": LINE_CATALOGUE,
     "point": POINT_CATALOGUE,
     "helical": HELICAL_CATALOGUE,
     "helical_cycle": CYCLE_CATALOGUE,
     "helical_step": STEP_CATALOGUE,
+    "hypoid": HYPOID_CATALOGUE,
 }
 
 

@@ -1,0 +1,93 @@
+"""Formulas over solved films of a hypoid flank: mean, least and largest ratio along the cycle."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+# quantity, what it is compared with, and the solved variable
+_CENTRAL, _MINIMUM, _FRICTION = (
+    "steady_central_film",
+    "steady_minimum_film",
+    "steady_traction_heated",
+)
+_RATIOS = (
+    ("central film", "Chittenden et al. 1985", "chittenden_central", _CENTRAL),
+    ("central film", "Chittenden, minor-axis component", "component_central", _CENTRAL),
+    ("central film", "Grubin 1949", "grubin", _CENTRAL),
+    ("minimum film", "Chittenden et al. 1985", "chittenden_minimum", _MINIMUM),
+    ("minimum film", "Chittenden, minor-axis component", "component_minimum", _MINIMUM),
+    ("largest pressure", "Hertz", "hertz_pressure", "steady_pressure_max"),
+    ("friction", "Evans and Johnson 1986", "evans_johnson", _FRICTION),
+    ("friction", "Evans and Johnson, solved film", "evans_johnson_solved", _FRICTION),
+    ("friction", "Evans and Johnson, film and Roelands", "evans_johnson_roelands", _FRICTION),
+    ("friction", "axle, with asperities", "axle_friction", _FRICTION),
+    ("friction", "Eyring, isothermal", "steady_traction_eyring", _FRICTION),
+)
+_SQUEEZE = (
+    ("central film", "squeeze_central_film"),
+    ("minimum film", "squeeze_minimum_film"),
+    ("largest pressure", "squeeze_pressure_max"),
+    ("friction", "squeeze_traction_heated"),
+)
+
+
+class RatioRow(NamedTuple):
+    """One quantity over the cycle: solved range in SI, and what another source makes of it."""
+
+    quantity: str
+    source: str
+    least: float  # of the solution, or of the source over the solution [1]
+    largest: float
+    load_weighted_mean: float
+    unit: str
+
+
+def ratio_rows(dataset: xr.Dataset) -> list[RatioRow]:
+    """Return the solved ranges, and ratios of formulas and of the film in time to steady ones.
+
+    Means are weighted with the load, so that the ends of the engagement count little.
+    """
+    weight = dataset["steady_load"].values
+    weight = weight / weight.sum()
+
+    def row(quantity: str, source: str, values: np.ndarray, unit: str) -> RatioRow:
+        mean = float((weight * values).sum())
+        return RatioRow(quantity, source, float(values.min()), float(values.max()), mean, unit)
+
+    rows = [
+        row("load", "solution", dataset["steady_load"].values, "N"),
+        row("central film", "solution", dataset["steady_central_film"].values, "m"),
+        row("minimum film", "solution", dataset["steady_minimum_film"].values, "m"),
+        row("largest pressure", "solution", dataset["steady_pressure_max"].values, "Pa"),
+        row("friction", "solution, heated Eyring", dataset["steady_traction_heated"].values, "1"),
+        row("entrainment angle", "given", np.degrees(dataset["steady_psi"].values), "deg"),
+        row("R_y/R_x", "given", (dataset["steady_R_y"] / dataset["steady_R_x"]).values, "1"),
+    ]
+    rows += [
+        row(quantity, source, (dataset[formula] / dataset[solved]).values, "over solution")
+        for quantity, source, formula, solved in _RATIOS
+    ]
+    rows += [
+        row(quantity, "in time", dataset[name].values, "over steady")
+        for quantity, name in _SQUEEZE
+        if name in dataset
+    ]
+    return rows
+
+
+def ratio_csv(rows: list[RatioRow]) -> str:
+    """Return rows as text with a head, comma between."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(RatioRow._fields)
+    for row in rows:
+        numbers = (row.least, row.largest, row.load_weighted_mean)
+        told = [f"{value:.5g}" if math.isfinite(value) else "" for value in numbers]
+        writer.writerow([row.quantity, row.source, *told, row.unit])
+    return text.getvalue()

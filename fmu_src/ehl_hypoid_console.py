@@ -1,0 +1,116 @@
+"""The films of a hypoid flank with messages, progress, files and a summary."""
+
+from __future__ import annotations
+
+import logging
+import os
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from rich.console import Console
+from rich.table import Table
+
+from drivetrain.ehl.hypoid_case import HypoidFlank, hypoid_flank
+from drivetrain.ehl.hypoid_dataset import hypoid_dataset, hypoid_key
+from drivetrain.ehl.hypoid_summary import RatioRow, ratio_csv, ratio_rows
+from drivetrain.ehl_figures.catalogue import save_ehl_figures
+from fmu_src.progress_bar import progress_bar
+from gearlube_core.ehl.hypoid_case_file import HypoidCase
+from gearlube_core.ehl.hypoid_cycle import FilmCurves, march_flank, steady_films
+from gearlube_core.ehl.transient_film import FilmSolution
+
+logger = logging.getLogger("gearlube")
+RECORD_EVERY = 10  # steps of a march
+_KEPT = 3  # whole films
+_SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "1": (1.0, "")}
+
+
+def console_hypoid(
+    console: Console, *, case: HypoidCase, march: bool, out: Path, kept: int = _KEPT
+) -> str:
+    """Solve a hypoid flank's films, write to `out`; return why it failed, or an empty text.
+
+    The march goes on from its last record in `out`, if there is one.
+    """
+    flank = hypoid_flank(case)
+    _warn_of_light_films(flank)
+    out.mkdir(parents=True, exist_ok=True)
+    solver, cycle = case.solver, flank.film.cycle
+    times = np.linspace(cycle.time[0], cycle.time[-1], solver.steady)
+    rows = tuple(np.linspace(0, solver.steady - 1, kept + 2).round().astype(int)[1:-1].tolist())
+    with progress_bar(console) as bar:
+        total = solver.steady + (solver.steps if march else 0)
+        task = bar.add_task("steady films", total=total)
+
+        def observe(done: int, solution: FilmSolution, what: str) -> None:
+            words = f"{what}, smallest {1e9 * solution.minimum_film:.0f} nm"
+            bar.update(task, completed=done, description=words)
+
+        beta = flank.oil.beta
+        steady = steady_films(
+            flank.film,
+            times,
+            beta,
+            settings=case.settings(),
+            keep=rows,
+            progress=lambda n, _, film: observe(n + 1, film, "steady film"),
+            throw=False,
+        )
+        curves: FilmCurves | None = None
+        if march:
+            curves = march_flank(
+                flank.film,
+                solver.steps,
+                beta,
+                settings=case.settings(),
+                checkpoint=out / f"march_{hypoid_key(flank)}.npz",
+                checkpoint_every=RECORD_EVERY,
+                progress=lambda n, _, film: observe(solver.steady + n, film, "film in time"),
+                throw=False,
+            )
+        bar.update(task, completed=total, description="files and figures")
+        dataset = hypoid_dataset(flank, steady, curves)
+        found = ratio_rows(dataset)
+        _write(dataset, out / "hypoid.nc")
+        _replace_text(out / "summary.csv", ratio_csv(found))
+        save_ehl_figures(dataset, out / "figures")
+    console.print(_table(case.name, found))
+    logger.info("Results: %s, %s", out / "hypoid.nc", out / "figures")
+    if dataset.attrs["failures"]:
+        return (
+            f"{dataset.attrs['failures']} films did not converge. Take more nodes, or smaller "
+            "time steps."
+        )
+    return ""
+
+
+def _warn_of_light_films(flank: HypoidFlank) -> None:
+    if flank.case.load == "dynamic" and not np.isfinite(flank.drive.axle_film).all():
+        logger.warning("The axle gives no film at some samples: its teeth separate there.")
+
+
+def _write(dataset: xr.Dataset, path: Path) -> None:
+    partial = path.with_suffix(".part")
+    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
+    os.replace(partial, path)
+
+
+def _replace_text(path: Path, text: str) -> None:
+    partial = path.with_suffix(".part")
+    partial.write_text(text, encoding="utf-8")
+    os.replace(partial, path)
+
+
+def _table(name: str, rows: list[RatioRow]) -> Table:
+    table = Table(title=f"{name}: hypoid flank through its engagement")
+    for heading in ("quantity", "of"):
+        table.add_column(heading)
+    for heading in ("least", "largest", "mean by load"):
+        table.add_column(heading, justify="right")
+    table.add_column("unit")
+    for row in rows:
+        factor, unit = _SCALES.get(row.unit, (1.0, row.unit))
+        numbers = (row.least, row.largest, row.load_weighted_mean)
+        table.add_row(row.quantity, row.source, *(f"{factor * v:.4g}" for v in numbers), unit)
+    return table

@@ -1,0 +1,200 @@
+"""Steady films along a flank's engagement, and the film marched through it, resumable."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_within
+from gearlube_core.ehl.hypoid_film import HypoidFilm
+from gearlube_core.ehl.hypoid_traction import flank_traction
+from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.transient_film import FilmSolution
+from gearlube_core.ehl.transient_march import FilmMarch
+from gearlube_core.ehl.transient_record import MarchRecord
+from gearlube_core.ehl.transient_steady import solve_steady_film
+from gearlube_core.errors import ConvergenceError, ParameterError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+COLUMNS = (
+    "time",
+    "load",
+    "central_film",
+    "minimum_film",
+    "minimum_film_x",
+    "minimum_film_y",
+    "pressure_max",
+    "traction_newtonian",
+    "traction_eyring",
+    "traction_heated",
+    "load_error",
+    "residual",
+    "converged",
+    "newton_steps",
+    "seconds",
+)
+SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
+
+Progress = Callable[[int, int, FilmSolution], None]
+
+
+@dataclass(frozen=True, slots=True)
+class FilmCurves:
+    """Films over an engagement; one row a time, SI, columns as in `COLUMNS`."""
+
+    table: Array  # (times, columns)
+    kept: dict[int, FilmSolution]  # whole films of the rows that were asked for
+
+    def __getitem__(self, column: str) -> Array:
+        """Return a column by its name."""
+        if column not in COLUMNS:
+            raise ParameterError(f"column must be one of {', '.join(COLUMNS)}, got {column}.")
+        return self.table[:, COLUMNS.index(column)]
+
+    @property
+    def failures(self) -> int:
+        """Return the number of films that did not converge."""
+        return int((self["converged"] == 0.0).sum())
+
+
+def central_film(solution: FilmSolution) -> float:
+    """Return the film in the centre of the dry contact, by linear interpolation [m]."""
+    column = np.array([np.interp(0.0, solution.y, row) for row in solution.film])
+    return float(np.interp(0.0, solution.x, column))
+
+
+def steady_films(
+    film: HypoidFilm,
+    times: Array,
+    beta: float,
+    *,
+    settings: PointSolverSettings = SETTINGS,
+    keep: tuple[int, ...] = (),
+    progress: Progress | None = None,
+    throw: bool = True,
+) -> FilmCurves:
+    """Return the films as if the conditions of each time had lasted.
+
+    All on the grid of the march, so that what differs from it is the film's history.
+
+    Parameters
+    ----------
+    film
+        Contact through the engagement.
+    times : ndarray, shape (N,)
+        [s].
+    beta
+        -d ln eta/dT of the oil at ambient pressure [1/K].
+    settings
+        Stencil and tolerances.
+    keep
+        Rows whose whole film is returned.
+    progress
+        Called with the row, the last row and the film.
+    throw
+        Raise where a film does not converge; else say so in the table.
+
+    Raises
+    ------
+    ConvergenceError
+    """
+    moving = film.moving_film()
+    rows, kept = [], {}
+    for n, time in enumerate(times):
+        solution = solve_steady_film(moving, float(time), settings, throw=throw)
+        rows.append(_row(film, solution, beta))
+        if n in keep:
+            kept[n] = solution
+        if progress is not None:
+            progress(n, len(times) - 1, solution)
+    return FilmCurves(np.array(rows), kept)
+
+
+def march_flank(
+    film: HypoidFilm,
+    steps: int,
+    beta: float,
+    *,
+    settings: PointSolverSettings = SETTINGS,
+    scheme: str = "bdf2",
+    checkpoint: Path | str | None = None,
+    checkpoint_every: int = 10,
+    progress: Progress | None = None,
+    throw: bool = True,
+) -> FilmCurves:
+    """Return the film through the engagement, with squeeze, from the steady one at its start.
+
+    Parameters
+    ----------
+    film
+        Contact through the engagement.
+    steps
+        Equal time steps from the first to the last time of its cycle, 2 to 1e5.
+    beta
+        -d ln eta/dT of the oil at ambient pressure [1/K].
+    settings, scheme
+        As in `FilmMarch`.
+    checkpoint
+        File to write every `checkpoint_every` steps, and to go on from if it is there.
+    progress
+        Called with the step, the last step and the film.
+    throw
+        Raise at the first step that does not converge; else go on and say so in the table.
+
+    Raises
+    ------
+    ConvergenceError
+    ParameterError
+        Steps out of range, or the checkpoint belongs to another march.
+    """
+    check_within("steps", steps, 2, 100_000)
+    check_within("checkpoint_every", checkpoint_every, 1, 1_000_000)
+    first, last = (float(t) for t in film.cycle.time[[0, -1]])
+    path = None if checkpoint is None else Path(checkpoint)
+    record = MarchRecord.read(path) if path is not None and path.exists() else None
+    march = FilmMarch(
+        film.moving_film(),
+        (last - first) / steps,
+        start_time=first,
+        scheme=scheme,
+        settings=settings,
+        record=record,
+        throw=throw,
+    )
+    rows = [_row(film, march.solution, beta)] if record is None else record.curves.tolist()
+    for n in range(march.steps + 1, steps + 1):
+        solution = march.step(throw=False)
+        if throw and not solution.converged:
+            raise ConvergenceError(f"Step {n}: {solution.outcome}")
+        rows.append(_row(film, solution, beta))
+        if path is not None and (n % checkpoint_every == 0 or n == steps):
+            march.save(path, np.array(rows))
+        if progress is not None:
+            progress(n, steps, solution)
+    return FilmCurves(np.array(rows), {})
+
+
+def _row(film: HypoidFilm, solution: FilmSolution, beta: float) -> list[float]:
+    now = film.cycle.at(solution.time)
+    thinnest = np.unravel_index(int(solution.film.argmin()), solution.film.shape)
+    traction = flank_traction(solution, film.lubricant, now.sliding, beta)
+    return [
+        solution.time,
+        solution.load,
+        central_film(solution),
+        solution.minimum_film,
+        float(solution.x[thinnest[0]]),
+        float(solution.y[thinnest[1]]),
+        solution.maximum_pressure,
+        *traction,
+        solution.load_error,
+        solution.residual,
+        float(solution.converged),
+        float(solution.newton_steps),
+        solution.seconds,
+    ]
