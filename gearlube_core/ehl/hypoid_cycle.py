@@ -14,7 +14,7 @@ from gearlube_core.ehl.hypoid_film import HypoidFilm
 from gearlube_core.ehl.hypoid_traction import flank_traction
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import FilmSolution
-from gearlube_core.ehl.transient_march import FilmMarch
+from gearlube_core.ehl.transient_march import MARCH_SETTINGS, FilmMarch
 from gearlube_core.ehl.transient_record import MarchRecord
 from gearlube_core.ehl.transient_steady import solve_steady_film
 from gearlube_core.errors import ConvergenceError, ParameterError
@@ -38,7 +38,6 @@ COLUMNS = (
     "newton_steps",
     "seconds",
 )
-SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
 
 Progress = Callable[[int, int, FilmSolution], None]
 
@@ -73,7 +72,7 @@ def steady_films(
     times: Array,
     beta: float,
     *,
-    settings: PointSolverSettings = SETTINGS,
+    settings: PointSolverSettings = MARCH_SETTINGS,
     keep: tuple[int, ...] = (),
     progress: Progress | None = None,
     throw: bool = True,
@@ -120,7 +119,7 @@ def march_flank(
     steps: int,
     beta: float,
     *,
-    settings: PointSolverSettings = SETTINGS,
+    settings: PointSolverSettings = MARCH_SETTINGS,
     scheme: str = "bdf2",
     checkpoint: Path | str | None = None,
     checkpoint_every: int = 10,
