@@ -43,7 +43,8 @@ Contact lines of helical pairs come from the pair's [gear file](helical_gear_fil
   the motion is negative.
 - `reduced_modulus_gpa` is E' = 2 E*, with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Left out, it is
   that of the bodies, which are steel where nothing is said.
-- An oil is one of the library at a temperature, or its own numbers.
+- An oil is one of the library at a temperature, or its own numbers. An Eyring stress acts on flow
+  and friction, a limiting stress on friction alone.
 
 ## Shapes of the gap
 
@@ -77,6 +78,7 @@ Of one core of a small server, from the dry contact on, without the compilation 
 | point, `mourier_2006` | 129 x 129 | 0.5 s | 0.31 GiB |
 | point, `mourier_2006` | 257 x 257 | 1.3 s | 0.38 GiB |
 | point, `mourier_2006` | 513 x 513 | 4.0 s | 0.62 GiB |
+| helical line marching, `jamali_2015_a` | 97 x 257 | 0.4 s a step | 0.41 GiB |
 
 0.20 GiB of each are the libraries. A point contact's share grows with the nodes, that of a line
 with their square.

@@ -54,7 +54,8 @@ print(pair.total_contact_ratio, file.provenance("pair.backlash_mm"))
 ```
 
 `gearlube helical my_pair.toml` analyses it, `gearlube build-fmu --model helical-pair --gear
-my_pair.toml` makes it an FMU.
+my_pair.toml` makes it an FMU. `gearlube ehl helical my_pair.toml` solves the film on its contact
+lines: `[oil]` or `--oil` names what fills it.
 """
 
 

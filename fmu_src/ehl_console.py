@@ -52,11 +52,6 @@ def console_line(console: Console, *, case: LineCase, out: Path) -> str:
 
 def console_point(console: Console, *, case: PointCase, out: Path) -> str:
     """Solve a point contact, write to `out`; return why it failed, or an empty text."""
-    if case.problem().lubricant.tau0 > 0.0:
-        logger.warning(
-            "The film of a point contact flows as a Newtonian one; the Eyring stress acts on its "
-            "friction alone."
-        )
     _warn_of_heights(case)
 
     def solve() -> xr.Dataset:

@@ -243,13 +243,15 @@ class PointCase(EhlCase):
         return replace(smooth, gap=RoughGap(smooth.gap, tuple(shapes)))
 
     def _smooth(self) -> PointContactProblem:
+        oil = self.oil.ehl_lubricant()
         return elliptical_contact(
             R_x=self.radius_x_mm * MILLIMETRE,
             R_y=self.radius_y_mm * MILLIMETRE,
             entrainment=self.entrainment,
             load=self.load_n,
             contact_modulus=0.5 * self.modulus,
-            lubricant=self.oil.ehl_lubricant(),
+            lubricant=oil,
+            sliding=self.sliding if oil.tau0 > 0.0 else None,
             nodes=(self.solver.nodes_x, self.solver.nodes_y),
             inlet=self.domain.inlet,
             outlet=self.domain.outlet,

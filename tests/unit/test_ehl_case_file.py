@@ -128,3 +128,10 @@ def test_what_is_wrong_is_named(build, changes, words):
 def test_an_unknown_name_lists_the_shipped_cases():
     with pytest.raises(ParameterError, match=r"No line contact .* jamali_2015"):
         LineCase.named("mourier_2006")
+
+
+def test_a_point_slides_where_its_oil_has_an_eyring_stress():
+    speeds = {"side_speed_1_m_s": 0.5, "side_speed_2_m_s": 1.5}
+    assert point(**speeds).problem().sliding is None
+    sheared = point(oil={**OIL, "eyring_stress_mpa": 5.0}, **speeds).problem()
+    assert sheared.sliding == pytest.approx((-2.0, 1.0))
