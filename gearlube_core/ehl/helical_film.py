@@ -120,11 +120,16 @@ class HelicalFilm:
         return s * self.pinion_speed, (plane.x_g - s) * gear_speed
 
     def gap(self, x: Array, y: Array, X: float) -> Array:
-        """Return the gap [m], shape (nx, ny), cut at `largest_gap`."""
+        """Return the gap [m], shape (nx, ny), cut at `largest_gap`.
+
+        Nodes on the side faces have the largest gap: the teeth end there. Without crown the film
+        beside them gets thinner the finer the grid, as pressure on a sharp end grows.
+        """
         heights = UndeformedGap(modified=self.modified, form=self.form).heights(
             x[:, None], y[None, :], X
         )
-        return np.asarray(np.minimum(heights, self.largest_gap))
+        inside = np.abs(y) < (1.0 - 1e-9) * 0.5 * self.line_length
+        return np.where(inside, np.minimum(heights, self.largest_gap), self.largest_gap)
 
     def conditions(self, x: Array, y: Array, time: float) -> FilmConditions:
         """Return what acts on the film at a time [s]."""

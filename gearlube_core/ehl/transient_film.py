@@ -24,6 +24,7 @@ from gearlube_core.ehl.transient_rows import row_shapes
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _CURE = "Take smaller time steps, or more nodes where the film is thin."
+_STEADY_CURE = "Take more nodes where the film is thin, or a crown where a line ends sharply."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -183,10 +184,10 @@ def _failures(
     return [text for good, text in checks if not good]
 
 
-def _outcome(failed: list[str], newton_steps: int) -> str:
+def _outcome(failed: list[str], newton_steps: int, cure: str = _CURE) -> str:
     if not failed:
         return f"Converged in {newton_steps} steps."
-    return f"Not converged after {newton_steps} steps: {' and '.join(failed)}. {_CURE}"
+    return f"Not converged after {newton_steps} steps: {' and '.join(failed)}. {cure}"
 
 
 def film_solution(
@@ -199,6 +200,7 @@ def film_solution(
     newton_steps: int,
     krylov_steps: int,
     seconds: float,
+    steady: bool = False,
 ) -> FilmSolution:
     """Return a state in SI with the judgement on it."""
     scales = level.scales
@@ -217,7 +219,7 @@ def film_solution(
         load_error=state.load_error,
         residual=residual,
         converged=not failed,
-        outcome=_outcome(failed, newton_steps),
+        outcome=_outcome(failed, newton_steps, _STEADY_CURE if steady else _CURE),
         newton_steps=newton_steps,
         krylov_steps=krylov_steps,
         seconds=seconds,

@@ -118,6 +118,7 @@ def solve_steady_film(
         newton_steps=len(record.residuals),
         krylov_steps=record.krylov,
         seconds=clock.perf_counter() - begin,
+        steady=True,
     )
     if throw and not solution.converged:
         raise ConvergenceError(solution.outcome)

@@ -7,8 +7,11 @@ import pytest
 
 from gearlube_core.ehl.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.helical_cycle import march_helical_cycle, solve_helical_line
-from gearlube_core.ehl.helical_film import jamali_2015_film
+from gearlube_core.ehl.helical_film import HelicalFilm, jamali_2015_film
+from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.helical_geometry.meshing_steps import meshing_steps
 
 
 @pytest.mark.parametrize(
@@ -57,6 +60,28 @@ def test_coarse_line_carries_its_load_close_to_the_dry_pressure():
     # the digest: smooth films reach the dry maximum within a few per cent
     assert line.maximum_pressure == pytest.approx(dry.pressure.max(), rel=0.03)
     assert 0.1e-6 < line.minimum_film < 0.25e-6
+
+
+def test_line_with_sharp_ends_carries_its_load():
+    """The pair of He 2007 has neither crown nor relief: the line ends at full height."""
+    modified = HelicalGearFile.named("he_2007").modified_pair()
+    film = HelicalFilm(
+        modified=modified,
+        steps=meshing_steps(modified, 0.1e-3, 0.16),
+        torque=225.97,
+        pinion_speed=104.7,
+        lubricant=jamali_2015_oil(newtonian=True),
+        contact_modulus=113.75e9,
+        nodes=(65, 65),
+    )
+    line = solve_helical_line(film, 0.5 * film.steps.count)
+    assert line.load == pytest.approx(film.load(film.line(line.time)), rel=1e-5)
+    middle = line.pressure.max(axis=0)[24:41]
+    # pressure rises towards a sharp end, here between the last nodes
+    assert line.maximum_pressure > 1.1 * middle.max()
+    ends = np.flatnonzero(line.pressure.max(axis=0))
+    assert (ends[0], ends[-1]) == (1, 63)
+    assert middle.max() / middle.min() < 1.1
 
 
 def test_interrupted_cycle_gives_the_same_curves(tmp_path):

@@ -1,0 +1,69 @@
+"""Cost of the film of a helical pair through its meshing cycle.
+
+`python -m benchmarks.bench_ehl_cycle [steps]` marches design A of Jamali 2015 (Eyring oil) on his
+mesh of 182 x 857 nodes and on the default mesh, a few steps at the beginning, in the middle and
+towards the end of the cycle; it prints processor and wall time of one step, the 575 steps at that
+rate with the steady start, and the peak memory. With "cycle" for the steps the whole cycle is
+marched on the default mesh.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import statistics
+import sys
+import time
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+from gearlube_core.ehl.helical_cycle import march_helical_cycle
+from gearlube_core.ehl.helical_film import jamali_2015_film
+from gearlube_core.ehl.transient_march import FilmMarch
+
+MESHES = ((182, 857), (97, 257))
+PLACES = (100, 300, 490)  # steps of the cycle
+
+
+def step_times(nodes: tuple[int, int], steps: int) -> None:
+    """Print what the start and single steps cost on a mesh."""
+    film = jamali_2015_film("a", nodes=nodes)
+    starts, processor, wall, failed = [], [], [], 0
+    for place in PLACES:
+        begin = time.process_time()
+        march = FilmMarch(film.moving_film(), film.time_step, start_time=place * film.time_step)
+        starts.append(time.process_time() - begin)
+        march.step(throw=False)  # builds the preconditioner
+        for _ in range(steps):
+            begin, tick = time.process_time(), time.perf_counter()
+            failed += not march.step(throw=False).converged
+            processor.append(time.process_time() - begin)
+            wall.append(time.perf_counter() - tick)
+    start, mean = statistics.median(starts), statistics.mean(processor)
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    count = film.steps.count
+    sys.stdout.write(
+        f"{nodes[0]} x {nodes[1]}: start {start:.1f} s, step {mean:.2f} s (processor; "
+        f"{statistics.mean(wall):.2f} s wall, longest {max(processor):.2f} s), {count} steps "
+        f"{(start + count * mean) / 60.0:.1f} min, {failed} of {len(wall)} not converged, "
+        f"peak {peak:.0f} MiB\n"
+    )
+    sys.stdout.flush()
+
+
+def whole_cycle() -> None:
+    """March all steps on the default mesh."""
+    begin, tick = time.process_time(), time.perf_counter()
+    cycle = march_helical_cycle(jamali_2015_film("a"), throw=False)
+    sys.stdout.write(
+        f"cycle on the default mesh: {time.process_time() - begin:.0f} s processor, "
+        f"{time.perf_counter() - tick:.0f} s wall, {cycle.failures} steps not converged\n"
+    )
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["cycle"]:
+        whole_cycle()
+    else:
+        for mesh in MESHES[::-1]:
+            step_times(mesh, int(sys.argv[1]) if len(sys.argv) > 1 else 8)
