@@ -13,7 +13,9 @@ from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 STEPS = 575  # of the thesis' cycle; positions are named by them whatever the time step
-CYCLE, LINE, FACETED, FINE = (97, 161), (97, 257), (193, 257), (193, 513)  # nodes across, along
+CYCLE, LINE, FACETED = (97, 161), (97, 257), (193, 257)  # nodes across, along
+WIDE, WIDE_FINE = (129, 257), (257, 257)  # on a wider domain
+_WIDE = (-2.75, 2.75)  # of the largest Hertz semi-width, across
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,6 +34,9 @@ class FilmCase:
         Across and along the line.
     count
         Time steps of the whole cycle.
+    wide
+        A domain that goes on behind the line: steep reliefs push the contact out of that of the
+        thesis.
     """
 
     design: str = "a"
@@ -42,13 +47,14 @@ class FilmCase:
     speed: float = 1.0
     nodes: tuple[int, int] = LINE
     count: int = STEPS
+    wide: bool = False
 
     @property
     def name(self) -> str:
         """Return the case in a file name."""
         parts = [self.design, f"{self.nodes[0]}x{self.nodes[1]}"]
         standard = FilmCase()
-        for label in ("k", "beta", "crown_start", "facets", "speed", "count"):
+        for label in ("k", "beta", "crown_start", "facets", "speed", "count", "wide"):
             value = getattr(self, label)
             if value != getattr(standard, label):
                 parts.append(f"{label}{value:g}")
@@ -66,7 +72,14 @@ class FilmCase:
             nodes=self.nodes,
         )
         steps = replace(film.steps, step=film.steps.step * STEPS / self.count, count=self.count)
+        if self.wide:
+            film = replace(film, extent=_WIDE)
         return replace(film, steps=steps, pinion_speed=self.speed * film.pinion_speed)
+
+
+def parabola_case(design: str, k: float, nodes: tuple[int, int] = WIDE) -> FilmCase:
+    """Return a relief whose parabolic share is varied."""
+    return FilmCase(design=design, k=k, nodes=nodes, wide=True)
 
     def number(self, step: float) -> float:
         """Return the number of one of the thesis' steps among those of this case."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from docs.ehl.cases import FACETED, FilmCase
+from docs.ehl.cases import WIDE_FINE, parabola_case
 from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed
 from docs.ehl.lines import March
 from docs.ehl.measures import first_above
@@ -15,12 +15,12 @@ _MERE_NUMBER = 0.02  # um; half of the composite roughness of a fine gear, no fi
 
 def parabola(store: Store, k: float) -> Steady:
     """Return design A at rest at step 500."""
-    return store.steady(FilmCase(k=k), 500)
+    return store.steady(parabola_case("a", k), 500)
 
 
 def parabola_march(store: Store, k: float) -> March:
     """Return the last steps before step 500 of design A."""
-    return store.march(FilmCase(k=k), 500 - APPROACH, 500)
+    return store.march(parabola_case("a", k), 500 - APPROACH, 500)
 
 
 def state(march: March) -> str:
@@ -34,11 +34,13 @@ def state(march: March) -> str:
 def _parabola_pressures(store: Store) -> Verdict:
     """J10."""
     tops = {k: GPA * parabola(store, k).max_pressure for k in PARABOLAS}
-    finer = [GPA * store.steady(FilmCase(k=k, nodes=FACETED), 500).max_pressure for k in (0.1, 0.0)]
+    finer = [
+        GPA * store.steady(parabola_case("a", k, WIDE_FINE), 500).max_pressure for k in (0.1, 0.0)
+    ]
     ratio = tops[0.0] / tops[1.0]
     return Verdict(
         f"k = 1: {tops[1.0]:.3f}, 0.3: {tops[0.3]:.3f}, 0.1: {tops[0.1]:.3f}, 0: {tops[0.0]:.2f} "
-        f"GPa; on twice the nodes across and more along, 0.1: {finer[0]:.3f}, 0: {finer[1]:.2f} "
+        f"GPa; on twice the nodes across, 0.1: {finer[0]:.3f}, 0: {finer[1]:.2f} "
         f"GPa; a factor of {ratio:.2f}",
         judge(
             abs(tops[1.0] / 1.25 - 1.0) < 0.1,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from docs.ehl.cases import CYCLE, FACETED, FilmCase
+from docs.ehl.cases import CYCLE, FACETED, FilmCase, parabola_case
 from docs.ehl.claims import GPA, MM, UM
 from docs.ehl.claims_cycle import crowned, cycle
 from docs.ehl.dry_cycle import dry_cycle
@@ -92,13 +92,13 @@ def linear_relief(store: Store) -> Any:
         figure = new_figure(8.2, 3.6)
         ax = figure.subplots()
         for d in "ab":
-            dry = dry_cycle(store.folder, FilmCase(design=d, k=0.0))
+            dry = dry_cycle(store.folder, parabola_case(d, 0.0))
             ax.plot(
                 dry.step, GPA * dry.max_pressure, ".-", color=COLOURS[d], lw=1.0,
                 label=f"design {d.upper()}, dry",
             )  # fmt: skip
-            steps = (75, 500) if d == "a" else (75,)
-            films = [store.steady(FilmCase(design=d, k=0.0), n) for n in steps]
+            steps = (75, 500)
+            films = [store.steady(parabola_case(d, 0.0), n) for n in steps]
             ax.plot(
                 steps, [GPA * f.max_pressure for f in films], "s", color=COLOURS[d], mfc="white",
                 label=f"{d.upper()}, film at rest",
@@ -115,21 +115,21 @@ def parabolas(store: Store) -> Any:
     with house_style():
         figure = new_figure(8.2, 4.0)
         left, right = figure.subplots(1, 2)
-        rest = [store.steady(FilmCase(k=k), 500) for k in PARABOLAS]
+        rest = [store.steady(parabola_case("a", k), 500) for k in PARABOLAS]
         left.plot(PARABOLAS, [GPA * f.max_pressure for f in rest], "o-", label="A, at rest")
         left.plot(
             PARABOLAS, [GPA * f.dry_pressure for f in rest], "x--", color=GREY, label="A, dry"
         )
         right.plot(PARABOLAS, [UM * f.min_film for f in rest], "o-", label="A, at rest")
         shares = (1.0, *MARCHED_PARABOLAS)
-        marches = [store.march(FilmCase(k=k), 500 - APPROACH, 500) for k in shares]
+        marches = [store.march(parabola_case("a", k), 500 - APPROACH, 500) for k in shares]
         done = [(k, m) for k, m in zip(shares, marches, strict=True) if m.complete]
         for ax, name, unit in ((left, "max_pressure", GPA), (right, "min_film", UM)):
             ax.plot(
                 [k for k, _ in done], [unit * m.at(name, 500) for _, m in done], "s",
                 color=VERMILLION, label="A, transient",
             )  # fmt: skip
-        b = [store.steady(FilmCase(design="b", k=k), 500) for k in shares]
+        b = [store.steady(parabola_case("b", k), 500) for k in shares]
         left.plot(
             shares, [GPA * f.max_pressure for f in b], "^:", color=SERIES[2], label="B, at rest"
         )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import BoundaryNorm
 
-from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase
+from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase, parabola_case
 from docs.ehl.claims import GPA, MM, UM
 from docs.ehl.claims_cycle import cycle
 from docs.ehl.dry_cycle import dry_cycle
@@ -125,7 +125,7 @@ def power_lines(store: Store) -> Any:
         for d, row in zip("ab", axes, strict=True):
             for ax, beta in zip(row, POWERS, strict=True):
                 if beta == 1.0:
-                    dry = dry_cycle(store.folder, FilmCase(design=d, k=0.0))
+                    dry = dry_cycle(store.folder, parabola_case(d, 0.0))
                     step, y, pressure = dry.step, dry.y, dry.pressure
                 else:
                     march = power_march(store, d, beta)

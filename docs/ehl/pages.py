@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from docs.ehl.cases import CYCLE, FACETED, LINE, FilmCase
+from docs.ehl.cases import CYCLE, FACETED, LINE, WIDE, WIDE_FINE, FilmCase, parabola_case
 from docs.ehl.claims import GPA, MISSING, MM, UM, Claim, Verdict
 from docs.ehl.lines import March
 from docs.ehl.runs import FACETS, MARCHED_PARABOLAS, POSITIONS, Run, power_case
@@ -32,7 +32,7 @@ def dry_table(store: Store) -> str:
     cases = [
         (f"{d.upper()}, k = 1, step {n}", FilmCase(design=d), n) for d in "ab" for n in POSITIONS
     ]
-    cases += [(f"A, k = {k:g}, step 500", FilmCase(k=k), 500) for k in MARCHED_PARABOLAS]
+    cases += [(f"A, k = {k:g}, step 500", parabola_case("a", k), 500) for k in MARCHED_PARABOLAS]
     cases += [(f"B, beta = {b:g}, step 75", power_case("b", b), 75) for b in (3.0, 4.0)]
     cases += [
         (f"A, n_f = {n}, step 300", FilmCase(facets=n, nodes=FACETED), 300) for n in FACETS[::-1]
@@ -54,10 +54,11 @@ def dry_table(store: Store) -> str:
 
 def grid_table(store: Store) -> str:
     """Return pressure and film at rest on three grids."""
-    grids: tuple[tuple[int, int], ...] = (CYCLE, LINE, FACETED)
-    cases = [(f"A, k = 1, step {n}", FilmCase(), n, grids) for n in POSITIONS]
-    cases += [(f"A, k = {k:g}, step 500", FilmCase(k=k), 500, grids[1:]) for k in (0.1, 0.0)]
-    cases += [(f"A, n_f = {n}, step 300", FilmCase(facets=n), 300, grids[1:]) for n in (100, 20)]
+    grids: tuple[tuple[int, int], ...] = (CYCLE, LINE, WIDE, FACETED, WIDE_FINE)
+    narrow, fine, wider = (CYCLE, LINE, FACETED), (LINE, FACETED), (WIDE, WIDE_FINE)
+    cases = [(f"A, k = 1, step {n}", FilmCase(), n, narrow) for n in POSITIONS]
+    cases += [(f"A, k = {k:g}, step 500", parabola_case("a", k), 500, wider) for k in (0.1, 0.0)]
+    cases += [(f"A, n_f = {n}, step 300", FilmCase(facets=n), 300, fine) for n in (100, 20)]
     rows = []
     for words, case, step, ours in cases:
         cells = [_at_rest(store, replace(case, nodes=n), step) if n in ours else "" for n in grids]

@@ -7,7 +7,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from docs.ehl.cases import CYCLE, FACETED, STEPS, FilmCase
+from docs.ehl.cases import CYCLE, FACETED, STEPS, WIDE_FINE, FilmCase, parabola_case
 from docs.ehl.store import Store
 
 logger = logging.getLogger("docs.ehl")
@@ -30,9 +30,10 @@ FACET_MARCH = (280, 300)
 
 def power_case(design: str, beta: float, **rest: object) -> FilmCase:
     """Return a relief by eq. (5.6): 2 is the parabola and 1 the straight line."""
-    straight = {1.0: 0.0, 2.0: 1.0}
-    if beta in straight:
-        return FilmCase(design=design, k=straight[beta], **rest)  # type: ignore[arg-type]
+    if beta == 1.0:
+        return parabola_case(design, 0.0)
+    if beta == 2.0:
+        return FilmCase(design=design, **rest)  # type: ignore[arg-type]
     return FilmCase(design=design, beta=beta, **rest)  # type: ignore[arg-type]
 
 
@@ -74,17 +75,17 @@ def _cycle(design: str) -> Run:
 
 def _at_rest() -> list[Run]:
     films = [(FilmCase(crown_start=f), 300) for f in CROWNS]
-    films += [(FilmCase(k=k), 500) for k in PARABOLAS]
-    films += [(power_case("b", b), 75) for b in POWERS]
+    films += [(parabola_case("a", k), 500) for k in PARABOLAS]
+    films += [(power_case("b", b), n) for b in POWERS for n in (75, 500)]
     films += [(FilmCase(speed=s), n) for s in SPEEDS for n in POSITIONS]
     films += [(FilmCase(facets=n, nodes=FACETED), 300) for n in reversed(FACETS)]
     films += [(power_case("a", b), n) for b in POWERS for n in (75, 500)]
     films += [(FilmCase(facets=n, nodes=FACETED), s) for n in (100, 40) for s in FACET_STEPS]
-    films += [(FilmCase(design="b", k=k), 500) for k in (1.0, *MARCHED_PARABOLAS)]
+    films += [(parabola_case("b", k), 500) for k in (1.0, *MARCHED_PARABOLAS)]
     films += [(FilmCase(nodes=FACETED), n) for n in POSITIONS]
     films += [(FilmCase(design="b", nodes=FACETED), 300)]
     films += [(FilmCase(facets=n), 300) for n in (100, 20)]
-    films += [(FilmCase(k=k, nodes=FACETED), 500) for k in (0.1, 0.0)]
+    films += [(parabola_case("a", k, WIDE_FINE), 500) for k in (0.1, 0.0)]
     films += [(FilmCase(facets=n, nodes=FACETED), s) for n in (30, 20) for s in FACET_STEPS]
     return _films(films)
 
@@ -95,7 +96,8 @@ def _marches() -> list[Run]:
     ]
     runs += [_cycle("b")]
     runs += [
-        Run(case=FilmCase(k=k), first=500 - APPROACH, step=500) for k in (1.0, *MARCHED_PARABOLAS)
+        Run(case=parabola_case("a", k), first=500 - APPROACH, step=500)
+        for k in (1.0, *MARCHED_PARABOLAS)
     ]
     runs += [Run(case=power_case("b", b), first=75 - APPROACH, step=75) for b in POWERS]
     first, last = COUNT_RANGE
