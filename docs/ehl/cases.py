@@ -76,14 +76,14 @@ class FilmCase:
             film = replace(film, extent=_WIDE)
         return replace(film, steps=steps, pinion_speed=self.speed * film.pinion_speed)
 
+    def number(self, step: float) -> float:
+        """Return the number of one of the thesis' steps among those of this case."""
+        return step * self.count / STEPS
+
 
 def parabola_case(design: str, k: float, nodes: tuple[int, int] = WIDE) -> FilmCase:
     """Return a relief whose parabolic share is varied."""
     return FilmCase(design=design, k=k, nodes=nodes, wide=True)
-
-    def number(self, step: float) -> float:
-        """Return the number of one of the thesis' steps among those of this case."""
-        return step * self.count / STEPS
 
 
 def relief_starts(case: FilmCase, step: float) -> tuple[float, float]:

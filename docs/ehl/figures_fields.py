@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import BoundaryNorm
 
-from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase, parabola_case
+from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase, parabola_case, relief_starts
 from docs.ehl.claims import GPA, MM, UM
 from docs.ehl.claims_cycle import cycle
 from docs.ehl.dry_cycle import dry_cycle
@@ -47,6 +47,8 @@ def transient_steady(store: Store) -> Any:
         for i, step in enumerate(POSITIONS):
             rest = store.steady(FilmCase(nodes=CYCLE), step)
             moving = cycle(store, "a").fields(step)
+            ends = relief_starts(FilmCase(nodes=CYCLE), step)
+            starts = [y for y in ends if abs(y) < 0.999 * rest.y[-1]]
             for j, (words, fields) in enumerate(
                 (("transient", moving), ("at rest", (rest.pressure, rest.film)))
             ):
@@ -55,6 +57,9 @@ def transient_steady(store: Store) -> Any:
                 row[0].set_title(f"step {step}, {words}: film", fontsize=9)
                 row[1].set_title(f"step {step}, {words}: pressure", fontsize=9)
                 row[0].set_ylabel("x [mm]")
+                for place in starts:
+                    for ax in row:
+                        ax.axvline(MM * place, color=VERMILLION, lw=1.0, ls=":")
         for ax in axes[-1]:
             ax.set_xlabel("along the line, y [mm]")
         figure.colorbar(thick, ax=axes[:, 0], label="film [µm]", location="bottom", aspect=40)

@@ -55,7 +55,8 @@ def dry_table(store: Store) -> str:
 def grid_table(store: Store) -> str:
     """Return pressure and film at rest on three grids."""
     grids: tuple[tuple[int, int], ...] = (CYCLE, LINE, WIDE, FACETED, WIDE_FINE)
-    narrow, fine, wider = (CYCLE, LINE, FACETED), (LINE, FACETED), (WIDE, WIDE_FINE)
+    narrow: tuple[tuple[int, int], ...] = (CYCLE, LINE, FACETED)
+    fine, wider = (LINE, FACETED), (WIDE, WIDE_FINE)
     cases = [(f"A, k = 1, step {n}", FilmCase(), n, narrow) for n in POSITIONS]
     cases += [(f"A, k = {k:g}, step 500", parabola_case("a", k), 500, wider) for k in (0.1, 0.0)]
     cases += [(f"A, n_f = {n}, step 300", FilmCase(facets=n), 300, fine) for n in (100, 20)]
@@ -75,6 +76,9 @@ def _at_rest(store: Store, case: FilmCase, step: int) -> str:
     return f"{GPA * film.max_pressure:.3f}, {UM * film.min_film:.3f}{failed}"
 
 
+_CUT = 0.01
+
+
 @dataclass(frozen=True, slots=True)
 class _Tally:
     """What the list of runs came to."""
@@ -82,17 +86,20 @@ class _Tally:
     films: list[Steady]
     marches: list[March]
     failed: list[str]
+    cut: list[str]
     missing: int
 
 
 def _tally(store: Store, runs: Sequence[Run]) -> _Tally:
-    films, marches, failed, missing = [], [], [], 0
+    films, marches, failed, cut, missing = [], [], [], [], 0
     for run in runs:
         name = f"`{run.case.name}`"
         try:
             if run.first is None:
                 film = store.steady(run.case, run.step)
                 films.append(film)
+                if film.border_pressure > _CUT:
+                    cut.append(f"{name} at step {run.step}")
                 if not film.converged:
                     failed.append(f"{name} at step {run.step}")
                 continue
@@ -104,7 +111,7 @@ def _tally(store: Store, runs: Sequence[Run]) -> _Tally:
         if march.failures or not march.complete:
             state = "" if march.complete else ", given up"
             failed.append(f"{name}: {march.failures} of {len(march.step)} steps{state}")
-    return _Tally(films, marches, failed, missing)
+    return _Tally(films, marches, failed, cut, missing)
 
 
 def counts(store: Store, runs: Sequence[Run]) -> str:
@@ -118,6 +125,8 @@ def counts(store: Store, runs: Sequence[Run]) -> str:
     return (
         f"\nOf {len(rest)} films at rest {sum(not f.converged for f in tally.films)} did not "
         f"converge, of {steps} time steps {bad}: {'; '.join(tally.failed) or 'none'}.{lacking}\n"
+        f"\nPressure reaches the border of the domain (a hundredth of the largest, one node from "
+        f"it): {'; '.join(tally.cut) or 'nowhere'}.\n"
         f"\nFilms at rest took {sum(rest):.0f} s of one processor, a median of "
         f"{rest[len(rest) // 2]:.1f} s each; time steps {spent:.0f} s.\n"
     )

@@ -64,6 +64,13 @@ class Steady:
         rows = self.y[self.along > _LOADED]
         return float(rows[-1] - rows[0]) if rows.size else 0.0
 
+    @property
+    def border_pressure(self) -> float:
+        """Return the largest pressure beside the border over the largest of all [1]."""
+        p = self.pressure
+        beside = max(p[1].max(), p[-2].max(), p[:, 1].max(), p[:, -2].max())
+        return float(beside / p.max())
+
     def column(self, y: float) -> int:
         """Return the number of the section nearest to y [m]."""
         return int(np.abs(self.y - y).argmin())
