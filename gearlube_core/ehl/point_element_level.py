@@ -31,14 +31,21 @@ class ElementLevel(PointLevel):
     ----------
     problem, scales, shape
         As for `PointLevel`.
+    wedge
+        `upwind-1` for upwinding of first order everywhere.
     """
 
     _centre = ELEMENT_CENTRE
 
     def __init__(
-        self, problem: PointContactProblem, scales: PointScales, shape: tuple[int, int]
+        self,
+        problem: PointContactProblem,
+        scales: PointScales,
+        shape: tuple[int, int],
+        wedge: str = "central",
     ) -> None:
-        super().__init__(problem, scales, shape, "central")
+        super().__init__(problem, scales, shape, wedge if wedge == "upwind-1" else "central")
+        self.stencil = self.stencil._replace(least=-math.inf, most=math.inf)
         # waves of the length 2 d on a half-space: 2/(E* k), k = pi/d
         self.compliance = 2.0 * min(self.dx, self.dy) / (math.pi * self.modulus)
 

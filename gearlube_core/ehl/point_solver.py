@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.ehl.point_continuation import solve_level
+from gearlube_core.ehl.point_element_level import ElementLevel
 from gearlube_core.ehl.point_level import FilmState, PointLevel
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy
@@ -53,14 +54,20 @@ def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tupl
     return shapes
 
 
-def build_hierarchy(problem: PointContactProblem, scales: PointScales, wedge: str) -> Hierarchy:
+def build_hierarchy(
+    problem: PointContactProblem,
+    scales: PointScales,
+    wedge: str,
+    discretisation: str = "differences",
+) -> Hierarchy:
     """Return the grids of a problem."""
     nx, ny = problem.nodes
     dx = (problem.x_limits[1] - problem.x_limits[0]) / (nx - 1)
     dy = (problem.y_limits[1] - problem.y_limits[0]) / (ny - 1)
     nodes, steps = ((nx, ny), (dx, dy)) if scales.swap else ((ny, nx), (dy, dx))
     shapes = grid_shapes(nodes, steps)
-    levels = [PointLevel(problem, scales, shape, wedge) for shape in shapes]
+    grid = ElementLevel if discretisation == "elements" else PointLevel
+    levels = [grid(problem, scales, shape, wedge) for shape in shapes]
     transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
     return Hierarchy(levels, transfers)
 
@@ -127,7 +134,7 @@ def solve_point_contact(
     settings = PointSolverSettings() if settings is None else settings
     begin = time.perf_counter()
     scales = PointScales.of(problem)
-    hierarchy = build_hierarchy(problem, scales, settings.wedge)
+    hierarchy = build_hierarchy(problem, scales, settings.wedge, settings.discretisation)
     record = NewtonRecord()
     state = _hertz_start(problem, hierarchy.levels[0])
     count = len(hierarchy.levels)

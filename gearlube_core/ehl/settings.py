@@ -16,6 +16,9 @@ WEDGE_WEIGHTS = {
 }
 
 
+DISCRETISATIONS = ("differences", "elements")
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointSolverSettings:
     """How a point contact is solved and when it counts as solved.
@@ -23,7 +26,10 @@ class PointSolverSettings:
     Parameters
     ----------
     wedge
-        Stencil of d(rho h): `upwind-1`, `upwind-2`, `central` or `quick`.
+        Stencil of d(rho h): `upwind-1`, `upwind-2`, `central` or `quick`. Elements are Galerkin's,
+        upwinded where pressure hardly flows, or of first order for `upwind-1`.
+    discretisation
+        `differences` of finite volumes or bilinear finite `elements`.
     tolerance
         Limit of the flow residual: sum over the nodes of what flows in but not out, over the
         flow through the width of the dry contact at the central film [1].
@@ -39,6 +45,7 @@ class PointSolverSettings:
     """
 
     wedge: str = "upwind-2"
+    discretisation: str = "differences"
     tolerance: float = 1e-6
     load_tolerance: float = 1e-6
     fall_back: bool = True
@@ -47,6 +54,7 @@ class PointSolverSettings:
 
     def __post_init__(self) -> None:
         check_option("wedge", self.wedge, WEDGE_WEIGHTS)
+        check_option("discretisation", self.discretisation, DISCRETISATIONS)
         check_within("tolerance", self.tolerance, 1e-11, 1e-2)
         check_within("load_tolerance", self.load_tolerance, 1e-11, 1e-2)
         for name in ("newton_steps", "krylov_steps"):

@@ -268,19 +268,40 @@ def element_film(problem, start, compliance=None):
     ) * scales.film
 
 
-def test_films_of_elements_and_differences_meet_at_refinement():
+@pytest.mark.parametrize(
+    ("radius_y", "load", "angle", "sliding"),
+    [(0.01, 20.0, 0.0, None), (0.1, 100.0, 0.0, None), (0.01, 20.0, 0.5, (0.3, 0.3))],
+    ids=["round", "ten to one", "Eyring at an angle"],
+)
+def test_films_of_elements_and_differences_meet_at_refinement(radius_y, load, angle, sliding):
     gaps = []
     for n in (65, 129):
-        problem = contact((n, n))
-        differences = solve_point_contact(problem, PointSolverSettings(wedge="quick"))
-        pressure, film = element_film(problem, differences)
-        loaded = differences.pressure > 0.3 * differences.pressure.max()
-        off = np.abs(pressure - differences.pressure)[loaded].mean() / differences.pressure.max()
-        thin = abs(film.min() / differences.film.min() - 1.0)
-        middle = abs(np.median(film[loaded]) / np.median(differences.film[loaded]) - 1.0)
-        gaps.append([off, thin, middle])
-    # the 2 % that pictures of Jamali 2015 sec. 3.11 can show, and less on a finer grid; the tip of
-    # the pressure spike is left out, no scheme resolves it here
+        problem = elliptical_contact(
+            R_x=0.01,
+            R_y=radius_y,
+            entrainment=(math.cos(angle), math.sin(angle)),
+            sliding=sliding,
+            load=load,
+            contact_modulus=1.15e11,
+            lubricant=ehl_lubricant(eta0=0.04, alpha=2e-8, eyring_stress=5e6),
+            nodes=(n, n),
+        )
+        differences, elements = (
+            solve_point_contact(problem, PointSolverSettings(wedge="quick", discretisation=one))
+            for one in ("differences", "elements")
+        )
+        loaded = differences.pressure > 0.3 * differences.maximum_pressure
+        off = np.abs(elements.pressure - differences.pressure)[loaded].mean()
+        gaps.append(
+            [
+                off / differences.maximum_pressure,
+                abs(elements.central_film / differences.central_film - 1.0),
+                0.8 * abs(elements.minimum_film / differences.minimum_film - 1.0),
+            ]
+        )
+    # the 2 % that pictures of Jamali 2015 sec. 3.11 can show, 2.5 % for the film of a single node,
+    # and on a finer grid a quarter of it, where the edge counts less; the tip of the spike is
+    # left out, no scheme resolves it here
     assert np.all(np.array(gaps[1]) < 0.02)
     assert np.all(np.array(gaps[1]) < 0.5 * np.array(gaps[0]))
 
