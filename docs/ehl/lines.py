@@ -92,7 +92,7 @@ class Lines:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class March:
-    """Curves over part of a cycle, without the steady film at its beginning."""
+    """Curves over part of a cycle that begins at rest."""
 
     step: Array  # of the thesis' 575
     table: Array  # (steps, COLUMNS)

@@ -35,8 +35,8 @@ SMOOTH_PICTURES = (
         "transient_steady",
         "In motion and at rest",
         "Design A; oil flows upwards, towards larger x; dotted: relief begins on the line. "
-        "Pressures are alike; the film that a relief moving along the line leaves behind is thinner "
-        "than that of a line at rest (J14).",
+        "Pressures are alike; the film that a relief moving along the line leaves behind is "
+        "thinner than that of a line at rest (J14).",
         figures_fields.transient_steady,
     ),
     Picture(

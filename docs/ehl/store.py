@@ -143,7 +143,7 @@ class Store:
         beside = self.folder / f"{name}.lines_part.npz"
         begin, end = (round(case.number(n)) for n in (first, last))
         lines = Lines.read(beside)
-        if not record.exists() or MarchRecord.read(record).steps != len(lines.rows):
+        if not record.exists() or MarchRecord.read(record).steps + 1 != len(lines.rows):
             record.unlink(missing_ok=True)
             lines = Lines()
         began, complete = time.monotonic(), True

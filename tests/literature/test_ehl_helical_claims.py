@@ -177,7 +177,7 @@ def test_march_of_the_store_is_kept_and_goes_on(tmp_path):
     whole = Store(tmp_path / "whole").march(case, 300, 304, (302,))
     again = Store(tmp_path / "whole").march(case, 300, 304, (302,))
     assert np.array_equal(whole.table, again.table)
-    assert list(whole.step) == [301, 302, 303, 304]
+    assert list(whole.step) == [300, 301, 302, 303, 304]
     assert whole.fields(302)[1].min() == pytest.approx(whole.at("min_film", 302), rel=1e-6)
     assert list((tmp_path / "whole").glob("*part*")) == []
 
