@@ -1,18 +1,22 @@
 """Cost and robustness of the point contact film.
 
 `python -m pytest benchmarks/bench_ehl.py --benchmark-only` times cold solutions, grid nest
-included; `python -m benchmarks.bench_ehl [nodes] [share]` solves a map of 384 contacts over load M
-and material L of Moes and the ellipticity of the dry contact, or a share of it, and prints how
-many converge. A failure is a failure.
+included; `python -m benchmarks.bench_ehl [nodes] [stride] [file.csv]` solves a map of 420 contacts
+over load M and material L of Moes and the ellipticity a_y/a_x of the dry contact, or every
+`stride`-th of them, and prints how many converge and how. Each result is written to the file at
+once; contacts that it holds are not solved again. A failure is a failure.
 """
 
 from __future__ import annotations
 
+import csv
 import math
 import os
 import statistics
 import sys
 import time
+from itertools import product
+from pathlib import Path
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
@@ -26,6 +30,12 @@ from tests.ehl_point_cases import moes_contact, moes_film
 LOADS = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 MATERIALS = (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
 ELLIPTICITIES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+# wide contacts; M counts the load over R_x, along the motion, so that they bear more of it
+SLENDER = (20.0, 50.0, 100.0)
+SLENDER_LOADS = (50.0, 500.0, 5000.0)
+SLENDER_MATERIALS = (0.0, 5.0, 15.0, 25.0)
+KEY = ("ellipticity", "M", "L")
+RESULT = ("converged", "wedge", "limited", "residual", "H_c", "H_min", "steps", "cpu_s")
 
 
 def radius_ratio(ellipticity: float) -> float:
@@ -45,28 +55,87 @@ def test_cold_solution(benchmark: BenchmarkFixture, nodes: int, M: float, L: flo
     assert solution.outcome.converged
 
 
-def robustness_map(nodes: int, stride: int) -> None:
-    """Solve every `stride`-th contact of the map and print what failed and the share."""
-    cases = [(k, M, L) for k in ELLIPTICITIES for M in LOADS for L in MATERIALS][::stride]
-    seconds, failed, lower = [], 0, 0
-    for ellipticity, M, L in cases:
-        begin = time.perf_counter()
-        problem = moes_contact(M, L, nodes=(nodes, nodes), radius_ratio=radius_ratio(ellipticity))
-        solution = solve_point_contact(problem, throw=False)
-        seconds.append(time.perf_counter() - begin)
-        case = f"ellipticity {ellipticity:g} M {M:g} L {L:g}: "
-        case += f"H_c {moes_film(problem, solution.central_film):.3f} {seconds[-1]:.1f} s"
-        lower += solution.outcome.converged and solution.outcome.wedge == "upwind-1"
-        if not solution.outcome.converged:
-            failed += 1
-            sys.stdout.write(f"FAILED {case} {solution.outcome.sentence}\n")
-            sys.stdout.flush()
-    sys.stdout.write(
-        f"{len(cases) - failed} of {len(cases)} converged on {nodes} x {nodes} nodes\n"
+def contacts() -> list[tuple[float, ...]]:
+    """Return the map: ellipticity, M, L."""
+    wide = product(SLENDER, SLENDER_LOADS, SLENDER_MATERIALS)
+    return [*product(ELLIPTICITIES, LOADS, MATERIALS), *wide]
+
+
+def solve(case: tuple[float, ...], nodes: int) -> dict[str, str]:
+    """Return the row of one contact."""
+    ellipticity, M, L = case
+    problem = moes_contact(M, L, nodes=(nodes, nodes), radius_ratio=radius_ratio(ellipticity))
+    begin = time.process_time()
+    solution = solve_point_contact(problem, throw=False)
+    seconds = time.process_time() - begin
+    outcome = solution.outcome
+    values = (
+        str(int(outcome.converged)),
+        outcome.wedge,
+        f"{outcome.limited:.4f}",
+        f"{outcome.residual:.1e}",
+        f"{moes_film(problem, solution.central_film):.4f}",
+        f"{moes_film(problem, solution.minimum_film):.4f}",
+        str(len(solution.residuals)),
+        f"{seconds:.2f}",
     )
-    sys.stdout.write(f"median {statistics.median(seconds):.2f} s, longest {max(seconds):.1f} s\n")
+    return dict(zip(KEY + RESULT, (*(f"{x:g}" for x in case), *values), strict=True))
+
+
+def kind(row: dict[str, str]) -> str:
+    """Return how a contact came out."""
+    if row["converged"] != "1":
+        return "failed"
+    if row["wedge"] == "upwind-1":
+        return "first order"
+    return "second order" if float(row["limited"]) == 0.0 else "limited faces"
+
+
+def print_table(rows: list[dict[str, str]]) -> None:
+    """Print counts and CPU times by ellipticity."""
+    kinds = ("second order", "limited faces", "first order", "failed")
+    columns = ("ellipticity", "contacts", *kinds, "largest share", "median s", "longest s")
+    sys.stdout.write("| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|\n")
+    groups = list(dict.fromkeys(row["ellipticity"] for row in rows))
+    for group in [*groups, "all"]:
+        chosen = [row for row in rows if group in (row["ellipticity"], "all")]
+        counts = [sum(kind(row) == name for row in chosen) for name in kinds]
+        share = max(float(row["limited"]) for row in chosen)
+        seconds = [float(row["cpu_s"]) for row in chosen]
+        times = f"{statistics.median(seconds):.2f} | {max(seconds):.1f}"
+        cells = " | ".join(str(count) for count in counts)
+        sys.stdout.write(f"| {group} | {len(chosen)} | {cells} | {share:.1%} | {times} |\n")
+
+
+def robustness_map(nodes: int, stride: int, path: Path | None) -> None:
+    """Solve every `stride`-th contact of the map that the file lacks, then print the table."""
+    known: dict[tuple[str, ...], dict[str, str]] = {}
+    if path is not None and path.exists():
+        with path.open(newline="") as stream:
+            known = {tuple(row[k] for k in KEY): row for row in csv.DictReader(stream)}
+    moes_start = moes_contact(20.0, 5.0, nodes=(33, 33))
+    solve_point_contact(moes_start, throw=False)  # compiles
+    rows = []
+    for case in contacts()[::stride]:
+        row = known.get(tuple(f"{x:g}" for x in case))
+        if row is None:
+            row = solve(case, nodes)
+            if path is not None:
+                new = not path.exists()
+                with path.open("a", newline="") as stream:
+                    writer = csv.DictWriter(stream, KEY + RESULT)
+                    if new:
+                        writer.writeheader()
+                    writer.writerow(row)
+        if kind(row) in ("failed", "first order"):
+            sys.stdout.write(f"{kind(row)}: {row}\n")
+            sys.stdout.flush()
+        rows.append(row)
+    print_table(rows)
 
 
 if __name__ == "__main__":
-    arguments = [int(argument) for argument in sys.argv[1:]]
-    robustness_map(*(arguments + [65, 1][len(arguments) :]))
+    numbers = [int(argument) for argument in sys.argv[1:3]]
+    robustness_map(
+        *(numbers + [65, 1][len(numbers) :]), Path(sys.argv[3]) if len(sys.argv) > 3 else None
+    )

@@ -16,7 +16,7 @@ from gearlube_core.ehl.point_transfer import Transfer
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
-_DAMPING = 0.8
+_DAMPING = 0.5  # 0.8 and more amplify waves across narrow contacts at high L
 _MOSTLY_FREE = 0.5  # share of free fine nodes around a free coarse node
 
 
