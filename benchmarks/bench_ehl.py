@@ -1,8 +1,9 @@
 """Cost and robustness of the point contact film.
 
 `python -m pytest benchmarks/bench_ehl.py --benchmark-only` times cold solutions, grid nest
-included; `python -m benchmarks.bench_ehl [nodes] [stride] [file.csv]` solves a map of 420 contacts
-over load M and material L of Moes and the ellipticity a_y/a_x of the dry contact, or every
+included; `python -m benchmarks.bench_ehl [nodes] [stride] [file.csv]` solves a map of 474 contacts
+over load M and material L of Moes, the ellipticity a_y/a_x of the dry contact and, for an Eyring
+oil, the ratio of sliding to rolling, or every
 `stride`-th of them, and prints how many converge and how. Each result is written to the file at
 once; contacts that it holds are not solved again. A failure is a failure.
 """
@@ -15,6 +16,7 @@ import os
 import statistics
 import sys
 import time
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
@@ -24,8 +26,9 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
+from gearlube_core.ehl.lubricant import ehl_lubricant
 from gearlube_core.ehl.point_solver import solve_point_contact
-from tests.ehl_point_cases import moes_contact, moes_film
+from tests.ehl_point_cases import ALPHA, ETA0, moes_contact, moes_film
 
 LOADS = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 MATERIALS = (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
@@ -34,7 +37,11 @@ ELLIPTICITIES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 SLENDER = (20.0, 50.0, 100.0)
 SLENDER_LOADS = (50.0, 500.0, 5000.0)
 SLENDER_MATERIALS = (0.0, 5.0, 15.0, 25.0)
-KEY = ("ellipticity", "M", "L")
+# an Eyring oil whose surfaces slide by as much as they roll
+SLIDING_LOADS = (20.0, 200.0, 1000.0)
+SLIDING_MATERIALS = (5.0, 10.0, 20.0)
+EYRING_STRESS = 5e6  # Pa
+KEY = ("ellipticity", "M", "L", "slide_roll")
 RESULT = ("converged", "wedge", "limited", "residual", "H_c", "H_min", "steps", "cpu_s")
 
 
@@ -56,15 +63,22 @@ def test_cold_solution(benchmark: BenchmarkFixture, nodes: int, M: float, L: flo
 
 
 def contacts() -> list[tuple[float, ...]]:
-    """Return the map: ellipticity, M, L."""
-    wide = product(SLENDER, SLENDER_LOADS, SLENDER_MATERIALS)
-    return [*product(ELLIPTICITIES, LOADS, MATERIALS), *wide]
+    """Return the map: ellipticity, M, L, ratio of sliding to mean speed."""
+    return [
+        *product(ELLIPTICITIES, LOADS, MATERIALS, (0.0,)),
+        *product(SLENDER, SLENDER_LOADS, SLENDER_MATERIALS, (0.0,)),
+        *product(ELLIPTICITIES, SLIDING_LOADS, SLIDING_MATERIALS, (1.0,)),
+    ]
 
 
 def solve(case: tuple[float, ...], nodes: int) -> dict[str, str]:
     """Return the row of one contact."""
-    ellipticity, M, L = case
+    ellipticity, M, L, slide_roll = case
     problem = moes_contact(M, L, nodes=(nodes, nodes), radius_ratio=radius_ratio(ellipticity))
+    if slide_roll > 0.0:
+        oil = ehl_lubricant(eta0=ETA0, alpha=ALPHA, eyring_stress=EYRING_STRESS)
+        sliding = (slide_roll * problem.entrainment[0], 0.0)
+        problem = replace(problem, lubricant=oil, sliding=sliding)
     begin = time.process_time()
     solution = solve_point_contact(problem, throw=False)
     seconds = time.process_time() - begin
@@ -96,9 +110,10 @@ def print_table(rows: list[dict[str, str]]) -> None:
     kinds = ("second order", "limited faces", "first order", "failed")
     columns = ("ellipticity", "contacts", *kinds, "largest share", "median s", "longest s")
     sys.stdout.write("| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|\n")
-    groups = list(dict.fromkeys(row["ellipticity"] for row in rows))
-    for group in [*groups, "all"]:
-        chosen = [row for row in rows if group in (row["ellipticity"], "all")]
+    slides = f"Eyring oil, slide-roll {1.0:g}"
+    names = [row["ellipticity"] if row["slide_roll"] == "0" else slides for row in rows]
+    for group in [*dict.fromkeys(names), "all"]:
+        chosen = [row for row, name in zip(rows, names, strict=True) if group in (name, "all")]
         counts = [sum(kind(row) == name for row in chosen) for name in kinds]
         share = max(float(row["limited"]) for row in chosen)
         seconds = [float(row["cpu_s"]) for row in chosen]

@@ -12,12 +12,14 @@ import numpy as np
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.lubricant import EhlLubricant, pressure_viscosity
+from gearlube_core.ehl.nijenbanning_1994 import regime_films
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 Gap = Callable[[Array, Array], Array]
 
+_FLOODED = 20.0  # films of gap at the inlet
 _MOST_NODES = 2049  # along one side; 2049 x 2049 need about 3 GiB
 
 
@@ -136,10 +138,11 @@ class PointContactProblem:
 
 
 def expected_film(problem: PointContactProblem) -> float:
-    """Return a central film [m] to start from: the larger of elastic and rigid estimates.
+    """Return a central film [m] to start from: the largest of elastic and rigid estimates.
 
-    Elastic: Chittenden et al. 1985. Rigid: Kapitza 1955, p = -12 eta u x/[(3 + 2 R_x/R_y) h^2]
-    where it is positive, so W = 12 pi eta u R_x/(3 + 2 R_x/R_y) (2 R_y/h)^(1/2).
+    Elastic: Chittenden et al. 1985 and the isoviscous limit of `regime_films`. Rigid: Kapitza
+    1955, p = -12 eta u x/[(3 + 2 R_x/R_y) h^2] where it is positive, so
+    W = 12 pi eta u R_x/(3 + 2 R_x/R_y) (2 R_y/h)^(1/2).
     """
     R_x, R_y = problem.hertz.R_x, problem.hertz.R_y
     u, v = (abs(speed) for speed in problem.entrainment)
@@ -155,7 +158,13 @@ def expected_film(problem: PointContactProblem) -> float:
     R_s = R_x * R_y / R_e
     slope = 12.0 * oil.eta0 * speed / (3.0 + 2.0 * R_e / R_s)
     rigid = 2.0 * R_s * (math.pi * slope * R_e / problem.load) ** 2
-    return max(elastic, rigid)
+    modulus = 2.0 * problem.contact_modulus
+    U = oil.eta0 * speed / (modulus * R_e)
+    M = problem.load / (modulus * R_e**2) * (2.0 * U) ** -0.75
+    films = regime_films(M, 0.0, min(1.0, max(0.01, R_e / R_s)))
+    # that of light loads bounds the elastic film; the rigid one is above it there
+    soft = min(films.elastic_isoviscous, films.light_load) * R_e * math.sqrt(2.0 * U)
+    return max(elastic, rigid, soft if R_e <= R_s else 0.0)
 
 
 def elliptical_contact(
@@ -191,8 +200,12 @@ def elliptical_contact(
 
     Notes
     -----
-    The default inlet lies where the undeformed gap is 20 central films, never closer
-    than 2.5 semi-axes; the sides and the outlet follow likewise.
+    The default inlet lies where the undeformed gap is 20 central films, 320 where the film is
+    thicker than the solids flatten, never closer than 2.5 semi-axes; the sides and the outlet
+    follow likewise. A domain half as large again moves the central film by 0.5 % where
+    oil thickens with pressure and the solids flatten more than the film is thick, by 1.5 % in
+    isoviscous oil, and by up to 6 % on solids so stiff that the film is the thicker one: the
+    pressure they leave outside falls with the third power of distance only. Widen it there.
     """
     shape = EllipticParaboloid(R_x, R_y)
     problem = PointContactProblem(
@@ -211,13 +224,17 @@ def elliptical_contact(
     film = expected_film(problem)
     speed = math.hypot(*entrainment)
     # films thicker than the solids flatten carry load far to the sides
-    breadth = 0.6 + 0.4 * min(1.0, film * min(R_x, R_y) / min(a_x, a_y) ** 2)
+    thickness = min(1.0, film * min(R_x, R_y) / min(a_x, a_y) ** 2)
+    breadth = 0.6 + 0.4 * thickness
+    flooded_films = _FLOODED * (1.0 + 15.0 * thickness**4)
     limits = []
     for component, radius, semi_axis in (
         (entrainment[0], R_x, a_x),
         (entrainment[1], R_y, a_y),
     ):
-        flooded = semi_axis + math.sqrt(2.0 * radius * 20.0 * film) if inlet is None else 0.0
+        flooded = (
+            semi_axis + math.sqrt(2.0 * radius * flooded_films * film) if inlet is None else 0.0
+        )
         upstream = max(2.5 * semi_axis, flooded) if inlet is None else inlet * semi_axis
         spread = max(2.0 * semi_axis, breadth * flooded) if side is None else side * semi_axis
         exit_reach = max(1.5 * semi_axis, 0.3 * flooded) if outlet is None else outlet * semi_axis

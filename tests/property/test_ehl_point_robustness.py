@@ -1,0 +1,89 @@
+"""Point contacts that are hard to solve, and the cost of ending the domain."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from benchmarks.bench_ehl import radius_ratio
+from gearlube_core.ehl.point_level import PointLevel
+from gearlube_core.ehl.point_limiter import limited_faces
+from gearlube_core.ehl.point_solver import solve_point_contact
+from gearlube_core.ehl.scaling import PointScales
+from tests.ehl_point_cases import moes_contact
+
+NODES = (65, 65)
+
+
+@pytest.mark.parametrize(
+    ("ellipticity", "M", "L"),
+    [
+        (0.2, 500.0, 0.0),  # thin lobes beside a contact long in the direction of motion
+        (0.2, 500.0, 10.0),
+        (0.2, 200.0, 25.0),  # linear systems of high contrast
+        (0.5, 1000.0, 0.0),
+        (0.5, 1000.0, 10.0),
+        (100.0, 5000.0, 25.0),
+        (100.0, 50.0, 0.0),  # far thicker than the solids flatten
+    ],
+)
+def test_extreme_contacts_converge_in_the_stencil_that_is_asked_for(
+    ellipticity: float, M: float, L: float
+) -> None:
+    problem = moes_contact(M, L, nodes=NODES, radius_ratio=radius_ratio(ellipticity))
+    solution = solve_point_contact(problem, throw=False)
+    outcome = solution.outcome
+    # residual, load, film and complementarity together
+    assert outcome.converged, outcome.sentence
+    assert outcome.wedge == "upwind-2"
+    assert solution.minimum_film > 0.0
+    # the unresolved inlet and lobes are lines of nodes: a few of the 33 or so across the contact
+    assert outcome.limited < 0.05
+    assert solution.load == pytest.approx(problem.load, rel=1e-6)
+
+
+def test_limited_faces_vanish_on_a_grid_that_resolves_the_inlet() -> None:
+    problem = moes_contact(1000.0, 0.0, nodes=NODES)
+    coarse = solve_point_contact(problem).outcome
+    fine = solve_point_contact(problem.with_nodes(257, 257)).outcome
+    assert coarse.limited > 0.0
+    assert fine.limited == 0.0
+
+
+def test_limits_act_where_the_film_halves_in_a_cell_and_nowhere_else() -> None:
+    problem = moes_contact(20.0, 5.0, nodes=(23, 19))
+    level = PointLevel(problem, PointScales.of(problem), (19, 23), "upwind-2")
+    pressure = np.ones((19, 23))
+    mass = np.ones((19, 23))
+    limited, faces = limited_faces(level.stencil, pressure, mass)
+    # one face upstream of each inner node; the entrainment is along x
+    assert (limited, faces) == (0, 17 * 21)
+    mass[:, 10:] = 0.51
+    assert limited_faces(level.stencil, pressure, mass)[0] == 0
+    mass[:, 10:] = 0.49
+    # 1.5 0.49 - 0.5 < 0.5 0.49 on the face behind column 10, in 17 rows
+    assert limited_faces(level.stencil, pressure, mass)[0] == 17
+
+
+@pytest.mark.parametrize(
+    ("ellipticity", "M", "L", "allowed"),
+    [
+        (0.5, 20.0, 5.0, 0.01),
+        (1.0, 20.0, 5.0, 0.01),
+        (1.0, 200.0, 10.0, 0.01),
+        (5.0, 200.0, 10.0, 0.01),
+        # rigid: what lies outside falls with the third power of distance
+        (5.0, 5.0, 5.0, 0.07),
+    ],
+)
+def test_a_larger_domain_leaves_the_film(
+    ellipticity: float, M: float, L: float, allowed: float
+) -> None:
+    problem = moes_contact(M, L, nodes=NODES, radius_ratio=radius_ratio(ellipticity))
+    x, y = ((1.5 * low, 1.5 * high) for low, high in (problem.x_limits, problem.y_limits))
+    # the same spacing: what differs is the end of the domain alone, and nodes by half a cell
+    larger = replace(problem, x_limits=x, y_limits=y, nodes=(97, 97))
+    film, other = (solve_point_contact(p).central_film for p in (problem, larger))
+    assert other == pytest.approx(film, rel=allowed)
