@@ -28,7 +28,7 @@ def fill_shear_factors(
     film: np.ndarray,
     fluidity: np.ndarray,
     couette: np.ndarray,
-    sigma_x: float,
+    sigma_x: np.ndarray,
     sigma_y: float,
     cosine: float,
     sine: float,
@@ -47,7 +47,7 @@ def fill_shear_factors(
         Shear stress of sliding over tau0, times film and fluidity, of every row [1].
     sigma_x, sigma_y
         Stress drop over half the film over tau0, over film and difference of pressure between the
-        nodes on both sides [1].
+        nodes on both sides [1]; along x of every column, shape (nx,).
     cosine, sine
         Of the angle from x to sliding.
     along, across : ndarray, shape (ny, nx)
@@ -70,7 +70,7 @@ def fill_shear_factors(
             h = film[j, i]
             if h <= 0.0:
                 continue
-            x = sigma_x * h * (pressure[j, i + 1] - pressure[j, i - 1])
+            x = sigma_x[i] * h * (pressure[j, i + 1] - pressure[j, i - 1])
             y = sigma_y * h * (pressure[j + 1, i] - pressure[j - 1, i])
             s, r = cosine * x + sine * y, cosine * y - sine * x
             a = couette[j] / (h * fluidity[j, i])
@@ -114,6 +114,7 @@ class FilmShear:
     couette: Array  # shear stress of sliding over tau0, times film and fluidity, (rows,) [1]
     cosine: float  # of the angle from x to sliding
     sine: float
+    central: Array | None = None  # spacing along x over that of every column, (nx,); None: 1
 
     @classmethod
     def of(
@@ -126,6 +127,7 @@ class FilmShear:
         film: float = 1.0,
         pressure: float = 1.0,
         viscosity: float = 1.0,
+        central: Array | None = None,
     ) -> FilmShear:
         """Return the constants.
 
@@ -141,6 +143,9 @@ class FilmShear:
             Number of rows of nodes.
         film, pressure, viscosity
             Units of the arrays: [m], [Pa], [Pa s].
+        central
+            Spacing along x over half the distance between the neighbours of each column of
+            nodes, shape (nx,) [1]; None: 1.
 
         Raises
         ------
@@ -168,6 +173,7 @@ class FilmShear:
             couette=np.full(rows, unit * speed),
             cosine=sliding[0] / speed if speed > 0.0 else 1.0,
             sine=sliding[1] / speed if speed > 0.0 else 0.0,
+            central=central,
         )
 
     def factors(self, pressure: Array, film: Array, fluidity: Array) -> ShearFactors:
@@ -178,7 +184,7 @@ class FilmShear:
             film,
             fluidity,
             self.couette,
-            self.sigma_x,
+            self.sigma_x * (np.ones(pressure.shape[1]) if self.central is None else self.central),
             self.sigma_y,
             self.cosine,
             self.sine,

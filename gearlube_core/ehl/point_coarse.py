@@ -25,7 +25,7 @@ class CoarseSolution:
         matrix[:n, :n] = rows.imag @ level.dense_deflection()[:, self._nodes]
         matrix[:n, :n] += rows.real[:, self._nodes].toarray()
         matrix[:n, n] = operator.by_approach.ravel()[self._nodes]
-        matrix[n, :n] = level.cell / level.scales.load
+        matrix[n, :n] = level.cells[self._nodes % level.shape[1]] / level.scales.load
         matrix[n, n] = 0.0
         self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
         self._shape = level.shape

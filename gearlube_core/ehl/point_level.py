@@ -9,15 +9,18 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
+from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
 from gearlube_core.ehl.film_shear import FilmShear, ShearFactors
 from gearlube_core.ehl.lubricant import EhlLubricant, fill_properties
 from gearlube_core.ehl.point_cross_flow import add_cross_derivatives, add_cross_flow
+from gearlube_core.ehl.point_mesh import Grading, cell_faces, central_metric, mesh_metric, x_nodes
 from gearlube_core.ehl.point_stencil import (
     CENTRE,
     CROSS_NEIGHBOURS,
     NEIGHBOURS,
     OFFSETS,
     FlowSlopes,
+    MeshMetric,
     StencilParameters,
     apply_derivatives,
     reynolds_derivatives,
@@ -79,8 +82,23 @@ class Linearisation:
 class PointLevel:
     """Grid of shape (ny, nx) with the discrete equations of a problem.
 
+    Parameters
+    ----------
+    problem, scales, shape
+        Contact, its units, rows and columns.
+    wedge
+        Stencil of the wedge.
+    grading
+        Of the spacing along x, for entrainment along x; None: uniform.
+
     Attributes
     ----------
+    dx, dy : float
+        Spacing; the smallest along x.
+    metric : MeshMetric
+        Spacing along x against dx.
+    cell : float
+        dx dy.
     rate : ndarray, shape (ny, 1), or None
         Entrainment of every row over that of the problem; None: 1.
     storage : ndarray, shape (ny, nx), or None
@@ -96,16 +114,21 @@ class PointLevel:
     _centre = CENTRE  # of the neighbours
 
     def __init__(
-        self, problem: PointContactProblem, scales: PointScales, shape: tuple[int, int], wedge: str
+        self,
+        problem: PointContactProblem,
+        scales: PointScales,
+        shape: tuple[int, int],
+        wedge: str,
+        grading: Grading | None = None,
     ) -> None:
         self.shape = ny, nx = shape
         self.scales = scales
         nodes = (ny, nx) if scales.swap else (nx, ny)
-        x = np.linspace(*problem.x_limits, nodes[0])
+        x = x_nodes(problem.x_limits, nodes[0], grading)
         y = np.linspace(*problem.y_limits, nodes[1])
         gap = np.broadcast_to(problem.gap(x[:, None], y[None, :]), nodes)
         self.gap = scales.inward(np.asarray(gap, dtype=np.float64) / scales.film)
-        step_x, step_y = x[1] - x[0], y[1] - y[0]
+        step_x, step_y = float(np.diff(x).min()) if grading else x[1] - x[0], y[1] - y[0]
         if scales.swap:
             step_x, step_y = step_y, step_x
         self.dx, self.dy = step_x / scales.length, step_y / scales.length
@@ -121,10 +144,19 @@ class PointLevel:
         self.half_width = across / scales.length
         self.oil: EhlLubricant = scales.oil(problem.lubricant)
         self.modulus = problem.contact_modulus * scales.film / (scales.pressure * scales.length)
-        self.coefficients = love_coefficients(self.dy, self.dx, ny, nx, 1.0) * (
-            self.dx * self.dy / self.modulus
-        )
-        self.deflection = HalfSpaceConvolution(self.coefficients)
+        self.positions = x / scales.length if grading else np.arange(nx) * self.dx
+        self._graded = grading is not None
+        if grading is not None:
+            self.metric = mesh_metric(self.positions, self.dx)
+            self.coefficients = graded_coefficients(
+                cell_faces(self.positions), self.positions, self.dy, ny, self.modulus
+            )
+        else:
+            self.metric = MeshMetric(np.ones(nx), np.ones(nx))
+            self.coefficients = love_coefficients(self.dy, self.dx, ny, nx, 1.0) * (
+                self.dx * self.dy / self.modulus
+            )
+        self.deflection = self.convolution()
         self._weights = here, upstream, downstream = WEDGE_WEIGHTS[wedge]
         self.stencil = StencilParameters(
             poiseuille_x=scales.mobility / self.dx**2,
@@ -149,7 +181,17 @@ class PointLevel:
             self.shear = self._film_shear(problem, scales.turned(problem.sliding))
         self.cell = self.dx * self.dy
         self.flow_rate = self.stencil.wedge_x + self.stencil.wedge_y
+        self.cells = self.cell / self.metric.narrow
         self._dense: Array | None = None
+
+    def convolution(self, single: bool = False) -> HalfSpaceConvolution | GradedConvolution:
+        """Return the deflection under unit pressure, in float32 for preconditioners."""
+        kind = GradedConvolution if self._graded else HalfSpaceConvolution
+        return kind(self.coefficients, single=single)
+
+    def integral(self, values: Array) -> float:
+        """Return the sum of values times the areas of their cells; shape (ny, nx)."""
+        return float(values.sum(axis=0) @ self.cells)
 
     def _film_shear(self, problem: PointContactProblem, sliding: tuple[float, float]) -> FilmShear:
         """Return the constants of a film that slides along the axes of the grid [m/s]."""
@@ -162,15 +204,19 @@ class PointLevel:
             film=scales.film,
             pressure=scales.pressure,
             viscosity=problem.lubricant.eta0,
+            central=central_metric(self.positions, self.dx) if self._graded else None,
         )
 
     def dense_deflection(self) -> Array:
         """Return the matrix of deflection per unit pressure, shape (ny nx, ny nx)."""
         if self._dense is None:
             rows, columns = (n.ravel() for n in np.indices(self.shape))
-            self._dense = self.coefficients[
-                abs(rows[:, None] - rows), abs(columns[:, None] - columns)
-            ]
+            across = abs(rows[:, None] - rows)
+            self._dense = (
+                self.coefficients[across, columns[:, None], columns]
+                if self._graded
+                else self.coefficients[across, abs(columns[:, None] - columns)]
+            )
         return self._dense
 
     def film(self, pressure: Array, approach: float) -> Array:
@@ -212,7 +258,7 @@ class PointLevel:
             cubic_y=cubic_y,
             log_viscosity=np.log(viscosity),
             residual=np.empty(self.shape),
-            load_error=(self.scales.load - self.cell * float(pressure.sum())) / self.scales.load,
+            load_error=(self.scales.load - self.integral(pressure)) / self.scales.load,
             cubic_xy=cubic_xy,
             shear=shear,
             closed=self.closed,
@@ -226,6 +272,7 @@ class PointLevel:
         """Write the residual without storage; `carried` is rho h times the share of the speed."""
         reynolds_residual(
             self.stencil,
+            self.metric,
             state.pressure,
             carried,
             state.cubic_x,
@@ -304,6 +351,7 @@ class PointLevel:
         by_pressure, by_film = np.empty((2, count, *self.shape))
         reynolds_derivatives(
             stencil,
+            self.metric,
             state.pressure,
             state.cubic_x,
             state.cubic_y,

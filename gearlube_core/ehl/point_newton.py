@@ -40,7 +40,7 @@ def flow_residual(level: PointLevel, state: FilmState) -> float:
 
     Nodes without pressure count only where flow gathers that no pressure drives away.
     """
-    unbalanced = float(np.abs(state.residual[state.free]).sum()) * level.cell
+    unbalanced = level.integral(np.where(state.free, np.abs(state.residual), 0.0))
     middle = float(state.film[state.pressure >= 0.8 * state.pressure.max()].mean())
     if not middle > 0.0:
         return math.inf
@@ -83,7 +83,6 @@ def newton(
     """
     level = hierarchy.levels[-1]
     record = NewtonRecord()
-    share = level.cell / level.scales.load
     shift = 0.0
     size = flow_residual(level, state)
     record.residuals.append(size)
@@ -96,7 +95,7 @@ def newton(
         pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),
-                share * float(p.sum()),
+                level.integral(p) / level.scales.load,
             ),
             cycle,
             right,

@@ -62,11 +62,9 @@ class MultigridCycle:
             return self._direct(residual, load_residual)
         level, operator, transfer = self._levels[k], self._operators[k], self._transfers[k - 1]
         pressure = self._smooth(k, residual)
-        share = level.cell / level.scales.load
+        carried = level.integral(pressure) / level.scales.load
         rest = residual - operator.apply(level, pressure, 0.0)
-        coarse, approach = self._cycle(
-            k - 1, transfer.down(rest), load_residual - share * float(pressure.sum())
-        )
+        coarse, approach = self._cycle(k - 1, transfer.down(rest), load_residual - carried)
         correction = transfer.up(coarse)
         correction[~operator.free] = 0.0
         pressure += correction

@@ -94,7 +94,7 @@ def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
     ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
     pressure = _bordered(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
-    pressure *= scales.load / (float(pressure.sum()) * level.cell)
+    pressure *= scales.load / level.integral(pressure)
     return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
 
 

@@ -1,7 +1,8 @@
-"""Reynolds equation of a point contact on a uniform grid: residual and derivatives, kernels.
+"""Reynolds equation of a point contact, uniform along y: residual and derivatives, kernels.
 
 Arrays have shape (ny, nx): x, the direction of the larger entrainment, runs along memory. All
-quantities are those of `PointScales`; entrainment points to larger x and y.
+quantities are those of `PointScales`; entrainment points to larger x and y. Spacing may vary
+smoothly along x.
 """
 
 from __future__ import annotations
@@ -50,6 +51,17 @@ class StencilParameters(NamedTuple):
     squeeze: float  # factor of rho h at this time [1]
     least: float = -math.inf  # of rho h at a face, over that of the node upstream of it [1]
     most: float = math.inf  # likewise
+
+
+class MeshMetric(NamedTuple):
+    """Spacing along x against the dx of the parameters; arrays of shape (nx,) [1].
+
+    Faces lie where the position as a smooth function of the index is at half an index, so that
+    values there follow from nodes with the weights of a uniform grid, of the same order.
+    """
+
+    near: np.ndarray  # dx over the distance of a node from the one before
+    narrow: np.ndarray  # dx over the width of a node's cell
 
 
 @kernel
@@ -127,6 +139,7 @@ def mean_fluidity(
 @kernel
 def reynolds_residual(
     parameters: StencilParameters,
+    metric: MeshMetric,
     pressure: np.ndarray,
     mass: np.ndarray,
     cubic_x: np.ndarray,
@@ -143,7 +156,7 @@ def reynolds_residual(
 
     Parameters
     ----------
-    parameters
+    parameters, metric
         Of the grid.
     pressure, mass, cubic_x, cubic_y, fluidity, log_viscosity, source : ndarray, shape (ny, nx)
         p, rho h, rho h^3 times the flow factor of its direction, 1/eta, ln eta, and what the
@@ -169,14 +182,16 @@ def reynolds_residual(
                     here, fluidity[j, i - 1], rise, pressure[j, i] > pressure[j, i - 1]
                 )
                 flow = 2.0 * math.sqrt(cubic_x[j, i] * cubic_x[j, i - 1]) * mean
-                flow *= px * (pressure[j, i] - pressure[j, i - 1])
+                flow *= px * metric.near[i] * (pressure[j, i] - pressure[j, i - 1])
                 far, near, there = mass[j, max(i - 2, 0)], mass[j, i - 1], mass[j, i]
                 f0, f1, f2 = face_weights(parameters, i - 1, far, near, there)
                 flow -= parameters.wedge_x * (f0 * near + f1 * far + f2 * there)
                 if i < nx - 1:
-                    residual[j, i] -= flow + parameters.squeeze * mass[j, i] - source[j, i]
+                    residual[j, i] -= (
+                        metric.narrow[i] * flow + parameters.squeeze * mass[j, i] - source[j, i]
+                    )
                 if i > 1:
-                    residual[j, i - 1] += flow
+                    residual[j, i - 1] += metric.narrow[i - 1] * flow
             if i < nx - 1:
                 rise = log_viscosity[j, i] - log_viscosity[j - 1, i]
                 mean, _, _ = mean_fluidity(
@@ -209,6 +224,7 @@ class FlowSlopes(NamedTuple):
 @kernel
 def reynolds_derivatives(
     parameters: StencilParameters,
+    metric: MeshMetric,
     pressure: np.ndarray,
     cubic_x: np.ndarray,
     cubic_y: np.ndarray,
@@ -227,7 +243,7 @@ def reynolds_derivatives(
 
     Parameters
     ----------
-    parameters, pressure, cubic_x, cubic_y, fluidity, log_viscosity
+    parameters, metric, pressure, cubic_x, cubic_y, fluidity, log_viscosity
         As in `reynolds_residual`.
     viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
         d ln eta/dp, rho, d rho/dp, h [1].
@@ -242,7 +258,7 @@ def reynolds_derivatives(
     by_pressure[:] = 0.0
     by_film[:] = 0.0
     px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
-    ux, uy = parameters.wedge_x, parameters.wedge_y
+    uy = parameters.wedge_y
     down = (0, 0, 0, 0, -1, 1, -2)
     right = (0, -1, 1, -2, 0, 0, 0)
     for j in range(1, ny - 1):
@@ -259,11 +275,13 @@ def reynolds_derivatives(
             s0, s1, s2 = face_weights(parameters, j - 1, far_mass, south, here)
             n0, n1, n2 = face_weights(parameters, j, south, here, north)
             p, f, v = pressure[j, i], fluidity[j, i], log_viscosity[j, i]
+            ux = parameters.wedge_x * metric.narrow[i]
             film_here = slopes.film_power[j, i] / max(film[j, i], 1e-30)
             for k in (WEST, EAST, SOUTH, NORTH):
                 jj, ii = j + down[k], i + right[k]
                 if right[k] != 0:
-                    unit, cubic = px, cubic_x[j, i] * cubic_x[jj, ii]
+                    unit = px * metric.narrow[i] * metric.near[max(i, ii)]
+                    cubic = cubic_x[j, i] * cubic_x[jj, ii]
                     slope = slopes.slope_x[j, i] * slopes.slope_x[jj, ii]
                 else:
                     unit, cubic = py, cubic_y[j, i] * cubic_y[jj, ii]

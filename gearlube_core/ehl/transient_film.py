@@ -207,7 +207,6 @@ def film_solution(
     residual = flow_residual(level, state)
     failed = _failures(state.pressure, state.film, residual, state.load_error, settings)
     pressure = scales.outward(state.pressure) * scales.pressure
-    cell = level.cell * scales.length**2
     return FilmSolution(
         time=time,
         x=film.x,
@@ -215,7 +214,7 @@ def film_solution(
         pressure=pressure,
         film=scales.outward(state.film) * scales.film,
         approach=state.approach * scales.film,
-        load=float(pressure.sum()) * cell,
+        load=level.integral(state.pressure) * scales.pressure * scales.length**2,
         load_error=state.load_error,
         residual=residual,
         converged=not failed,

@@ -135,7 +135,6 @@ def step_newton(
     level = kept.hierarchy.levels[-1]
     size = flow_residual(level, state)
     krylov, steps, before = 0, 0, kept.renewals
-    share = level.cell / level.scales.load
     while steps < most:
         if size <= tolerance and abs(state.load_error) <= load_tolerance:
             break
@@ -146,7 +145,7 @@ def step_newton(
         pressure, approach, _, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),
-                share * float(p.sum()),
+                level.integral(p) / level.scales.load,
             ),
             kept,
             right,

@@ -8,6 +8,7 @@ import pytest
 from gearlube_core.ehl import point_stencil
 from gearlube_core.ehl.point_krylov import flexible_gmres
 from gearlube_core.ehl.point_level import PointLevel
+from gearlube_core.ehl.point_mesh import Grading
 from gearlube_core.ehl.point_preconditioner import MultigridCycle
 from gearlube_core.ehl.point_solver import build_hierarchy, grid_shapes, solve_point_contact
 from gearlube_core.ehl.point_transfer import Transfer
@@ -48,6 +49,45 @@ def test_derivatives_are_those_of_the_residual(wedge: str) -> None:
     )
 
 
+@pytest.mark.parametrize("wedge", ["upwind-2", "quick"])
+def test_derivatives_on_a_graded_grid_are_those_of_the_residual(wedge: str) -> None:
+    problem = moes_contact(50.0, 10.0, nodes=(33, 19), radius_ratio=1.5)
+    scales, a = PointScales.of(problem), problem.hertz_contact[0]
+    grading = Grading((-1.1 * a, 1.1 * a), 5.0, 0.5 * a)
+    level = PointLevel(problem, scales, (19, 33), wedge, grading)
+    pressure = 0.05 + np.random.default_rng(1).random((19, 33))
+    pressure[[0, -1]] = 0.0
+    pressure[:, [0, -1]] = 0.0
+    approach = 0.3 - float(level.film(pressure, 0.0).min())
+    state = level.state(pressure, approach)
+    linear = level.linearise(state)
+    change = np.random.default_rng(2).standard_normal(pressure.shape) * pressure
+    step = 1e-6
+    above = level.state(pressure + step * change, approach + 0.7 * step).residual
+    below = level.state(pressure - step * change, approach - 0.7 * step).residual
+    numerical = np.where(state.free, (above - below) / (2.0 * step), 0.0)
+    # central differences: 1e-12 of truncation, 1e-10 of rounding
+    error = np.abs(level.apply(linear, change, 0.7) - numerical)
+    assert error.max() < 1e-7 * np.abs(numerical).max()
+    # the deflection is that of the matrix which the coarsest grid solves with
+    dense = (level.dense_deflection() @ pressure.ravel()).reshape(pressure.shape)
+    assert np.abs(dense - level.deflection(pressure)).max() < 1e-12 * dense.max()
+
+
+def test_residuals_times_cells_add_up_to_what_flows_in_and_out() -> None:
+    problem = moes_contact(50.0, 10.0, nodes=(33, 19), radius_ratio=1.5)
+    scales, a = PointScales.of(problem), problem.hertz_contact[0]
+    for grading in (None, Grading((-1.1 * a, 1.1 * a), 5.0, 0.5 * a)):
+        level = PointLevel(problem, scales, (19, 33), "upwind-1", grading)
+        pressure = np.zeros((19, 33))
+        state = level.state(pressure, 1.0)
+        inflow = state.mass[1:-1, 0].sum()
+        outflow = state.mass[1:-1, -2].sum()
+        # without pressure and of first order: rho h u through the first and the last face
+        found = level.integral(state.residual) / (level.stencil.wedge_x * level.cell)
+        assert found == pytest.approx(inflow - outflow, abs=1e-11 * inflow)
+
+
 def test_compiled_stencils_equal_their_python() -> None:
     level, pressure = _bumpy_level("upwind-2")
     state = level.state(pressure, 1.0)
@@ -61,7 +101,7 @@ def test_compiled_stencils_equal_their_python() -> None:
         state.log_viscosity,
         level.source,
     )
-    point_stencil.reynolds_residual.py_func(level.stencil, *fields, residual)
+    point_stencil.reynolds_residual.py_func(level.stencil, level.metric, *fields, residual)
     # same operations in the same order; contraction to fused products only
     assert np.abs(residual - state.residual).max() < 1e-12 * np.abs(residual).max()
 
