@@ -91,10 +91,10 @@ def _at_rest() -> list[Run]:
 
 
 def _marches() -> list[Run]:
-    runs = [
+    runs = [_cycle("b")]
+    runs += [
         Run(case=FilmCase(speed=s, nodes=CYCLE), first=500 - APPROACH, step=500) for s in SPEEDS
     ]
-    runs += [_cycle("b")]
     runs += [
         Run(case=parabola_case("a", k), first=500 - APPROACH, step=500)
         for k in (1.0, *MARCHED_PARABOLAS)
