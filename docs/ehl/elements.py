@@ -44,7 +44,7 @@ def discretised(store: Store, nodes: tuple[int, int]) -> dict[str, tuple[Array, 
     if not path.exists():
         if not store.compute:
             raise MissingFilmError(path.stem)
-        arrays = {}
+        arrays: dict[str, Array] = {}
         for method in METHODS:
             settings = PointSolverSettings(
                 wedge=SETTINGS.wedge, tolerance=SETTINGS.tolerance, discretisation=method

@@ -112,7 +112,7 @@ def power_contours(store: Store) -> Any:
             )
             row[1].set_title(f"pressure, {GPA * film.max_pressure:.2f} GPa at most", fontsize=9)
             row[0].set_ylabel("x [mm]")
-            row[0].set_xlim(-10.0, 24.0)
+            row[0].set(xlim=(-10.0, 24.0), ylim=(-0.65, 0.45))
         for ax in axes[-1]:
             ax.set_xlabel("along the line, y [mm]")
         figure.colorbar(thick, ax=axes[:, 0], label="film [µm]", location="bottom", aspect=40)

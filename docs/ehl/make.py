@@ -33,8 +33,8 @@ logger = logging.getLogger("docs.ehl")
 
 def _method(store: Store) -> str:
     grids = (
-        f"Nodes across and along the line, {size()} in contact at most: "
-        f"{_nodes(CYCLE)} for cycles, {_nodes(LINE)} for films at rest and short marches, "
+        f"Nodes across and along the line, {size()} in contact at\n  most: "
+        f"{_nodes(CYCLE)} for cycles, {_nodes(LINE)} for films at rest and short marches,\n  "
         f"{_nodes(FACETED)} for facets and for comparison. The thesis has 182 by 857."
     )
     return _text("method").format(grids=grids) + shown(store, CYCLE_PICTURES, IMAGES)

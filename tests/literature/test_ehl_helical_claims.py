@@ -172,7 +172,7 @@ def test_cases_have_names_of_their_own_and_positions_of_the_thesis():
         )
 
 
-def test_march_of_the_store_is_kept_and_goes_on(tmp_path):
+def test_march_of_the_store_is_kept(tmp_path):
     case = FilmCase(nodes=(33, 49))
     whole = Store(tmp_path / "whole").march(case, 300, 304, (302,))
     again = Store(tmp_path / "whole").march(case, 300, 304, (302,))
@@ -180,6 +180,28 @@ def test_march_of_the_store_is_kept_and_goes_on(tmp_path):
     assert list(whole.step) == [300, 301, 302, 303, 304]
     assert whole.fields(302)[1].min() == pytest.approx(whole.at("min_film", 302), rel=1e-6)
     assert list((tmp_path / "whole").glob("*part*")) == []
+
+
+def test_march_of_the_store_goes_on_from_its_record(tmp_path, monkeypatch):
+    monkeypatch.setattr("docs.ehl.store._EVERY", 2)
+    case = FilmCase(nodes=(33, 49))
+    whole = Store(tmp_path / "whole").march(case, 300, 306)
+    add, seen = Lines.add, []
+
+    def interrupted(self, n, *rest):
+        seen.append(n)
+        if n == 305 and seen.count(305) == 1:
+            raise KeyboardInterrupt
+        add(self, n, *rest)
+
+    monkeypatch.setattr(Lines, "add", interrupted)
+    store = Store(tmp_path / "parts")
+    with pytest.raises(KeyboardInterrupt):
+        store.march(case, 300, 306)
+    parts = store.march(case, 300, 306)
+    assert seen == [300, 301, 302, 303, 304, 305, 305, 306]
+    assert np.array_equal(whole["max_pressure"], parts["max_pressure"])
+    assert np.array_equal(whole.film, parts.film)
 
 
 def test_lines_survive_a_file_and_count_failures(tmp_path):
