@@ -6,6 +6,7 @@ from pathlib import Path
 
 from docs.field_tables import field_tables
 from gearlube_core.ehl.case_file import LineCase, PointCase
+from gearlube_core.ehl.hypoid_case_file import HypoidCase
 
 PAGE = Path(__file__).with_suffix(".md")
 OIL = {
@@ -27,16 +28,21 @@ POINT = {
     "waviness": "[waviness]",
     "solver": "[solver]",
 }
+HYPOID = {"": "Hypoid flank: the file", "solver": "[solver]"}
 
-HEAD = """# The case files of lubricated line and point contacts
+HEAD = """# The case files of lubricated line and point contacts and of hypoid flanks
 
-The tables are written by `python -m docs.ehl_case_file` from the data model
-(`gearlube_core/ehl/case_file.py` and its sections), the text with them; not edited by hand.
+The tables are written by `python -m docs.ehl_case_file` from the data models
+(`gearlube_core/ehl/case_file.py`, `hypoid_case_file.py` and their sections), the text with them;
+not edited by hand.
 
 `gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts
 ship, `jamali_2015` and `jamali_2015_thermal`, and two point contacts, `mourier_2006` and
 `elliptical` (`gearlube_core/ehl/data/`); `gearlube ehl line --example` prints one to start from.
-Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md).
+Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md). A hypoid
+flank, `gearlube ehl hypoid my_case.toml`, takes its contacts from a mesh table; `mohammadpour_2015`
+ships, its fields stand at the end, and [ehl_hypoid.md](ehl_hypoid.md) shows what comes out. What
+follows is about lines and points.
 
 - Body 1 lies below the film, body 2 above. Speeds are those of the surfaces against the contact,
   positive along x; their mean is the entrainment speed, and body 2 less body 1 slides. Against
@@ -112,6 +118,8 @@ def page() -> str:
         + field_tables(LineCase, LINE)
         + "\n## Fields of a point contact\n"
         + field_tables(PointCase, POINT)
+        + "\n## Fields of a hypoid flank\n"
+        + field_tables(HypoidCase, HYPOID)
         + TAIL
     )
 

@@ -55,6 +55,13 @@ def hypoid(
     oil_temperature: Annotated[
         float | None, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
     ] = None,
+    flow: Annotated[
+        str | None,
+        typer.Option(
+            help="Of the film; newtonian: the Eyring stress acts on friction alone.",
+            metavar="eyring|newtonian",
+        ),
+    ] = None,
     phases: Annotated[
         str | None,
         typer.Option(
@@ -106,6 +113,7 @@ def hypoid(
             "entrainment": entrainment,
             "oil": oil,
             "oil_temperature_degc": oil_temperature,
+            "flow": flow,
             "first_phase": first,
             "last_phase": last,
             "solver.nodes_minor": nodes_minor,

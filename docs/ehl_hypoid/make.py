@@ -31,8 +31,10 @@ class Variant(NamedTuple):
     march: bool
 
 
+_NEWTONIAN = {"flow": "newtonian"}
 VARIANTS = (
     Variant("drive", "Drive flank, 40 N.m, 1377 rpm", {}, True),
+    Variant("newtonian", "The same, a film that flows as a Newtonian one", _NEWTONIAN, True),
     Variant(
         "moving_contact",
         "The same, entrainment against the moving point of contact",

@@ -79,6 +79,7 @@ def hypoid_flank(case: HypoidCase) -> HypoidFlank:
         lubricant=lubricant_from_library(parameters.oil, case.oil_temperature),
         contact_modulus=contact_modulus(parameters.solid, parameters.solid),
         nodes=(case.solver.nodes_minor, case.solver.nodes_major),
+        flow=case.flow,
     )
     return HypoidFlank(case, parameters, film, drive)
 

@@ -110,6 +110,7 @@ def hypoid_dataset(
             "oil": case.oil,
             "oil_temperature": case.oil_temperature,
             "eyring_stress": flank.oil.tau0,
+            "flow": case.flow,
             "wedge": case.solver.wedge,
             "nodes_minor": flank.film.nodes[0],
             "nodes_major": flank.film.nodes[1],
@@ -161,7 +162,9 @@ def _whole_films(flank: HypoidFlank, steady: FilmCurves) -> dict[str, Any]:
 def hypoid_key(flank: HypoidFlank) -> str:
     """Return a short name that differs where contact, oil, grid or steps do."""
     cycle = flank.film.cycle
-    digest = hashlib.sha256(repr((flank.case.solver, flank.film.lubricant)).encode())
+    digest = hashlib.sha256(
+        repr((flank.case.solver, flank.film.lubricant, flank.film.flow)).encode()
+    )
     for name in cycle.__dataclass_fields__:
         digest.update(np.ascontiguousarray(getattr(cycle, name)).tobytes())
     return digest.hexdigest()[:12]

@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.ehl.formulas import point_film_formulas
-from drivetrain.ehl.point_traction import point_traction
 from drivetrain.ehl.variables import formula_variables, unit_note
 from gearlube_core.ehl.case_file import PointCase
 from gearlube_core.ehl.groups import point_contact_groups
 from gearlube_core.ehl.lubricant import pressure_viscosity
+from gearlube_core.ehl.point_traction import point_traction
 from gearlube_core.ehl.solution import PointSolution
 
 
@@ -39,7 +39,7 @@ def point_dataset(case: PointCase, solution: PointSolution) -> xr.Dataset:
     dry = largest * np.sqrt(
         np.maximum(1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2, 0.0)
     )
-    shear = point_traction(solution, case.sliding)
+    shear = point_traction(x, y, solution.pressure, solution.film, case.sliding, problem.lubricant)
     modulus = 2.0 * problem.contact_modulus
     variables = {
         "pressure": (("x", "y"), solution.pressure, unit_note("Pa", "pressure")),

@@ -55,6 +55,11 @@ class PointSolver(Section):
     wedge: Literal["upwind-1", "upwind-2", "central", "quick"] = Field(
         default="upwind-2", description="Stencil of the wedge"
     )
+    discretisation: Literal["differences", "elements"] = Field(
+        default="differences",
+        description="Differences of finite volumes, or finite elements: Galerkin's, upwinded where "
+        "pressure hardly flows",
+    )
     tolerance: Tolerance = Field(default=1e-6, description="Unbalanced flow")
     load_tolerance: Tolerance = Field(default=1e-6, description="Error of the load")
     newton_steps: Steps = Field(default=60, description="Most Newton steps on each grid")

@@ -176,6 +176,19 @@ class FilmShear:
             central=central,
         )
 
+    def slide(self, along: Array, across: float) -> None:
+        """Set the sliding of the rows along x, (rows,), and of all of them along y [m/s].
+
+        All rows slide in one direction: where there is sliding along y, that along x is even.
+        """
+        if across == 0.0:
+            self.cosine, self.sine = 1.0, 0.0
+            self.couette = self.unit * along
+            return
+        speed = math.hypot(float(along[0]), across)
+        self.cosine, self.sine = float(along[0]) / speed, across / speed
+        self.couette = np.full(along.size, self.unit * speed)
+
     def factors(self, pressure: Array, film: Array, fluidity: Array) -> ShearFactors:
         """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
         along, across, steepness, stiffness = np.empty((4, *pressure.shape))

@@ -43,7 +43,7 @@ class HypoidSolver(Section):
     wedge: Literal["upwind-1", "upwind-2", "central", "quick"] = Field(
         default="quick", description="Stencil of the wedge"
     )
-    tolerance: Tolerance = Field(default=1e-5, description="Unbalanced flow [1]")
+    tolerance: Tolerance = Field(default=1e-5, description="Unbalanced flow")
 
 
 class HypoidCase(InputFile):
@@ -60,9 +60,9 @@ class HypoidCase(InputFile):
         default=None,
         description="Gear file of the table, shipped or .toml; for the point of contact's motion",
     )
-    pinion_speed_rpm: Speed = Field(description="Mean [rpm]")
+    pinion_speed_rpm: Speed = Field(description="Mean speed of the pinion")
     pinion_torque_n_m: Torque = Field(
-        description="Above 0 on the drive flank, below on the coast flank [N.m]"
+        description="Above 0 on the drive flank, below on the coast flank"
     )
     load: Literal["dynamic", "static"] = Field(
         default="dynamic", description="Of the running axle, or torque over arm times load share"
@@ -73,9 +73,13 @@ class HypoidCase(InputFile):
         "point of contact, which moves along the tooth",
     )
     oil: Text = Field(default="mohammadpour_2015", description="Of the library")
-    oil_temperature_degc: Temperature = Field(default=95.0, description="At the inlet [degC]")
+    flow: Literal["eyring", "newtonian"] = Field(
+        default="eyring",
+        description="Of the film; newtonian: the Eyring stress acts on friction alone",
+    )
+    oil_temperature_degc: Temperature = Field(default=95.0, description="At the inlet")
     roughness_um: Roughness = Field(
-        default=0.5, description="Composite root mean square, for the axle's friction [um]"
+        default=0.5, description="Composite root mean square, for the axle's friction"
     )
     smallest_load: Share = Field(
         default=0.1, description="Over the largest load of the pair, where the cycle begins, ends"

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.checks import check_within
+from gearlube_core.checks import check_option, check_within
 from gearlube_core.ehl.hypoid_flank import FlankCycle, FlankInstant
 from gearlube_core.ehl.lubricant import EhlLubricant
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
@@ -15,6 +15,8 @@ from gearlube_core.ehl.transient_film import MovingFilm
 from gearlube_core.ehl.transient_level import FilmConditions
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
+
+FLOWS = ("eyring", "newtonian")
 
 # along the major axis, in its semi-axis: oil enters across the minor one, so that a domain of
 # 2.5 semi-axes changes no film of a slender ellipse by 1e-3
@@ -30,11 +32,14 @@ class HypoidFilm:
     cycle : FlankCycle
         Load, radii and motion of the contact.
     lubricant : EhlLubricant
-        Newtonian in the film's flow; its Eyring stress acts on the traction alone.
+        Its Eyring stress, if it has one, acts on the traction, and on the flow as `flow` says.
     contact_modulus
         E* [Pa].
     nodes
         Along the minor and along the major axis of the ellipse.
+    flow
+        "eyring": the oil flows as it shears, along and across sliding; "newtonian": as an oil
+        without an Eyring stress.
 
     Raises
     ------
@@ -52,8 +57,10 @@ class HypoidFilm:
     lubricant: EhlLubricant
     contact_modulus: float
     nodes: tuple[int, int] = (129, 97)
+    flow: str = "eyring"
 
     def __post_init__(self) -> None:
+        check_option("flow", self.flow, FLOWS)
         for axis, count in zip(("minor", "major"), self.nodes, strict=True):
             check_within(f"nodes along the {axis} axis", count, 17, 2049)
 
@@ -67,6 +74,7 @@ class HypoidFilm:
             contact_modulus=self.contact_modulus,
             lubricant=self._flowing(),
             nodes=self.nodes,
+            sliding=instant.sliding,
         )
         semi_axis = problem.hertz_contact[1]
         low, high = (reach * semi_axis for reach in _Y_REACH)
@@ -83,8 +91,15 @@ class HypoidFilm:
         """Return what acts on the film at a time [s]."""
         now = self.cycle.at(time)
         u, v = now.entrainment
-        speed = np.full(y.size, u)
-        return FilmConditions(now.gap(x[:, None], y[None, :]), now.load, speed, speed, v / u)
+        slip, side_slip = now.sliding
+        return FilmConditions(
+            gap=now.gap(x[:, None], y[None, :]),
+            load=now.load,
+            speed_1=np.full(y.size, u - 0.5 * slip),
+            speed_2=np.full(y.size, u + 0.5 * slip),
+            slope=v / u,
+            side_sliding=side_slip,
+        )
 
     def moving_film(self) -> MovingFilm:
         """Return the film in time with the scales of the largest load."""
@@ -103,4 +118,4 @@ class HypoidFilm:
         )
 
     def _flowing(self) -> EhlLubricant:
-        return self.lubricant._replace(tau0=0.0)
+        return self.lubricant if self.flow == "eyring" else self.lubricant._replace(tau0=0.0)

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearlube_core.ehl.line_traction import fill_mean_stress
-from gearlube_core.ehl.lubricant import EhlLubricant, fill_properties
+from gearlube_core.ehl.lubricant import EhlLubricant
+from gearlube_core.ehl.point_traction import point_traction
 from gearlube_core.ehl.transient_film import FilmSolution
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.jit import kernel
@@ -80,24 +80,19 @@ def flank_traction(
     Notes
     -----
     Where there is no pressure the gap is left out: it shears oil at ambient pressure in films
-    that are thicker. Stress across sliding, from the pressure's slope there, is left out of
-    Eyring's law. Surfaces that heat up, not contained here, take some per cent more.
-    Source: Jamali 2015 eq. (3.29a), (3.31), along the sliding; `heated_stress`.
+    that are thicker. Surfaces that heat up, not contained here, take some per cent more.
+    Source: `point_traction`, `heated_stress`.
     """
     slip = math.hypot(*sliding)
     if not slip > 0.0:
         return FlankTraction(0.0, 0.0, 0.0)
     x, y, p = solution.x, solution.y, solution.pressure
-    slopes = np.gradient(p, x, y)
-    slope = np.ascontiguousarray((sliding[0] * slopes[0] + sliding[1] * slopes[1]) / slip)
+    shear = point_traction(x, y, p, solution.film, sliding, oil)
     loaded = p > 0.0
-    pressure, film = p[loaded], solution.film[loaded]
-    eta, eta_slope, rho, rho_slope, tau = (np.empty(pressure.size) for _ in range(5))
-    fill_properties(oil, pressure, eta, eta_slope, rho, rho_slope)
-    whole = np.zeros(pressure.size)
-    fill_mean_stress(pressure, slope[loaded], film, whole, eta, slip, oil, tau)
+    eta, film = shear.viscosity[loaded], solution.film[loaded]
     share = (x[1] - x[0]) * (y[1] - y[0]) / solution.load
-    eyring = float(tau.sum())
-    newtonian = float((eta * slip / film).sum())
-    heated = float(heated_stress(pressure, film, eta, slip, oil, beta).sum())
-    return FlankTraction(newtonian * share, eyring * share, heated * share)
+    return FlankTraction(
+        share * float((eta * slip / film).sum()),
+        share * float(shear.mean_stress[loaded].sum()),
+        share * float(heated_stress(p[loaded], film, eta, slip, oil, beta).sum()),
+    )

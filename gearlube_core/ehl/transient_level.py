@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.checks import check_positive, check_within
+from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.ehl.point_level import FilmState, PointLevel
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.ehl.scaling import PointScales
@@ -17,6 +17,7 @@ from gearlube_core.errors import ParameterError
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _STEEPEST = 20.0  # of entrainment against x
+_EVEN = 1e-9  # spread of sliding along x over that along y
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +34,10 @@ class FilmConditions:
         Surface speeds along x [m/s]; their mean is above zero. They may vary across the motion,
         not along it.
     slope : float
-        Entrainment along y over that along x [1], not below zero; sliding along y is left out.
+        Entrainment along y over that along x [1], not below zero.
+    side_sliding : float
+        Speed along y of surface 2 less that of surface 1 [m/s], on all rows; where it is not
+        zero the sliding along x must not vary either. It acts in an Eyring film alone.
     """
 
     gap: Array
@@ -41,6 +45,7 @@ class FilmConditions:
     speed_1: Array
     speed_2: Array
     slope: float = 0.0
+    side_sliding: float = 0.0
 
 
 # (x, y, time) to what acts then: nodes [m], shapes (nx,) and (ny,); time [s]
@@ -94,7 +99,8 @@ class MovingLevel(PointLevel):
         self.gap = np.ascontiguousarray(conditions.gap.T / scales.film)
         self.rate = (mean / scales.speed)[:, None]
         if self.shear is not None:
-            self.shear.couette = self.shear.unit * (conditions.speed_2 - conditions.speed_1)
+            sliding = conditions.speed_2 - conditions.speed_1
+            self.shear.slide(sliding, _side_sliding(conditions, sliding))
 
     def open_where_thicker(self, film: Array, limit: float) -> None:
         """Hold ambient pressure where a film [m over the unit of films] passes a limit [m]."""
@@ -111,3 +117,15 @@ class MovingLevel(PointLevel):
         """Return what flows into every node without storage and source."""
         assert self.storage is not None
         return np.asarray(state.residual - self.source + self.storage * state.mass)
+
+
+def _side_sliding(conditions: FilmConditions, along: Array) -> float:
+    """Return the sliding along y [m/s] where all rows slide in one direction."""
+    side = check_finite("side_sliding", conditions.side_sliding, "m/s")
+    spread = float(np.ptp(along))
+    if side != 0.0 and spread > _EVEN * abs(side):
+        raise ParameterError(
+            f"sliding along x must not vary over the rows where side_sliding is {side:.4g} m/s, "
+            f"got a spread of {spread:.4g} m/s. Turn the axes along sliding."
+        )
+    return side

@@ -1,12 +1,14 @@
 """Films of hypoid flanks against what must hold whatever the axes, the time or the load."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.hypoid_cycle import march_flank, steady_films
+from gearlube_core.ehl.hypoid_film import FLOWS
 from gearlube_core.ehl.hypoid_traction import flank_traction
 from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
@@ -52,6 +54,28 @@ def test_a_turned_gap_under_straight_entrainment_is_the_oblique_contact():
     assert second.central_film == pytest.approx(first.central_film, rel=3e-3)
     assert second.minimum_film == pytest.approx(first.minimum_film, rel=0.015)
     assert second.load == pytest.approx(first.load, rel=1e-6)
+
+
+def test_without_sliding_to_speak_of_only_slopes_of_pressure_thin_the_oil():
+    """Eyring's flow is the Newtonian one where no stress nears tau0, at rest and in time."""
+    cycle = flank_cycle()
+    film = hypoid_film(lasting(cycle, float(cycle.time[15]), np.linspace(0.0, 3e-4, 5)))
+    stiff = replace(film, lubricant=film.lubricant._replace(tau0=1e12))
+    stiff, newtonian = (march_flank(replace(stiff, flow=flow), 2, BETA) for flow in FLOWS)
+    # stresses reach 1e9 Pa, 1e-3 of tau0: factors of 1 + 1e-6 where the film feels them least
+    np.testing.assert_allclose(stiff["central_film"], newtonian["central_film"], rtol=1e-5)
+    np.testing.assert_allclose(stiff["minimum_film"], newtonian["minimum_film"], rtol=1e-5)
+
+
+def test_oil_sheared_thin_leaves_less_film_the_faster_it_slides():
+    cycle = flank_cycle()
+    film = hypoid_film(lasting(cycle, float(cycle.time[15]), np.linspace(0.0, 3e-4, 5)))
+    faster = replace(film.cycle, sliding=3.0 * film.cycle.sliding)
+    films = [
+        steady_films(one, one.cycle.time[:1], BETA)["central_film"][0]
+        for one in (replace(film, flow="newtonian"), film, replace(film, cycle=faster))
+    ]
+    assert films[0] > 1.005 * films[1] > 1.01 * films[2]
 
 
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from drivetrain.ehl.point_traction import point_traction
 from gearlube_core.ehl.lubricant import ehl_lubricant
 from gearlube_core.ehl.point_solver import solve_point_contact
+from gearlube_core.ehl.point_traction import point_traction
 from gearlube_core.ehl.problem import elliptical_contact
 from gearlube_core.ehl.settings import PointSolverSettings
 
@@ -31,7 +31,9 @@ def film_and_friction(nodes: int, angle: float) -> np.ndarray:
         side=6.0,
     )
     solution = solve_point_contact(problem, PointSolverSettings(wedge="quick"))
-    friction = point_traction(solution, (0.5 * along[0], 0.5 * along[1])).force
+    friction = point_traction(
+        problem.x, problem.y, solution.pressure, solution.film, problem.sliding, problem.lubricant
+    ).force
     return np.array([solution.central_film, solution.minimum_film, friction])
 
 

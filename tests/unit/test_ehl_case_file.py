@@ -135,3 +135,11 @@ def test_a_point_slides_where_its_oil_has_an_eyring_stress():
     assert point(**speeds).problem().sliding is None
     sheared = point(oil={**OIL, "eyring_stress_mpa": 5.0}, **speeds).problem()
     assert sheared.sliding == pytest.approx((-2.0, 1.0))
+
+
+def test_a_point_contact_is_discretised_as_its_file_says():
+    assert point().settings().discretisation == "differences"
+    case = point(solver={"discretisation": "elements"})
+    assert case.settings().discretisation == "elements"
+    with pytest.raises(ParameterError, match=r"solver\.discretisation must be a text, differences"):
+        point(solver={"discretisation": "volumes"})

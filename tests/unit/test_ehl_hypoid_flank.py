@@ -77,6 +77,8 @@ def test_conditions_hold_load_speeds_and_the_paraboloid_of_the_time():
     u, v = cycle.entrainment[10]
     assert now.slope == pytest.approx(v / u)
     np.testing.assert_allclose(0.5 * (now.speed_1 + now.speed_2), u)
+    np.testing.assert_allclose(now.speed_2 - now.speed_1, cycle.sliding[10, 0])
+    assert now.side_sliding == pytest.approx(cycle.sliding[10, 1])
     expected = x[:, None] ** 2 / (2 * cycle.R_x[10]) + y**2 / (2 * cycle.R_y[10])
     np.testing.assert_allclose(now.gap, expected)
     # the domain of the march holds the ellipse of every instant

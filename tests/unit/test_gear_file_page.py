@@ -7,6 +7,7 @@ import pytest
 
 from docs import ehl_case_file, gear_file, helical_gear_file
 from gearlube_core.ehl.case_file import LineCase, PointCase
+from gearlube_core.ehl.hypoid_case_file import HypoidCase
 from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.input_file.field_notes import field_notes
@@ -15,7 +16,7 @@ FOLDER = Path(__file__).parents[2] / "docs"
 PAGES = {
     gear_file: (HypoidGearFile,),
     helical_gear_file: (HelicalGearFile,),
-    ehl_case_file: (LineCase, PointCase),
+    ehl_case_file: (LineCase, PointCase, HypoidCase),
 }
 
 

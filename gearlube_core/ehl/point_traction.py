@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube_core.ehl.line_traction import fill_mean_stress
-from gearlube_core.ehl.lubricant import fill_properties
-from gearlube_core.ehl.solution import PointSolution
+from gearlube_core.ehl.lubricant import EhlLubricant, fill_properties
 
-Array = NDArray[np.float64]
+Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 class PointTraction(NamedTuple):
@@ -24,17 +22,28 @@ class PointTraction(NamedTuple):
     force: float  # of the mid-film stress along the sliding velocity [N]
 
 
-def point_traction(solution: PointSolution, sliding: tuple[float, float]) -> PointTraction:
+def point_traction(
+    x: Array,
+    y: Array,
+    pressure: Array,
+    film: Array,
+    sliding: tuple[float, float],
+    oil: EhlLubricant,
+) -> PointTraction:
     """Return the shear stress at mid-film, along the velocity of body 2 against body 1.
 
     tau_m = eta |du|/h, or tau0 asinh(a s/sinh s) with s = h (dp/ds)/(2 tau0), at most the limit
 
     Parameters
     ----------
-    solution
-        Film of the contact.
+    x, y : ndarray, shapes (nx,) and (ny,)
+        Nodes [m].
+    pressure, film : ndarray, shape (nx, ny)
+        p [Pa] and h [m].
     sliding
         u_2 - u_1 along x and y [m/s].
+    oil
+        Newtonian where its Eyring stress is zero.
 
     Notes
     -----
@@ -42,18 +51,15 @@ def point_traction(solution: PointSolution, sliding: tuple[float, float]) -> Poi
     the film is broken the gap counts as full of oil at ambient pressure.
     Source: Jamali 2015 eq. (3.29a), (3.31), along the sliding.
     """
-    problem = solution.problem
-    p, oil = solution.pressure.ravel(), problem.lubricant
-    eta, eta_slope, rho, rho_slope = (np.empty(p.size) for _ in range(4))
+    shape, p = pressure.shape, np.ascontiguousarray(pressure).ravel()
+    eta, eta_slope, rho, rho_slope, tau = (np.empty(p.size) for _ in range(5))
     fill_properties(oil, p, eta, eta_slope, rho, rho_slope)
     speed = math.hypot(*sliding)
     along = (sliding[0] / speed, sliding[1] / speed) if speed > 0.0 else (1.0, 0.0)
-    slopes = np.gradient(solution.pressure, problem.x, problem.y)
-    slope = along[0] * slopes[0] + along[1] * slopes[1]
-    tau = np.empty(p.size)
-    film = np.ascontiguousarray(solution.film).ravel()
-    fill_mean_stress(p, slope.ravel(), film, np.zeros(p.size), eta, speed, oil, tau)
-    shape = solution.pressure.shape
-    mean_stress = tau.reshape(shape)
-    force = np.trapezoid(np.trapezoid(mean_stress, problem.y, axis=1), problem.x)
-    return PointTraction(eta.reshape(shape), rho.reshape(shape), mean_stress, float(force))
+    slopes = np.gradient(pressure, x, y)
+    slope = np.ascontiguousarray(along[0] * slopes[0] + along[1] * slopes[1]).ravel()
+    h = np.ascontiguousarray(film).ravel()
+    fill_mean_stress(p, slope, h, np.zeros(p.size), eta, speed, oil, tau)
+    stress = tau.reshape(shape)
+    force = float(np.trapezoid(np.trapezoid(stress, y, axis=1), x))
+    return PointTraction(eta.reshape(shape), rho.reshape(shape), stress, force)
