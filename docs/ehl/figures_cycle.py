@@ -148,7 +148,7 @@ def speeds(store: Store) -> Any:
         figure = new_figure(8.2, 4.0)
         left, right = figure.subplots(1, 2)
         for row, s in enumerate(SPEEDS):
-            films = [store.steady(FilmCase(speed=s), n) for n in POSITIONS]
+            films = [store.steady(FilmCase(speed=s, nodes=FACETED), n) for n in POSITIONS]
             march = store.march(FilmCase(speed=s, nodes=CYCLE), 500 - APPROACH, 500)
             colour, scale = SERIES[row], UM / s**0.68
             left.plot(POSITIONS, [GPA * f.max_pressure for f in films], "o", color=colour)

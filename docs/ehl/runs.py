@@ -77,7 +77,7 @@ def _at_rest() -> list[Run]:
     films = [(FilmCase(crown_start=f), 300) for f in CROWNS]
     films += [(parabola_case("a", k), 500) for k in PARABOLAS]
     films += [(power_case("b", b), n) for b in POWERS for n in (75, 500)]
-    films += [(FilmCase(speed=s), n) for s in SPEEDS for n in POSITIONS]
+    films += [(FilmCase(speed=s, nodes=FACETED), n) for s in SPEEDS for n in POSITIONS]
     films += [(FilmCase(facets=n, nodes=FACETED), 300) for n in reversed(FACETS)]
     films += [(power_case("a", b), n) for b in POWERS for n in (75, 500)]
     films += [(FilmCase(facets=n, nodes=FACETED), s) for n in (100, 40) for s in FACET_STEPS]
