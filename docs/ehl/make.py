@@ -19,6 +19,8 @@ from docs.ehl.claims_cycle import CYCLES
 from docs.ehl.claims_facets import FACETED_FLANKS
 from docs.ehl.claims_motion import MOTIONS
 from docs.ehl.claims_relief import RELIEFS
+from docs.ehl.film_map_page import film_map_section
+from docs.ehl.micro_cavity_page import micro_cavity_section
 from docs.ehl.pages import claims_table, counts, dry_table, grid_table, size
 from docs.ehl.pictures import CYCLE_PICTURES, FACET_PICTURES, SMOOTH_PICTURES, shown
 from docs.ehl.runs import all_runs, do_runs
@@ -68,7 +70,17 @@ def _open(_: Store) -> str:
 
 
 # in the order of the page; further studies of films add theirs
-SECTIONS: tuple[Section, ...] = (_method, _smooth, _facets, _dry, _grids, _failures, _open)
+SECTIONS: tuple[Section, ...] = (
+    _method,
+    _smooth,
+    _facets,
+    _dry,
+    _grids,
+    _failures,
+    film_map_section,
+    micro_cavity_section,
+    _open,
+)
 
 
 def main() -> None:

@@ -1,0 +1,242 @@
+"""Films of a map of smooth elliptical contacts and what the published formulas give for them.
+
+Loads and materials are the groups of Moes with the radius along the short axis of the contact.
+Every contact is solved on two grids; the finer one counts and both tell the error of the grid.
+"""
+
+from __future__ import annotations
+
+import csv
+import logging
+import math
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+
+from docs.ehl.store import Store
+from drivetrain.ehl.formulas import point_film_formulas
+from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
+from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.point_solver import solve_point_contact
+from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
+
+logger = logging.getLogger("docs.ehl")
+
+ELLIPTICITIES = (1.0, 2.0, 3.0, 5.0, 8.0)  # those of Hamrock and Dowson 1977: one to eight
+LOADS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
+MATERIALS = (2.5, 5.0, 10.0, 15.0)
+ANGLES = (0.0, 30.0, 60.0, 90.0)  # of entrainment against the short axis, degrees
+TURNED = tuple((k, M, L) for k in (2.0, 3.0) for M, L in ((20.0, 5.0), (50.0, 10.0), (200.0, 10.0)))
+REFINED = ((1.0, 20.0, 5.0), (1.0, 200.0, 10.0), (3.0, 100.0, 10.0), (8.0, 200.0, 15.0))
+COARSE, FINE, FINEST = 129, 257, 513
+# an order of magnitude of load, as in the fits of Hamrock and Dowson and of Chittenden et al.
+FITTED_LOADS = (1e-7, 1e-6)  # W = F/(E' R_x^2)
+FITTED_SPEEDS = (5e-13, 1e-10)  # U = eta0 u/(E' R_x)
+
+RADIUS = 0.01  # m, along the short axis
+REDUCED_MODULUS = 2.26e11  # Pa
+ALPHA = 2e-8  # 1/Pa
+ETA0 = 0.04  # Pa s
+_LIMITED = 0.01  # share of first-order faces from which a film is told apart
+HAMROCK_DOWSON, CHITTENDEN = "Hamrock and Dowson 1977", "Chittenden et al. 1985"
+NIJENBANNING = "Nijenbanning et al. 1994"
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A contact of the map; entrainment at `angle` [degree] to the short axis."""
+
+    ellipticity: float  # a_y/a_x of the dry contact
+    M: float
+    L: float
+    angle: float = 0.0
+
+    @property
+    def radius_ratio(self) -> float:
+        """Return R_y/R_x."""
+        return math.exp(log_curvature_ratio(math.log(self.ellipticity)))
+
+    @property
+    def speed_group(self) -> float:
+        """Return U."""
+        return 0.5 * (self.L / (ALPHA * REDUCED_MODULUS)) ** 4
+
+    @property
+    def load_group(self) -> float:
+        """Return W."""
+        return self.M * (2.0 * self.speed_group) ** 0.75
+
+    @property
+    def fitted(self) -> bool:
+        """Return whether load and speed lie where the formulas were fitted."""
+        (low, high), (slow, fast) = FITTED_LOADS, FITTED_SPEEDS
+        return low <= self.load_group <= high and slow <= self.speed_group <= fast
+
+    def problem(self, nodes: int) -> PointContactProblem:
+        """Return the contact on a square number of nodes."""
+        speed = self.speed_group * REDUCED_MODULUS * RADIUS / ETA0
+        psi = math.radians(self.angle)
+        return elliptical_contact(
+            R_x=RADIUS,
+            R_y=RADIUS * self.radius_ratio,
+            entrainment=(speed * math.cos(psi), speed * math.sin(psi)),
+            load=self.load_group * REDUCED_MODULUS * RADIUS**2,
+            contact_modulus=0.5 * REDUCED_MODULUS,
+            lubricant=ehl_lubricant(eta0=ETA0, alpha=ALPHA),
+            nodes=(nodes, nodes),
+        )
+
+    def formulas(self) -> dict[tuple[str, str], float]:
+        """Return films [m] of the formulas by quantity and source."""
+        found = point_film_formulas(self.problem(COARSE))
+        return {(one.quantity, one.source): one.film for one in found}
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """Film of a contact on one grid."""
+
+    contact: Contact
+    nodes: int
+    converged: bool
+    wedge: str  # stencil of the answer
+    limited: float  # share of first-order faces
+    central: float  # [m]
+    minimum: float  # [m]
+    seconds: float  # of the processor
+
+    @property
+    def sound(self) -> bool:
+        """Return whether it converged with the stencil that was asked for, unlimited."""
+        return self.converged and self.wedge == "upwind-2" and self.limited <= _LIMITED
+
+    def height(self, quantity: str) -> float:
+        """Return the film [m] of a quantity of the formulas."""
+        return self.central if quantity == "central film" else self.minimum
+
+    def ratio(self, quantity: str, source: str) -> float:
+        """Return this film over that of a formula."""
+        return self.height(quantity) / self.contact.formulas()[quantity, source]
+
+
+def solve(contact: Contact, nodes: int) -> Film:
+    """Return the film of a contact, converged or not."""
+    began = time.process_time()
+    found = solve_point_contact(contact.problem(nodes), throw=False)
+    return Film(
+        contact,
+        nodes,
+        found.outcome.converged,
+        found.outcome.wedge,
+        found.outcome.limited,
+        found.central_film,
+        found.minimum_film,
+        time.process_time() - began,
+    )
+
+
+def map_contacts() -> list[Contact]:
+    """Return the contacts entrained along their short axes."""
+    return [Contact(k, M, L) for k in ELLIPTICITIES for M in LOADS for L in MATERIALS]
+
+
+def turned_contacts() -> list[Contact]:
+    """Return the contacts entrained at an angle; 0 degrees among them."""
+    return [Contact(*group, angle) for group in TURNED for angle in ANGLES]
+
+
+def refined_contacts() -> list[Contact]:
+    """Return the contacts that are solved on a third grid."""
+    return [Contact(*group) for group in REFINED]
+
+
+Films = dict[tuple[Contact, int], Film]
+
+
+def all_films(store: Store) -> Films:
+    """Return the films of the map, those not in the folder computed if the store does that."""
+    path = store.folder / "film_map.csv"
+    films = read_films(path)
+    wanted = [(c, n) for c in (*map_contacts(), *turned_contacts()) for n in (COARSE, FINE)]
+    wanted += [(c, FINEST) for c in refined_contacts()]
+    missing = [key for key in dict.fromkeys(wanted) if key not in films]
+    if not store.compute:
+        return films
+    for n, (contact, nodes) in enumerate(missing, 1):
+        if n % 20 == 1:
+            logger.info("film map, %d of %d", n, len(missing))
+        films[contact, nodes] = solve(contact, nodes)
+        add_film(path, films[contact, nodes])
+    return films
+
+
+_GROUPS = tuple(field.name for field in fields(Contact))
+_FOUND = tuple(field.name for field in fields(Film))[1:]
+
+
+def add_film(path: Path, film: Film) -> None:
+    """Write a film after those of a file, which is made if it is not there."""
+    new = not path.exists()
+    with path.open("a", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        if new:
+            writer.writerow((*_GROUPS, *_FOUND))
+        values = [getattr(film.contact, name) for name in _GROUPS]
+        writer.writerow([*values, *(getattr(film, name) for name in _FOUND)])
+
+
+def read_films(path: Path) -> Films:
+    """Return the films of a file; none where there is no file."""
+    films: Films = {}
+    if not path.exists():
+        return films
+    with path.open(newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            if None in row.values():  # cut off while it was written
+                continue
+            contact = Contact(*(float(row[name]) for name in _GROUPS))
+            numbers = [float(row[name]) for name in ("limited", "central", "minimum", "seconds")]
+            nodes, sound = int(row["nodes"]), row["converged"] == "True"
+            films[contact, nodes] = Film(contact, nodes, sound, row["wedge"], *numbers)
+    return films
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """How the films of some contacts lie about a formula; what failed lies outside any limit."""
+
+    count: int
+    failed: int
+    mean: float  # of film over formula, of those that converged
+    deviation: float
+    low: float
+    high: float
+    within: tuple[float, ...]  # shares of all within the limits asked for
+
+
+def spread(ratios: Sequence[float], failed: int, limits: Iterable[float]) -> Spread:
+    """Return the spread of ratios, with as many failures more."""
+    count = len(ratios) + failed
+    mean = sum(ratios) / len(ratios) if ratios else math.nan
+    squares = sum((ratio - mean) ** 2 for ratio in ratios)
+    return Spread(
+        count,
+        failed,
+        mean,
+        math.sqrt(squares / max(len(ratios) - 1, 1)),
+        min(ratios, default=math.nan),
+        max(ratios, default=math.nan),
+        tuple(sum(abs(ratio - 1.0) <= limit for ratio in ratios) / count for limit in limits),
+    )
+
+
+def grid_error(films: Films, contact: Contact, quantity: str) -> float:
+    """Return the error of the finer grid's film, a third of what halving the spacing changed."""
+    coarse, fine = films[contact, COARSE], films[contact, FINE]
+    return abs(fine.height(quantity) / coarse.height(quantity) - 1.0) / 3.0
+
+
+def along_short_axis(contact: Contact) -> Contact:
+    """Return the contact entrained along its short axis."""
+    return replace(contact, angle=0.0)

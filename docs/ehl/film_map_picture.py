@@ -1,0 +1,94 @@
+"""Picture of solved films over published formulas."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from docs.ehl.film_map import (
+    ANGLES,
+    CHITTENDEN,
+    ELLIPTICITIES,
+    FINE,
+    HAMROCK_DOWSON,
+    MATERIALS,
+    NIJENBANNING,
+    TURNED,
+    Contact,
+    Films,
+    map_contacts,
+)
+from drivetrain.figures.style import MARKERS, SERIES, house_style, new_figure
+
+_PANELS = (
+    ("central film", HAMROCK_DOWSON),
+    ("central film", CHITTENDEN),
+    ("central film", NIJENBANNING),
+    ("minimum film", HAMROCK_DOWSON),
+    ("minimum film", CHITTENDEN),
+)
+_BANDS = ((0.2, 0.10), (0.1, 0.15))  # half width and strength
+_SPREAD = 0.035  # of markers of one load, in decades
+
+
+def draw(films: Films) -> Any:
+    """Return ratios over load, colours for ellipticities and markers for materials."""
+    with house_style():
+        figure = new_figure(11.0, 6.8)
+        axes = figure.subplots(2, 3, sharey=True)
+        for ax, (quantity, source) in zip(axes.flat, _PANELS, strict=False):
+            _ratios(ax, films, quantity, source)
+        _angles(axes[1, 2], films)
+        for ax in axes.flat:
+            for half, strength in _BANDS:
+                ax.axhspan(1.0 - half, 1.0 + half, color="grey", alpha=strength, zorder=0)
+        for ax in axes[:, 0]:
+            ax.set_ylabel("film over formula")
+        handles = [
+            axes[0, 0].plot([], [], "o", color=colour, label=f"$a_y/a_x$ = {k:g}")[0]
+            for k, colour in zip(ELLIPTICITIES, SERIES, strict=False)
+        ] + [
+            axes[0, 0].plot([], [], marker, color="black", label=f"L = {L:g}")[0]
+            for L, marker in zip(MATERIALS, MARKERS, strict=False)
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+        return figure
+
+
+def _ratios(ax: Any, films: Films, quantity: str, source: str) -> None:
+    for contact in map_contacts():
+        film = films.get((contact, FINE))
+        if film is None:
+            continue
+        place = ELLIPTICITIES.index(contact.ellipticity)
+        x = contact.M * 10.0 ** (_SPREAD * (place - 0.5 * (len(ELLIPTICITIES) - 1)))
+        if not film.converged:
+            ax.plot(x, 1.0, "x", color=SERIES[place], markersize=8)
+            continue
+        ax.plot(
+            x,
+            film.ratio(quantity, source),
+            MARKERS[MATERIALS.index(contact.L)],
+            color=SERIES[place],
+            # open: outside the loads and speeds where the formulas were fitted
+            markerfacecolor=SERIES[place] if contact.fitted else "none",
+        )
+    ax.set_xscale("log")
+    ax.set_xlabel("load M")
+    ax.set_title(f"{quantity}, {source}")
+
+
+def _angles(ax: Any, films: Films) -> None:
+    for k, M, L in TURNED:
+        found = [films.get((Contact(k, M, L, angle), FINE)) for angle in ANGLES]
+        good = [film for film in found if film is not None and film.converged]
+        for quantity, line in (("central film", "-"), ("minimum film", "--")):
+            ax.plot(
+                [film.contact.angle for film in good],
+                [film.ratio(quantity, CHITTENDEN) for film in good],
+                line,
+                marker=MARKERS[MATERIALS.index(L)],
+                color=SERIES[ELLIPTICITIES.index(k)],
+            )
+    ax.set_xticks(ANGLES)
+    ax.set_xlabel("entrainment to the short axis [degree]")
+    ax.set_title("Chittenden et al. at an angle; dashed: smallest film")
