@@ -11,13 +11,14 @@ import logging
 import math
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from pathlib import Path
 
 from docs.ehl.store import Store
 from drivetrain.ehl.formulas import point_film_formulas
 from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
 from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.nijenbanning_1994 import regime_films
 from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
 
@@ -72,6 +73,16 @@ class Contact:
         """Return whether load and speed lie where the formulas were fitted."""
         (low, high), (slow, fast) = FITTED_LOADS, FITTED_SPEEDS
         return low <= self.load_group <= high and slow <= self.speed_group <= fast
+
+    @property
+    def rigid(self) -> bool:
+        """Return whether rigid solids have a thicker film than elastic ones with a thick oil.
+
+        After the regimes of Nijenbanning, Venner and Moes 1994.
+        """
+        films = regime_films(self.M, self.L, 1.0 / self.radius_ratio)
+        piezoviscous = min(films.elastic_piezoviscous, films.rigid_piezoviscous)
+        return films.rigid_isoviscous > piezoviscous
 
     def problem(self, nodes: int) -> PointContactProblem:
         """Return the contact on a square number of nodes."""
@@ -235,8 +246,3 @@ def grid_error(films: Films, contact: Contact, quantity: str) -> float:
     """Return the error of the finer grid's film, a third of what halving the spacing changed."""
     coarse, fine = films[contact, COARSE], films[contact, FINE]
     return abs(fine.height(quantity) / coarse.height(quantity) - 1.0) / 3.0
-
-
-def along_short_axis(contact: Contact) -> Contact:
-    """Return the contact entrained along its short axis."""
-    return replace(contact, angle=0.0)

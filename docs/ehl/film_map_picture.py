@@ -27,11 +27,15 @@ _PANELS = (
     ("minimum film", CHITTENDEN),
 )
 _BANDS = ((0.2, 0.10), (0.1, 0.15))  # half width and strength
+_TICKS = (0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0)
 _SPREAD = 0.035  # of markers of one load, in decades
 
 
 def draw(films: Films) -> Any:
-    """Return ratios over load, colours for ellipticities and markers for materials."""
+    """Return ratios over load, colours for ellipticities and markers for materials.
+
+    Open markers: rigid contacts.
+    """
     with house_style():
         figure = new_figure(11.0, 6.8)
         axes = figure.subplots(2, 3, sharey=True)
@@ -41,6 +45,9 @@ def draw(films: Films) -> Any:
         for ax in axes.flat:
             for half, strength in _BANDS:
                 ax.axhspan(1.0 - half, 1.0 + half, color="grey", alpha=strength, zorder=0)
+            ax.set_yscale("log")
+            ax.set_yticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
+            ax.minorticks_off()
         for ax in axes[:, 0]:
             ax.set_ylabel("film over formula")
         handles = [
@@ -69,8 +76,7 @@ def _ratios(ax: Any, films: Films, quantity: str, source: str) -> None:
             film.ratio(quantity, source),
             MARKERS[MATERIALS.index(contact.L)],
             color=SERIES[place],
-            # open: outside the loads and speeds where the formulas were fitted
-            markerfacecolor=SERIES[place] if contact.fitted else "none",
+            markerfacecolor="none" if contact.rigid else SERIES[place],
         )
     ax.set_xscale("log")
     ax.set_xlabel("load M")
@@ -91,4 +97,4 @@ def _angles(ax: Any, films: Films) -> None:
             )
     ax.set_xticks(ANGLES)
     ax.set_xlabel("entrainment to the short axis [degree]")
-    ax.set_title("Chittenden et al. at an angle; dashed: smallest film")
+    ax.set_title("Chittenden et al. at an angle; dashed: minimum")

@@ -24,7 +24,7 @@ from docs.helical.pages import table
 from drivetrain.figures.style import BLUE, GREY, VERMILLION, house_style, new_figure
 
 IMAGES = Path(__file__).resolve().parents[1] / "images"
-NODES = (193, 129)
+NODES = (161, 97)
 _NM, _UM, _MPA = 1e9, 1e6, 1e-6
 
 

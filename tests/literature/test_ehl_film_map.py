@@ -7,7 +7,7 @@ import pytest
 from docs.ehl.film_map import CHITTENDEN, HAMROCK_DOWSON, NIJENBANNING, Contact, solve
 
 CENTRAL, MINIMUM = "central film", "minimum film"
-NODES = 97  # central films within 2 %, smallest ones within 3 % of those on 257 by 257
+NODES = 97  # films of these contacts lie within 1 % of those on 257 by 257
 CONTACTS = (
     Contact(1.0, 20.0, 5.0),
     Contact(1.0, 50.0, 10.0),
@@ -37,9 +37,9 @@ def test_central_films_lie_within_the_scatter_of_the_formulas(contact):
 
 @pytest.mark.parametrize("contact", CONTACTS)
 def test_smallest_films_lie_within_the_scatter_of_the_formulas(contact):
-    # Koye and Winer 1981 measured 30 % more than Hamrock and Dowson's
+    # 10 % to 20 % as above, at loads and ellipticities where the formulas hold
     for source in (HAMROCK_DOWSON, CHITTENDEN):
-        assert film(contact).ratio(MINIMUM, source) == pytest.approx(1.0, abs=0.3)
+        assert film(contact).ratio(MINIMUM, source) == pytest.approx(1.0, abs=0.2)
 
 
 def test_central_over_smallest_film_grows_with_load_and_the_formulas_do_not_know():

@@ -53,6 +53,25 @@ def test_contact_has_its_groups_and_ellipticity(contact):
     assert math.degrees(math.atan2(v, u)) == pytest.approx(contact.angle, abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("contact", "rigid"),
+    [
+        (Contact(8.0, 10.0, 10.0), True),
+        (Contact(5.0, 10.0, 2.5), True),
+        (Contact(1.0, 100.0, 10.0), False),
+        (Contact(8.0, 200.0, 5.0), False),
+    ],
+)
+def test_rigid_contacts_are_those_where_kapitzas_film_is_the_thicker_one(contact, rigid):
+    problem = contact.problem(33)
+    R_x, R_y = problem.hertz.R_x, problem.hertz.R_y
+    # Kapitza 1955: W = 12 pi eta u R_x/(3 + 2 R_x/R_y) (2 R_y/h)^(1/2)
+    flow = 12.0 * math.pi * problem.lubricant.eta0 * problem.entrainment[0] * R_x
+    kapitza = 2.0 * R_y * (flow / (3.0 + 2.0 * R_x / R_y) / problem.load) ** 2
+    elastic = contact.formulas()["central film", "Hamrock and Dowson 1977"]
+    assert contact.rigid == rigid == (kapitza > elastic)
+
+
 def test_failures_lie_outside_every_limit():
     found = spread([0.95, 1.15, 1.25], 1, (0.1, 0.2, 0.3))
     assert (found.count, found.failed) == (4, 1)
