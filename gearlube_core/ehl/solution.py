@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlube_core.ehl.border_pressure import border_pressure
 from gearlube_core.ehl.point_level import FilmState, PointLevel
 from gearlube_core.ehl.point_limiter import limited_faces
 from gearlube_core.ehl.point_newton import NewtonRecord, flow_residual
@@ -40,7 +41,7 @@ class PointOutcome:
         Share of the faces under pressure where rho h falls by more than a factor of 2 in a cell
         or so and the stencil is limited to first order [1]; 0 on grids that resolve the inlet.
     sentence
-        What happened and what to do.
+        What happened and what to do, also where the domain cuts the contact.
     """
 
     converged: bool
@@ -83,11 +84,13 @@ class PointOutcome:
             good += " the inlet or the sides for this film; take more."
         if record.first_order:
             good += f" With upwind-1: too few nodes for {settings.wedge} at this film; take more."
+        beside = border_pressure(*map(level.scales.outward, (state.pressure, state.film)))
         sentence = (
             good
             if not failed
             else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
         )
+        sentence += beside.sentence
         return cls(not failed, residual, state.load_error, smallest, wedge, share, sentence)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlube_core.ehl.border_pressure import border_pressure
 from gearlube_core.ehl.lubricant import EhlLubricant
 from gearlube_core.ehl.point_level import FilmState
 from gearlube_core.ehl.point_newton import flow_residual
@@ -147,7 +148,7 @@ class FilmSolution:
     load_error: float  # missing share of the load [1]
     residual: float  # unbalanced flow over the flow through the dry width [1]
     converged: bool
-    outcome: str  # what happened and what to do
+    outcome: str  # what happened and what to do, also where the domain cuts the contact
     newton_steps: int
     krylov_steps: int
     seconds: float
@@ -161,6 +162,11 @@ class FilmSolution:
     def minimum_film(self) -> float:
         """Return the smallest film [m]."""
         return float(self.film.min())
+
+    @property
+    def border_pressure(self) -> float:
+        """Return the largest pressure one node from the border over the largest of all [1]."""
+        return border_pressure(self.pressure, self.film).share
 
     @property
     def loaded_length(self) -> float:
@@ -207,18 +213,20 @@ def film_solution(
     residual = flow_residual(level, state)
     failed = _failures(state.pressure, state.film, residual, state.load_error, settings)
     pressure = scales.outward(state.pressure) * scales.pressure
+    height = scales.outward(state.film) * scales.film
+    cut = border_pressure(pressure, height).sentence
     return FilmSolution(
         time=time,
         x=film.x,
         y=film.y,
         pressure=pressure,
-        film=scales.outward(state.film) * scales.film,
+        film=height,
         approach=state.approach * scales.film,
         load=level.integral(state.pressure) * scales.pressure * scales.length**2,
         load_error=state.load_error,
         residual=residual,
         converged=not failed,
-        outcome=_outcome(failed, newton_steps, _STEADY_CURE if steady else _CURE),
+        outcome=_outcome(failed, newton_steps, _STEADY_CURE if steady else _CURE) + cut,
         newton_steps=newton_steps,
         krylov_steps=krylov_steps,
         seconds=seconds,
@@ -262,7 +270,7 @@ def unpack_solutions(
             pressure=pressure,
             film=height,
             converged=not failed,
-            outcome=_outcome(failed, newton_steps),
+            outcome=_outcome(failed, newton_steps) + border_pressure(pressure, height).sentence,
             newton_steps=newton_steps,
             krylov_steps=int(krylov_steps),
         )

@@ -1,0 +1,63 @@
+"""Pressure beside the border of a domain: whether the domain cuts the contact."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_CUT = 0.01  # share of the largest pressure worth a word
+_END = 20.0  # film on the border over the film beside it, from where solids end there
+
+
+class BorderPressure(NamedTuple):
+    """Largest pressure one node from the border.
+
+    Parameters
+    ----------
+    share
+        Over the largest pressure of all [1].
+    side
+        Of the domain: "small x", "large x", "small y" or "large y".
+    """
+
+    share: float
+    side: str
+
+    @property
+    def sentence(self) -> str:
+        """Return what an outcome says about it: nothing where the contact lies inside."""
+        if not self.share > _CUT:
+            return ""
+        return (
+            f" The domain cuts the contact: pressure one node from the border at {self.side} is "
+            f"{100.0 * self.share:.2g} % of the largest. Widen the domain there."
+        )
+
+
+def border_pressure(pressure: Array, film: Array) -> BorderPressure:
+    """Return the largest pressure one node from the border, and the side it lies on.
+
+    A border where the film is twenty times that of the node beside it is an end of the solids,
+    such as the side face of a tooth: pressure beside it is no sign of a cut.
+
+    Parameters
+    ----------
+    pressure, film : ndarray
+        Of any unit, shape (nx, ny), 3 nodes and more either way.
+    """
+    sides = {
+        "small x": (pressure[1], film[1], film[0]),
+        "large x": (pressure[-2], film[-2], film[-1]),
+        "small y": (pressure[:, 1], film[:, 1], film[:, 0]),
+        "large y": (pressure[:, -2], film[:, -2], film[:, -1]),
+    }
+    highest = float(pressure.max())
+    found = BorderPressure(0.0, "")
+    for side, (beside, thin, thick) in sides.items():
+        largest = float(np.where(thick < _END * thin, beside, 0.0).max())
+        if largest > found.share * highest:
+            found = BorderPressure(largest / highest, side)
+    return found
