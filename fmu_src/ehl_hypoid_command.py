@@ -14,8 +14,8 @@ from gearlube_core.errors import ParameterError
 console = Console(stderr=True)
 
 _QUICK = {
-    "solver.nodes_minor": 65,
-    "solver.nodes_major": 49,
+    "solver.nodes_minor": 97,
+    "solver.nodes_major": 33,
     "solver.steps": 40,
     "solver.steady": 5,
 }

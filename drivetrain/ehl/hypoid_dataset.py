@@ -52,6 +52,7 @@ _CONTACT_NOTES = {
     "entrainment": ("m/s", "entrainment speed"),
     "psi": ("rad", "entrainment from the minor axis"),
     "sliding": ("m/s", "sliding speed"),
+    "chi": ("rad", "sliding from the minor axis"),
 }
 
 
@@ -122,7 +123,9 @@ def hypoid_dataset(
 
 def _curves(flank: HypoidFlank, curves: FilmCurves, dim: str, prefix: str) -> dict[str, Any]:
     of = [flank.film.cycle.at(float(time)) for time in curves["time"]]
-    contact = np.array([[n.phase, n.load, n.R_x, n.R_y, n.speed, n.psi, n.slip] for n in of]).T
+    contact = np.array(
+        [[n.phase, n.load, n.R_x, n.R_y, n.speed, n.psi, n.slip, n.chi] for n in of]
+    ).T
     found: dict[str, Any] = {
         prefix + "time": (dim, curves["time"], unit_note("s", "from the first loaded sample"))
     }

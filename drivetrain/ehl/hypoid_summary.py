@@ -67,6 +67,7 @@ def ratio_rows(dataset: xr.Dataset) -> list[RatioRow]:
         row("largest pressure", "solution", dataset["steady_pressure_max"].values, "Pa"),
         row("friction", "solution, heated Eyring", dataset["steady_traction_heated"].values, "1"),
         row("entrainment angle", "given", np.degrees(dataset["steady_psi"].values), "deg"),
+        row("sliding angle", "given", np.degrees(dataset["steady_chi"].values), "deg"),
         row("R_y/R_x", "given", (dataset["steady_R_y"] / dataset["steady_R_x"]).values, "1"),
     ]
     rows += [

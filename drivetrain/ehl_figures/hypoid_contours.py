@@ -39,21 +39,27 @@ def hypoid_contours(dataset: xr.Dataset) -> Any:
             figure.colorbar(drawn, ax=right, label="film [µm]")
             phase = float(dataset["steady_phase"][position])
             load = float(dataset["steady_load"][position])
-            left.set_title(f"phase {phase:.2f}, {load:.0f} N")
+            psi, chi = (float(dataset[f"steady_{name}"][position]) for name in ("psi", "chi"))
+            left.set_title(
+                f"phase {phase:.2f}, {load:.0f} N, entrainment {np.degrees(psi):.0f}°, "
+                f"sliding {np.degrees(chi):.0f}°"
+            )
             right.set_title(f"central {central:.3f} µm, smallest {film.min():.3f} µm")
-            psi = float(dataset["steady_psi"][position])
             for ax, colour in ((left, "black"), (right, "white")):
-                _plan(ax, one, reach, psi, colour)
+                _plan(ax, one, reach, colour)
+            _arrow(left, reach, psi)
             left.set_ylabel("minor axis [mm]")
         for ax in axes[-1]:
             ax.set_xlabel("major axis [mm]")
         figure.suptitle(
-            f"{dataset.attrs['name']}: steady films along the engagement", fontsize=11.5
+            f"{dataset.attrs['name']}: steady films along the engagement. Angles are from the "
+            "minor axis, arrows entrainment",
+            fontsize=11.5,
         )
     return figure
 
 
-def _plan(ax: Any, one: xr.Dataset, reach: list[float], psi: float, colour: str) -> None:
+def _plan(ax: Any, one: xr.Dataset, reach: list[float], colour: str) -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
     ax.plot(
         1e3 * float(one["semi_axis_y"]) * np.cos(turn),
@@ -62,16 +68,20 @@ def _plan(ax: Any, one: xr.Dataset, reach: list[float], psi: float, colour: str)
         lw=0.9,
         ls="--",
     )
-    ax.set(xlim=(-reach[0], reach[0]), ylim=(-1.6 * reach[1], reach[1]))
+    low, high = (1e3 * float(one["y"][end]) for end in (0, -1))
+    ax.set(xlim=(max(low, -reach[0]), min(high, reach[0])), ylim=(-1.6 * reach[1], reach[1]))
     ax.grid(visible=False)
-    length = 0.35 * reach[1]
-    start = (-0.9 * reach[0], -1.4 * reach[1])
-    # along the stretched axes, so that its foot crosses the contact where the oil does
-    along = length * np.tan(psi)
+
+
+def _arrow(ax: Any, reach: list[float], psi: float) -> None:
+    """Draw entrainment along the stretched axes, so that it crosses the contact as oil does."""
+    start = (-0.85 * reach[0], -1.35 * reach[1])
+    across = 0.5 * reach[1]
+    along = across * np.tan(psi)
     shortened = min(1.0, 0.3 * reach[0] / max(along, 1e-12))
     ax.annotate(
         "",
-        (start[0] + shortened * along, start[1] + shortened * length),
+        (start[0] + shortened * along, start[1] + shortened * across),
         start,
-        arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.4},
+        arrowprops={"arrowstyle": "->", "color": "black", "lw": 1.4},
     )

@@ -106,8 +106,13 @@ def hypoid_ratios(dataset: xr.Dataset) -> Any:
         load.plot(place, 1e-3 * dataset["steady_load"], color=BLUE)
         load.set(ylabel="load [kN]", ylim=(0.0, None), xlabel="phase of the pair [mesh periods]")
         load.yaxis.label.set_color(BLUE)
-        angle.plot(place, np.degrees(dataset["steady_psi"]), color=VERMILLION)
-        angle.set(ylabel="entrainment from the minor axis [°]", ylim=(0.0, 90.0))
+        low, high = 0.0, 90.0
+        for name, text, line in (("psi", "entrainment", "-"), ("chi", "sliding", "--")):
+            degrees = np.degrees(dataset[f"steady_{name}"])
+            angle.plot(place, degrees, color=VERMILLION, ls=line, label=text)
+            low, high = min(low, float(degrees.min())), max(high, float(degrees.max()))
+        angle.set(ylabel="from the minor axis [°]", ylim=(low, 1.05 * high))
+        angle.legend(loc="center left", bbox_to_anchor=(1.12, 0.5), fontsize=8)
         angle.yaxis.label.set_color(VERMILLION)
         angle.grid(visible=False)
         figure.suptitle(_title(dataset), fontsize=11.5)

@@ -32,8 +32,8 @@ Tolerance = Annotated[float, Field(gt=0.0, le=1e-3, allow_inf_nan=False)]
 class HypoidSolver(Section):
     """How the films of a flank are solved."""
 
-    nodes_minor: Nodes = Field(default=129, description="Along the minor axis of the contact")
-    nodes_major: Nodes = Field(default=97, description="Along the major axis")
+    nodes_minor: Nodes = Field(default=257, description="Along the minor axis of the contact")
+    nodes_major: Nodes = Field(default=65, description="Along the major axis")
     steps: Annotated[int, Field(ge=2, le=100000)] = Field(
         default=160, description="Time steps of the march"
     )

@@ -56,7 +56,7 @@ class HypoidFilm:
     cycle: FlankCycle
     lubricant: EhlLubricant
     contact_modulus: float
-    nodes: tuple[int, int] = (129, 97)
+    nodes: tuple[int, int] = (257, 65)
     flow: str = "eyring"
 
     def __post_init__(self) -> None:

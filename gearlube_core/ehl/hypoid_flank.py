@@ -32,6 +32,11 @@ class FlankInstant(NamedTuple):
         return math.atan2(self.entrainment[1], self.entrainment[0])
 
     @property
+    def chi(self) -> float:
+        """Return the angle of sliding from the minor axis towards the major one [rad]."""
+        return math.atan2(self.sliding[1], self.sliding[0])
+
+    @property
     def speed(self) -> float:
         """Return the entrainment speed [m/s]."""
         return math.hypot(*self.entrainment)
