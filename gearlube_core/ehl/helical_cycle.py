@@ -34,6 +34,9 @@ COLUMNS = (
     "newton_steps",
     "krylov_steps",
     "seconds",
+    "solid_share",
+    "touching_area",
+    "solid_pressure",
 )
 
 Progress = Callable[[int, int, FilmSolution], None]
@@ -75,6 +78,9 @@ def _row(step: float, solution: FilmSolution) -> list[float]:
         float(solution.newton_steps),
         float(solution.krylov_steps),
         solution.seconds,
+        solution.touch.share,
+        solution.touch.area,
+        solution.touch.largest,
     ]
 
 
@@ -152,7 +158,9 @@ def march_helical_cycle(
         path = Path(checkpoint)
         if path.exists():
             record = MarchRecord.read(path)
-            rows = record.curves.tolist()
+            # records of before know no touching solids
+            lacking = [0.0] * (len(COLUMNS) - record.curves.shape[1])
+            rows = [[*row, *lacking] for row in record.curves.tolist()]
     march = FilmMarch(
         film.moving_film(),
         film.time_step / substeps,

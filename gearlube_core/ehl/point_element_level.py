@@ -55,7 +55,7 @@ class ElementLevel(PointLevel):
     def _balance(self, state: FilmState, carried: Array) -> None:
         element_residual(
             self.stencil,
-            state.pressure,
+            state.oil,
             carried,
             state.cubic_x,
             self._cubic_xy(state),
@@ -73,7 +73,7 @@ class ElementLevel(PointLevel):
         by_pressure, by_film = np.empty((2, ELEMENT_NEIGHBOURS, *self.shape))
         element_derivatives(
             stencil,
-            state.pressure,
+            state.oil,
             state.cubic_x,
             self._cubic_xy(state),
             state.cubic_y,

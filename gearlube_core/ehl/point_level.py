@@ -14,6 +14,7 @@ from gearlube_core.ehl.film_shear import FilmShear, ShearFactors
 from gearlube_core.ehl.lubricant import EhlLubricant, fill_properties
 from gearlube_core.ehl.point_cross_flow import add_cross_derivatives, add_cross_flow
 from gearlube_core.ehl.point_mesh import Grading, cell_faces, central_metric, mesh_metric, x_nodes
+from gearlube_core.ehl.point_solids import SolidShare, add_solids, solid_share
 from gearlube_core.ehl.point_stencil import (
     CENTRE,
     CROSS_NEIGHBOURS,
@@ -29,6 +30,7 @@ from gearlube_core.ehl.point_stencil import (
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.ehl.scaling import PointScales
 from gearlube_core.ehl.settings import WEDGE_WEIGHTS
+from gearlube_core.ehl.solid_contact import SolidLayer
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
@@ -59,11 +61,19 @@ class FilmState:
     cubic_xy: Array | None = None  # of the flow along x by dp/dy; None: no such flow
     shear: ShearFactors | None = None  # of an Eyring film
     closed: Flags | None = None  # where oil may be above ambient pressure; None: everywhere
+    solids: SolidShare | None = None  # None: no solids touch
+
+    @property
+    def oil(self) -> Array:
+        """Return the pressure of the oil."""
+        return self.pressure if self.solids is None else self.solids.oil
 
     @property
     def free(self) -> Flags:
         """Return where the Reynolds equation holds: pressure, or a residual that calls for it."""
-        free = (self.pressure > 0.0) | (self.residual > 0.0)
+        free = (self.oil > 0.0) | (self.residual > 0.0)
+        if self.solids is not None:
+            free &= ~self.solids.drained(self.residual)
         return free if self.closed is None else free & self.closed
 
 
@@ -75,7 +85,8 @@ class Linearisation:
     by_pressure: Array  # (n, ny, nx)
     by_film: Array  # (n, ny, nx)
     by_approach: Array  # (ny, nx)
-    free: Flags
+    free: Flags  # where pressure is unknown
+    right: Array  # what the derivatives times the changes have to be, (ny, nx)
     result: Array = field(repr=False)
 
 
@@ -109,6 +120,8 @@ class PointLevel:
         Where oil may be above ambient pressure; None: everywhere.
     shear : FilmShear or None
         Of an Eyring film.
+    solids : SolidLayer or None
+        Of solids that touch where the film is thin; None: they never do.
     """
 
     _centre = CENTRE  # of the neighbours
@@ -179,6 +192,11 @@ class PointLevel:
         self._aligned = np.zeros(shape)  # no cross flow
         if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
             self.shear = self._film_shear(problem, scales.turned(problem.sliding))
+        self.solids: SolidLayer | None = None
+        if problem.solids is not None:
+            self.solids = SolidLayer(
+                problem.solids.thickness / scales.film, problem.solids.pressure / scales.pressure
+            )
         self.cell = self.dx * self.dy
         self.flow_rate = self.stencil.wedge_x + self.stencil.wedge_y
         self.cells = self.cell / self.metric.narrow
@@ -188,6 +206,12 @@ class PointLevel:
         """Return the deflection under unit pressure, in float32 for preconditioners."""
         kind = GradedConvolution if self._graded else HalfSpaceConvolution
         return kind(self.coefficients, single=single)
+
+    @property
+    def own_deflection(self) -> Array:
+        """Return the deflection of nodes under unit pressure on their own cell, (ny, nx)."""
+        own = self.coefficients[0].diagonal() if self._graded else self.coefficients[0, 0]
+        return np.broadcast_to(own, self.shape)
 
     def integral(self, values: Array) -> float:
         """Return the sum of values times the areas of their cells; shape (ny, nx)."""
@@ -230,9 +254,11 @@ class PointLevel:
         if film is None:
             film = self.film(pressure, approach)
         viscosity, viscosity_slope, density, density_slope = np.empty((4, *self.shape))
+        solids = solid_share(self.solids, pressure, film, self.flow_rate)
+        oil = pressure if solids is None else solids.oil
         fill_properties(
             self.oil,
-            pressure.ravel(),
+            oil.ravel(),
             viscosity.ravel(),
             viscosity_slope.ravel(),
             density.ravel(),
@@ -242,7 +268,7 @@ class PointLevel:
         fluidity, shear = 1.0 / viscosity, None
         cubic_x, cubic_xy, cubic_y = cubic, None, cubic
         if self.shear is not None:
-            shear = self.shear.factors(pressure, film, fluidity)
+            shear = self.shear.factors(oil, film, fluidity)
             cubic_x, cubic_y = cubic * shear.xx, cubic * shear.yy
             cubic_xy = None if shear.xy is None else cubic * shear.xy
         state = FilmState(
@@ -262,6 +288,7 @@ class PointLevel:
             cubic_xy=cubic_xy,
             shear=shear,
             closed=self.closed,
+            solids=solids,
         )
         self._balance(state, state.mass if self.rate is None else self.rate * state.mass)
         if self.storage is not None:
@@ -273,7 +300,7 @@ class PointLevel:
         reynolds_residual(
             self.stencil,
             self.metric,
-            state.pressure,
+            state.oil,
             carried,
             state.cubic_x,
             state.cubic_y,
@@ -283,9 +310,7 @@ class PointLevel:
             state.residual,
         )
         if state.cubic_xy is not None:
-            add_cross_flow(
-                self.stencil, state.pressure, state.cubic_xy, state.fluidity, state.residual
-            )
+            add_cross_flow(self.stencil, state.oil, state.cubic_xy, state.fluidity, state.residual)
 
     def ease(self, mobility: float, order: float) -> None:
         """Set an easier problem of a continuation.
@@ -340,8 +365,21 @@ class PointLevel:
             centre = self._centre
             by_pressure[centre] -= kept * state.density_slope * state.film
             by_film[centre] -= kept * state.density
+        right = np.where(free, -state.residual, 0.0)
+        if state.solids is not None:
+            free |= add_solids(
+                state.solids,
+                state.residual,
+                offsets[: by_film.shape[0]],
+                by_pressure,
+                by_film,
+                right,
+                self._centre,
+            )
         by_approach = by_film.sum(axis=0)
-        return Linearisation(offsets, by_pressure, by_film, by_approach, free, np.empty(self.shape))
+        return Linearisation(
+            offsets, by_pressure, by_film, by_approach, free, right, np.empty(self.shape)
+        )
 
     def _derivatives(
         self, stencil: StencilParameters, state: FilmState, slopes: FlowSlopes, free: Flags
@@ -352,7 +390,7 @@ class PointLevel:
         reynolds_derivatives(
             stencil,
             self.metric,
-            state.pressure,
+            state.oil,
             state.cubic_x,
             state.cubic_y,
             state.fluidity,
@@ -369,7 +407,7 @@ class PointLevel:
         if state.cubic_xy is not None:
             add_cross_derivatives(
                 stencil,
-                state.pressure,
+                state.oil,
                 state.cubic_xy,
                 state.fluidity,
                 state.viscosity_slope,

@@ -38,9 +38,12 @@ class NewtonRecord:
 def flow_residual(level: PointLevel, state: FilmState) -> float:
     """Return the sum of unbalanced flow over the flow through the dry width [1].
 
-    Nodes without pressure count only where flow gathers that no pressure drives away.
+    Nodes without pressure count only where flow gathers that no pressure drives away. What
+    touching solids carry beyond the pressure counts as a flow.
     """
     unbalanced = level.integral(np.where(state.free, np.abs(state.residual), 0.0))
+    if state.solids is not None:
+        unbalanced += level.integral(state.solids.unbalanced(state.residual))
     middle = float(state.film[state.pressure >= 0.8 * state.pressure.max()].mean())
     if not middle > 0.0:
         return math.inf
@@ -91,14 +94,13 @@ def newton(
             break
         linear = level.linearise(state, squeeze=shift * level.flow_rate)
         cycle = MultigridCycle(hierarchy, linear)
-        right = np.where(linear.free, -state.residual, 0.0)
         pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),
                 level.integral(p) / level.scales.load,
             ),
             cycle,
-            right,
+            linear.right,
             state.load_error,
             tolerance=min(0.03, max(1e-3, 0.1 * math.sqrt(size))),
             most=most_krylov,

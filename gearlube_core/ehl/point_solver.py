@@ -150,7 +150,7 @@ def solve_point_contact(
         last = k == count - 1
         tolerance = settings.tolerance if last else _COARSE_TOLERANCE
         state = solve_level(part, state, settings, tolerance, record, not last)
-    outcome = PointOutcome.of(hierarchy.levels[-1], state, record, settings)
+    outcome = PointOutcome.of(hierarchy.levels[-1], state, record, settings, problem)
     if throw and not outcome.converged:
         raise ConvergenceError(outcome.sentence)
     return PointSolution(

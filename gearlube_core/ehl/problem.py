@@ -13,6 +13,7 @@ from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.lubricant import EhlLubricant, pressure_viscosity
 from gearlube_core.ehl.nijenbanning_1994 import regime_films
+from gearlube_core.ehl.solid_contact import SolidContact
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
 
@@ -77,6 +78,8 @@ class PointContactProblem:
     sliding
         Difference of the surface velocities (u_2 - u_1, v_2 - v_1) [m/s] along x and y, for an
         oil with an Eyring stress; None: it flows as a Newtonian one.
+    solids
+        What carries load where the film vanishes; None: the oil alone.
 
     Raises
     ------
@@ -94,6 +97,7 @@ class PointContactProblem:
     nodes: tuple[int, int]
     hertz: EllipticParaboloid
     sliding: tuple[float, float] | None = None
+    solids: SolidContact | None = None
 
     def __post_init__(self) -> None:
         for axis, speed in zip("xy", self.entrainment, strict=True):
@@ -140,6 +144,7 @@ class PointContactProblem:
 def expected_film(problem: PointContactProblem) -> float:
     """Return a central film [m] to start from: the largest of elastic and rigid estimates.
 
+    Not thinner than touching solids under the largest dry pressure.
     Elastic: Chittenden et al. 1985 and the isoviscous limit of `regime_films`. Rigid: Kapitza
     1955, p = -12 eta u x/[(3 + 2 R_x/R_y) h^2] where it is positive, so
     W = 12 pi eta u R_x/(3 + 2 R_x/R_y) (2 R_y/h)^(1/2).
@@ -164,7 +169,8 @@ def expected_film(problem: PointContactProblem) -> float:
     films = regime_films(M, 0.0, min(1.0, max(0.01, R_e / R_s)))
     # that of light loads bounds the elastic film; the rigid one is above it there
     soft = min(films.elastic_isoviscous, films.light_load) * R_e * math.sqrt(2.0 * U)
-    return max(elastic, rigid, soft if R_e <= R_s else 0.0)
+    touching = 0.0 if problem.solids is None else problem.solids.film(problem.hertz_contact[2])
+    return max(elastic, rigid, soft if R_e <= R_s else 0.0, touching)
 
 
 def elliptical_contact(

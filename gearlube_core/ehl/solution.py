@@ -13,6 +13,7 @@ from gearlube_core.ehl.point_limiter import limited_faces
 from gearlube_core.ehl.point_newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.solid_contact import Touch
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -42,6 +43,8 @@ class PointOutcome:
         or so and the stencil is limited to first order [1]; 0 on grids that resolve the inlet.
     sentence
         What happened and what to do, also where the domain cuts the contact.
+    touch
+        How far the solids touch.
     """
 
     converged: bool
@@ -51,6 +54,7 @@ class PointOutcome:
     wedge: str
     limited: float
     sentence: str
+    touch: Touch
 
     @classmethod
     def of(
@@ -59,10 +63,18 @@ class PointOutcome:
         state: FilmState,
         record: NewtonRecord,
         settings: PointSolverSettings,
+        problem: PointContactProblem,
     ) -> PointOutcome:
         """Return the judgement on a state."""
         residual = flow_residual(level, state)
-        smallest = float(state.film.min()) * level.scales.film
+        scales = level.scales
+        smallest = float(state.film.min()) * scales.film
+        touch = Touch.of(
+            problem.solids,
+            state.film * scales.film,
+            level.cells * scales.length**2,
+            problem.load,
+        )
         sound = bool(np.isfinite(state.pressure).all())
         checks = (
             (sound, "the pressure is not finite"),
@@ -84,6 +96,7 @@ class PointOutcome:
             good += " the inlet or the sides for this film; take more."
         if record.first_order:
             good += f" With upwind-1: too few nodes for {settings.wedge} at this film; take more."
+        good += touch.sentence
         beside = border_pressure(*map(level.scales.outward, (state.pressure, state.film)))
         sentence = (
             good
@@ -91,7 +104,7 @@ class PointOutcome:
             else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
         )
         sentence += beside.sentence
-        return cls(not failed, residual, state.load_error, smallest, wedge, share, sentence)
+        return cls(not failed, residual, state.load_error, smallest, wedge, share, sentence, touch)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,7 +112,7 @@ class PointSolution:
     """Film of a point contact; arrays of shape (nx, ny) over `problem.x` and `problem.y`."""
 
     problem: PointContactProblem
-    pressure: Array  # [Pa]
+    pressure: Array  # of oil and solids [Pa]
     film: Array  # [m]
     approach: float  # h_0 [m]
     outcome: PointOutcome
@@ -123,6 +136,12 @@ class PointSolution:
     def maximum_pressure(self) -> float:
         """Return the largest pressure [Pa]."""
         return float(self.pressure.max())
+
+    @property
+    def solid_pressure(self) -> Array:
+        """Return the share of the pressure that touching solids carry [Pa], shape (nx, ny)."""
+        solids = self.problem.solids
+        return np.zeros(self.film.shape) if solids is None else solids(self.film)
 
     @property
     def load(self) -> float:

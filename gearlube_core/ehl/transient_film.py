@@ -12,6 +12,7 @@ import numpy as np
 from gearlube_core.ehl.border_pressure import border_pressure
 from gearlube_core.ehl.lubricant import EhlLubricant
 from gearlube_core.ehl.point_level import FilmState
+from gearlube_core.ehl.point_mesh import cell_faces
 from gearlube_core.ehl.point_newton import flow_residual
 from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.ehl.point_solver import grid_shapes
@@ -19,6 +20,7 @@ from gearlube_core.ehl.point_transfer import Transfer
 from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.scaling import PointScales
 from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.solid_contact import NO_TOUCH, SolidContact, Touch
 from gearlube_core.ehl.transient_level import Conditions, MovingLevel
 from gearlube_core.ehl.transient_rows import row_shapes
 
@@ -54,6 +56,8 @@ class MovingFilm:
         Relative radii, W [N] and entrainment [m/s] that set scales; any typical ones.
     open_film
         Where the film is thicker [m] the oil is held at ambient pressure.
+    solids
+        What carries load where the film vanishes; None: the oil alone.
 
     Raises
     ------
@@ -71,6 +75,7 @@ class MovingFilm:
     load: float
     speed: float
     open_film: float = math.inf
+    solids: SolidContact | None = None
 
     def __post_init__(self) -> None:
         self.reference()
@@ -87,6 +92,7 @@ class MovingFilm:
             y_limits=self.y_limits,
             nodes=self.nodes,
             hertz=self.hertz,
+            solids=self.solids,
         )
 
     @property
@@ -141,7 +147,7 @@ class FilmSolution:
     time: float  # [s]
     x: Array  # [m]
     y: Array  # [m]
-    pressure: Array  # [Pa]
+    pressure: Array  # of oil and solids [Pa]
     film: Array  # [m]
     approach: float  # h_0 [m]
     load: float  # that the pressure carries [N]
@@ -152,6 +158,7 @@ class FilmSolution:
     newton_steps: int
     krylov_steps: int
     seconds: float
+    touch: Touch = NO_TOUCH  # how far the solids touch
 
     @property
     def maximum_pressure(self) -> float:
@@ -190,9 +197,9 @@ def _failures(
     return [text for good, text in checks if not good]
 
 
-def _outcome(failed: list[str], newton_steps: int, cure: str = _CURE) -> str:
+def _outcome(failed: list[str], newton_steps: int, touch: Touch, cure: str = _CURE) -> str:
     if not failed:
-        return f"Converged in {newton_steps} steps."
+        return f"Converged in {newton_steps} steps.{touch.sentence}"
     return f"Not converged after {newton_steps} steps: {' and '.join(failed)}. {cure}"
 
 
@@ -214,6 +221,9 @@ def film_solution(
     failed = _failures(state.pressure, state.film, residual, state.load_error, settings)
     pressure = scales.outward(state.pressure) * scales.pressure
     height = scales.outward(state.film) * scales.film
+    load = level.integral(state.pressure) * scales.pressure * scales.length**2
+    cells = level.cells[:, None] * scales.length**2
+    touch = Touch.of(film.solids, height, cells, load)
     cut = border_pressure(pressure, height).sentence
     return FilmSolution(
         time=time,
@@ -222,14 +232,15 @@ def film_solution(
         pressure=pressure,
         film=height,
         approach=state.approach * scales.film,
-        load=level.integral(state.pressure) * scales.pressure * scales.length**2,
+        load=load,
         load_error=state.load_error,
         residual=residual,
         converged=not failed,
-        outcome=_outcome(failed, newton_steps, _STEADY_CURE if steady else _CURE) + cut,
+        outcome=_outcome(failed, newton_steps, touch, _STEADY_CURE if steady else _CURE) + cut,
         newton_steps=newton_steps,
         krylov_steps=krylov_steps,
         seconds=seconds,
+        touch=touch,
     )
 
 
@@ -259,10 +270,12 @@ def unpack_solutions(
 ) -> dict[int, FilmSolution]:
     """Return the solutions that `pack_solutions` has packed."""
     solutions = {}
+    cells = np.diff(cell_faces(film.x))[:, None] * (film.y[1] - film.y[0])
     for step, (pressure, height), row in zip(steps, fields, values, strict=True):
         numbers = dict(zip(_NUMBERS, row.tolist(), strict=True))
         newton_steps, krylov_steps = int(numbers.pop("newton_steps")), numbers.pop("krylov_steps")
         failed = _failures(pressure, height, numbers["residual"], numbers["load_error"], settings)
+        touch = Touch.of(film.solids, height, cells, numbers["load"])
         solutions[int(step)] = FilmSolution(
             **numbers,
             x=film.x,
@@ -270,8 +283,10 @@ def unpack_solutions(
             pressure=pressure,
             film=height,
             converged=not failed,
-            outcome=_outcome(failed, newton_steps) + border_pressure(pressure, height).sentence,
+            outcome=_outcome(failed, newton_steps, touch)
+            + border_pressure(pressure, height).sentence,
             newton_steps=newton_steps,
             krylov_steps=int(krylov_steps),
+            touch=touch,
         )
     return solutions

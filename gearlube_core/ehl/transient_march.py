@@ -33,6 +33,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 SCHEMES = ("bdf2", "crank_nicolson")
 # "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"
 MARCH_SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
+_PRESSED = 0.2  # of the layer of solids, the least film that a step starts from
 _LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
 
 
@@ -266,6 +267,9 @@ class FilmMarch:
     def _attempt(self, begin: FilmState):  # type: ignore[no-untyped-def]
         lowest = float(begin.film.min())
         least = 0.05 * float(np.median(begin.film[begin.pressure > 0.5 * begin.pressure.max()]))
+        if self.film.solids is not None:
+            # touching solids are meant to be close
+            least = min(least, _PRESSED * self.film.solids.thickness / self._level.scales.film)
         if lowest < least:
             begin = self._level.state(begin.pressure, begin.approach + least - lowest)
         return step_newton(

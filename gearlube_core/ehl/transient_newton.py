@@ -66,6 +66,9 @@ class KeptCycle:
         self._stale = True
         self._free = self._new = np.zeros(0, dtype=np.bool_)
         self._linear: Linearisation | None = None
+        level = hierarchy.levels[-1]
+        # what touching solids answer to
+        self._local = None if level.solids is None else level.own_deflection
 
     def renew(self, linear: Linearisation) -> None:
         """Build the cycle at a linearisation."""
@@ -96,7 +99,10 @@ class KeptCycle:
         pressure, approach = self._cycle(np.where(self._free, residual, 0.0), load_residual)
         pressure[~self._linear.free] = 0.0
         new = self._new
-        pressure[new] = residual[new] / self._linear.by_pressure[CENTRE][new]
+        slope = self._linear.by_pressure[CENTRE][new]
+        if self._local is not None:
+            slope = slope + self._local[new] * self._linear.by_film[CENTRE][new]
+        pressure[new] = residual[new] / slope
         return pressure, approach
 
 
@@ -141,14 +147,13 @@ def step_newton(
         steps += 1
         linear = level.linearise(state)
         kept.serve(linear)
-        right = np.where(linear.free, -state.residual, 0.0)
         pressure, approach, _, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),
                 level.integral(p) / level.scales.load,
             ),
             kept,
-            right,
+            linear.right,
             state.load_error,
             tolerance=max(min(0.03, 0.1 * math.sqrt(size)), _ENOUGH * tolerance / size),
             most=most_krylov,

@@ -8,51 +8,12 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.lubricant import density, viscosity
 from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.solution import PointSolution
-from tests.ehl_point_cases import moes_contact
+from tests.ehl_point_cases import flow_out, moes_contact
 
 TIGHT = PointSolverSettings(tolerance=1e-10, load_tolerance=1e-10, wedge="central")
-
-
-def _flow_out(solution: PointSolution, i0: int, i1: int, j0: int, j1: int) -> float:
-    """Return what leaves a box of nodes over what enters it upstream, less one [1].
-
-    With central faces the flow is that of the printed equation, evaluated from SI fields.
-    """
-    problem = solution.problem
-    oil = problem.lubricant
-    p, h = solution.pressure, solution.film
-    rho = np.vectorize(lambda q: density(oil, q))(p)
-    eta = np.vectorize(lambda q: viscosity(oil, q))(p)
-    dx, dy = problem.x[1] - problem.x[0], problem.y[1] - problem.y[0]
-
-    def along_x(i: int) -> float:
-        a, b = slice(i, i + 1), slice(i + 1, i + 2)
-        rows = slice(j0, j1 + 1)
-        fluidity = 0.5 * (1.0 / eta[a, rows] + 1.0 / eta[b, rows])
-        rising = p[b, rows] > p[a, rows]
-        logarithmic = (1.0 / eta[b, rows] - 1.0 / eta[a, rows]) / np.where(
-            rising, np.log(eta[a, rows] / eta[b, rows]), 1.0
-        )
-        fluidity = np.where(rising, logarithmic, fluidity)
-        cubic = np.sqrt(rho[a, rows] * h[a, rows] ** 3 * rho[b, rows] * h[b, rows] ** 3)
-        couette = 0.5 * problem.entrainment[0] * (rho * h)[i : i + 2, rows].sum(axis=0)
-        poiseuille = cubic * fluidity / 12.0 * (p[b, rows] - p[a, rows]) / dx
-        return float((couette - poiseuille[0]).sum() * dy)
-
-    def along_y(j: int) -> float:
-        columns = slice(i0, i1 + 1)
-        a, b = (columns, j), (columns, j + 1)
-        cubic = np.sqrt(rho[a] * h[a] ** 3 * rho[b] * h[b] ** 3)
-        fluidity = 0.5 * (1.0 / eta[a] + 1.0 / eta[b])
-        return float(-(cubic * fluidity / 12.0 * (p[b] - p[a]) / dy).sum() * dx)
-
-    entering = along_x(i0 - 1)
-    return (along_x(i1) - entering + along_y(j1) - along_y(j0 - 1)) / entering
 
 
 def test_oil_and_load_are_balanced() -> None:
@@ -65,7 +26,7 @@ def test_oil_and_load_are_balanced() -> None:
     i1 = i0 + int(np.argmin(loaded)) - 1
     assert i1 - i0 > 30
     # the bar of the issue; the solution's own residual is 1e-10 of the same flow
-    assert abs(_flow_out(solution, i0, i1, j0, j1)) < 1e-8
+    assert abs(flow_out(solution, i0, i1, j0, j1)) < 1e-8
     # load tolerance 1e-10
     assert solution.load == pytest.approx(problem.load, rel=1e-9)
 
