@@ -80,7 +80,9 @@ def table(rows: list[RatioRow]) -> str:
 def changes(given: xr.Dataset, other: xr.Dataset, name: str) -> str:
     """Return how much a steady quantity of every second position lies above another run's."""
     ratio = given[f"steady_{name}"].values[::2] / other[f"steady_{name}"].values
-    return f"{100.0 * (ratio.min() - 1.0):.1f} to {100.0 * (ratio.max() - 1.0):.1f} %"
+    # adding zero takes the sign off a rounded zero
+    least, most = (round(100.0 * (float(end) - 1.0), 1) + 0.0 for end in (ratio.min(), ratio.max()))
+    return f"{least:.1f} to {most:.1f} %"
 
 
 def gain(drive: xr.Dataset, moving: xr.Dataset) -> float:
@@ -127,8 +129,9 @@ def findings(drive: list[RatioRow], sets: dict[str, xr.Dataset]) -> str:
   {like:.2f}: most of the excess is the exponential. Heat takes little here: friction at the oil's
   temperature throughout is {cool:.2f} times the heated one.
 - **Eyring's flow** changes the central film by {h_c}, the smallest one by
-  {h_min} and the friction by {friction} against a film that flows as a Newtonian one. It flattens
-  the pressure spikes of the lightly loaded ends: the largest pressure changes by {p_max}.
+  {h_min} and the friction by {friction}
+  against a film that flows as a Newtonian one. It flattens the pressure spikes of the lightly
+  loaded ends: the largest pressure changes by {p_max}.
 - **Squeeze** is small: central films in time are {squeeze.least:.2f} to
   {squeeze.largest:.2f} of the steady ones. At first the closing contact holds oil that it met with
   less load; later the film lags behind rising speed and falling load. Quasi-steady formulas
