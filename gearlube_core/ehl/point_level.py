@@ -20,6 +20,7 @@ from gearlube_core.ehl.point_stencil import (
     CROSS_NEIGHBOURS,
     NEIGHBOURS,
     OFFSETS,
+    FilmFlow,
     FlowSlopes,
     MeshMetric,
     StencilParameters,
@@ -67,6 +68,20 @@ class FilmState:
     def oil(self) -> Array:
         """Return the pressure of the oil."""
         return self.pressure if self.solids is None else self.solids.oil
+
+    @property
+    def film_flow(self) -> FilmFlow:
+        """Return what pressure drives oil with along x and y, apart."""
+        if self.shear is None:
+            f, resistance = self.fluidity, self.log_viscosity
+            return FilmFlow(self.cubic_x, f, f, resistance, resistance)
+        return FilmFlow(
+            self.density * np.maximum(self.film, 0.0) ** 3,
+            self.fluidity * self.shear.xx,
+            self.fluidity * self.shear.yy,
+            self.log_viscosity - np.log(self.shear.xx),
+            self.log_viscosity - np.log(self.shear.yy),
+        )
 
     @property
     def free(self) -> Flags:
@@ -189,6 +204,7 @@ class PointLevel:
         self.closed: Flags | None = None
         self.shear: FilmShear | None = None
         self._newtonian = np.full(shape, 3.0)  # power of the film in the flow by pressure
+        self._plain = np.ones(shape)  # power of viscosity in it
         self._aligned = np.zeros(shape)  # no cross flow
         if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
             self.shear = self._film_shear(problem, scales.turned(problem.sliding))
@@ -302,10 +318,7 @@ class PointLevel:
             self.metric,
             state.oil,
             carried,
-            state.cubic_x,
-            state.cubic_y,
-            state.fluidity,
-            state.log_viscosity,
+            state.film_flow,
             self.source,
             state.residual,
         )
@@ -340,7 +353,9 @@ class PointLevel:
         """
         free, told, shear = state.free, state, state.shear
         by_pressure, cubic = state.density_slope / state.density, state.cubic_x
-        slopes = FlowSlopes(cubic, state.cubic_y, self._aligned, by_pressure, self._newtonian)
+        slopes = FlowSlopes(
+            cubic, state.cubic_y, self._aligned, by_pressure, self._newtonian, self._plain
+        )
         if shear is not None:
             cubic = state.density * np.maximum(state.film, 0.0) ** 3
             slopes = FlowSlopes(
@@ -349,6 +364,7 @@ class PointLevel:
                 self._aligned if shear.slope_xy is None else cubic * shear.slope_xy,
                 by_pressure + (1.0 - shear.stiffness) * state.viscosity_slope,
                 shear.film_power,
+                shear.stiffness,
             )
         if self.rate is not None:
             told = replace(
@@ -385,16 +401,17 @@ class PointLevel:
         self, stencil: StencilParameters, state: FilmState, slopes: FlowSlopes, free: Flags
     ) -> tuple[Offsets, Array, Array]:
         """Return steps to the neighbours and derivatives with respect to pressure and film."""
+        if state.shear is not None:
+            slopes = slopes._replace(
+                slope_x=slopes.slope_x / state.shear.xx, slope_y=slopes.slope_y / state.shear.yy
+            )
         count = NEIGHBOURS if state.cubic_xy is None else CROSS_NEIGHBOURS
         by_pressure, by_film = np.empty((2, count, *self.shape))
         reynolds_derivatives(
             stencil,
             self.metric,
             state.oil,
-            state.cubic_x,
-            state.cubic_y,
-            state.fluidity,
-            state.log_viscosity,
+            state.film_flow,
             state.viscosity_slope,
             state.density,
             state.density_slope,

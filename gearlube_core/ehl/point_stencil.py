@@ -64,6 +64,16 @@ class MeshMetric(NamedTuple):
     narrow: np.ndarray  # dx over the width of a node's cell
 
 
+class FilmFlow(NamedTuple):
+    """What pressure drives oil with at every node; arrays of shape (ny, nx) [1]."""
+
+    cubic: np.ndarray  # rho h^3
+    fluidity_x: np.ndarray  # 1/eta times the flow factor along x
+    fluidity_y: np.ndarray
+    resistance_x: np.ndarray  # -ln of these
+    resistance_y: np.ndarray
+
+
 @kernel
 def face_weights(
     parameters: StencilParameters, index: int, far: float, here: float, there: float
@@ -104,12 +114,12 @@ def face_weights(
 def mean_fluidity(
     here: float, there: float, rise: float, steep: bool
 ) -> tuple[float, float, float]:
-    """Return the mean of 1/eta of two nodes and its slopes: logarithmic where steep.
+    """Return the mean fluidity of two nodes and its slopes: logarithmic where steep.
 
     Parameters
     ----------
     here, there
-        1/eta at both nodes [1].
+        1/eta, times its flow factor in an Eyring film, at both nodes [1].
     rise
         ln(there/here) [1].
     steep
@@ -125,7 +135,8 @@ def mean_fluidity(
     The logarithmic mean is that over the pressure between the nodes where eta grows
     exponentially: the flow against the rise of pressure in the inlet stays right on any grid.
     Towards the exit the plain mean ties the pressure of a spike to its surroundings. Both are
-    of second order.
+    of second order. The flow factor of a sheared film grows like eta; the product hardly changes
+    from node to node, while means of both apart would be too large by orders of magnitude.
     """
     if not steep:
         return 0.5 * (here + there), 0.5 * here, 0.5 * there
@@ -142,25 +153,23 @@ def reynolds_residual(
     metric: MeshMetric,
     pressure: np.ndarray,
     mass: np.ndarray,
-    cubic_x: np.ndarray,
-    cubic_y: np.ndarray,
-    fluidity: np.ndarray,
-    log_viscosity: np.ndarray,
+    film_flow: FilmFlow,
     source: np.ndarray,
     residual: np.ndarray,
 ) -> None:
     """Write the residual of all inner nodes.
 
-    R = Lambda [d/dx(rho h^3/eta dp/dx) + d/dy(rho h^3/eta dp/dy)] - d(u rho h)/dx
+    R = Lambda [d/dx(rho h^3 f_x dp/dx) + d/dy(rho h^3 f_y dp/dy)] - d(u rho h)/dx
         - d(v rho h)/dy - squeeze rho h + source
 
     Parameters
     ----------
     parameters, metric
         Of the grid.
-    pressure, mass, cubic_x, cubic_y, fluidity, log_viscosity, source : ndarray, shape (ny, nx)
-        p, rho h, rho h^3 times the flow factor of its direction, 1/eta, ln eta, and what the
-        squeeze term takes from earlier times [1].
+    pressure, mass, source : ndarray, shape (ny, nx)
+        p, rho h, and what the squeeze term takes from earlier times [1].
+    film_flow
+        Of the nodes.
     residual : ndarray, shape (ny, nx)
         Result; zero on the border [1].
 
@@ -172,16 +181,21 @@ def reynolds_residual(
     """
     ny, nx = pressure.shape
     residual[:] = 0.0
+    cubic = film_flow.cubic
+    fluidity_x, resistance_x = film_flow.fluidity_x, film_flow.resistance_x
+    fluidity_y, resistance_y = film_flow.fluidity_y, film_flow.resistance_y
     px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
     for j in range(1, ny):
         for i in range(1, nx):
-            here = fluidity[j, i]
             if j < ny - 1:
-                rise = log_viscosity[j, i] - log_viscosity[j, i - 1]
+                rise = resistance_x[j, i] - resistance_x[j, i - 1]
                 mean, _, _ = mean_fluidity(
-                    here, fluidity[j, i - 1], rise, pressure[j, i] > pressure[j, i - 1]
+                    fluidity_x[j, i],
+                    fluidity_x[j, i - 1],
+                    rise,
+                    pressure[j, i] > pressure[j, i - 1],
                 )
-                flow = 2.0 * math.sqrt(cubic_x[j, i] * cubic_x[j, i - 1]) * mean
+                flow = 2.0 * math.sqrt(cubic[j, i] * cubic[j, i - 1]) * mean
                 flow *= px * metric.near[i] * (pressure[j, i] - pressure[j, i - 1])
                 far, near, there = mass[j, max(i - 2, 0)], mass[j, i - 1], mass[j, i]
                 f0, f1, f2 = face_weights(parameters, i - 1, far, near, there)
@@ -193,14 +207,14 @@ def reynolds_residual(
                 if i > 1:
                     residual[j, i - 1] += metric.narrow[i - 1] * flow
             if i < nx - 1:
-                rise = log_viscosity[j, i] - log_viscosity[j - 1, i]
+                rise = resistance_y[j, i] - resistance_y[j - 1, i]
                 mean, _, _ = mean_fluidity(
-                    here,
-                    fluidity[j - 1, i],
+                    fluidity_y[j, i],
+                    fluidity_y[j - 1, i],
                     rise,
                     parameters.wedge_y > 0.0 and pressure[j, i] > pressure[j - 1, i],
                 )
-                flow = 2.0 * math.sqrt(cubic_y[j, i] * cubic_y[j - 1, i]) * mean
+                flow = 2.0 * math.sqrt(cubic[j, i] * cubic[j - 1, i]) * mean
                 flow *= py * (pressure[j, i] - pressure[j - 1, i])
                 far, near, there = mass[max(j - 2, 0), i], mass[j - 1, i], mass[j, i]
                 f0, f1, f2 = face_weights(parameters, j - 1, far, near, there)
@@ -219,6 +233,17 @@ class FlowSlopes(NamedTuple):
     slope_xy: np.ndarray  # of dp/dy, in the flow along x
     by_pressure: np.ndarray  # d ln(rho h^3 times its flow factor)/dp
     film_power: np.ndarray  # d ln(the same)/d ln(h), 3 where the film is Newtonian
+    stiffness: np.ndarray  # -d ln(flow)/d ln(eta), 1 where the film is Newtonian
+
+
+@kernel
+def node_slopes(
+    slopes: FlowSlopes, viscosity_slope: np.ndarray, j: int, i: int
+) -> tuple[float, float, float]:
+    """Return -d ln(f)/dp, d ln(f)/d ln(h) and d ln(rho)/dp of a node, f its fluidity [1]."""
+    stiffness, thickening = slopes.stiffness[j, i], viscosity_slope[j, i]
+    dense = slopes.by_pressure[j, i] - (1.0 - stiffness) * thickening
+    return stiffness * thickening, slopes.film_power[j, i] - 3.0, dense
 
 
 @kernel
@@ -226,10 +251,7 @@ def reynolds_derivatives(
     parameters: StencilParameters,
     metric: MeshMetric,
     pressure: np.ndarray,
-    cubic_x: np.ndarray,
-    cubic_y: np.ndarray,
-    fluidity: np.ndarray,
-    log_viscosity: np.ndarray,
+    film_flow: FilmFlow,
     viscosity_slope: np.ndarray,
     density: np.ndarray,
     density_slope: np.ndarray,
@@ -243,12 +265,12 @@ def reynolds_derivatives(
 
     Parameters
     ----------
-    parameters, metric, pressure, cubic_x, cubic_y, fluidity, log_viscosity
+    parameters, metric, pressure, film_flow
         As in `reynolds_residual`.
     viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
         d ln eta/dp, rho, d rho/dp, h [1].
     slopes
-        Of the flow by pressure.
+        Of the flow by pressure; `slope_x` and `slope_y` over their flow factors.
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero.
     by_pressure, by_film : ndarray, shape (7 or 11, ny, nx)
@@ -257,6 +279,9 @@ def reynolds_derivatives(
     ny, nx = pressure.shape
     by_pressure[:] = 0.0
     by_film[:] = 0.0
+    cubic = film_flow.cubic
+    fluidity_x, resistance_x = film_flow.fluidity_x, film_flow.resistance_x
+    fluidity_y, resistance_y = film_flow.fluidity_y, film_flow.resistance_y
     px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
     uy = parameters.wedge_y
     down = (0, 0, 0, 0, -1, 1, -2)
@@ -274,32 +299,34 @@ def reynolds_derivatives(
             far_mass, north = density[far, i] * film[far, i], density[j + 1, i] * film[j + 1, i]
             s0, s1, s2 = face_weights(parameters, j - 1, far_mass, south, here)
             n0, n1, n2 = face_weights(parameters, j, south, here, north)
-            p, f, v = pressure[j, i], fluidity[j, i], log_viscosity[j, i]
+            p = pressure[j, i]
             ux = parameters.wedge_x * metric.narrow[i]
-            film_here = slopes.film_power[j, i] / max(film[j, i], 1e-30)
+            thick, thin, dense = node_slopes(slopes, viscosity_slope, j, i)
+            h = max(film[j, i], 1e-30)
             for k in (WEST, EAST, SOUTH, NORTH):
                 jj, ii = j + down[k], i + right[k]
                 if right[k] != 0:
                     unit = px * metric.narrow[i] * metric.near[max(i, ii)]
-                    cubic = cubic_x[j, i] * cubic_x[jj, ii]
+                    f, there_f = fluidity_x[j, i], fluidity_x[jj, ii]
+                    rise = resistance_x[j, i] - resistance_x[jj, ii]
                     slope = slopes.slope_x[j, i] * slopes.slope_x[jj, ii]
                 else:
-                    unit, cubic = py, cubic_y[j, i] * cubic_y[jj, ii]
+                    unit = py
+                    f, there_f = fluidity_y[j, i], fluidity_y[jj, ii]
+                    rise = resistance_y[j, i] - resistance_y[jj, ii]
                     slope = slopes.slope_y[j, i] * slopes.slope_y[jj, ii]
                 step = pressure[jj, ii] - p
                 steep = (right[k] + down[k]) * step > 0.0 and (right[k] != 0 or uy > 0.0)
-                mean, m, mt = mean_fluidity(f, fluidity[jj, ii], v - log_viscosity[jj, ii], steep)
+                mean, m, mt = mean_fluidity(f, there_f, rise, steep)
                 flow = 2.0 * unit * mean * math.sqrt(slope)
-                total = 2.0 * unit * math.sqrt(cubic) * step
+                total = 2.0 * unit * math.sqrt(cubic[j, i] * cubic[jj, ii]) * step
                 c = 0.5 * total * mean
-                by_pressure[CENTRE, j, i] += (
-                    c * slopes.by_pressure[j, i] - total * m * viscosity_slope[j, i] - flow
-                )
-                by_film[CENTRE, j, i] += c * film_here
-                by_pressure[k, j, i] = (
-                    flow + c * slopes.by_pressure[jj, ii] - total * mt * viscosity_slope[jj, ii]
-                )
-                by_film[k, j, i] = c * slopes.film_power[jj, ii] / max(film[jj, ii], 1e-30)
+                by_pressure[CENTRE, j, i] += c * dense - total * m * thick - flow
+                by_film[CENTRE, j, i] += c * (3.0 / h) + total * m * thin / h
+                thick_there, thin_there, dense_there = node_slopes(slopes, viscosity_slope, jj, ii)
+                there_h = max(film[jj, ii], 1e-30)
+                by_pressure[k, j, i] = flow + c * dense_there - total * mt * thick_there
+                by_film[k, j, i] = c * 3.0 / there_h + total * mt * thin_there / there_h
             wedge = (
                 -ux * (e0 - w2) - uy * (n0 - s2) - parameters.squeeze,
                 -ux * (e1 - w0),

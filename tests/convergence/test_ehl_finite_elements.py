@@ -119,7 +119,12 @@ def derivatives_of(grid, pressure, film, compliance, free=None):
         np.full(pressure.shape, DENSENING),
         film,
         FlowSlopes(
-            cubic, 0.7 * cubic, CROSS * cubic, DENSENING / density, np.full(pressure.shape, 3.0)
+            cubic,
+            0.7 * cubic,
+            CROSS * cubic,
+            DENSENING / density,
+            np.full(pressure.shape, 3.0),
+            np.ones(pressure.shape),
         ),
         compliance,
         np.ones(pressure.shape, dtype=bool) if free is None else free,

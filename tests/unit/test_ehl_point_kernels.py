@@ -95,10 +95,7 @@ def test_compiled_stencils_equal_their_python() -> None:
     fields = (
         state.pressure,
         state.mass,
-        state.cubic_x,
-        state.cubic_y,
-        state.fluidity,
-        state.log_viscosity,
+        state.film_flow,
         level.source,
     )
     point_stencil.reynolds_residual.py_func(level.stencil, level.metric, *fields, residual)
