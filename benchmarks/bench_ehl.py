@@ -11,12 +11,10 @@ once; contacts that it holds are not solved again. A failure is a failure.
 from __future__ import annotations
 
 import csv
-import math
 import os
 import statistics
 import sys
 import time
-from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
@@ -25,10 +23,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
-from gearlube_core.ehl.lubricant import ehl_lubricant
 from gearlube_core.ehl.point_solver import solve_point_contact
-from tests.ehl_point_cases import ALPHA, ETA0, moes_contact, moes_film
+from tests.ehl_point_cases import moes_contact, moes_film, radius_ratio, sliding_along
 
 LOADS = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 MATERIALS = (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
@@ -40,15 +36,8 @@ SLENDER_MATERIALS = (0.0, 5.0, 15.0, 25.0)
 # an Eyring oil whose surfaces slide by as much as they roll
 SLIDING_LOADS = (20.0, 200.0, 1000.0)
 SLIDING_MATERIALS = (5.0, 10.0, 20.0)
-EYRING_STRESS = 5e6  # Pa
 KEY = ("ellipticity", "M", "L", "slide_roll")
 RESULT = ("converged", "wedge", "limited", "residual", "H_c", "H_min", "steps", "cpu_s")
-
-
-def radius_ratio(ellipticity: float) -> float:
-    """Return R_y/R_x of a dry contact with semi-axes a_y/a_x."""
-    exponent = log_curvature_ratio(abs(math.log(ellipticity)))
-    return math.exp(exponent if ellipticity >= 1.0 else -exponent)
 
 
 @pytest.mark.parametrize(
@@ -76,9 +65,7 @@ def solve(case: tuple[float, ...], nodes: int) -> dict[str, str]:
     ellipticity, M, L, slide_roll = case
     problem = moes_contact(M, L, nodes=(nodes, nodes), radius_ratio=radius_ratio(ellipticity))
     if slide_roll > 0.0:
-        oil = ehl_lubricant(eta0=ETA0, alpha=ALPHA, eyring_stress=EYRING_STRESS)
-        sliding = (slide_roll * problem.entrainment[0], 0.0)
-        problem = replace(problem, lubricant=oil, sliding=sliding)
+        problem = sliding_along(problem, slide_roll)
     begin = time.process_time()
     solution = solve_point_contact(problem, throw=False)
     seconds = time.process_time() - begin

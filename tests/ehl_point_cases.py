@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
 from gearlube_core.ehl.lubricant import EhlLubricant, density, ehl_lubricant, viscosity
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.solution import PointSolution
@@ -15,6 +17,13 @@ RADIUS = 0.01  # m
 REDUCED_MODULUS = 2.26e11  # Pa
 ALPHA = 2e-8  # 1/Pa
 ETA0 = 0.04  # Pa s
+EYRING_STRESS = 5e6  # Pa
+
+
+def radius_ratio(ellipticity: float) -> float:
+    """Return R_y/R_x of a dry contact with semi-axes a_y/a_x."""
+    exponent = log_curvature_ratio(abs(math.log(ellipticity)))
+    return math.exp(exponent if ellipticity >= 1.0 else -exponent)
 
 
 def moes_contact(
@@ -44,6 +53,13 @@ def moes_contact(
         nodes=nodes,
         **domain,
     )
+
+
+def sliding_along(problem: PointContactProblem, slide_roll: float) -> PointContactProblem:
+    """Return the contact with an Eyring oil whose surfaces slide along its entrainment."""
+    oil = ehl_lubricant(eta0=ETA0, alpha=ALPHA, eyring_stress=EYRING_STRESS)
+    u, v = problem.entrainment
+    return replace(problem, lubricant=oil, sliding=(slide_roll * u, slide_roll * v))
 
 
 def moes_film(problem: PointContactProblem, film: float) -> float:

@@ -12,6 +12,7 @@ from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.ehl.eyring_flow import eyring_flow_factor
 from gearlube_core.ehl.flow_factors import eyring_factors
 from gearlube_core.ehl.lubricant import EhlLubricant
+from gearlube_core.ehl.point_stencil import FilmFlow, FlowSlopes
 from gearlube_core.jit import kernel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -102,6 +103,31 @@ class ShearFactors:
     slope_yy: Array
     stiffness: Array  # -d ln(flow)/d ln(eta) along sliding
     film_power: Array  # d ln(flow)/d ln(h) along sliding
+
+    def flow(self, cubic: Array, fluidity: Array, log_viscosity: Array) -> FilmFlow:
+        """Return what pressure along x and y drives oil with; `cubic` is rho h^3."""
+        return FilmFlow(
+            cubic,
+            fluidity * self.xx,
+            fluidity * self.yy,
+            log_viscosity - np.log(self.xx),
+            log_viscosity - np.log(self.yy),
+        )
+
+    def slopes(self, cubic: Array, densening: Array, thickening: Array) -> FlowSlopes:
+        """Return how it answers, from d ln(rho)/dp and d ln(eta)/dp."""
+        return FlowSlopes(
+            cubic * self.slope_xx,
+            cubic * self.slope_yy,
+            np.zeros_like(cubic) if self.slope_xy is None else cubic * self.slope_xy,
+            densening + (1.0 - self.stiffness) * thickening,
+            self.film_power,
+            self.stiffness,
+        )
+
+    def relative(self, slopes: FlowSlopes) -> FlowSlopes:
+        """Return slopes whose `slope_x` and `slope_y` are over their flow factors."""
+        return slopes._replace(slope_x=slopes.slope_x / self.xx, slope_y=slopes.slope_y / self.yy)
 
 
 @dataclass(slots=True)

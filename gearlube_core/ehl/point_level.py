@@ -72,16 +72,10 @@ class FilmState:
     @property
     def film_flow(self) -> FilmFlow:
         """Return what pressure drives oil with along x and y, apart."""
+        f, resistance = self.fluidity, self.log_viscosity
         if self.shear is None:
-            f, resistance = self.fluidity, self.log_viscosity
             return FilmFlow(self.cubic_x, f, f, resistance, resistance)
-        return FilmFlow(
-            self.density * np.maximum(self.film, 0.0) ** 3,
-            self.fluidity * self.shear.xx,
-            self.fluidity * self.shear.yy,
-            self.log_viscosity - np.log(self.shear.xx),
-            self.log_viscosity - np.log(self.shear.yy),
-        )
+        return self.shear.flow(self.cubic_x / self.shear.xx, f, resistance)
 
     @property
     def free(self) -> Flags:
@@ -203,8 +197,8 @@ class PointLevel:
         self.source = np.zeros(shape)
         self.closed: Flags | None = None
         self.shear: FilmShear | None = None
-        self._newtonian = np.full(shape, 3.0)  # power of the film in the flow by pressure
-        self._plain = np.ones(shape)  # power of viscosity in it
+        # powers of film and fluidity in the flow by pressure
+        self._newtonian = np.full(shape, 3.0), np.ones(shape)
         self._aligned = np.zeros(shape)  # no cross flow
         if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
             self.shear = self._film_shear(problem, scales.turned(problem.sliding))
@@ -353,19 +347,10 @@ class PointLevel:
         """
         free, told, shear = state.free, state, state.shear
         by_pressure, cubic = state.density_slope / state.density, state.cubic_x
-        slopes = FlowSlopes(
-            cubic, state.cubic_y, self._aligned, by_pressure, self._newtonian, self._plain
-        )
+        slopes = FlowSlopes(cubic, state.cubic_y, self._aligned, by_pressure, *self._newtonian)
         if shear is not None:
             cubic = state.density * np.maximum(state.film, 0.0) ** 3
-            slopes = FlowSlopes(
-                cubic * shear.slope_xx,
-                cubic * shear.slope_yy,
-                self._aligned if shear.slope_xy is None else cubic * shear.slope_xy,
-                by_pressure + (1.0 - shear.stiffness) * state.viscosity_slope,
-                shear.film_power,
-                shear.stiffness,
-            )
+            slopes = shear.slopes(cubic, by_pressure, state.viscosity_slope)
         if self.rate is not None:
             told = replace(
                 state,
@@ -402,9 +387,7 @@ class PointLevel:
     ) -> tuple[Offsets, Array, Array]:
         """Return steps to the neighbours and derivatives with respect to pressure and film."""
         if state.shear is not None:
-            slopes = slopes._replace(
-                slope_x=slopes.slope_x / state.shear.xx, slope_y=slopes.slope_y / state.shear.yy
-            )
+            slopes = state.shear.relative(slopes)
         count = NEIGHBOURS if state.cubic_xy is None else CROSS_NEIGHBOURS
         by_pressure, by_film = np.empty((2, count, *self.shape))
         reynolds_derivatives(

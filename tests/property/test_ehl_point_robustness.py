@@ -7,38 +7,42 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.bench_ehl import radius_ratio
 from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_limiter import limited_faces
 from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.ehl.scaling import PointScales
-from tests.ehl_point_cases import moes_contact
+from tests.ehl_point_cases import moes_contact, moes_film, radius_ratio, sliding_along
 
 NODES = (65, 65)
 
 
 @pytest.mark.parametrize(
-    ("ellipticity", "M", "L"),
+    ("ellipticity", "M", "L", "slide_roll"),
     [
-        (0.2, 500.0, 0.0),  # thin lobes beside a contact long in the direction of motion
-        (0.2, 500.0, 10.0),
-        (0.2, 200.0, 25.0),  # linear systems of high contrast
-        (0.5, 1000.0, 0.0),
-        (0.5, 1000.0, 10.0),
-        (100.0, 5000.0, 25.0),
-        (100.0, 50.0, 0.0),  # far thicker than the solids flatten
+        # thin lobes beside a contact long in the direction of motion
+        pytest.param(0.2, 500.0, 0.0, 0.0, marks=pytest.mark.slow),
+        (0.2, 500.0, 10.0, 0.0),
+        (0.2, 200.0, 25.0, 0.0),  # linear systems of high contrast
+        (0.5, 1000.0, 0.0, 0.0),
+        (100.0, 5000.0, 25.0, 0.0),
+        (100.0, 50.0, 0.0, 0.0),  # far thicker than the solids flatten
+        (0.2, 1000.0, 10.0, 1.0),  # thin lobes of a film that shear thins
+        (0.5, 1000.0, 20.0, 1.0),
     ],
 )
 def test_extreme_contacts_converge_in_the_stencil_that_is_asked_for(
-    ellipticity: float, M: float, L: float
+    ellipticity: float, M: float, L: float, slide_roll: float
 ) -> None:
     problem = moes_contact(M, L, nodes=NODES, radius_ratio=radius_ratio(ellipticity))
+    if slide_roll > 0.0:
+        problem = sliding_along(problem, slide_roll)
     solution = solve_point_contact(problem, throw=False)
     outcome = solution.outcome
     # residual, load, film and complementarity together
     assert outcome.converged, outcome.sentence
     assert outcome.wedge == "upwind-2"
-    assert solution.minimum_film > 0.0
+    # a film that collapsed on the grid is thinner by orders of magnitude
+    assert moes_film(problem, solution.minimum_film) > 1e-3
     # the unresolved inlet and lobes are lines of nodes: a few of the 33 or so across the contact
     assert outcome.limited < 0.05
     assert solution.load == pytest.approx(problem.load, rel=1e-6)
@@ -50,6 +54,17 @@ def test_limited_faces_vanish_on_a_grid_that_resolves_the_inlet() -> None:
     fine = solve_point_contact(problem.with_nodes(257, 257)).outcome
     assert coarse.limited > 0.0
     assert fine.limited == 0.0
+
+
+def test_a_sheared_inlet_is_right_on_a_grid_where_viscosity_multiplies_from_node_to_node() -> None:
+    problem = sliding_along(
+        moes_contact(200.0, 20.0, nodes=NODES, radius_ratio=radius_ratio(0.5)), 1.0
+    )
+    coarse, fine = (
+        solve_point_contact(p).central_film for p in (problem, problem.with_nodes(129, 129))
+    )
+    # 9 %; 23 % if the means of viscosity and flow factor were taken apart
+    assert coarse == pytest.approx(fine, rel=0.12)
 
 
 def test_limits_act_where_the_film_halves_in_a_cell_and_nowhere_else() -> None:
