@@ -11,6 +11,7 @@ from gearlube_core.checks import check_option, check_positive
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.lubricant import EhlLubricant
 from gearlube_core.ehl.named_lubricants import jamali_2015_oil
+from gearlube_core.ehl.point_mesh import Grading
 from gearlube_core.ehl.problem import EllipticParaboloid
 from gearlube_core.ehl.solid_contact import SolidContact
 from gearlube_core.ehl.transient_film import MovingFilm
@@ -30,6 +31,10 @@ _OPEN_FILM = 10e-6  # m
 _DOMAIN = (-2.75, 1.775)  # of the largest Hertz semi-width; Jamali 2015 covers 4.5 of them
 _SOLIDS = SolidContact()
 _SLENDEST = 2000.0  # R_y/R_x that stands for a line
+
+
+# densest where the film leaves the contact on any row at any time: the smallest film lies there
+EXIT_GRADING = ((-2.75, 10.0), (-1.4, 3.0), (-0.4, 3.0), (0.1, 1.0), (1.2, 1.0), (1.775, 4.0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,6 +69,9 @@ class HelicalFilm:
         pressures in them come and go over whole rows as the relief moves.
     solids : SolidContact or None
         What carries load where the film vanishes; None: the oil alone.
+    grading
+        Pairs of a place along x, over the largest Hertz semi-width, and the spacing there in
+        proportion, e.g. `EXIT_GRADING`; none: uniform.
 
     Raises
     ------
@@ -90,6 +98,7 @@ class HelicalFilm:
     largest_gap: float = _LARGEST_GAP
     open_film: float = _OPEN_FILM
     solids: SolidContact | None = None
+    grading: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
         check_positive("torque", self.torque, "N m", "The pinion drives.")
@@ -166,6 +175,13 @@ class HelicalFilm:
         flat = _SLENDEST * R_x
         return EllipticParaboloid(R_x, min(half * half / (2.0 * edge), flat) if edge else flat)
 
+    def _grading(self, a: float) -> Grading | None:
+        """Return the grading of the spacing for the largest Hertz semi-width [m]."""
+        if not self.grading:
+            return None
+        places, spacing = zip(*self.grading, strict=True)
+        return Grading(tuple(place * a for place in places), spacing)
+
     def moving_film(self) -> MovingFilm:
         """Return the film with the scales of the largest load."""
         load, X = self.largest_load()
@@ -184,6 +200,7 @@ class HelicalFilm:
             load=load,
             open_film=self.open_film,
             solids=self.solids,
+            grading=self._grading(a),
             speed=0.5 * float(speeds[0][0] + speeds[1][0]),
         )
 
@@ -197,6 +214,7 @@ def jamali_2015_film(
     facets: int = 0,
     newtonian: bool = False,
     nodes: tuple[int, int] = (97, 257),
+    grading: tuple[tuple[float, float], ...] = (),
     convention: str = "thesis",
     solids: SolidContact | None = _SOLIDS,
 ) -> HelicalFilm:
@@ -209,7 +227,9 @@ def jamali_2015_film(
     newtonian
         Leave the Eyring stress out.
     nodes
-        His mesh is (182, 857).
+        His mesh is (182, 857), uniform.
+    grading
+        As in `HelicalFilm`.
     convention
         Of the load; his leaves out cos(beta_b).
     solids
@@ -224,6 +244,7 @@ def jamali_2015_film(
         lubricant=jamali_2015_oil(newtonian=newtonian),
         contact_modulus=_CONTACT_MODULUS,
         nodes=nodes,
+        grading=grading,
         convention=convention,
         solids=solids,
     )

@@ -167,7 +167,7 @@ class PointLevel:
         self.oil: EhlLubricant = scales.oil(problem.lubricant)
         self.modulus = problem.contact_modulus * scales.film / (scales.pressure * scales.length)
         self.positions = x / scales.length if grading else np.arange(nx) * self.dx
-        self._graded = grading is not None
+        self.graded = grading is not None
         if grading is not None:
             self.metric = mesh_metric(self.positions, self.dx)
             self.coefficients = graded_coefficients(
@@ -214,7 +214,7 @@ class PointLevel:
 
     def convolution(self, single: bool = False) -> HalfSpaceConvolution | GradedConvolution:
         """Return the deflection under unit pressure, in float32 for preconditioners."""
-        kind = GradedConvolution if self._graded else HalfSpaceConvolution
+        kind = GradedConvolution if self.graded else HalfSpaceConvolution
         return kind(self.coefficients, single=single)
 
     @property
@@ -238,7 +238,7 @@ class PointLevel:
             film=scales.film,
             pressure=scales.pressure,
             viscosity=problem.lubricant.eta0,
-            central=central_metric(self.positions, self.dx) if self._graded else None,
+            central=central_metric(self.positions, self.dx) if self.graded else None,
         )
 
     def dense_deflection(self) -> Array:
@@ -248,7 +248,7 @@ class PointLevel:
             across = abs(rows[:, None] - rows)
             self._dense = (
                 self.coefficients[across, columns[:, None], columns]
-                if self._graded
+                if self.graded
                 else self.coefficients[across, abs(columns[:, None] - columns)]
             )
         return self._dense

@@ -3,68 +3,71 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
-from gearlube_core.checks import check_within
+from gearlube_core.checks import check_positive, check_within
 from gearlube_core.ehl.point_stencil import MeshMetric
 from gearlube_core.errors import ParameterError
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
+_LARGEST_RATIO = 20.0
 _TABLE = 4001  # entries of the position over the index
 
 
 @dataclass(frozen=True, slots=True)
 class Grading:
-    """Spacing along x: finest within a zone, growing smoothly with the distance from it.
+    """Spacing along x, in proportion, at some places; smooth between and constant beyond them.
 
     Parameters
     ----------
-    fine
-        Zone of the finest spacing along x [m].
-    coarsest
-        Largest spacing over the smallest, 1 to 20.
-    reach
-        Distance from the zone over which the spacing doubles [m].
+    at
+        Places [m], rising, two or more.
+    spacing
+        At each of them, in any unit, above zero; the largest is at most 20 of the smallest.
+
+    Raises
+    ------
+    ParameterError
+        Places or spacings are out of range.
 
     Notes
     -----
-    dx/d(index) = d (1 + s), s = t^2/(t + 1) up to the coarsest, t the distance over `reach`: the
-    slope of the spacing is continuous, so that differences between nodes stay of second order.
+    The logarithm of the spacing is a monotone cubic spline of x with a continuous slope, so that
+    differences between nodes stay of second order. Spacing should double over some five nodes
+    or more.
     """
 
-    fine: tuple[float, float]
-    coarsest: float
-    reach: float
+    at: tuple[float, ...]
+    spacing: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        check_within("coarsest", self.coarsest, 1.0, 20.0)
-        if not (self.fine[0] < self.fine[1] and self.reach > 0.0):
+        rising = all(a < b for a, b in pairwise(self.at))
+        if len(self.at) < 2 or len(self.spacing) != len(self.at) or not rising:
             raise ParameterError(
-                f"the fine zone must rise and reach be above 0 m, got {self.fine} and "
-                f"{self.reach} m. Order the limits."
+                f"a grading needs two rising places or more with a spacing each, got {self.at} m "
+                f"and {self.spacing}. Sort the places."
             )
+        for spacing in self.spacing:
+            check_positive("spacing", spacing, "")
+        ratio = max(self.spacing) / min(self.spacing)
+        check_within("largest over smallest spacing", ratio, 1.0, _LARGEST_RATIO)
 
     def nodes(self, limits: tuple[float, float], count: int) -> Array:
         """Return the nodes [m], shape (count,), from limit to limit [m].
 
-        Grids of fewer nodes keep the same ratios: every second node of an odd number is a node
-        of half as many.
+        Grids of fewer nodes keep the same proportions: every second node of an odd number is a
+        node of half as many.
         """
-        if self.coarsest == 1.0:
-            return np.linspace(*limits, count)
         x = np.linspace(*limits, _TABLE)
-        t = np.maximum(0.0, np.maximum(self.fine[0] - x, x - self.fine[1])) / self.reach
-        growth = t * t / (t + 1.0)
-        most = self.coarsest - 1.0
-        # the smaller of both, rounded off
-        spacing = 1.0 + growth * most / (growth**4 + most**4) ** 0.25
-        mean = 0.5 * (1.0 / spacing[1:] + 1.0 / spacing[:-1])
-        index = np.concatenate(([0.0], np.cumsum(mean)))
-        wanted = np.linspace(0.0, index[-1], count)
-        nodes = np.interp(wanted, index, x)
+        logarithm = PchipInterpolator(self.at, np.log(self.spacing))
+        density = np.exp(-logarithm(np.clip(x, self.at[0], self.at[-1])))
+        index = np.append(0.0, np.cumsum(0.5 * (density[1:] + density[:-1])))
+        nodes = np.interp(np.linspace(0.0, index[-1], count), index, x)
         nodes[[0, -1]] = limits
         return np.asarray(nodes)
 

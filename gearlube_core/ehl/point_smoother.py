@@ -9,6 +9,7 @@ from scipy.linalg.lapack import sgbtrf, sgbtrs
 
 from gearlube_core.ehl.point_galerkin import SparseOperator
 from gearlube_core.ehl.point_level import PointLevel
+from gearlube_core.ehl.point_wave import wave_deflection
 from gearlube_core.jit import kernel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -16,7 +17,6 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 REACH = 4  # nodes over which the local deflection acts to each side
 _BELOW = REACH + 2  # the far upstream neighbour
 _ABOVE = REACH + 2
-_SPECTRUM = 512
 
 
 @kernel
@@ -37,8 +37,8 @@ def fill_rows(
         Compressed rows of the operator.
     free : ndarray of bool, shape (ny, nx)
         Other nodes get the identity.
-    local : ndarray, shape (REACH + 1,)
-        Deflection at a distance along the row per unit pressure.
+    local : ndarray, shape (nx, nx)
+        Deflection at the nodes of a row per unit pressure on its cells.
     across : ndarray, shape (5,)
         Share of it that neighbours 0 to 4 rows away see.
     band : ndarray, shape (ny nx, 2 _BELOW + _ABOVE + 1)
@@ -61,17 +61,7 @@ def fill_rows(
                 for m in range(-REACH, REACH + 1):
                     offset = ii - i + m
                     if 0 <= i + offset < nx and free[j, i + offset]:
-                        band[row + offset, diagonal - offset] += slope * local[abs(m)]
-
-
-def local_deflection(level: PointLevel, wave_number: float) -> Array:
-    """Return the deflection along a row under rows that alternate with a wave number across.
-
-    Inverse transform of 2/(E* sqrt(k_x^2 + k^2)) over the nodes of a row, shape (REACH + 1,).
-    """
-    n = np.fft.fftfreq(_SPECTRUM) * 2.0 * np.pi / level.dx
-    symbol = 2.0 / (level.modulus * np.hypot(n, wave_number))
-    return np.asarray(np.fft.ifft(symbol).real[: REACH + 1])
+                        band[row + offset, diagonal - offset] += slope * local[ii, i + offset]
 
 
 class RowSmoother:
@@ -86,14 +76,15 @@ class RowSmoother:
             0.55 * np.pi / level.dy if halved[0] else 0.0,
             0.35 * np.pi / level.dx if halved[1] else 0.0,
         )
-        across = np.cos(min(wave_number * level.dy, 0.55 * np.pi) * np.arange(5.0))
+        shortest = min(wave_number * level.dy, 0.55 * np.pi)
+        across = np.cos(shortest * np.arange(5.0))
         band = np.zeros((ny * nx, 2 * _BELOW + _ABOVE + 1), dtype=np.float32)
         fill_rows(
             operator.matrix.indptr,
             operator.matrix.indices,
             operator.matrix.data,
             operator.free,
-            local_deflection(level, wave_number),
+            wave_deflection(level, wave_number),
             across,
             band,
         )

@@ -12,7 +12,7 @@ import numpy as np
 from gearlube_core.ehl.border_pressure import border_pressure
 from gearlube_core.ehl.lubricant import EhlLubricant
 from gearlube_core.ehl.point_level import FilmState
-from gearlube_core.ehl.point_mesh import cell_faces
+from gearlube_core.ehl.point_mesh import Grading, cell_faces, x_nodes
 from gearlube_core.ehl.point_newton import flow_residual
 from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.ehl.point_solver import grid_shapes
@@ -58,6 +58,8 @@ class MovingFilm:
         Where the film is thicker [m] the oil is held at ambient pressure.
     solids
         What carries load where the film vanishes; None: the oil alone.
+    grading
+        Of the spacing along x; None: uniform.
 
     Raises
     ------
@@ -76,6 +78,7 @@ class MovingFilm:
     speed: float
     open_film: float = math.inf
     solids: SolidContact | None = None
+    grading: Grading | None = None
 
     def __post_init__(self) -> None:
         self.reference()
@@ -98,7 +101,7 @@ class MovingFilm:
     @property
     def x(self) -> Array:
         """Return the nodes along x [m], shape (nx,)."""
-        return np.linspace(*self.x_limits, self.nodes[0])
+        return x_nodes(self.x_limits, self.nodes[0], self.grading)
 
     @property
     def y(self) -> Array:
@@ -124,7 +127,7 @@ class MovingFilm:
     def _hierarchy(self, shapes: list[tuple[int, int]], wedge: str) -> Hierarchy:
         problem = self.reference()
         scales = PointScales.of(problem)
-        levels = [MovingLevel(problem, scales, shape, wedge) for shape in shapes]
+        levels = [MovingLevel(problem, scales, shape, wedge, self.grading) for shape in shapes]
         transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
         return Hierarchy(levels, transfers)
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.ehl.point_level import FilmState, PointLevel
+from gearlube_core.ehl.point_mesh import Grading, x_nodes
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.ehl.scaling import PointScales
 from gearlube_core.errors import ParameterError
@@ -65,15 +66,16 @@ class MovingLevel(PointLevel):
         scales: PointScales,
         shape: tuple[int, int],
         wedge: str,
+        grading: Grading | None = None,
     ) -> None:
         if scales.swap or scales.flip_x or problem.entrainment[1] != 0.0:
             raise ParameterError(
                 "a film that changes in time must be entrained along x towards larger x, got "
                 f"{problem.entrainment} m/s. Turn the axes."
             )
-        super().__init__(problem, scales, shape, wedge)
+        super().__init__(problem, scales, shape, wedge, grading)
         ny, nx = shape
-        self.x: Array = np.linspace(*problem.x_limits, nx)
+        self.x: Array = x_nodes(problem.x_limits, nx, grading)
         self.y: Array = np.linspace(*problem.y_limits, ny)
         self.rate = np.ones((ny, 1))
         self.storage = np.zeros(shape)

@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.contact.half_space import HalfSpaceConvolution
 from gearlube_core.ehl.point_coarse import CoarseSolution
 from gearlube_core.ehl.point_galerkin import SparseOperator, coarse_operator, sparse_operator
 from gearlube_core.ehl.point_level import Linearisation, PointLevel
 from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_wave import wave_deflection
 from gearlube_core.jit import kernel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -42,18 +42,6 @@ def row_shapes(shape: tuple[int, int]) -> list[tuple[int, int]]:
     return shapes
 
 
-def wave_deflection(level: PointLevel) -> Array:
-    """Return the deflection along a row of the longest waves that rows smooth, shape (nx,) [1].
-
-    Inverse transform of 2/(E* sqrt(k_x^2 + k^2)) over nodes.
-    """
-    count = 4 * level.shape[1]
-    wave = _WAVE / level.dy
-    n = np.fft.fftfreq(count) * 2.0 * np.pi / level.dx
-    symbol = 2.0 / (level.modulus * np.hypot(n, wave))
-    return np.asarray(np.fft.ifft(symbol).real[: level.shape[1]])
-
-
 @kernel
 def fill_row_matrices(
     start: np.ndarray,
@@ -74,8 +62,8 @@ def fill_row_matrices(
         Compressed rows of the operator; slopes by pressure (real) and film (imaginary).
     free : ndarray of bool, shape (ny, nx)
         Other nodes get the identity.
-    local : ndarray, shape (nx,)
-        Deflection at a distance along the row per unit pressure.
+    local : ndarray, shape (nx, nx)
+        Deflection at the nodes of a row per unit pressure on its cells.
     across : ndarray, shape (5,)
         Share of it that neighbours 0 to 4 rows away see.
     first : int
@@ -102,7 +90,7 @@ def fill_row_matrices(
                 slope = entry[k].imag * across[min(abs(jj - j), 4)]
                 if slope != 0.0:
                     for m in range(n):
-                        matrices[place, i - first, m] += slope * local[abs(first + m - ii)]
+                        matrices[place, i - first, m] += slope * local[ii, first + m]
             for m in range(n):
                 if not free[j, first + m]:
                     matrices[place, i - first, m] = 0.0
@@ -158,7 +146,7 @@ class RowInverses:
     """
 
     def __init__(self, level: PointLevel) -> None:
-        self._local = wave_deflection(level)
+        self._local = wave_deflection(level, _WAVE / level.dy)
         self._held = slice(0, 0)
         self._free = np.zeros(level.shape, dtype=np.bool_)
         self._centre = np.zeros(level.shape, dtype=np.complex128)
@@ -200,7 +188,7 @@ class RowInverses:
 
     def _changes(self, centre: np.ndarray, free: Flags) -> Array:
         # mean relative change of the derivatives of a row; nodes that come or go count as one
-        weight = self._local[0]
+        weight = self._local.diagonal()
         old = self._centre
         change = np.abs(centre.real - old.real) + weight * np.abs(centre.imag - old.imag)
         size = np.abs(centre.real) + np.abs(old.real)
@@ -250,9 +238,7 @@ class RowCycle:
         self._levels, self._transfers = grids.levels, grids.transfers
         if before is None:
             self._rows = [RowInverses(level) for level in self._levels[1:]]
-            self._deflections = [
-                HalfSpaceConvolution(level.coefficients, single=True) for level in self._levels
-            ]
+            self._deflections = [level.convolution(single=True) for level in self._levels]
         else:
             self._rows, self._deflections = before._rows, before._deflections
         operator = sparse_operator(linear)

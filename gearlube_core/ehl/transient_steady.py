@@ -35,15 +35,20 @@ def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
     """Return the dry contact on a grid, lifted by the film expected between."""
     scales = level.scales
     length = scales.length
+    # on a uniform grid of as many nodes
+    x = np.linspace(*film.x_limits, level.x.size)
+    gap = np.array([np.interp(x, level.x, row) for row in level.gap])
     dry = dry_contact_of_gap(
-        level.gap.T * scales.film,
-        level.dx * length,
+        gap.T * scales.film,
+        x[1] - x[0],
         level.dy * length,
         film.contact_modulus,
         scales.load * scales.pressure * length**2,
         tolerance=1e-3,
     )
-    pressure = bordered(scales.inward(dry.pressure / scales.pressure))
+    spread = [np.interp(level.x, x, column) for column in dry.pressure.T / scales.pressure]
+    pressure = bordered(np.array(spread))
+    pressure *= scales.load / level.integral(pressure)
     lowest = float(level.film(pressure, 0.0).min())
     approach = expected_film(film.reference()) / scales.film - lowest
     level.open_where_thicker(level.film(pressure, approach), film.open_film)

@@ -14,7 +14,9 @@ E = 1.15e11
 
 
 def _graded_nodes(a: float, count: int) -> np.ndarray:
-    return Grading((-1.1 * a, 1.1 * a), 6.0, 0.6 * a).nodes((-3.0 * a, 2.0 * a), count)
+    return Grading((-3.0 * a, -1.2 * a, 1.2 * a, 2.0 * a), (6.0, 1.0, 1.0, 4.0)).nodes(
+        (-3.0 * a, 2.0 * a), count
+    )
 
 
 def test_equal_cells_are_those_of_the_uniform_grid() -> None:
@@ -74,7 +76,25 @@ def test_inputs_are_checked() -> None:
     solid = GradedConvolution(graded_coefficients(cell_faces(nodes), nodes, 1.0, 2, E))
     with pytest.raises(ParameterError, match="pressure must have shape"):
         solid(np.zeros((3, 3)))
-    with pytest.raises(ParameterError, match="coarsest must be"):
-        Grading((-1.0, 1.0), 0.5, 1.0)
-    with pytest.raises(ParameterError, match="fine zone must rise"):
-        Grading((1.0, -1.0), 2.0, 1.0)
+    for at, spacing, match in (
+        ((1.0, -1.0), (1.0, 2.0), "two rising places"),
+        ((1.0,), (1.0,), "two rising places"),
+        ((-1.0, 1.0), (1.0, 0.0), "spacing must be"),
+        ((-1.0, 1.0), (1.0, 21.0), "largest over smallest"),
+    ):
+        with pytest.raises(ParameterError, match=match):
+            Grading(at, spacing)
+
+
+def test_a_grading_has_the_proportions_asked_for_on_nested_grids() -> None:
+    grading = Grading((-3.0, -1.0, 1.0, 2.0), (6.0, 1.0, 1.0, 4.0))
+    x = grading.nodes((-3.0, 2.0), 401)
+    steps = np.diff(x)
+    middle = 0.5 * (x[1:] + x[:-1])
+    fine = steps[np.abs(middle) < 0.9].mean()
+    # to the limits from half a step away, at a growth of 7 % a step
+    assert 2.0 * steps[0] - 0.5 * (steps[0] + steps[1]) == pytest.approx(6.0 * fine, rel=0.02)
+    assert 2.0 * steps[-1] - 0.5 * (steps[-1] + steps[-2]) == pytest.approx(4.0 * fine, rel=0.02)
+    # every second node, but for rounding
+    assert np.abs(grading.nodes((-3.0, 2.0), 201) - x[::2]).max() < 1e-12
+    assert (np.abs(np.diff(steps)) < 0.08 * np.minimum(steps[1:], steps[:-1])).all()

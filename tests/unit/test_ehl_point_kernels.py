@@ -53,7 +53,7 @@ def test_derivatives_are_those_of_the_residual(wedge: str) -> None:
 def test_derivatives_on_a_graded_grid_are_those_of_the_residual(wedge: str) -> None:
     problem = moes_contact(50.0, 10.0, nodes=(33, 19), radius_ratio=1.5)
     scales, a = PointScales.of(problem), problem.hertz_contact[0]
-    grading = Grading((-1.1 * a, 1.1 * a), 5.0, 0.5 * a)
+    grading = Grading((-2.0 * a, -a, a, 1.5 * a), (5.0, 1.0, 1.0, 3.0))
     level = PointLevel(problem, scales, (19, 33), wedge, grading)
     pressure = 0.05 + np.random.default_rng(1).random((19, 33))
     pressure[[0, -1]] = 0.0
@@ -77,7 +77,7 @@ def test_derivatives_on_a_graded_grid_are_those_of_the_residual(wedge: str) -> N
 def test_residuals_times_cells_add_up_to_what_flows_in_and_out() -> None:
     problem = moes_contact(50.0, 10.0, nodes=(33, 19), radius_ratio=1.5)
     scales, a = PointScales.of(problem), problem.hertz_contact[0]
-    for grading in (None, Grading((-1.1 * a, 1.1 * a), 5.0, 0.5 * a)):
+    for grading in (None, Grading((-2.0 * a, -a, a, 1.5 * a), (5.0, 1.0, 1.0, 3.0))):
         level = PointLevel(problem, scales, (19, 33), "upwind-1", grading)
         pressure = np.zeros((19, 33))
         state = level.state(pressure, 1.0)

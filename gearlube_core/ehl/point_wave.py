@@ -1,0 +1,50 @@
+"""Deflection along the rows of a grid under pressure that alternates across them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from scipy.linalg import toeplitz
+from scipy.special import iti0k0
+
+from gearlube_core.ehl.point_level import PointLevel
+from gearlube_core.ehl.point_mesh import cell_faces
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+_SPECTRUM = 512
+
+
+def wave_deflection(level: PointLevel, wave_number: float | Array) -> Array:
+    """Return the deflection at the nodes of a row under unit pressure on its cells.
+
+    Parameters
+    ----------
+    level
+        Grid.
+    wave_number
+        k of the wave across the rows, above zero; on a graded grid also one for every node,
+        shape (nx,).
+
+    Returns
+    -------
+    ndarray, shape (nx, nx)
+        At node, under cell [1].
+
+    Notes
+    -----
+    Inverse transform of 2/(E* sqrt(k_x^2 + k^2)): over the waves of a uniform grid, else in
+    closed form, 2/(pi E*) int K0(k |x|) dx over cells.
+    """
+    if not level.graded:
+        count = max(_SPECTRUM, 4 * level.shape[1])
+        n = np.fft.fftfreq(count) * 2.0 * np.pi / level.dx
+        symbol = 2.0 / (level.modulus * np.hypot(n, wave_number))
+        return np.asarray(toeplitz(np.fft.ifft(symbol).real[: level.shape[1]]))
+    wave = np.broadcast_to(wave_number, level.positions.shape)[:, None]
+    distance = cell_faces(level.positions) - level.positions[:, None]
+    integral = np.sign(distance) * iti0k0(wave * np.abs(distance))[1] / wave
+    return np.asarray(2.0 / (math.pi * level.modulus) * np.diff(integral, axis=1))
