@@ -220,7 +220,7 @@ class PointLevel:
     @property
     def own_deflection(self) -> Array:
         """Return the deflection of nodes under unit pressure on their own cell, (ny, nx)."""
-        own = self.coefficients[0].diagonal() if self._graded else self.coefficients[0, 0]
+        own = self.coefficients[0].diagonal() if self.graded else self.coefficients[0, 0]
         return np.broadcast_to(own, self.shape)
 
     def integral(self, values: Array) -> float:
