@@ -27,7 +27,7 @@ _PANELS = (
     ("minimum film", CHITTENDEN),
 )
 _BANDS = ((0.2, 0.10), (0.1, 0.15))  # half width and strength
-_TICKS = (0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0)
+_TICKS = (0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0)
 _SPREAD = 0.035  # of markers of one load, in decades
 
 
@@ -97,4 +97,4 @@ def _angles(ax: Any, films: Films) -> None:
             )
     ax.set_xticks(ANGLES)
     ax.set_xlabel("entrainment to the short axis [degree]")
-    ax.set_title("Chittenden et al. at an angle; dashed: minimum")
+    ax.set_title("Chittenden; dashed: minimum film")
