@@ -34,7 +34,7 @@ _SLENDEST = 2000.0  # R_y/R_x that stands for a line
 
 
 # densest where the film leaves the contact on any row at any time: the smallest film lies there
-EXIT_GRADING = ((-2.75, 10.0), (-1.4, 3.0), (-0.4, 3.0), (0.1, 1.0), (1.2, 1.0), (1.775, 4.0))
+EXIT_GRADING = ((-2.75, 6.0), (-1.5, 3.0), (-0.4, 3.0), (0.1, 1.0), (1.2, 1.0), (1.775, 4.0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -33,9 +33,9 @@ def test_a_graded_mesh_is_as_right_as_a_uniform_one_of_its_finest_spacing(step: 
     error = abs(thesis.minimum_film / fine.minimum_film - 1.0)
     assert error < 0.025
     assert abs(graded.minimum_film / fine.minimum_film - 1.0) < 1.2 * error
-    # a third as dense over contact and inlet: pressure and film there to 1e-3
+    # a third as dense over contact and inlet: pressure there to 1e-3, film to 2e-3
     assert graded.maximum_pressure == pytest.approx(fine.maximum_pressure, rel=1e-3)
-    assert _film_in_the_middle(graded) == pytest.approx(_film_in_the_middle(fine), rel=1e-3)
+    assert _film_in_the_middle(graded) == pytest.approx(_film_in_the_middle(fine), rel=2e-3)
 
 
 def test_errors_on_a_graded_mesh_fall_with_its_nodes() -> None:
