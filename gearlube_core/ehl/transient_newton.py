@@ -147,7 +147,8 @@ def step_newton(
         steps += 1
         linear = level.linearise(state)
         kept.serve(linear)
-        pressure, approach, _, count = flexible_gmres(
+        wanted = max(min(0.03, 0.1 * math.sqrt(size)), _ENOUGH * tolerance / size)
+        pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),
                 level.integral(p) / level.scales.load,
@@ -155,12 +156,14 @@ def step_newton(
             kept,
             linear.right,
             state.load_error,
-            tolerance=max(min(0.03, 0.1 * math.sqrt(size)), _ENOUGH * tolerance / size),
+            tolerance=wanted,
             most=most_krylov,
             weight=_LOAD_WEIGHT * float(np.linalg.norm(linear.by_approach)),
         )
         krylov += count
-        if count > kept.patience:
+        if remainder > wanted:
+            kept.forget()  # what it kept of an earlier state stands in the way
+        elif count > kept.patience:
             kept.tire()
         thinnest = _THINNEST * max(float(state.film.min()), 0.0)
         length, accepted = 1.0, False
