@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from gearlube_core.ehl.point_level import FilmState
 from gearlube_core.ehl.point_newton import NewtonRecord, newton
 from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.settings import PointSolverSettings
 
 _THICKER = (0.25, 1.0 / 16.0, 1.0 / 64.0)  # mobilities

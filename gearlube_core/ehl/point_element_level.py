@@ -14,7 +14,8 @@ from gearlube_core.ehl.point_finite_elements import (
     element_derivatives,
     element_residual,
 )
-from gearlube_core.ehl.point_level import FilmState, Flags, Offsets, PointLevel
+from gearlube_core.ehl.point_level import PointLevel
+from gearlube_core.ehl.point_state import FilmState, Flags, Offsets
 from gearlube_core.ehl.point_stencil import FlowSlopes, StencilParameters
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.ehl.scaling import PointScales

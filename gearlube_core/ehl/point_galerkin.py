@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from gearlube_core.ehl.point_level import Linearisation, PointLevel
+from gearlube_core.ehl.point_level import PointLevel
+from gearlube_core.ehl.point_state import Linearisation
 from gearlube_core.ehl.point_transfer import Transfer
 from gearlube_core.jit import kernel
 

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.ehl.point_krylov import flexible_gmres
-from gearlube_core.ehl.point_level import FilmState, PointLevel
+from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point_state import FilmState
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 

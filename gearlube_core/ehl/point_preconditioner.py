@@ -10,8 +10,9 @@ import numpy as np
 
 from gearlube_core.ehl.point_coarse import CoarseSolution
 from gearlube_core.ehl.point_galerkin import coarse_operator, sparse_operator
-from gearlube_core.ehl.point_level import Linearisation, PointLevel
+from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_smoother import RowSmoother
+from gearlube_core.ehl.point_state import Linearisation
 from gearlube_core.ehl.point_transfer import Transfer
 
 Array = np.ndarray[Any, np.dtype[np.float64]]

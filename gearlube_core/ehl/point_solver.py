@@ -11,9 +11,10 @@ import numpy as np
 
 from gearlube_core.ehl.point_continuation import solve_level
 from gearlube_core.ehl.point_element_level import ElementLevel
-from gearlube_core.ehl.point_level import FilmState, PointLevel
+from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.point_transfer import Transfer
 from gearlube_core.ehl.problem import PointContactProblem, expected_film
 from gearlube_core.ehl.scaling import PointScales

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.ehl.border_pressure import border_pressure
-from gearlube_core.ehl.point_level import FilmState, PointLevel
+from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_limiter import limited_faces
 from gearlube_core.ehl.point_newton import NewtonRecord, flow_residual
+from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.solid_contact import Touch

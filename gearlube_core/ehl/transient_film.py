@@ -11,11 +11,11 @@ import numpy as np
 
 from gearlube_core.ehl.border_pressure import border_pressure
 from gearlube_core.ehl.lubricant import EhlLubricant
-from gearlube_core.ehl.point_level import FilmState
 from gearlube_core.ehl.point_mesh import Grading, cell_faces, x_nodes
 from gearlube_core.ehl.point_newton import flow_residual
 from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.ehl.point_solver import grid_shapes
+from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.point_transfer import Transfer
 from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.scaling import PointScales

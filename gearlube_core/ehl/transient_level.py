@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.checks import check_finite, check_positive, check_within
-from gearlube_core.ehl.point_level import FilmState, PointLevel
+from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_mesh import Grading, x_nodes
+from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.problem import PointContactProblem
 from gearlube_core.ehl.scaling import PointScales
 from gearlube_core.errors import ParameterError

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
-from gearlube_core.ehl.point_level import FilmState, Linearisation
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point_state import FilmState, Linearisation
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import (
     FilmSolution,

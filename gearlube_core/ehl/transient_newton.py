@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.ehl.point_krylov import flexible_gmres
-from gearlube_core.ehl.point_level import FilmState, Linearisation
 from gearlube_core.ehl.point_newton import flow_residual
 from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_state import FilmState, Linearisation
 from gearlube_core.ehl.point_stencil import CENTRE
 from gearlube_core.ehl.transient_rows import Inverse
 

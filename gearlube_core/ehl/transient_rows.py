@@ -15,8 +15,9 @@ import numpy as np
 
 from gearlube_core.ehl.point_coarse import CoarseSolution
 from gearlube_core.ehl.point_galerkin import SparseOperator, coarse_operator, sparse_operator
-from gearlube_core.ehl.point_level import Linearisation, PointLevel
+from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_state import Linearisation
 from gearlube_core.ehl.point_wave import wave_deflection
 from gearlube_core.jit import kernel
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from gearlube_core.ehl.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point_continuation import solve_level
-from gearlube_core.ehl.point_level import FilmState
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.problem import expected_film
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import FilmSolution, MovingFilm, film_solution, impose

@@ -17,10 +17,10 @@ from gearlube_core.ehl.point_finite_elements import (
     upwind_shares,
 )
 from gearlube_core.ehl.point_galerkin import sparse_operator
-from gearlube_core.ehl.point_level import Linearisation
 from gearlube_core.ehl.point_newton import newton
 from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.ehl.point_solver import grid_shapes, solve_point_contact
+from gearlube_core.ehl.point_state import Linearisation
 from gearlube_core.ehl.point_stencil import FlowSlopes, StencilParameters, apply_derivatives
 from gearlube_core.ehl.point_transfer import Transfer
 from gearlube_core.ehl.problem import elliptical_contact

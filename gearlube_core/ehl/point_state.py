@@ -1,0 +1,73 @@
+"""What is known about the film on one grid: its state, and the residual's slopes there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.film_shear import ShearFactors
+from gearlube_core.ehl.point_solids import SolidShare
+from gearlube_core.ehl.point_stencil import FilmFlow
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+Offsets = np.ndarray[Any, np.dtype[np.int64]]
+
+
+@dataclass(slots=True)
+class FilmState:
+    """Pressure and what follows from it on one grid, in units of `PointScales`."""
+
+    pressure: Array
+    approach: float  # h_0
+    film: Array
+    mass: Array  # rho h
+    density: Array
+    fluidity: Array  # 1/eta
+    density_slope: Array
+    viscosity_slope: Array  # d ln eta/dp
+    cubic_x: Array  # rho h^3 times the flow factor along x
+    cubic_y: Array
+    log_viscosity: Array
+    residual: Array
+    load_error: float  # what the pressure lacks, relative to the load
+    cubic_xy: Array | None = None  # of the flow along x by dp/dy; None: no such flow
+    shear: ShearFactors | None = None  # of an Eyring film
+    closed: Flags | None = None  # where oil may be above ambient pressure; None: everywhere
+    solids: SolidShare | None = None  # None: no solids touch
+
+    @property
+    def oil(self) -> Array:
+        """Return the pressure of the oil."""
+        return self.pressure if self.solids is None else self.solids.oil
+
+    @property
+    def film_flow(self) -> FilmFlow:
+        """Return what pressure drives oil with along x and y, apart."""
+        f, resistance = self.fluidity, self.log_viscosity
+        if self.shear is None:
+            return FilmFlow(self.cubic_x, f, f, resistance, resistance)
+        return self.shear.flow(self.cubic_x / self.shear.xx, f, resistance)
+
+    @property
+    def free(self) -> Flags:
+        """Return where the Reynolds equation holds: pressure, or a residual that calls for it."""
+        free = (self.oil > 0.0) | (self.residual > 0.0)
+        if self.solids is not None:
+            free &= ~self.solids.drained(self.residual)
+        return free if self.closed is None else free & self.closed
+
+
+@dataclass(slots=True)
+class Linearisation:
+    """Derivatives of the residual on one grid at a state."""
+
+    offsets: Offsets  # (m, 2), m >= n, steps to the neighbours along y and x
+    by_pressure: Array  # (n, ny, nx)
+    by_film: Array  # (n, ny, nx)
+    by_approach: Array  # (ny, nx)
+    free: Flags  # where pressure is unknown
+    right: Array  # what the derivatives times the changes have to be, (ny, nx)
+    result: Array = field(repr=False)
