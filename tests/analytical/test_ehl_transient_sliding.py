@@ -92,10 +92,10 @@ def test_oil_in_a_box_grows_by_what_flows_in():
 
     def through(face, other, speed, step, factor, slope):
         """Mass flow per width through the faces between two rows of nodes."""
-        f, g = 1.0 / eta[face], 1.0 / eta[other]
+        f, g = factor[face] / eta[face], factor[other] / eta[other]
         log_mean = np.where(np.isclose(f, g, rtol=1e-9), f, (f - g) / np.log(f / g))
         mean = np.where(p[other] > p[face], log_mean, 0.5 * (f + g))
-        straight = np.sqrt(cubic[face] * factor[face] * cubic[other] * factor[other]) * mean
+        straight = np.sqrt(cubic[face] * cubic[other]) * mean
         askew = cubic * xy * slope / eta
         carried = speed * 0.5 * (m[face] + m[other])
         pumped = straight * (p[other] - p[face]) / step

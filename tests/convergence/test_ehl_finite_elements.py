@@ -142,7 +142,13 @@ def inner(shape):
 
 def matrix_of(by_pressure, by_film, free):
     linear = Linearisation(
-        ELEMENT_OFFSETS, by_pressure, by_film, by_film.sum(axis=0), free, np.empty(free.shape)
+        ELEMENT_OFFSETS,
+        by_pressure,
+        by_film,
+        by_film.sum(axis=0),
+        free,
+        right=np.zeros(free.shape),
+        result=np.empty(free.shape),
     )
     return sparse_operator(linear).matrix
 
