@@ -189,6 +189,7 @@ class FilmMarch:
             start_time=self.start_time,
             time_step=self.time_step,
             scheme=self.scheme,
+            positions=self._level.positions,
             pressure=past.state.pressure,
             approach=past.state.approach,
             mass=past.mass,
@@ -218,6 +219,11 @@ class FilmMarch:
                 f"{record.pressure.shape}, its scheme is {record.scheme} and its step "
                 f"{record.time_step:.6g} s, got {level.shape}, {self.scheme} and "
                 f"{self.time_step:.6g} s. Start anew."
+            )
+        if not np.allclose(record.positions, level.positions, rtol=0.0, atol=1e-9 * level.dx):
+            raise ParameterError(
+                "the record must belong to this march, got nodes at other places along x. "
+                "Start anew, or take the grading that it was made with."
             )
         self.steps = record.steps
         impose(self.film, self._grids, self.time)

@@ -23,6 +23,7 @@ class MarchRecord:
     start_time: float  # [s]
     time_step: float  # [s]
     scheme: str
+    positions: Array  # of the nodes along x over the unit of lengths, shape (nx,)
     pressure: Array
     approach: float
     mass: Array  # rho h

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from gearlube_core.ehl.lubricant import density as oil_density
 from gearlube_core.ehl.lubricant import ehl_lubricant, viscosity
+from gearlube_core.ehl.point_mesh import Grading
 from gearlube_core.ehl.problem import EllipticParaboloid
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import MovingFilm
@@ -156,6 +159,9 @@ def test_record_of_another_march_is_refused(tmp_path):
     FilmMarch(film, STEP).save(path)
     with pytest.raises(ParameterError, match="belong to this march"):
         FilmMarch(film, 2.0 * STEP, record=MarchRecord.read(path))
+    dense = replace(film, grading=Grading((film.x_limits[0], film.x_limits[1]), (3.0, 1.0)))
+    with pytest.raises(ParameterError, match="other places along x"):
+        FilmMarch(dense, STEP, record=MarchRecord.read(path))
     path.write_bytes(path.read_bytes()[:200])
     with pytest.raises(ParameterError, match="record of a march"):
         MarchRecord.read(path)
