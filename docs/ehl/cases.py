@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.ehl.helical_film import HelicalFilm, jamali_2015_film
+from gearlube_core.ehl.solid_contact import SolidContact
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -15,6 +16,8 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 STEPS = 575  # of the thesis' cycle; positions are named by them whatever the time step
 CYCLE, LINE, FACETED = (97, 161), (97, 257), (193, 257)  # nodes across, along
 WIDE, WIDE_FINE = (129, 257), (257, 257)  # on a wider domain
+LAYER = 10.0  # nm
+_TOUCHING_K, _TOUCHING_FACETS = 0.02, 30  # steeper and coarser flanks may touch
 _WIDE = (-2.75, 2.75)  # of the largest Hertz semi-width, across
 
 
@@ -37,6 +40,8 @@ class FilmCase:
     wide
         A domain that goes on behind the line: steep reliefs push the contact out of that of the
         thesis.
+    layer
+        Thickness of the layer that carries load where solids touch [nm]; 0: the oil alone.
     """
 
     design: str = "a"
@@ -48,13 +53,14 @@ class FilmCase:
     nodes: tuple[int, int] = LINE
     count: int = STEPS
     wide: bool = False
+    layer: float = 0.0
 
     @property
     def name(self) -> str:
         """Return the case in a file name."""
         parts = [self.design, f"{self.nodes[0]}x{self.nodes[1]}"]
         standard = FilmCase()
-        for label in ("k", "beta", "crown_start", "facets", "speed", "count", "wide"):
+        for label in ("k", "beta", "crown_start", "facets", "speed", "count", "wide", "layer"):
             value = getattr(self, label)
             if value != getattr(standard, label):
                 parts.append(f"{label}{value:g}")
@@ -74,6 +80,8 @@ class FilmCase:
         steps = replace(film.steps, step=film.steps.step * STEPS / self.count, count=self.count)
         if self.wide:
             film = replace(film, extent=_WIDE)
+        layer = SolidContact(thickness=1e-9 * self.layer) if self.layer else None
+        film = replace(film, solids=layer)
         return replace(film, steps=steps, pinion_speed=self.speed * film.pinion_speed)
 
     def number(self, step: float) -> float:
@@ -82,8 +90,15 @@ class FilmCase:
 
 
 def parabola_case(design: str, k: float, nodes: tuple[int, int] = WIDE) -> FilmCase:
-    """Return a relief whose parabolic share is varied."""
-    return FilmCase(design=design, k=k, nodes=nodes, wide=True)
+    """Return a relief whose parabolic share is varied; solids may touch where it is steep."""
+    layer = LAYER if k <= _TOUCHING_K else 0.0
+    return FilmCase(design=design, k=k, nodes=nodes, wide=True, layer=layer)
+
+
+def facet_case(facets: int, nodes: tuple[int, int] = FACETED) -> FilmCase:
+    """Return design A with faceted flanks, 0: smooth; solids may touch where facets are few."""
+    layer = LAYER if 0 < facets <= _TOUCHING_FACETS else 0.0
+    return FilmCase(facets=facets, nodes=nodes, layer=layer)
 
 
 def relief_starts(case: FilmCase, step: float) -> tuple[float, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from docs.ehl.lines import GivenUpError
 from docs.ehl.store import MissingFilmError, Store
 from docs.validation.claims import FAILS, HOLDS, PARTLY, Verdict
 
@@ -29,13 +30,18 @@ class Claim:
 
 
 def verdicts(claims: Iterable[Claim], store: Store) -> list[Verdict]:
-    """Return the verdict on every claim; on none whose films are missing."""
+    """Return the verdict on every claim; on none whose films are missing.
+
+    A claim on a march that was given up fails.
+    """
     found = []
     for claim in claims:
         try:
             found.append(claim.evaluate(store))
         except MissingFilmError as error:
             found.append(Verdict("-", MISSING, f"`{error}` is not computed yet"))
+        except GivenUpError as error:
+            found.append(Verdict("-", FAILS, f"a march was {error}"))
     return found
 
 

@@ -8,23 +8,33 @@ from docs.ehl.cases import CYCLE, Array, FilmCase
 from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed, span
 from docs.ehl.lines import March
 from docs.ehl.measures import highest_near, jumps, largest_change, off_range, peaks
-from docs.ehl.runs import COUNT_RANGE, COUNTS, CROWNS, POSITIONS, SPARSE, default_cycle
+from docs.ehl.runs import COUNT_RANGE, COUNTS, CROWNS, POSITIONS, default_cycle
 from docs.ehl.store import Store
 
 _PRESSURE, _FILM = 0.05, 0.15
 _SIDE = 200  # steps at both ends of the cycle
 
 
-def cycle(store: Store, design: str) -> March:
-    """Return the whole cycle of a design as the thesis takes it by default."""
+def drawn_cycle(store: Store, design: str) -> March:
+    """Return as much of that cycle as was found."""
     return store.march(default_cycle(design), 0, 575, POSITIONS)
 
 
-def crowned(store: Store, start: float) -> March:
-    """Return the cycle of design A for F_o over F."""
+def cycle(store: Store, design: str) -> March:
+    """Return the whole cycle of a design as the thesis takes it by default."""
+    return drawn_cycle(store, design).whole()
+
+
+def drawn_crowned(store: Store, start: float) -> March:
+    """Return as much of the cycle of design A as was found for F_o over F."""
     if start == 0.0:
-        return cycle(store, "a")
-    return store.march(FilmCase(crown_start=start, nodes=CYCLE, count=SPARSE), 0, 575)
+        return drawn_cycle(store, "a")
+    return store.march(FilmCase(crown_start=start, nodes=CYCLE), 0, 575)
+
+
+def crowned(store: Store, start: float) -> March:
+    """Return the whole cycle of design A for F_o over F."""
+    return drawn_crowned(store, start).whole()
 
 
 def _load(store: Store) -> Verdict:
@@ -45,7 +55,7 @@ def _step_counts(store: Store) -> Verdict:
     at = np.linspace(0.5 * (first + last), last - 2, 40)
     curves: dict[int, dict[str, Array]] = {}
     for count in COUNTS:
-        march = store.march(FilmCase(nodes=CYCLE, count=count), first, last)
+        march = store.march(FilmCase(nodes=CYCLE, count=count), first, last).whole()
         curves[count] = {
             name: np.interp(at, march.step, march[name]) for name in ("max_pressure", "min_film")
         }

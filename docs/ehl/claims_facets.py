@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from docs.ehl.cases import FACETED, Array, FilmCase
+from docs.ehl.cases import LINE, Array, FilmCase, facet_case
 from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed, span
 from docs.ehl.measures import exponent, peaks
 from docs.ehl.runs import FACET_MARCH, FACET_STEPS, FACETS
@@ -17,7 +17,7 @@ _SPIKE = 0.2  # of the largest pressure
 
 def faceted(store: Store, facets: int, step: int = 300) -> Steady:
     """Return design A with faceted flanks at rest; 0 facets: smooth."""
-    return store.steady(FilmCase(facets=facets, nodes=FACETED), step)
+    return store.steady(facet_case(facets), step)
 
 
 def _found(store: Store, facets: int) -> tuple[Array, Array, int, int]:
@@ -27,7 +27,7 @@ def _found(store: Store, facets: int) -> tuple[Array, Array, int, int]:
     h = [UM * f.min_film for f in films]
     count, failed = len(films), sum(not f.converged for f in films)
     if facets in _MARCHED:
-        march = store.march(FilmCase(facets=facets, nodes=FACETED), *FACET_MARCH, FACET_MARCH[1:])
+        march = store.march(facet_case(facets), *FACET_MARCH, FACET_MARCH[1:])
         p += list(GPA * march["max_pressure"])
         h += list(UM * march["min_film"])
         count, failed = count + len(march.step), failed + march.failures
@@ -123,7 +123,7 @@ def _grids(store: Store) -> Verdict:
     """F7."""
     off = {}
     for n in (20, 100):
-        coarse, fine = store.steady(FilmCase(facets=n), 300), faceted(store, n)
+        coarse, fine = store.steady(facet_case(n, LINE), 300), faceted(store, n)
         off[n] = [
             100.0 * (coarse.max_pressure / fine.max_pressure - 1.0),
             100.0 * (coarse.min_film / fine.min_film - 1.0),
@@ -145,7 +145,7 @@ def facet_gaps(counts: tuple[int, ...] = FACETS) -> list[float]:
     y = moving.y[np.abs(moving.y) < 0.015]  # clear of both reliefs
     gap = smooth.gap(moving.x, y, X)
     return [
-        float(np.abs(FilmCase(facets=n).film().gap(moving.x, y, X) - gap).max()) for n in counts
+        float(np.abs(facet_case(n, LINE).film().gap(moving.x, y, X) - gap).max()) for n in counts
     ]
 
 

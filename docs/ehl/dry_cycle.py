@@ -11,8 +11,6 @@ from docs.ehl.cases import Array, FilmCase
 from docs.ehl.lines import write_arrays
 from gearlube_core.ehl.dry_contact import dry_contact_of_gap
 
-STEPS = np.arange(0, 576, 25)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DryCycle:
@@ -28,21 +26,22 @@ class DryCycle:
         return np.asarray(self.pressure.max(axis=1))
 
 
-def dry_cycle(folder: Path, case: FilmCase) -> DryCycle:
-    """Return the dry contact of a case at every 25th step, kept in a folder."""
-    path = folder / f"dry_{case.name}.npz"
+def dry_cycle(folder: Path, case: FilmCase, every: int = 25) -> DryCycle:
+    """Return the dry contact of a case at every so many steps, kept in a folder."""
+    path = folder / f"dry_{case.name}_every{every}.npz"
+    steps = np.arange(0, 576, every)
     if not path.exists():
         film = case.film()
         moving = film.moving_film()
         x, y = moving.x, moving.y
         rows = []
-        for step in STEPS:
+        for step in steps:
             X = film.line(case.number(float(step)) * film.time_step)
             dry = dry_contact_of_gap(
                 film.gap(x, y, X), x[1] - x[0], y[1] - y[0], film.contact_modulus, film.load(X),
                 tolerance=1e-4,
             )  # fmt: skip
             rows.append(dry.pressure.max(axis=0))
-        write_arrays(path, {"step": STEPS, "y": y, "pressure": np.array(rows)})
+        write_arrays(path, {"step": steps, "y": y, "pressure": np.array(rows)})
     with np.load(path) as data:
         return DryCycle(step=data["step"], y=data["y"], pressure=data["pressure"])

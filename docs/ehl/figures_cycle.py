@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from docs.ehl.cases import CYCLE, FACETED, FilmCase, parabola_case
+import numpy as np
+
+from docs.ehl.cases import CYCLE, FACETED, FilmCase, facet_case, parabola_case
 from docs.ehl.claims import GPA, MM, UM
-from docs.ehl.claims_cycle import crowned, cycle
+from docs.ehl.claims_cycle import drawn_crowned, drawn_cycle
 from docs.ehl.dry_cycle import dry_cycle
 from docs.ehl.lines import March
 from docs.ehl.runs import (
@@ -17,8 +19,8 @@ from docs.ehl.runs import (
     MARCHED_PARABOLAS,
     PARABOLAS,
     POSITIONS,
+    POWER_STEPS,
     POWERS,
-    SPARSE,
     SPEEDS,
     power_case,
 )
@@ -49,7 +51,7 @@ def designs(store: Store) -> Any:
         figure, top, bottom = _two_panels()
         for d in "ab":
             colour = COLOURS[d]
-            _curves(top, bottom, cycle(store, d), f"design {d.upper()}", color=colour)
+            _curves(top, bottom, drawn_cycle(store, d), f"design {d.upper()}", color=colour)
             dry = dry_cycle(store.folder, FilmCase(design=d, nodes=CYCLE))
             top.plot(
                 dry.step, GPA * dry.max_pressure, ".", color=colour, ms=5,
@@ -75,12 +77,12 @@ def crowns(store: Store) -> Any:
             _curves(
                 top,
                 bottom,
-                crowned(store, start),
+                drawn_crowned(store, start),
                 f"$F_o$ = {start:g} F",
                 color=SERIES[row],
                 lw=1.3,
             )
-        top.legend(ncols=5, loc="lower center")
+        bottom.legend(ncols=5, loc="lower center")
         bottom.set_ylim(0.0, None)
         figure.suptitle("Design A, crown from $F_o$ on", fontsize=11)
     return figure
@@ -134,10 +136,13 @@ def parabolas(store: Store) -> Any:
             shares, [GPA * f.max_pressure for f in b], "^:", color=SERIES[2], label="B, at rest"
         )
         right.plot(shares, [UM * f.min_film for f in b], "^:", color=SERIES[2], label="B, at rest")
-        left.set(xlabel="k", ylabel="largest pressure [GPa]", ylim=(0.0, None))
-        right.set(xlabel="k", ylabel="smallest film [µm]", ylim=(0.0, None))
-        left.legend()
-        right.legend()
+        left.set(ylabel="largest pressure [GPa]")
+        right.set(ylabel="smallest film [µm]")
+        for ax in (left, right):
+            ax.set(xlabel="k, on a scale of its square root", xlim=(0.0, 1.05), ylim=(0.0, None))
+            ax.set_xscale("function", functions=(np.sqrt, np.square))
+            ax.set_xticks([0.0, 0.02, 0.1, 0.3, 0.5, 0.7, 1.0])
+            ax.legend()
         figure.suptitle("Step 500, parabolic share k of the tip relief", fontsize=11)
     return figure
 
@@ -164,27 +169,27 @@ def speeds(store: Store) -> Any:
     return figure
 
 
-def power_march(store: Store, design: str, beta: float) -> March:
-    """Return the cycle of a power law; 2 is the parabola."""
-    if beta == 2.0:
-        return cycle(store, design)
-    return store.march(power_case(design, beta, nodes=CYCLE, count=SPARSE), 0, 575)
-
-
 def powers(store: Store) -> Any:
-    """Return both designs over the cycle for three power laws: fig. 5.22."""
+    """Return both designs at rest over the cycle for three power laws: fig. 5.22."""
     with house_style():
         figure = new_figure(9.6, 6.0)
         axes = figure.subplots(2, 2, sharex=True, sharey="row")
         for d, (top, bottom) in zip("ab", axes.T, strict=True):
             for row, beta in enumerate(POWERS[1:]):
-                _curves(
-                    top, bottom, power_march(store, d, beta), f"beta = {beta:g}", color=SERIES[row],
-                    lw=1.4,
+                case, colour = power_case(d, beta, nodes=CYCLE), SERIES[row]
+                films = [store.steady(case, n) for n in POWER_STEPS]
+                dry = dry_cycle(store.folder, case, every=5)
+                top.plot(dry.step, GPA * dry.max_pressure, color=colour, lw=1.0)
+                top.plot(
+                    POWER_STEPS, [GPA * f.max_pressure for f in films], "o", color=colour, ms=4,
+                    label=f"beta = {beta:g}",
                 )  # fmt: skip
+                bottom.plot(
+                    POWER_STEPS, [UM * f.min_film for f in films], "o-", color=colour, ms=4, lw=1.0
+                )
             top.set_title(f"design {d.upper()}")
             bottom.set(xlabel="step of the cycle", xlim=(0, 575), ylim=(0.0, None))
-            top.legend()
+        axes[0, 0].legend()
         axes[0, 0].set_ylabel("largest pressure [GPa]")
         axes[1, 0].set_ylabel("smallest film [µm]")
     return figure
@@ -196,9 +201,7 @@ def facets(store: Store) -> Any:
         figure = new_figure(9.6, 7.0)
         axes = figure.subplots(2, 2)
         for row, step in enumerate((300, *FACET_STEPS)):
-            films = [
-                store.steady(FilmCase(facets=n, nodes=FACETED), step) for n in (20, 30, 40, 100)
-            ]
+            films = [store.steady(facet_case(n), step) for n in (20, 30, 40, 100)]
             films += [store.steady(FilmCase(nodes=FACETED), step)]
             places = range(5)
             axes[0, 0].plot(
@@ -209,7 +212,7 @@ def facets(store: Store) -> Any:
                 places, [UM * f.min_film for f in films], "o-", color=SERIES[row], lw=1.0
             )
         for place, n in ((2, 40), (3, 100)):
-            march = store.march(FilmCase(facets=n, nodes=FACETED), *FACET_MARCH, FACET_MARCH[1:])
+            march = store.march(facet_case(n), *FACET_MARCH, FACET_MARCH[1:])
             for ax, name, unit in ((axes[0, 0], "max_pressure", GPA), (axes[0, 1], "min_film", UM)):
                 values = unit * march[name]
                 ax.vlines(place + 0.12, values.min(), values.max(), color=GREY, lw=5)
@@ -220,7 +223,7 @@ def facets(store: Store) -> Any:
         axes[0, 1].set_ylabel("smallest film [µm]")
         axes[0, 0].legend()
         for row, n in enumerate((20, 40, 100, 0)):
-            film = store.steady(FilmCase(facets=n, nodes=FACETED), 300)
+            film = store.steady(facet_case(n), 300)
             j, label = film.column(0.0), f"$n_f$ = {n}" if n else "smooth"
             x = MM * film.x
             axes[1, 0].plot(x, GPA * film.pressure[:, j], color=SERIES[row], lw=1.1, label=label)

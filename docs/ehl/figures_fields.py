@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import BoundaryNorm
 
-from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase, parabola_case, relief_starts
+from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase, relief_starts
 from docs.ehl.claims import GPA, MM, UM
 from docs.ehl.claims_cycle import cycle
 from docs.ehl.dry_cycle import dry_cycle
-from docs.ehl.figures_cycle import power_march
 from docs.ehl.runs import POSITIONS, POWERS, power_case
 from docs.ehl.sections import line_contact, section
 from docs.ehl.store import Store
@@ -73,9 +72,10 @@ def sections(store: Store) -> Any:
     with house_style():
         figure = new_figure(10.0, 6.4)
         for ax, y in zip(figure.subplots(2, 3).ravel(), _SECTIONS, strict=True):
-            both = section(store, "b", 300, y / MM)
             fine = store.steady(case, 300)
-            j, x = fine.column(y / MM), MM * both.x
+            j = fine.column(y / MM)
+            both = section(store, "b", 300, float(fine.y[j]))
+            x = MM * both.x
             right = ax.twinx()
             ax.plot(MM * fine.x, GPA * fine.pressure[:, j], color=BLUE, lw=2.4)
             ax.plot(x, GPA * both.pressure, "--", color=VERMILLION, lw=1.4)
@@ -122,24 +122,21 @@ def power_contours(store: Store) -> Any:
 
 
 def power_lines(store: Store) -> Any:
-    """Return the pressure of the whole cycle over step and y for four power laws: fig. 5.24."""
+    """Return dry pressures of the cycle over step and y for four power laws: fig. 5.24."""
     levels = np.array([0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.5, 2.0, 3.0])
     with house_style():
         figure = new_figure(10.0, 6.4)
         axes = figure.subplots(2, 4, sharex=True, sharey=True)
         for d, row in zip("ab", axes, strict=True):
             for ax, beta in zip(row, POWERS, strict=True):
-                if beta == 1.0:
-                    dry = dry_cycle(store.folder, parabola_case(d, 0.0))
-                    step, y, pressure = dry.step, dry.y, dry.pressure
-                else:
-                    march = power_march(store, d, beta)
-                    step, y, pressure = march.step, march.y, march.pressure
-                drawn = _filled(ax, (step, MM * y), GPA * pressure.T, levels, "magma_r", "max")
-                words = ", dry" if beta == 1.0 else ""
-                ax.set_title(f"{d.upper()}, beta = {beta:g}{words}", fontsize=9)
+                case = power_case(d, beta, nodes=CYCLE)
+                dry = dry_cycle(store.folder, case, every=5)
+                places = (dry.step, MM * dry.y)
+                drawn = _filled(ax, places, GPA * dry.pressure.T, levels, "magma_r", "max")
+                ax.set_title(f"{d.upper()}, beta = {beta:g}", fontsize=9)
                 ax.grid(visible=False)
             row[0].set_ylabel("along the line, y [mm]")
         figure.supxlabel("step of the cycle", fontsize=10)
-        figure.colorbar(drawn, ax=axes, label="largest pressure of the section [GPa]")
+        words = "largest pressure of the section [GPa]"
+        figure.colorbar(drawn, ax=axes, label=words, ticks=levels)
     return figure

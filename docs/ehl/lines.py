@@ -13,8 +13,12 @@ from gearlube_core.ehl.transient_film import FilmSolution
 
 COLUMNS = (
     "number", "max_pressure", "max_pressure_y", "min_film", "min_film_y", "load_error",
-    "converged", "seconds",
+    "converged", "seconds", "border_pressure", "solid_share", "solid_area",
 )  # fmt: skip
+
+
+class GivenUpError(Exception):
+    """A march was given up before the step that is asked for."""
 
 
 def write_arrays(path: Path, arrays: dict[str, Any]) -> None:
@@ -42,7 +46,8 @@ class Lines:
         self.rows.append(
             np.array(
                 [n, pressure.max(), solution.y[row], film.min(), solution.y[thin],
-                 solution.load_error, solution.converged, seconds]
+                 solution.load_error, solution.converged, seconds, solution.border_pressure,
+                 solution.touch.share, solution.touch.area]
             )
         )  # fmt: skip
         self.pressure.append(pressure.max(axis=0).astype(np.float32))
@@ -122,8 +127,22 @@ class March:
         """Return the number of steps that did not converge."""
         return int((self["converged"] == 0.0).sum())
 
+    @property
+    def last_found(self) -> float:
+        """Return the last step that converged; nan if none did."""
+        found = self.step[self["converged"] > 0.0]
+        return float(found[-1]) if found.size else np.nan
+
+    def whole(self) -> March:
+        """Return the march, which must not have been given up."""
+        if not self.complete:
+            raise GivenUpError(f"given up after step {self.last_found:.0f}")
+        return self
+
     def row(self, step: float) -> int:
         """Return the row of the nearest step."""
+        if step > self.step[-1]:
+            self.whole()
         return int(np.abs(self.step - step).argmin())
 
     def at(self, column: str, step: float) -> float:
@@ -132,5 +151,7 @@ class March:
 
     def fields(self, step: float) -> tuple[Array, Array]:
         """Return pressure [Pa] and film [m] of a kept step, shape (x, y)."""
+        if step > self.step[-1]:
+            self.whole()
         i = int(np.abs(self.kept_steps - step).argmin())
         return self.kept_pressure[i], self.kept_film[i]

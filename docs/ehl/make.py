@@ -21,10 +21,12 @@ from docs.ehl.claims_motion import MOTIONS
 from docs.ehl.claims_relief import RELIEFS
 from docs.ehl.film_map_page import film_map_section
 from docs.ehl.micro_cavity_page import micro_cavity_section
+from docs.ehl.minimum_film import minimum_film_section
 from docs.ehl.pages import claims_table, counts, dry_table, grid_table, size
 from docs.ehl.pictures import CYCLE_PICTURES, FACET_PICTURES, SMOOTH_PICTURES, shown
 from docs.ehl.runs import all_runs, do_runs
 from docs.ehl.store import Store
+from docs.ehl.touching import touching_section
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXTS = Path(__file__).parent / "text"
@@ -33,24 +35,31 @@ Section = Callable[[Store], str]
 logger = logging.getLogger("docs.ehl")
 
 
+def _intro(_: Store) -> str:
+    return _text("intro")
+
+
+def _smooth(store: Store) -> str:
+    claims = (*CYCLES, *RELIEFS, *MOTIONS)
+    return _text("claims") + claims_table(claims, verdicts(claims, store))
+
+
+def _facets(store: Store) -> str:
+    return _text("facets") + claims_table(FACETED_FLANKS, verdicts(FACETED_FLANKS, store))
+
+
+def _figures(store: Store) -> str:
+    pictures = (*CYCLE_PICTURES, *SMOOTH_PICTURES, *FACET_PICTURES)
+    return _text("figures") + shown(store, pictures, IMAGES)
+
+
 def _method(store: Store) -> str:
     grids = (
         f"Nodes across and along the line, {size()} in contact at\n  most: "
         f"{_nodes(CYCLE)} for cycles, {_nodes(LINE)} for films at rest and short marches,\n  "
         f"{_nodes(FACETED)} for facets and for comparison. The thesis has 182 by 857."
     )
-    return _text("method").format(grids=grids) + shown(store, CYCLE_PICTURES, IMAGES)
-
-
-def _smooth(store: Store) -> str:
-    claims = (*CYCLES, *RELIEFS, *MOTIONS)
-    page = _text("claims") + claims_table(claims, verdicts(claims, store))
-    return page + shown(store, SMOOTH_PICTURES, IMAGES)
-
-
-def _facets(store: Store) -> str:
-    page = _text("facets") + claims_table(FACETED_FLANKS, verdicts(FACETED_FLANKS, store))
-    return page + shown(store, FACET_PICTURES, IMAGES)
+    return _text("method").format(grids=grids)
 
 
 def _dry(store: Store) -> str:
@@ -59,6 +68,10 @@ def _dry(store: Store) -> str:
 
 def _grids(store: Store) -> str:
     return _text("grids") + grid_table(store)
+
+
+def _touching(store: Store) -> str:
+    return touching_section(store, all_runs())
 
 
 def _failures(store: Store) -> str:
@@ -71,11 +84,15 @@ def _open(_: Store) -> str:
 
 # in the order of the page; further studies of films add theirs
 SECTIONS: tuple[Section, ...] = (
-    _method,
+    _intro,
     _smooth,
     _facets,
+    _figures,
+    _method,
     _dry,
     _grids,
+    minimum_film_section,
+    _touching,
     _failures,
     film_map_section,
     micro_cavity_section,

@@ -2,55 +2,97 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from docs.ehl.claims import MISSING, MM, UM
+from docs.ehl.lines import write_arrays
+from docs.ehl.store import MissingFilmError, Store
+from docs.helical.pages import table
 from gearlube_core.ehl.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.helical_film import jamali_2015_film
 from gearlube_core.ehl.settings import PointSolverSettings
 
 FIRST, LAST = 470, 490  # steps of design A; the contact is crossed in 17
-# nodes across and along the line, stencil, time steps for one step
+_COLUMNS = ("steady", "moving", "x", "y", "failures")
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """Nodes across and along the line, stencil, time steps for one of the thesis."""
+
+    nodes: tuple[int, int]
+    wedge: str
+    substeps: int = 1
+
+    @property
+    def name(self) -> str:
+        """Return the variant in a file name."""
+        return f"minimum_film_{self.nodes[0]}x{self.nodes[1]}_{self.wedge}_{self.substeps}"
+
+
 VARIANTS = (
-    (97, 81, "upwind-1", 1),
-    (97, 81, "upwind-2", 1),
-    (97, 81, "quick", 1),
-    (97, 161, "quick", 1),
-    (193, 81, "quick", 1),
-    (97, 81, "upwind-1", 4),
-    (97, 81, "quick", 2),
-    (97, 81, "quick", 4),
-    (193, 81, "quick", 2),
+    Variant((97, 81), "upwind-1"),
+    Variant((97, 81), "upwind-1", 4),
+    Variant((97, 81), "upwind-2"),
+    Variant((97, 81), "quick"),
+    Variant((97, 81), "quick", 2),
+    Variant((97, 81), "quick", 4),
+    Variant((97, 161), "quick"),
+    Variant((193, 161), "quick"),
 )
-COLUMNS = ("steady", "step 490", "x", "y", "failures")
 
 
-def minimum_film_table(folder: Path) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Return one row a variant, columns as in `COLUMNS`, SI; computed once for a folder.
+@dataclass(frozen=True, slots=True)
+class Thinnest:
+    """Smallest film at rest at the first step and in motion at the last [m], and its place [m]."""
 
-    Film of the line at rest at step 470 and in motion at step 490 [m], where the latter lies [m],
-    and steps that did not converge.
-    """
-    path = folder / "minimum_film.npy"
-    if path.exists():
-        table: np.ndarray[Any, np.dtype[np.float64]] = np.load(path)
-        if table.shape == (len(VARIANTS), len(COLUMNS)):
-            return table
-    rows = []
-    for nx, ny, wedge, substeps in VARIANTS:
+    steady: float
+    moving: float
+    x: float
+    y: float
+    failures: int
+
+
+def thinnest(store: Store, variant: Variant) -> Thinnest:
+    """Return the smallest films of a variant, marched if they are not in the folder."""
+    path = store.folder / f"{variant.name}.npz"
+    if not path.exists():
+        if not store.compute:
+            raise MissingFilmError(variant.name)
         cycle = march_helical_cycle(
-            jamali_2015_film("a", nodes=(nx, ny)),
+            jamali_2015_film("a", nodes=variant.nodes, solids=None),
             first=FIRST,
             last=LAST,
-            substeps=substeps,
-            settings=PointSolverSettings(tolerance=1e-5, wedge=wedge),
+            substeps=variant.substeps,
+            settings=PointSolverSettings(tolerance=1e-5, wedge=variant.wedge),
             throw=False,
         )
         film, x, y = (cycle[name] for name in ("min_film", "min_film_x", "min_film_y"))
-        rows.append((film[0], film[-1], x[-1], y[-1], cycle.failures))
-    table = np.array(rows)
-    folder.mkdir(parents=True, exist_ok=True)
-    np.save(path, table)
-    return table
+        values = (film[0], film[-1], x[-1], y[-1], cycle.failures)
+        write_arrays(path, dict(zip(_COLUMNS, map(np.asarray, values), strict=True)))
+    with np.load(path) as data:
+        steady, moving, x, y, failures = (float(data[name]) for name in _COLUMNS)
+    return Thinnest(steady, moving, x, y, int(failures))
+
+
+def minimum_film_section(store: Store) -> str:
+    """Return the section with its table; a variant that is missing is said to be."""
+    text = (Path(__file__).parent / "text" / "minimum_film.md").read_text(encoding="utf-8")
+    rows = []
+    for variant in VARIANTS:
+        row = [f"{variant.nodes[0]} x {variant.nodes[1]}", variant.wedge, f"{variant.substeps}"]
+        try:
+            film = thinnest(store, variant)
+        except MissingFilmError:
+            rows.append([*row, MISSING, "", "", ""])
+            continue
+        rows.append(
+            [*row, f"{UM * film.steady:.3f}", f"{UM * film.moving:.3f}",
+             f"{MM * film.x:.2f}, {MM * film.y:.1f}", f"{film.failures}"]
+        )  # fmt: skip
+    heads = ["Nodes", "Wedge", "Time steps for one", f"At rest, step {FIRST}, um"]
+    heads += [f"In motion, step {LAST}, um", "There at x, y, mm", "Steps not converged"]
+    return text + table(heads, rows)

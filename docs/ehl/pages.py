@@ -6,7 +6,16 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from docs.ehl.cases import CYCLE, FACETED, LINE, WIDE, WIDE_FINE, FilmCase, parabola_case
+from docs.ehl.cases import (
+    CYCLE,
+    FACETED,
+    LINE,
+    WIDE,
+    WIDE_FINE,
+    FilmCase,
+    facet_case,
+    parabola_case,
+)
 from docs.ehl.claims import GPA, MISSING, MM, UM, Claim, Verdict
 from docs.ehl.lines import March
 from docs.ehl.runs import FACETS, MARCHED_PARABOLAS, POSITIONS, Run, power_case
@@ -34,9 +43,7 @@ def dry_table(store: Store) -> str:
     ]
     cases += [(f"A, k = {k:g}, step 500", parabola_case("a", k), 500) for k in MARCHED_PARABOLAS]
     cases += [(f"B, beta = {b:g}, step 75", power_case("b", b), 75) for b in (3.0, 4.0)]
-    cases += [
-        (f"A, n_f = {n}, step 300", FilmCase(facets=n, nodes=FACETED), 300) for n in FACETS[::-1]
-    ]
+    cases += [(f"A, n_f = {n}, step 300", facet_case(n), 300) for n in FACETS[::-1]]
     rows = []
     for words, case, step in cases:
         try:
@@ -59,7 +66,7 @@ def grid_table(store: Store) -> str:
     fine, wider = (LINE, FACETED), (WIDE, WIDE_FINE)
     cases = [(f"A, k = 1, step {n}", FilmCase(), n, narrow) for n in POSITIONS]
     cases += [(f"A, k = {k:g}, step 500", parabola_case("a", k), 500, wider) for k in (0.1, 0.0)]
-    cases += [(f"A, n_f = {n}, step 300", FilmCase(facets=n), 300, fine) for n in (100, 20)]
+    cases += [(f"A, n_f = {n}, step 300", facet_case(n, LINE), 300, fine) for n in (100, 20)]
     rows = []
     for words, case, step, ours in cases:
         cells = [_at_rest(store, replace(case, nodes=n), step) if n in ours else "" for n in grids]
@@ -108,6 +115,8 @@ def _tally(store: Store, runs: Sequence[Run]) -> _Tally:
             missing += 1
             continue
         marches.append(march)
+        if march["border_pressure"].max() > _CUT:
+            cut.append(f"{name} in motion")
         if march.failures or not march.complete:
             state = "" if march.complete else ", given up"
             failed.append(f"{name}: {march.failures} of {len(march.step)} steps{state}")

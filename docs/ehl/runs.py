@@ -7,7 +7,15 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from docs.ehl.cases import CYCLE, FACETED, STEPS, WIDE_FINE, FilmCase, parabola_case
+from docs.ehl.cases import (
+    CYCLE,
+    FACETED,
+    LINE,
+    WIDE_FINE,
+    FilmCase,
+    facet_case,
+    parabola_case,
+)
 from docs.ehl.store import Store
 
 logger = logging.getLogger("docs.ehl")
@@ -18,12 +26,15 @@ CROWNS = (0.0, 0.1, 0.25, 0.4, 0.45)  # F_o over F
 PARABOLAS = (1.0, 0.7, 0.5, 0.3, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)  # k
 MARCHED_PARABOLAS = (0.3, 0.1, 0.02, 0.0)
 POWERS = (1.0, 2.0, 3.0, 4.0)  # beta
+POWER_STEPS = tuple(range(25, 551, 25))
 SPEEDS = (1.0, 2.0, 5.0, 10.0)
 FACETS = (20, 30, 40, 60, 80, 100)
 COUNTS = (200, 400, 800)
 COUNT_RANGE = (440, 520)
-SPARSE = 230  # time steps of most whole cycles; every fifth of the thesis' steps is one
 APPROACH = 40  # steps from rest before a step that is looked at
+LAYERS = (0.0, 10.0, 30.0)  # nm; 0: the oil alone
+TOUCHING_K = (0.02, 0.0)
+TOUCHING = (480, 500)  # steps
 FACET_STEPS = (75, 500)
 FACET_MARCH = (280, 300)
 
@@ -31,15 +42,20 @@ FACET_MARCH = (280, 300)
 def power_case(design: str, beta: float, **rest: object) -> FilmCase:
     """Return a relief by eq. (5.6): 2 is the parabola and 1 the straight line."""
     if beta == 1.0:
-        return parabola_case(design, 0.0)
+        return parabola_case(design, 0.0, **rest)  # type: ignore[arg-type]
     if beta == 2.0:
         return FilmCase(design=design, **rest)  # type: ignore[arg-type]
     return FilmCase(design=design, beta=beta, **rest)  # type: ignore[arg-type]
 
 
+def touching_case(k: float, layer: float) -> FilmCase:
+    """Return a steep relief of design A with a given layer on its solids."""
+    return FilmCase(k=k, nodes=CYCLE, wide=True, layer=layer)
+
+
 def default_cycle(design: str) -> FilmCase:
-    """Return what a whole cycle is marched as: A with the thesis' time steps."""
-    return FilmCase(design=design, nodes=CYCLE, count=STEPS if design == "a" else SPARSE)
+    """Return what a whole cycle is marched as."""
+    return FilmCase(design=design, nodes=CYCLE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,15 +94,18 @@ def _at_rest() -> list[Run]:
     films += [(parabola_case("a", k), 500) for k in PARABOLAS]
     films += [(power_case("b", b), n) for b in POWERS for n in (75, 500)]
     films += [(FilmCase(speed=s, nodes=FACETED), n) for s in SPEEDS for n in POSITIONS]
-    films += [(FilmCase(facets=n, nodes=FACETED), 300) for n in reversed(FACETS)]
+    films += [(facet_case(n), 300) for n in reversed(FACETS)]
     films += [(power_case("a", b), n) for b in POWERS for n in (75, 500)]
-    films += [(FilmCase(facets=n, nodes=FACETED), s) for n in (100, 40) for s in FACET_STEPS]
+    films += [(facet_case(n), s) for n in (100, 40) for s in FACET_STEPS]
     films += [(parabola_case("b", k), 500) for k in (1.0, *MARCHED_PARABOLAS)]
     films += [(FilmCase(nodes=FACETED), n) for n in POSITIONS]
     films += [(FilmCase(design="b", nodes=FACETED), 300)]
-    films += [(FilmCase(facets=n), 300) for n in (100, 20)]
+    films += [(facet_case(n, LINE), 300) for n in (100, 20)]
     films += [(parabola_case("a", k, WIDE_FINE), 500) for k in (0.1, 0.0)]
-    films += [(FilmCase(facets=n, nodes=FACETED), s) for n in (30, 20) for s in FACET_STEPS]
+    films += [(facet_case(n), s) for n in (30, 20) for s in FACET_STEPS]
+    films += [
+        (power_case(d, b, nodes=CYCLE), n) for d in DESIGNS for b in POWERS[1:] for n in POWER_STEPS
+    ]
     return _films(films)
 
 
@@ -103,26 +122,27 @@ def _marches() -> list[Run]:
     first, last = COUNT_RANGE
     runs += [Run(case=FilmCase(nodes=CYCLE, count=n), first=first, step=last) for n in COUNTS]
     begin, end = FACET_MARCH
+    runs += [Run(case=facet_case(n), first=begin, step=end, keep=(end,)) for n in (100, 40)]
     runs += [
-        Run(case=FilmCase(facets=n, nodes=FACETED), first=begin, step=end, keep=(end,))
-        for n in (100, 40)
-    ]
-    runs += [
-        Run(case=FilmCase(crown_start=f, nodes=CYCLE, count=SPARSE), first=0, step=575)
+        Run(case=FilmCase(crown_start=f, nodes=CYCLE), first=0, step=575)
         for f in (0.45, 0.25, 0.1, 0.4)
     ]
-    runs += [
-        Run(case=power_case(d, b, nodes=CYCLE, count=SPARSE), first=0, step=575)
-        for d in DESIGNS
-        for b in POWERS[2:]
-    ]
     return runs
+
+
+def _touching() -> list[Run]:
+    first, last = TOUCHING
+    return [
+        Run(case=touching_case(k, layer), first=first, step=last)
+        for k in TOUCHING_K
+        for layer in LAYERS
+    ]
 
 
 def all_runs() -> list[Run]:
     """Return all runs in the order in which they are done."""
     runs: list[Run] = []
-    for run in (*_first(), *_at_rest(), *_marches()):
+    for run in (*_first(), *_at_rest(), *_marches(), *_touching()):
         if run not in runs:
             runs.append(run)
     return runs

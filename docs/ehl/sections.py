@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from docs.ehl.cases import CYCLE, Array, FilmCase
 from docs.ehl.claims_cycle import cycle
 from docs.ehl.store import Store
@@ -35,17 +37,22 @@ class Section:
 
 
 def section(store: Store, design: str, step: int, y: float) -> Section:
-    """Return the section at y [m] of a design at one of the detailed steps."""
+    """Return the section at y [m], between rows, of a design at one of the detailed steps."""
     pressure, film = cycle(store, design).fields(step)
     rest = store.steady(FilmCase(design=design, nodes=CYCLE), step)
-    j = rest.column(y)
+    j = int(np.clip(np.searchsorted(rest.y, y), 1, rest.y.size - 1))
+    share = float((y - rest.y[j - 1]) / (rest.y[j] - rest.y[j - 1]))
+
+    def at(values: Array) -> Array:
+        return np.asarray((1.0 - share) * values[:, j - 1] + share * values[:, j])
+
     return Section(
-        y=float(rest.y[j]),
+        y=y,
         x=rest.x,
-        pressure=pressure[:, j],
-        film=film[:, j],
-        rest_pressure=rest.pressure[:, j],
-        rest_film=rest.film[:, j],
+        pressure=at(pressure),
+        film=at(film),
+        rest_pressure=at(rest.pressure),
+        rest_film=at(rest.film),
     )
 
 

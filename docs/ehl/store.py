@@ -23,6 +23,9 @@ logger = logging.getLogger("docs.ehl")
 
 # steady films take the stencil of the march, so that both may be compared
 SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
+_NUMBERS = (
+    "dry_pressure", "load", "load_error", "seconds", "border_pressure", "solid_share", "solid_area",
+)  # fmt: skip
 _LOADED = 1.0e6  # Pa; from where a section counts as loaded
 _EVERY = 25  # steps between records of a march
 _GIVE_UP = 10  # steps on end that fail before a march is given up
@@ -42,6 +45,9 @@ class Steady:
     converged: bool
     outcome: str
     seconds: float  # of the processor
+    border_pressure: float = 0.0  # beside the border over the largest of all [1]
+    solid_share: float = 0.0  # of the load
+    solid_area: float = 0.0  # [m^2]
 
     @property
     def max_pressure(self) -> float:
@@ -63,13 +69,6 @@ class Steady:
         """Return the length of the loaded part of the line [m]."""
         rows = self.y[self.along > _LOADED]
         return float(rows[-1] - rows[0]) if rows.size else 0.0
-
-    @property
-    def border_pressure(self) -> float:
-        """Return the largest pressure beside the border over the largest of all [1]."""
-        p = self.pressure
-        beside = max(p[1].max(), p[-2].max(), p[:, 1].max(), p[:, -2].max())
-        return float(beside / p.max())
 
     def column(self, y: float) -> int:
         """Return the number of the section nearest to y [m]."""
@@ -114,7 +113,7 @@ class Store:
             write_arrays(path, _solve_steady(case, step))
         with np.load(path) as data:
             values: dict[str, Any] = {name: data[name] for name in data.files}
-        for name in ("dry_pressure", "load", "load_error", "seconds"):
+        for name in _NUMBERS:
             values[name] = float(values[name])
         values["converged"], values["outcome"] = bool(values["converged"]), str(values["outcome"])
         return Steady(**values)
@@ -199,4 +198,7 @@ def _solve_steady(case: FilmCase, step: float) -> dict[str, Any]:
         "converged": found.converged,
         "outcome": found.outcome,
         "seconds": seconds,
+        "border_pressure": found.border_pressure,
+        "solid_share": found.touch.share,
+        "solid_area": found.touch.area,
     }

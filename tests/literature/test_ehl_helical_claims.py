@@ -8,17 +8,19 @@ import numpy as np
 import pytest
 
 from docs.ehl import measures
-from docs.ehl.cases import CYCLE, FilmCase, relief_starts
+from docs.ehl.cases import CYCLE, LAYER, FilmCase, facet_case, parabola_case, relief_starts
 from docs.ehl.claims import FAILS, HOLDS, MISSING, PARTLY, judge, verdicts
 from docs.ehl.claims_cycle import CYCLES
 from docs.ehl.claims_facets import FACETED_FLANKS, facet_gaps
 from docs.ehl.claims_motion import MOTIONS
-from docs.ehl.lines import COLUMNS, Lines, March, write_arrays
+from docs.ehl.claims_relief import RELIEFS
+from docs.ehl.lines import COLUMNS, GivenUpError, Lines, March, write_arrays
 from docs.ehl.runs import Run, all_runs
+from docs.ehl.sections import section
 from docs.ehl.store import Steady, Store
 from gearlube_core.ehl.transient_film import FilmSolution
 
-CLAIMS = {claim.name: claim for claim in (*CYCLES, *MOTIONS, *FACETED_FLANKS)}
+CLAIMS = {claim.name: claim for claim in (*CYCLES, *RELIEFS, *MOTIONS, *FACETED_FLANKS)}
 
 
 def steady(pressure=1e9, film=2e-7, **changes):
@@ -238,6 +240,54 @@ def test_what_is_missing_is_said_and_not_judged(tmp_path):
     assert [v.verdict for v in found] == [MISSING, MISSING, HOLDS]
     assert "march_a_" in found[0].reason
     assert list(tmp_path.iterdir()) == []
+
+
+def test_claims_on_a_march_that_was_given_up_fail_with_the_step_it_came_to():
+    steps = np.arange(0, 40)
+    short = march(steps, 1e9, 2e-7, converged=(steps < 31).astype(float))
+    short = replace(short, complete=False)
+    found = verdicts([CLAIMS["J3"], CLAIMS["J9"], CLAIMS["J14"]], Given(steady, lambda case: short))
+    assert [v.verdict for v in found] == [FAILS] * 3
+    assert {v.reason for v in found} == {"a march was given up after step 30"}
+    assert short.at("min_film", 39) == 2e-7
+    with pytest.raises(GivenUpError):
+        short.at("min_film", 300)
+
+
+@pytest.mark.parametrize(("share", "verdict"), [(0.1, HOLDS), (0.0, PARTLY)])
+def test_film_of_a_corner_fails_where_solids_touch(share, verdict):
+    def moving(case):
+        thin = 1.5e-7 if case.k == 1.0 else 5e-8
+        found = march([499, 500], 1e9, thin)
+        if case.k == 0.0:
+            found.table[:, COLUMNS.index("solid_share")] = share
+        return found
+
+    store = Given(lambda case, step: steady(film=5e-8), moving)
+    assert CLAIMS["J11"].evaluate(store).verdict == verdict
+
+
+def test_layer_of_a_case_is_that_of_its_film():
+    cases = [parabola_case("a", k) for k in (1.0, 0.1, 0.02, 0.0)]
+    cases += [facet_case(n) for n in (0, 20, 30, 40)]
+    assert [c.layer for c in cases] == [0.0, 0.0, LAYER, LAYER, 0.0, LAYER, LAYER, 0.0]
+    assert facet_case(20).name == "a_193x257_facets20_layer10"
+    solids = facet_case(20).film().solids
+    assert solids is not None
+    assert solids.thickness == pytest.approx(1e-9 * LAYER)
+    assert facet_case(40).film().solids is None
+
+
+def test_section_between_rows_is_interpolated():
+    y = np.linspace(-0.02, 0.02, 41)
+    rows = np.ones((3, 1)) * (1.0 + 10.0 * y)
+    moving = replace(
+        march([299, 300], 1e9, 2e-7), kept_steps=np.array([300.0]), kept_pressure=1e9 * rows[None],
+        kept_film=2e-7 * rows[None],
+    )  # fmt: skip
+    found = section(Given(lambda case, step: steady(), lambda case: moving), "b", 300, 0.0053)
+    assert found.pressure == pytest.approx(1e9 * 1.053 * np.ones(3))
+    assert found.film_ratio == pytest.approx(1.053)
 
 
 @pytest.mark.slow
