@@ -82,7 +82,7 @@ def _ranges(store: Store, design: str, pressures: tuple[float, float], films: tu
         f"{span(p.min(), p.max(), '{:.3f}')} GPa, {span(h.min(), h.max(), '{:.3f}')} um",
         judge(off_range(p, *pressures) < _PRESSURE, off_range(h, *films) < _FILM),
         f"thinnest at step {thinnest}, where the relief has passed; films at rest at steps 75, "
-        f"300, 500 are {rest} um; see the grid's part in it below",
+        f"300, 500 are {rest} um; see the smallest film in motion, below",
     )
 
 

@@ -188,7 +188,8 @@ def powers(store: Store) -> Any:
                     POWER_STEPS, [UM * f.min_film for f in films], "o-", color=colour, ms=4, lw=1.0
                 )
             top.set_title(f"design {d.upper()}")
-            bottom.set(xlabel="step of the cycle", xlim=(0, 575), ylim=(0.0, None))
+            bottom.set(xlabel="step of the cycle", xlim=(0, 575))
+        axes[1, 0].set_ylim(0.0, None)
         axes[0, 0].legend()
         axes[0, 0].set_ylabel("largest pressure [GPa]")
         axes[1, 0].set_ylabel("smallest film [µm]")
