@@ -62,7 +62,7 @@ SMOOTH_PICTURES = (
     Picture(
         "power_lines",
         "Power laws along the line",
-        "Dry contact; the films' pressures lie within about 1 % of it, but for the corner of beta = 1.",
+        "Dry contact; films lie within about 1 % of it, but for the corner of beta = 1.",
         figures_fields.power_lines,
     ),
 )
