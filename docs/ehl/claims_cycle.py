@@ -76,13 +76,13 @@ def _ranges(store: Store, design: str, pressures: tuple[float, float], films: tu
     march = cycle(store, design)
     p, h = GPA * march["max_pressure"], UM * march["min_film"]
     at_rest = [UM * store.steady(FilmCase(design=design), n).min_film for n in POSITIONS]
-    thinnest = int(march.step[h.argmin()])
+    thinnest, place = int(march.step[h.argmin()]), MM * march["min_film_y"][h.argmin()]
     rest = span(min(at_rest), max(at_rest), "{:.3f}")
     return Verdict(
         f"{span(p.min(), p.max(), '{:.3f}')} GPa, {span(h.min(), h.max(), '{:.3f}')} um",
         judge(off_range(p, *pressures) < _PRESSURE, off_range(h, *films) < _FILM),
-        f"thinnest at step {thinnest}, where the relief has passed; films at rest at steps 75, "
-        f"300, 500 are {rest} um; see the smallest film in motion, below",
+        f"thinnest at step {thinnest}, y = {place:.1f} mm; films at rest at steps 75, 300, 500 are "
+        f"{rest} um; see the smallest film in motion, below",
     )
 
 

@@ -28,7 +28,7 @@ def state(march: March) -> str:
     """Return a smallest film [um], or how many steps found none."""
     if not march.complete:
         return f"none after step {march.last_found:.0f}"
-    solids = f", solids {100.0 * march['solid_share'].max():.1g} %" if touched(march) else ""
+    solids = f" (solids {100.0 * march['solid_share'].max():.1g} %)" if touched(march) else ""
     failed = f" ({march.failures} of {len(march.step)} steps not converged)"
     return f"{UM * march.at('min_film', 500):.3f}" + solids + (failed if march.failures else "")
 
