@@ -88,7 +88,7 @@ def sections(store: Store) -> Any:
                     MM * line.x, UM * line.film, ":", color="black", lw=1.2, label="line contact"
                 )
             if y == _SECTIONS[0]:
-                right.legend(loc="upper left", fontsize=7.5)
+                right.legend(loc="upper center", fontsize=7.5)
             ax.set(xlim=(-0.6, 0.5), ylim=(0.0, 1.0), title=f"y = {y:g} mm")
             right.set_ylim(0.0, 1.2)
             right.grid(visible=False)
