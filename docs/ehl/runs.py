@@ -34,7 +34,7 @@ COUNT_RANGE = (440, 520)
 APPROACH = 40  # steps from rest before a step that is looked at
 LAYERS = (0.0, 10.0, 30.0)  # nm; 0: the oil alone
 TOUCHING_K = (0.02, 0.0)
-TOUCHING = (480, 500)  # steps
+TOUCHING = (460, 500)  # steps
 FACET_STEPS = (75, 500)
 FACET_MARCH = (280, 300)
 
