@@ -68,7 +68,8 @@ def _step_counts(store: Store) -> Verdict:
         "; ".join(f"{count}: {p:.2f} %, {h:.2f} %" for count, (p, h) in off.items())
         + f" off {COUNTS[-1]} (pressure, film)",
         judge(max(off[400]) < 1.0),
-        f"steps {at[0]:.0f} to {at[-1]:.0f} of design A, from rest at step {first}",
+        f"steps {at[0]:.0f} to {at[-1]:.0f} of design A, from rest at step {first}; see the "
+        "smallest film in motion, below",
     )
 
 
