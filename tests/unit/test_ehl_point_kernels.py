@@ -183,14 +183,25 @@ def test_unknown_stencils_and_still_surfaces_are_refused() -> None:
         moes_contact(20.0, 5.0, nodes=(9, 65))
 
 
+# slender along the motion, isoviscous: side lobes a few cells wide
+LOBES = moes_contact(100.0, 0.0, nodes=(65, 65), radius_ratio=0.0894)
+
+
+def test_a_film_too_thin_for_second_order_is_limited_at_single_faces_and_says_so() -> None:
+    outcome = solve_point_contact(LOBES).outcome
+    assert outcome.converged
+    assert outcome.wedge == "upwind-2"
+    assert 0.0 < outcome.limited < 0.05
+    assert "faces are of first order" in outcome.sentence
+
+
 @pytest.mark.slow
-def test_a_film_too_thin_for_second_order_falls_back_and_says_so() -> None:
-    # slender along the motion, isoviscous: side lobes a few cells wide
-    problem = moes_contact(100.0, 0.0, nodes=(65, 65), radius_ratio=0.0894)
-    solution = solve_point_contact(problem)
+def test_a_film_that_central_differences_do_not_find_falls_back_and_says_so() -> None:
+    central = PointSolverSettings(wedge="central")
+    solution = solve_point_contact(LOBES, central)
     assert solution.outcome.converged
     assert solution.outcome.wedge == "upwind-1"
     assert "upwind-1" in solution.outcome.sentence
     assert solution.minimum_film > 0.0
-    strict = PointSolverSettings(fall_back=False)
-    assert not solve_point_contact(problem, strict, throw=False).outcome.converged
+    strict = PointSolverSettings(wedge="central", fall_back=False)
+    assert not solve_point_contact(LOBES, strict, throw=False).outcome.converged
