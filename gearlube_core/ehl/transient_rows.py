@@ -29,7 +29,7 @@ _DAMPING = 0.9
 # a row, of the wave across the motion whose deflection a row takes: longer ones would be amplified
 _WAVE = 0.12 * np.pi
 _SPARE = 4  # columns beside the free ones for those that come
-_CHANGE = 0.05  # mean relative change of a row from which on it is inverted anew
+_CHANGE = 0.02  # mean relative change of a row from which on it is inverted anew
 _AT_ONCE = 64  # rows
 _DIRECT_NODES = 1700  # of the grid that is solved directly
 _FEWEST_ROWS = 7
