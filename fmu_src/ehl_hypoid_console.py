@@ -16,8 +16,9 @@ from drivetrain.ehl.hypoid_dataset import hypoid_dataset, hypoid_key
 from drivetrain.ehl.hypoid_summary import RatioRow, ratio_csv, ratio_rows
 from drivetrain.ehl_figures.catalogue import save_ehl_figures
 from fmu_src.progress_bar import progress_bar
+from gearlube_core.ehl.film_curves import FilmCurves
 from gearlube_core.ehl.hypoid_case_file import HypoidCase
-from gearlube_core.ehl.hypoid_cycle import FilmCurves, march_flank, steady_films
+from gearlube_core.ehl.hypoid_cycle import march_flank, steady_films
 from gearlube_core.ehl.transient_film import FilmSolution
 
 logger = logging.getLogger("gearlube")

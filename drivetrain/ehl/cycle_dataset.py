@@ -10,7 +10,7 @@ import xarray as xr
 from drivetrain.ehl.cycle_lines import CycleLines
 from drivetrain.ehl.helical_case import HelicalLineCase
 from drivetrain.ehl.variables import unit_note
-from gearlube_core.ehl.helical_cycle import HelicalCycle
+from gearlube_core.ehl.film_curves import FilmCurves
 from gearlube_core.ehl.helical_film import HelicalFilm
 
 _NOTES = {
@@ -30,7 +30,7 @@ _NOTES = {
 
 
 def cycle_dataset(
-    case: HelicalLineCase, film: HelicalFilm, cycle: HelicalCycle, lines: CycleLines
+    case: HelicalLineCase, film: HelicalFilm, cycle: FilmCurves, lines: CycleLines
 ) -> xr.Dataset:
     """Return the curves over the steps of a meshing cycle, each with units.
 

@@ -11,7 +11,7 @@ import xarray as xr
 from drivetrain.ehl.hypoid_case import HypoidFlank
 from drivetrain.ehl.hypoid_formulas import flank_formulas
 from drivetrain.ehl.variables import unit_note
-from gearlube_core.ehl.hypoid_cycle import FilmCurves
+from gearlube_core.ehl.film_curves import FilmCurves
 from gearlube_core.ehl.transient_film import FilmSolution
 
 _FILM_NOTES = {

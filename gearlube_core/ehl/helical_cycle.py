@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from gearlube_core.checks import check_within
+from gearlube_core.ehl.film_curves import FilmCurves, Progress, march_curves
 from gearlube_core.ehl.helical_film import HelicalFilm
 from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.transient_film import FilmSolution, unpack_solutions
-from gearlube_core.ehl.transient_march import FilmMarch
-from gearlube_core.ehl.transient_record import MarchRecord
+from gearlube_core.ehl.transient_film import FilmSolution
 from gearlube_core.ehl.transient_steady import solve_steady_film
-from gearlube_core.errors import ConvergenceError, ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 COLUMNS = (
     "step",
@@ -39,33 +32,12 @@ COLUMNS = (
     "solid_pressure",
 )
 
-Progress = Callable[[int, int, FilmSolution], None]
 
-
-@dataclass(frozen=True, slots=True)
-class HelicalCycle:
-    """Curves over a meshing cycle; one row a step, SI, columns as in `COLUMNS`."""
-
-    table: Array  # (steps, columns)
-    kept: dict[int, FilmSolution]  # whole solutions of the steps that were asked for
-
-    def __getitem__(self, column: str) -> Array:
-        """Return a column by its name."""
-        if column not in COLUMNS:
-            raise ParameterError(f"column must be one of {', '.join(COLUMNS)}, got {column}.")
-        return self.table[:, COLUMNS.index(column)]
-
-    @property
-    def failures(self) -> int:
-        """Return the number of steps that did not converge."""
-        return int((self["converged"] == 0.0).sum())
-
-
-def _row(step: float, solution: FilmSolution) -> list[float]:
+def _row(step: int, solution: FilmSolution) -> list[float]:
     i = np.unravel_index(int(solution.pressure.argmax()), solution.pressure.shape)
     j = np.unravel_index(int(solution.film.argmin()), solution.film.shape)
     return [
-        step,
+        float(step),
         solution.load,
         solution.maximum_pressure,
         float(solution.y[i[1]]),
@@ -118,7 +90,7 @@ def march_helical_cycle(
     checkpoint_every: int = 25,
     progress: Progress | None = None,
     throw: bool = True,
-) -> HelicalCycle:
+) -> FilmCurves:
     """Return the film over the steps of a meshing cycle.
 
     Parameters
@@ -129,16 +101,8 @@ def march_helical_cycle(
         Steps; the film is steady at the first. All of them by default.
     substeps
         Time steps for one step of the cycle.
-    scheme, settings
-        As in `FilmMarch`.
-    keep
-        Steps whose whole solution is returned; a checkpoint holds those already reached.
-    checkpoint
-        File to write every `checkpoint_every` steps, and to go on from if it is there.
-    progress
-        Called with the step, the last step and its solution, from the first step on.
-    throw
-        Raise at the first step that does not converge; else go on and say so in the table.
+    scheme, settings, keep, checkpoint, checkpoint_every, progress, throw
+        As in `march_curves`.
 
     Raises
     ------
@@ -151,50 +115,19 @@ def march_helical_cycle(
     check_within("first", first, 0, film.steps.count)
     check_within("last", last, first, film.steps.count)
     check_within("substeps", substeps, 1, 1000)
-    check_within("checkpoint_every", checkpoint_every, 1, 1_000_000)
-    rows: list[list[float]] = []
-    record, path = None, None
-    if checkpoint is not None:
-        path = Path(checkpoint)
-        if path.exists():
-            record = MarchRecord.read(path)
-            # records of before know no touching solids
-            lacking = [0.0] * (len(COLUMNS) - record.curves.shape[1])
-            rows = [[*row, *lacking] for row in record.curves.tolist()]
-    march = FilmMarch(
+    return march_curves(
         film.moving_film(),
-        film.time_step / substeps,
+        COLUMNS,
+        _row,
+        steps=(first, last),
         start_time=first * film.time_step,
+        step_time=film.time_step,
+        substeps=substeps,
         scheme=scheme,
         settings=settings,
-        record=record,
+        keep=keep,
+        checkpoint=checkpoint,
+        checkpoint_every=checkpoint_every,
+        progress=progress,
         throw=throw,
     )
-    kept: dict[int, FilmSolution] = {}
-    if record is not None:
-        kept = unpack_solutions(
-            march.film,
-            march.settings,
-            record.kept_steps,
-            record.kept_fields,
-            record.kept_values,
-        )
-    if not rows:
-        rows.append(_row(float(first), march.solution))
-        if progress is not None:
-            progress(first, last, march.solution)
-    if first in keep and record is None:
-        kept[first] = march.solution
-    for n in range(first + len(rows), last + 1):
-        while march.steps < (n - first) * substeps:
-            solution = march.step(throw=False)
-        if throw and not solution.converged:
-            raise ConvergenceError(f"Step {n}: {solution.outcome}")
-        rows.append(_row(float(n), solution))
-        if n in keep:
-            kept[n] = solution
-        if path is not None and (n % checkpoint_every == 0 or n == last):
-            march.save(path, np.array(rows), kept)
-        if progress is not None:
-            progress(n, last, solution)
-    return HelicalCycle(np.array(rows), kept)

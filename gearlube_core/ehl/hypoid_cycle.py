@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from gearlube_core.checks import check_within
+from gearlube_core.ehl.film_curves import FilmCurves, Progress, march_curves
 from gearlube_core.ehl.hypoid_film import HypoidFilm
 from gearlube_core.ehl.hypoid_traction import flank_traction
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import FilmSolution
-from gearlube_core.ehl.transient_march import MARCH_SETTINGS, FilmMarch
-from gearlube_core.ehl.transient_record import MarchRecord
+from gearlube_core.ehl.transient_march import MARCH_SETTINGS
 from gearlube_core.ehl.transient_steady import solve_steady_film
-from gearlube_core.errors import ConvergenceError, ParameterError
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -38,27 +35,6 @@ COLUMNS = (
     "newton_steps",
     "seconds",
 )
-
-Progress = Callable[[int, int, FilmSolution], None]
-
-
-@dataclass(frozen=True, slots=True)
-class FilmCurves:
-    """Films over an engagement; one row a time, SI, columns as in `COLUMNS`."""
-
-    table: Array  # (times, columns)
-    kept: dict[int, FilmSolution]  # whole films of the rows that were asked for
-
-    def __getitem__(self, column: str) -> Array:
-        """Return a column by its name."""
-        if column not in COLUMNS:
-            raise ParameterError(f"column must be one of {', '.join(COLUMNS)}, got {column}.")
-        return self.table[:, COLUMNS.index(column)]
-
-    @property
-    def failures(self) -> int:
-        """Return the number of films that did not converge."""
-        return int((self["converged"] == 0.0).sum())
 
 
 def central_film(solution: FilmSolution) -> float:
@@ -111,7 +87,7 @@ def steady_films(
             kept[n] = solution
         if progress is not None:
             progress(n, len(times) - 1, solution)
-    return FilmCurves(np.array(rows), kept)
+    return FilmCurves(COLUMNS, np.array(rows), kept)
 
 
 def march_flank(
@@ -136,14 +112,8 @@ def march_flank(
         Equal time steps from the first to the last time of its cycle, 2 to 1e5.
     beta
         -d ln eta/dT of the oil at ambient pressure [1/K].
-    settings, scheme
-        As in `FilmMarch`.
-    checkpoint
-        File to write every `checkpoint_every` steps, and to go on from if it is there.
-    progress
-        Called with the step, the last step and the film.
-    throw
-        Raise at the first step that does not converge; else go on and say so in the table.
+    settings, scheme, checkpoint, checkpoint_every, progress, throw
+        As in `march_curves`.
 
     Raises
     ------
@@ -152,30 +122,21 @@ def march_flank(
         Steps out of range, or the checkpoint belongs to another march.
     """
     check_within("steps", steps, 2, 100_000)
-    check_within("checkpoint_every", checkpoint_every, 1, 1_000_000)
     first, last = (float(t) for t in film.cycle.time[[0, -1]])
-    path = None if checkpoint is None else Path(checkpoint)
-    record = MarchRecord.read(path) if path is not None and path.exists() else None
-    march = FilmMarch(
+    return march_curves(
         film.moving_film(),
-        (last - first) / steps,
+        COLUMNS,
+        lambda _, solution: _row(film, solution, beta),
+        steps=(0, steps),
         start_time=first,
+        step_time=(last - first) / steps,
         scheme=scheme,
         settings=settings,
-        record=record,
+        checkpoint=checkpoint,
+        checkpoint_every=checkpoint_every,
+        progress=progress,
         throw=throw,
     )
-    rows = [_row(film, march.solution, beta)] if record is None else record.curves.tolist()
-    for n in range(march.steps + 1, steps + 1):
-        solution = march.step(throw=False)
-        if throw and not solution.converged:
-            raise ConvergenceError(f"Step {n}: {solution.outcome}")
-        rows.append(_row(film, solution, beta))
-        if path is not None and (n % checkpoint_every == 0 or n == steps):
-            march.save(path, np.array(rows))
-        if progress is not None:
-            progress(n, steps, solution)
-    return FilmCurves(np.array(rows), {})
 
 
 def _row(film: HypoidFilm, solution: FilmSolution, beta: float) -> list[float]:
