@@ -86,8 +86,7 @@ def contact(
 
     defaults = CycleSettings()
     try:
-        is_file = gear.endswith(".toml") or Path(gear).exists()
-        file = HypoidGearFile.from_toml(gear) if is_file else HypoidGearFile.named(gear)
+        file = HypoidGearFile.given(gear)
         chosen = torques or (_QUICK_TORQUES if quick else defaults.torques)
         settings = ContactSettings(
             cycle=CycleSettings(

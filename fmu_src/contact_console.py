@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import time
 from pathlib import Path
 
@@ -28,6 +27,7 @@ from gearlube_core.tooth_contact.analysis import (
 )
 from gearlube_core.tooth_contact.contact_table import contact_table
 from gearlube_core.tooth_contact.mesh_cycle import SIDES, CycleProgress
+from gearlube_core.whole_file import write_dataset
 
 logger = logging.getLogger("gearlube")
 ROLES: tuple[Role, Role] = ("pinion", "gear")
@@ -66,7 +66,7 @@ def console_contact(
         )
         bar.update(task, completed=total, description="figures")
         table = write_mesh_table(contact_table(file, dataset), out / f"{file.name}.nc")
-        _write(dataset, out / "contact.nc")
+        write_dataset(dataset, out / "contact.nc")
         save_contact_figures(dataset, out / "figures")
         if export:
             bar.update(task, description="gears")
@@ -98,12 +98,6 @@ def _doubts(file: HypoidGearFile) -> list[str]:
     return setting_report(file) + [
         line for role in ROLES for line in tooth_form(file, role).report()
     ]
-
-
-def _write(dataset: xr.Dataset, path: Path) -> None:
-    partial = path.with_suffix(".part")
-    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
-    os.replace(partial, path)
 
 
 def _summary(dataset: xr.Dataset) -> Table:

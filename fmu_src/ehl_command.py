@@ -91,7 +91,7 @@ def line(
             "solver.cavitation": cavitation,
             "temperature": temperature,
         }
-        file = _changed(_read(LineCase, case), changes, entrainment, slide_roll)
+        file = _changed(LineCase.given(case), changes, entrainment, slide_roll)
         verdict(console_line(console, case=file, out=out))
 
 
@@ -130,7 +130,7 @@ def point(
             "solver.nodes_y": nodes,
             "solver.wedge": wedge,
         }
-        file = _changed(_read(PointCase, case), changes, entrainment, slide_roll)
+        file = _changed(PointCase.given(case), changes, entrainment, slide_roll)
         verdict(console_point(console, case=file, out=out))
 
 
@@ -225,8 +225,7 @@ def helical(
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     with told(out):
-        is_file = gear.endswith(".toml") or Path(gear).is_file()
-        file = HelicalGearFile.from_toml(gear) if is_file else HelicalGearFile.named(gear)
+        file = HelicalGearFile.given(gear)
         flanks = {
             "facets": facets,
             "crown_start_mm": crown_start,
@@ -290,11 +289,6 @@ def helical(
 
 ehl.command("hypoid")(hypoid)
 ehl.command("compare")(compare)
-
-
-def _read(kind: type[Case], case: str) -> Case:
-    is_file = case.endswith(".toml") or Path(case).is_file()
-    return kind.from_toml(case) if is_file else kind.named(case)
 
 
 def _changed(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -26,6 +25,7 @@ from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_thermal import solve_thermal_line
 from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.ehl.transient_march import MARCH_SETTINGS
+from gearlube_core.whole_file import write_dataset, write_text
 
 logger = logging.getLogger("gearlube")
 _STAGES = 3  # solution, files, figures
@@ -45,9 +45,7 @@ def console_line(console: Console, *, case: LineCase, out: Path) -> str:
         film = solve_line(problem, settings, throw=False)
         return line_dataset(case, film, time.monotonic() - began)
 
-    return _console(
-        console, (case.kind, case.name), f"film on {case.solver.nodes} nodes", solve, out
-    )
+    return _console(console, ("line", case.name), f"film on {case.solver.nodes} nodes", solve, out)
 
 
 def console_point(console: Console, *, case: PointCase, out: Path) -> str:
@@ -60,7 +58,7 @@ def console_point(console: Console, *, case: PointCase, out: Path) -> str:
         )
 
     nodes = f"{case.solver.nodes_x} x {case.solver.nodes_y}"
-    return _console(console, (case.kind, case.name), f"film on {nodes} nodes", solve, out)
+    return _console(console, ("point", case.name), f"film on {nodes} nodes", solve, out)
 
 
 def console_helical_line(console: Console, *, case: HelicalLineCase, out: Path) -> str:
@@ -110,7 +108,7 @@ def _console(
         rows = summary_rows(dataset)
         bar.update(task, advance=1, description="files")
         write_dataset(dataset, out / f"{kind}.nc")
-        _replace_text(out / "summary.csv", summary_csv(rows))
+        write_text(summary_csv(rows), out / "summary.csv")
         bar.update(task, advance=1, description="figures")
         save_ehl_figures(dataset, out / "figures")
         bar.update(task, advance=1, description="done")
@@ -121,19 +119,6 @@ def _console(
         return outcome
     logger.info("%s", outcome)
     return ""
-
-
-def write_dataset(dataset: xr.Dataset, path: Path) -> None:
-    """Write a dataset as NetCDF; an older file stays whole until the new one is complete."""
-    partial = path.with_suffix(".part")
-    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
-    os.replace(partial, path)
-
-
-def _replace_text(path: Path, text: str) -> None:
-    partial = path.with_suffix(".part")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
 
 
 def _table(kind: str, name: str, rows: list[Row]) -> Table:

@@ -102,8 +102,7 @@ def hypoid(
         if example:
             typer.echo(HypoidCase.shipped_text(case), nl=False)
             return
-        is_file = case.endswith(".toml") or Path(case).exists()
-        file = HypoidCase.from_toml(case) if is_file else HypoidCase.named(case)
+        file = HypoidCase.given(case)
         first, last = (None, None) if phases is None else _phases(phases)
         given = {
             "mesh_table": mesh_table,

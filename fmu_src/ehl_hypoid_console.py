@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import logging
-import os
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 from rich.console import Console
 from rich.table import Table
 
@@ -20,6 +18,7 @@ from gearlube_core.ehl.film_curves import FilmCurves
 from gearlube_core.ehl.hypoid_case_file import HypoidCase
 from gearlube_core.ehl.hypoid_cycle import march_flank, steady_films
 from gearlube_core.ehl.transient_film import FilmSolution
+from gearlube_core.whole_file import write_dataset, write_text
 
 logger = logging.getLogger("gearlube")
 RECORD_EVERY = 10  # steps of a march
@@ -73,8 +72,8 @@ def console_hypoid(
         bar.update(task, completed=total, description="files and figures")
         dataset = hypoid_dataset(flank, steady, curves)
         found = ratio_rows(dataset)
-        _write(dataset, out / "hypoid.nc")
-        _replace_text(out / "summary.csv", ratio_csv(found))
+        write_dataset(dataset, out / "hypoid.nc")
+        write_text(ratio_csv(found), out / "summary.csv")
         save_ehl_figures(dataset, out / "figures")
     console.print(_table(case.name, found))
     logger.info("Results: %s, %s", out / "hypoid.nc", out / "figures")
@@ -89,18 +88,6 @@ def console_hypoid(
 def _warn_of_light_films(flank: HypoidFlank) -> None:
     if flank.case.load == "dynamic" and not np.isfinite(flank.drive.axle_film).all():
         logger.warning("The axle gives no film at some samples: its teeth separate there.")
-
-
-def _write(dataset: xr.Dataset, path: Path) -> None:
-    partial = path.with_suffix(".part")
-    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
-    os.replace(partial, path)
-
-
-def _replace_text(path: Path, text: str) -> None:
-    partial = path.with_suffix(".part")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
 
 
 def _table(name: str, rows: list[RatioRow]) -> Table:

@@ -13,13 +13,14 @@ from drivetrain.ehl.cycle_dataset import cycle_dataset, march_key
 from drivetrain.ehl.cycle_lines import CycleLines, step_dataset, with_steady_film
 from drivetrain.ehl.helical_case import HelicalLineCase
 from drivetrain.ehl_figures.catalogue import save_ehl_figures
-from fmu_src.ehl_console import warn_of_ends, write_dataset
+from fmu_src.ehl_console import warn_of_ends
 from fmu_src.progress_bar import progress_bar
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.helical_film import HelicalFilm
 from gearlube_core.ehl.transient_film import FilmSolution
 from gearlube_core.ehl.transient_march import MARCH_SETTINGS
+from gearlube_core.whole_file import write_dataset
 
 logger = logging.getLogger("gearlube")
 RECORD_EVERY = 5  # steps of a march

@@ -124,8 +124,7 @@ def helical(
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     with told(f"Stopped while results were written; {out} may be incomplete."):
-        is_file = gear.endswith(".toml") or Path(gear).exists()
-        file = HelicalGearFile.from_toml(gear) if is_file else HelicalGearFile.named(gear)
+        file = HelicalGearFile.given(gear)
         if jobs is not None:
             check_within("--jobs", jobs, 1, 1024)
         check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")

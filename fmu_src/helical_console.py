@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import logging
-import os
 import time
 from pathlib import Path
 
-import xarray as xr
 from rich.console import Console
 from rich.table import Table
 
@@ -18,6 +16,7 @@ from drivetrain.helical_figures.catalogue import save_helical_figures
 from fmu_src.exit_codes import FAILED, INTERRUPTED
 from fmu_src.progress_bar import progress_bar
 from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
+from gearlube_core.whole_file import write_dataset, write_text
 
 logger = logging.getLogger("gearlube")
 _PARTS = 1000  # of the progress bar
@@ -48,11 +47,11 @@ def console_helical(
         )
         bar.update(task, description="stopped" if study.interrupted else "files and figures")
         for name, dataset in study.datasets.items():
-            _write(dataset, out / f"{name}.nc")
+            write_dataset(dataset, out / f"{name}.nc")
         if study.mesh is not None:
             write_line_mesh(study.mesh, out / "line_mesh.nc")
         rows = summary_rows(study)
-        _replace_text(out / "summary.csv", summary_csv(rows))
+        write_text(summary_csv(rows), out / "summary.csv")
         if not study.interrupted:
             save_helical_figures(study.datasets, out / "figures")
             bar.update(task, completed=_PARTS, description="done")
@@ -66,18 +65,6 @@ def console_helical(
     if study.interrupted:
         return INTERRUPTED
     return FAILED if study.failures else 0
-
-
-def _write(dataset: xr.Dataset, path: Path) -> None:
-    partial = path.with_suffix(".part")
-    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
-    os.replace(partial, path)
-
-
-def _replace_text(path: Path, text: str) -> None:
-    partial = path.with_suffix(".part")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
 
 
 def _table(study: HelicalStudy, rows: list[Row]) -> Table:

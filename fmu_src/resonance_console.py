@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import logging
-import os
 import time
 from pathlib import Path
 
-import xarray as xr
 from rich.console import Console
 from rich.table import Table
 
@@ -19,6 +17,7 @@ from drivetrain.resonance.summary import ModelSummary, summaries
 from drivetrain.resonance_figures import save_resonance_figures
 from drivetrain.resonance_figures.load_curves import load_curves
 from fmu_src.progress_bar import progress_bar
+from gearlube_core.whole_file import write_dataset
 
 logger = logging.getLogger("gearlube")
 _PARTS = 1000  # of the progress bar
@@ -39,13 +38,13 @@ def console_resonance(
         study = study_resonance(settings, observe)
         bar.update(task, description="figures")
         response, cycle = resonance_dataset(study), cycle_dataset(study)
-        _write(response, out / "resonance.nc")
-        _write(cycle, out / "cycle.nc")
+        write_dataset(response, out / "resonance.nc")
+        write_dataset(cycle, out / "cycle.nc")
         save_resonance_figures(response, cycle, out / "figures")
         if load_at is not None and not study.interrupted:
             bar.update(task, description="load")
             load = load_response(settings, load_at)
-            _write(load, out / "load.nc")
+            write_dataset(load, out / "load.nc")
             load_curves(load).savefig(out / "figures" / "load_response.png", dpi=150)
     found = summaries(response)
     if found:
@@ -58,12 +57,6 @@ def console_resonance(
     logger.info("Studied in %.1f s.", time.monotonic() - began)
     logger.info("Results: %s, %s, %s", out / "resonance.nc", out / "cycle.nc", out / "figures")
     return not study.interrupted
-
-
-def _write(dataset: xr.Dataset, path: Path) -> None:
-    partial = path.with_suffix(".part")
-    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
-    os.replace(partial, path)
 
 
 def _table(found: list[ModelSummary]) -> Table:

@@ -10,6 +10,7 @@ import numpy as np
 
 from docs.ehl.cases import Array
 from gearlube_core.ehl.transient_film import FilmSolution
+from gearlube_core.whole_file import whole_file
 
 COLUMNS = (
     "number", "max_pressure", "max_pressure_y", "min_film", "min_film_y", "load_error",
@@ -23,10 +24,8 @@ class GivenUpError(Exception):
 
 def write_arrays(path: Path, arrays: dict[str, Any]) -> None:
     """Write arrays to a file that is either whole or not there."""
-    part = path.with_name(path.name + ".part")
-    with part.open("wb") as stream:
+    with whole_file(path) as partial, partial.open("wb") as stream:
         np.savez_compressed(stream, **arrays)
-    part.replace(path)
 
 
 @dataclass(slots=True)

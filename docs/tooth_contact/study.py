@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import logging
-import os
 from dataclasses import asdict
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from gearlube_core.flank_surface.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.tooth_contact.analysis import ContactSettings, analyse_contact
 from gearlube_core.tooth_contact.contact_table import contact_table
+from gearlube_core.whole_file import write_dataset
 
 logger = logging.getLogger(__name__)
 
@@ -32,9 +32,7 @@ def analysed(work: Path, name: str, file: HypoidGearFile, settings: ContactSetti
         logger.info("analysing %s", name)
         dataset = analyse_contact(file, settings, store=work / "positions")
         path.parent.mkdir(parents=True, exist_ok=True)
-        partial = path.with_suffix(".part")
-        dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
-        os.replace(partial, path)
+        write_dataset(dataset, path)
     return xr.load_dataset(path, engine="scipy")
 
 

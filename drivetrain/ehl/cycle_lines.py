@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from drivetrain.ehl.variables import unit_note
 from gearlube_core.ehl.helical_film import HelicalFilm
 from gearlube_core.ehl.transient_film import FilmSolution
 from gearlube_core.errors import ParameterError
+from gearlube_core.whole_file import whole_file
 
 Array = NDArray[np.float64]
 
@@ -60,11 +60,9 @@ class CycleLines:
 
     def write(self) -> None:
         """Write what is kept; an older file stays whole until the new one is complete."""
-        partial = self._path.with_suffix(".part")
         pressure, film = (np.array([row[k] for row in self._rows.values()]) for k in (0, 1))
-        with partial.open("wb") as stream:
+        with whole_file(self._path) as partial, partial.open("wb") as stream:
             np.savez(stream, y=self._y, step=list(self._rows), pressure=pressure, film=film)
-        os.replace(partial, self._path)
 
     def variables(self, steps: Array) -> dict[str, Any]:
         """Return variables over `steps` and y; not a number at steps that are not kept."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -40,9 +39,7 @@ def contact_motion(gear: str, torque: float, phase: Array) -> Array:
     Along the minor and the major axis, both turned so that entrainment points to larger values.
     The path is that of the unloaded flanks; the centre of force of loaded ones stays close to it.
     """
-    is_file = gear.endswith(".toml") or Path(gear).exists()
-    file = HypoidGearFile.from_toml(gear) if is_file else HypoidGearFile.named(gear)
-    pair = FlankPair.from_file(file, "drive" if torque > 0.0 else "coast")
+    pair = FlankPair.from_file(HypoidGearFile.given(gear), "drive" if torque > 0.0 else "coast")
     places = np.linspace(phase.min(), phase.max(), _POSITIONS)
     path = contact_path(pair, places * pair.gear_pitch)
     k, motion = path_kinematics(path), contact_migration(path)

@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.whole_file import whole_file
 from gearlube_core.worker_pool import single_threaded, worker_pool
 
 Record = dict[str, NDArray[np.float64]]
@@ -49,10 +50,8 @@ class RecordStore:
             return
         self.folder.mkdir(parents=True, exist_ok=True)
         path = self._path(self.folder, name)
-        partial = path.with_suffix(".part")
-        with partial.open("wb") as file:
+        with whole_file(path) as partial, partial.open("wb") as file:
             np.savez(file, **record)  # type: ignore[arg-type]
-        os.replace(partial, path)
 
     def _path(self, folder: Path, name: str) -> Path:
         return folder / f"{self.key}_{name}.npz"

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
-from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -44,7 +42,6 @@ class EhlCase(InputFile):
     """What line and point contacts share: names, speeds along x, solids, oil."""
 
     package: ClassVar[str] = "gearlube_core.ehl"
-    kind: ClassVar[str]  # "line" or "point": first word of the shipped files' names
 
     name: Text = Field(description="What reports and plots call the case")
     source: Text = Field(description="Where the numbers are from")
@@ -62,30 +59,6 @@ class EhlCase(InputFile):
     def from_toml(cls, path: str | Path) -> Self:
         """Read a file, what it names counted from its own folder; see `InputFile`."""
         return cls.from_data(with_places(read_toml(path), Path(path).parent), str(path))
-
-    @classmethod
-    def shipped(cls) -> tuple[str, ...]:
-        """Return the names of the cases of this kind that ship with the package."""
-        prefix = f"{cls.kind}_"
-        return tuple(
-            one.removeprefix(prefix) for one in super().shipped() if one.startswith(prefix)
-        )
-
-    @classmethod
-    def shipped_text(cls, name: str) -> str:
-        """Return the file of a shipped case as it is."""
-        if name not in cls.shipped():
-            raise ParameterError(
-                f"No {cls.kind} contact is called {name!r}. Shipped: {', '.join(cls.shipped())}. "
-                "A file's name ends in .toml."
-            )
-        resource = files(cls.package) / "data" / f"{cls.kind}_{name}.toml"
-        return resource.read_text(encoding="utf-8")
-
-    @classmethod
-    def named(cls, name: str) -> Self:
-        """Return a case that ships with the package, by its name."""
-        return cls.from_data(tomllib.loads(cls.shipped_text(name)), name)
 
     @property
     def modulus(self) -> float:
@@ -135,7 +108,8 @@ class EhlCase(InputFile):
 class LineCase(EhlCase):
     """A lubricated line contact."""
 
-    kind: ClassVar[str] = "line"
+    title: ClassVar[str] = "line contact"
+    prefix: ClassVar[str] = "line_"
 
     radius_mm: Radius = Field(description="Relative radius of curvature along x")
     load_n_per_mm: LineLoad = Field(description="Load per length of the line")
@@ -192,7 +166,8 @@ class LineCase(EhlCase):
 class PointCase(EhlCase):
     """A lubricated point contact."""
 
-    kind: ClassVar[str] = "point"
+    title: ClassVar[str] = "point contact"
+    prefix: ClassVar[str] = "point_"
 
     radius_x_mm: Radius = Field(description="Relative radius of curvature along x")
     radius_y_mm: Radius = Field(description="Relative radius of curvature along y")

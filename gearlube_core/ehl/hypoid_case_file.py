@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import tomllib
-from importlib.resources import files
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.input_file import InputFile, Section
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
-
-_PREFIX = "hypoid_"
 
 Text = Annotated[str, Field(min_length=1)]
 Speed = Annotated[float, Field(ge=1.0, le=47000.0, allow_inf_nan=False)]
@@ -50,6 +45,8 @@ class HypoidCase(InputFile):
     """One tooth pair of a hypoid axle through its engagement."""
 
     package: ClassVar[str] = "gearlube_core.ehl"
+    title: ClassVar[str] = "hypoid flank"
+    prefix: ClassVar[str] = "hypoid_"
 
     name: Text = Field(description="What reports and plots call the case")
     source: Text = Field(description="Where the numbers are from")
@@ -89,29 +86,6 @@ class HypoidCase(InputFile):
     )
     last_phase: Phase = Field(default=1.5, description="Not after this [mesh periods]")
     solver: HypoidSolver = HypoidSolver()
-
-    @classmethod
-    def shipped(cls) -> tuple[str, ...]:
-        """Return the names of the cases that ship with the package."""
-        return tuple(
-            one.removeprefix(_PREFIX) for one in super().shipped() if one.startswith(_PREFIX)
-        )
-
-    @classmethod
-    def shipped_text(cls, name: str) -> str:
-        """Return the file of a shipped case as it is."""
-        if name not in cls.shipped():
-            raise ParameterError(
-                f"No hypoid flank is called {name!r}. Shipped: {', '.join(cls.shipped())}. "
-                "A file's name ends in .toml."
-            )
-        resource = files(cls.package) / "data" / f"{_PREFIX}{name}.toml"
-        return resource.read_text(encoding="utf-8")
-
-    @classmethod
-    def named(cls, name: str) -> Self:
-        """Return a case that ships with the package, by its name."""
-        return cls.from_data(tomllib.loads(cls.shipped_text(name)), name)
 
     def table(self) -> MeshTable:
         """Return the mesh table."""

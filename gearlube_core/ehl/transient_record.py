@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.whole_file import whole_file
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -38,13 +39,10 @@ class MarchRecord:
 
     def write(self, path: Path | str) -> None:
         """Write the record; an older one at `path` stays whole until the new one is complete."""
-        path = Path(path)
-        part = path.with_name(path.name + ".part")
-        with part.open("wb") as stream:
+        with whole_file(Path(path)) as partial, partial.open("wb") as stream:
             np.savez(stream, **asdict(self))
             stream.flush()
             os.fsync(stream.fileno())
-        part.replace(path)
 
     @classmethod
     def read(cls, path: Path | str) -> MarchRecord:

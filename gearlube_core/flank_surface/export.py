@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,6 +13,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.flank_surface.flank import Flank
 from gearlube_core.flank_surface.tooth_solid import Solid
 from gearlube_core.units import MILLIMETRE
+from gearlube_core.whole_file import whole_file
 
 FORMATS = ("stl", "glb")
 _COLUMNS = (
@@ -80,9 +80,5 @@ def _in_one_move(path: str | Path) -> Iterator[Path]:
     target = Path(path)
     if not target.parent.is_dir():
         raise ParameterError(f"The folder {target.parent} of {target.name} does not exist.")
-    partial = target.with_name(f"{target.name}.{os.getpid()}.part")
-    try:
+    with whole_file(target) as partial:
         yield partial
-        os.replace(partial, target)
-    finally:
-        partial.unlink(missing_ok=True)

@@ -23,6 +23,8 @@ class InputFile(Section):
     """A whole input file; each kind of file adds its fields."""
 
     package: ClassVar[str]  # whose folder data/ holds the shipped files
+    title: ClassVar[str] = "gear file"  # what errors call such a file
+    prefix: ClassVar[str] = ""  # of the shipped files of this kind, not part of their names
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -31,19 +33,32 @@ class InputFile(Section):
 
     @classmethod
     def shipped(cls) -> tuple[str, ...]:
-        """Return the names of the files that ship with the package."""
+        """Return the names of the files of this kind that ship with the package."""
         entries = (files(cls.package) / "data").iterdir()
-        return tuple(sorted(e.name[:-5] for e in entries if e.name.endswith(".toml")))
+        stems = (e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml"))
+        return tuple(sorted(s.removeprefix(cls.prefix) for s in stems if s.startswith(cls.prefix)))
+
+    @classmethod
+    def shipped_text(cls, name: str) -> str:
+        """Return a file that ships with the package as it is."""
+        if name not in cls.shipped():
+            raise ParameterError(
+                f"No {cls.title} is called {name!r}. Shipped: {', '.join(cls.shipped())}. "
+                "A file's name ends in .toml."
+            )
+        resource = files(cls.package) / "data" / f"{cls.prefix}{name}.toml"
+        return resource.read_text(encoding="utf-8")
 
     @classmethod
     def named(cls, name: str) -> Self:
         """Return a file that ships with the package, by its name."""
-        if name not in cls.shipped():
-            raise ParameterError(
-                f"No gear file is called {name!r}. Shipped: {', '.join(cls.shipped())}."
-            )
-        resource = files(cls.package) / "data" / f"{name}.toml"
-        return cls.from_data(tomllib.loads(resource.read_text(encoding="utf-8")), name)
+        return cls.from_data(tomllib.loads(cls.shipped_text(name)), name)
+
+    @classmethod
+    def given(cls, name: str) -> Self:
+        """Return the file at a path, where the name is one or ends in .toml, or a shipped one."""
+        is_file = name.endswith(".toml") or Path(name).is_file()
+        return cls.from_toml(name) if is_file else cls.named(name)
 
     @classmethod
     def from_data(cls, data: dict[str, Any], where: str) -> Self:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 from importlib.resources import files
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import xarray as xr
 
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.whole_file import write_dataset
 
 FORMAT = 1
 SHIPPED_PREFIX = "line_mesh_"  # of the shipped files' names
@@ -47,9 +47,7 @@ def write_line_mesh(mesh: LineMesh, path: str | Path) -> Path:
     )
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
-    partial = target.with_suffix(".part")
-    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
-    os.replace(partial, target)
+    write_dataset(dataset, target)
     return target
 
 

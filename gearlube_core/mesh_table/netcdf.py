@@ -7,7 +7,6 @@ entered by two threads, and a co-simulation host may start two axles at once.
 from __future__ import annotations
 
 import io
-import os
 from pathlib import Path
 from typing import cast
 
@@ -22,6 +21,7 @@ from gearlube_core.mesh_table.table import (
     MeshTable,
     Provenance,
 )
+from gearlube_core.whole_file import write_dataset
 
 FORMAT = 2  # 1 had one sign of torque, no tangent stiffness, sliding angle or highest pressure
 FILE_IN_FMU = "mesh_table.nc"  # name among the resources of an FMU with a table of its own
@@ -65,9 +65,7 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
     )
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
-    partial = target.with_suffix(".part")
-    dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
-    os.replace(partial, target)
+    write_dataset(dataset, target)
     return target
 
 
