@@ -6,6 +6,7 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
+from fmu_src.shared_variables import MEMBERS, displacements, energies, motion
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, output, parameter
 
@@ -68,16 +69,6 @@ _PARAMETERS = (
 )  # fmt: skip
 
 
-def _motion() -> tuple[Variable, ...]:
-    members = (("pinion", "pinion"), ("wheel", "gear"))
-    angle = [output(f"{m}.angle", "rad", f"Rotation of the {w}", display_unit="deg")
-             for m, w in members]  # fmt: skip
-    speed = [output(f"{m}.speed", "rad/s", f"Speed of the {w}", 100.0, "rpm") for m, w in members]
-    acceleration = [output(f"{m}.acceleration", "rad/s2", f"Angular acceleration of the {w}", 1e3)
-                    for m, w in members]  # fmt: skip
-    return (*angle, *speed, *acceleration)
-
-
 _MESH = (
     output("mesh.dte", "m",
            "Dynamic transmission error along the line of action, deflection of the shafts included;"
@@ -120,17 +111,10 @@ _LOSSES = (
 )
 
 
-def _displacements() -> tuple[Variable, ...]:
-    return tuple(
-        variable
-        for member, word in (("pinion", "pinion"), ("wheel", "gear"))
-        for variable in (
-            *(output(f"{member}.displacement.{axis}", "m",
-                     f"Displacement of the {word} along {axis}", 1e-5, "um") for axis in "xyz"),
-            *(output(f"{member}.tilt.{axis}", "rad", f"Tilt of the {word} about {axis}", 1e-4,
-                     "deg") for axis in "xy"),
-        )
-    )  # fmt: skip
+def _moved(member: str, word: str) -> tuple[Variable, ...]:
+    tilts = (output(f"{member}.tilt.{axis}", "rad", f"Tilt of the {word} about {axis}", 1e-4, "deg")
+             for axis in "xy")  # fmt: skip
+    return (*displacements(member, word), *tilts)
 
 
 def _bearing(j: int) -> tuple[Variable, ...]:
@@ -142,26 +126,25 @@ def _bearing(j: int) -> tuple[Variable, ...]:
     )  # fmt: skip
 
 
-_ENERGIES = tuple(
-    output(f"energy.{name}", "J", words, 100.0)
-    for name, words in (
-        ("pinion_work", "Work of the pinion torque on the pair since initialisation"),
-        ("wheel_work", "Work of the pair against the wheel torque since initialisation"),
-        ("friction", "Heat of flank friction since initialisation"),
-        ("mesh_damping", "Heat of mesh damping since initialisation"),
-        ("bearing_damping", "Heat of the bearings' damping since initialisation"),
-        ("stored", "Kinetic and elastic energy in the pair"),
-    )
+_ENERGIES = energies(
+    {
+        "pinion_work": "Work of the pinion torque on the pair since initialisation",
+        "wheel_work": "Work of the pair against the wheel torque since initialisation",
+        "friction": "Heat of flank friction since initialisation",
+        "mesh_damping": "Heat of mesh damping since initialisation",
+        "bearing_damping": "Heat of the bearings' damping since initialisation",
+        "stored": "Kinetic and elastic energy in the pair",
+    }
 )
 
 HELICAL_PAIR: tuple[Variable, ...] = (
     *_INPUTS,
     *_PARAMETERS,
-    *_motion(),
+    *motion(),
     *_MESH,
     *(variable for i in (1, 2, 3, 4, 5, 6) for variable in _line(i)),
     *_LOSSES,
-    *_displacements(),
+    *(variable for member in MEMBERS for variable in _moved(*member)),
     *(variable for j in (1, 2, 3, 4) for variable in _bearing(j)),
     *_ENERGIES,
 )

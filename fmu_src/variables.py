@@ -6,6 +6,7 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
+from fmu_src.shared_variables import MEMBERS, displacements, energies, motion
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, output, parameter
 
@@ -48,16 +49,6 @@ _PARAMETERS = (
 )  # fmt: skip
 
 
-def _motion() -> tuple[Variable, ...]:
-    members = (("pinion", "pinion"), ("wheel", "gear"))
-    angle = [output(f"{m}.angle", "rad", f"Rotation of the {w}", display_unit="deg")
-             for m, w in members]  # fmt: skip
-    speed = [output(f"{m}.speed", "rad/s", f"Speed of the {w}", 100.0, "rpm") for m, w in members]
-    acceleration = [output(f"{m}.acceleration", "rad/s2", f"Angular acceleration of the {w}", 1e3)
-                    for m, w in members]  # fmt: skip
-    return (*angle, *speed, *acceleration)
-
-
 _MESH = (
     output("mesh.dte", "m", "Dynamic transmission error, positive with the drive flank in contact",
            1e-5, "um"),
@@ -90,15 +81,6 @@ _LOSSES = (
 )
 
 
-def _displacements() -> tuple[Variable, ...]:
-    return tuple(
-        output(f"{member}.displacement.{axis}", "m", f"Displacement of the {word} along {axis}",
-               1e-5, "um")
-        for member, word in (("pinion", "pinion"), ("wheel", "gear"))
-        for axis in "xyz"
-    )  # fmt: skip
-
-
 def _bearing(j: int) -> tuple[Variable, ...]:
     described = {f"force.{axis}": f"Force on the shaft along {axis}" for axis in "xyz"} | {
         "roller_load_max": "Largest roller load",
@@ -118,18 +100,17 @@ _ROLLERS = (
            display_unit="deg"),
 )  # fmt: skip
 
-_ENERGIES = tuple(
-    output(f"energy.{name}", "J", words, 100.0)
-    for name, words in (
-        ("pinion_work", "Work of the pinion torque on the axle since initialisation"),
-        ("wheel_work", "Work of the axle against the wheel torque since initialisation"),
-        ("friction_viscous", "Heat of viscous flank friction since initialisation"),
-        ("friction_boundary", "Heat of boundary flank friction since initialisation"),
-        ("mesh_damping", "Heat of mesh damping since initialisation"),
-        ("bearing_damping", "Heat of roller damping since initialisation"),
-        ("bearing_torque", "Heat of bearing drag torque since initialisation"),
-        ("stored", "Kinetic and elastic energy in the axle"),
-    )
+_ENERGIES = energies(
+    {
+        "pinion_work": "Work of the pinion torque on the axle since initialisation",
+        "wheel_work": "Work of the axle against the wheel torque since initialisation",
+        "friction_viscous": "Heat of viscous flank friction since initialisation",
+        "friction_boundary": "Heat of boundary flank friction since initialisation",
+        "mesh_damping": "Heat of mesh damping since initialisation",
+        "bearing_damping": "Heat of roller damping since initialisation",
+        "bearing_torque": "Heat of bearing drag torque since initialisation",
+        "stored": "Kinetic and elastic energy in the axle",
+    }
 )
 
 # parameters younger than the first release: appended, so that value references stay
@@ -141,11 +122,11 @@ _LATER_PARAMETERS = (
 HYPOID_AXLE: tuple[Variable, ...] = (
     *_INPUTS,
     *_PARAMETERS,
-    *_motion(),
+    *motion(),
     *_MESH,
     *(variable for i in (1, 2, 3) for variable in _flank(i)),
     *_LOSSES,
-    *_displacements(),
+    *(variable for member in MEMBERS for variable in displacements(*member)),
     *(variable for j in (1, 2, 3, 4) for variable in _bearing(j)),
     *_ROLLERS,
     *_ENERGIES,
