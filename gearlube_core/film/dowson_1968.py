@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
+from gearlube_core.film.line_film_law import LineFilmLaw, law_of_line_film
 from gearlube_core.jit import kernel
 
-# Dowson 1968
-_COEFFICIENT = 2.65
-_SPEED_EXPONENT = 0.70
-_MATERIAL_EXPONENT = 0.54
-_LOAD_EXPONENT = -0.13
+_LAW = LineFilmLaw(coefficient=2.65, speed=0.70, material=0.54, load=-0.13)
 
 
 @kernel
@@ -29,18 +24,8 @@ def minimum_line_film_thickness(
 
     Parameters
     ----------
-    R
-        Relative radius of curvature along entrainment [m].
-    eta0
-        Viscosity at inlet temperature and atmospheric pressure [Pa s].
-    alpha
-        Pressure-viscosity coefficient [1/Pa].
-    entrainment_speed
-        Mean surface speed u across the line [m/s], positive.
-    line_load
-        w, load per unit length of the line [N/m], positive.
-    reduced_modulus
-        E' = 2 E* [Pa].
+    R, eta0, alpha, entrainment_speed, line_load, reduced_modulus
+        As in `dowson_toyoda_1979.line_film_thickness`.
 
     Returns
     -------
@@ -53,13 +38,4 @@ def minimum_line_film_thickness(
     1e-10, G about 2500 to 5000, W' about 3e-5 to 3e-4. Quoted from later literature.
     Source: Dowson 1968, revising Dowson and Higginson 1966.
     """
-    stiffness = reduced_modulus * R
-    return (
-        _COEFFICIENT
-        * R
-        * math.exp(
-            _SPEED_EXPONENT * math.log(eta0 * entrainment_speed / stiffness)
-            + _MATERIAL_EXPONENT * math.log(alpha * reduced_modulus)
-            + _LOAD_EXPONENT * math.log(line_load / stiffness)
-        )
-    )
+    return law_of_line_film(_LAW, R, eta0, alpha, entrainment_speed, line_load, reduced_modulus)

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 from gearlube_core.checks import check_positive
+from gearlube_core.film.line_film_law import LineFilmLaw, law_of_line_film
 from gearlube_core.jit import kernel
 
-# Dowson and Toyoda 1979
-_COEFFICIENT = 3.06
-_SPEED_EXPONENT = 0.69
-_MATERIAL_EXPONENT = 0.56
-_LOAD_EXPONENT = -0.10
+_LAW = LineFilmLaw(coefficient=3.06, speed=0.69, material=0.56, load=-0.10)
 
 
 @kernel
@@ -59,16 +54,7 @@ def line_film_thickness(
     of Ertel and Grubin: within a fifth, where the sum of speeds would make it 1.6 times thinner.
     Source: Dowson and Toyoda 1979.
     """
-    stiffness = reduced_modulus * R
-    return (
-        _COEFFICIENT
-        * R
-        * math.exp(
-            _SPEED_EXPONENT * math.log(eta0 * entrainment_speed / stiffness)
-            + _MATERIAL_EXPONENT * math.log(alpha * reduced_modulus)
-            + _LOAD_EXPONENT * math.log(line_load / stiffness)
-        )
-    )
+    return law_of_line_film(_LAW, R, eta0, alpha, entrainment_speed, line_load, reduced_modulus)
 
 
 def central_line_film(
