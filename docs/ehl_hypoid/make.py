@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import xarray as xr
 from rich.console import Console
 
+from docs.ehl_hypoid.grid import grid_sentence
 from drivetrain.ehl.hypoid_summary import RatioRow, ratio_rows
 from fmu_src.ehl_hypoid_console import console_hypoid
 from gearlube_core.ehl.hypoid_case_file import HypoidCase
@@ -31,9 +32,16 @@ class Variant(NamedTuple):
     march: bool
 
 
-HALF = 9  # every second one of the drive flank's positions
+CASE = HypoidCase.named("mohammadpour_2015")
+HALF = (CASE.solver.steady + 1) // 2  # every second one of the drive flank's positions
+COAST_TORQUE = -20.0  # N.m
 VARIANTS = (
-    Variant("drive", "Drive flank, 40 N.m, 1377 rpm", {}, True),
+    Variant(
+        "drive",
+        f"Drive flank, {CASE.pinion_torque_n_m:g} N.m, {CASE.pinion_speed_rpm:g} rpm",
+        {},
+        True,
+    ),
     Variant(
         "newtonian",
         "The same, a film that flows as a Newtonian one",
@@ -48,8 +56,8 @@ VARIANTS = (
     ),
     Variant(
         "coast",
-        "Coast flank, -20 N.m",
-        {"pinion_torque_n_m": -20.0, "solver.steady": 7},
+        f"Coast flank, {COAST_TORQUE:g} N.m",
+        {"pinion_torque_n_m": COAST_TORQUE, "solver.steady": 7},
         False,
     ),
 )
@@ -60,8 +68,7 @@ def solved(work: Path, variant: Variant) -> xr.Dataset:
     """Return the data set of a variant, solved where it is not there."""
     out = work / variant.name
     if not (out / "hypoid.nc").exists():
-        case = HypoidCase.named("mohammadpour_2015")
-        case = case.varied(variant.changes) if variant.changes else case
+        case = CASE.varied(variant.changes) if variant.changes else CASE
         console_hypoid(Console(stderr=True), case=case, march=variant.march, out=out)
     return xr.load_dataset(out / "hypoid.nc", engine="scipy")
 
@@ -154,7 +161,12 @@ def main() -> None:
     work = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "ehl_hypoid"
     sets = {one.name: solved(work, one) for one in VARIANTS}
     rows = {name: ratio_rows(dataset) for name, dataset in sets.items()}
-    page = TEXT.read_text(encoding="utf-8")
+    page = TEXT.read_text(encoding="utf-8").format(
+        nodes_minor=CASE.solver.nodes_minor,
+        nodes_major=CASE.solver.nodes_major,
+        grids=grid_sentence(work, CASE),
+        smallest_load=f"{CASE.smallest_load:g}",
+    )
     page += findings(rows["drive"], sets)
     for one in VARIANTS:
         page += f"## {one.title}\n\n{table(rows[one.name])}\n"
