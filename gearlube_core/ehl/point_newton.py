@@ -32,7 +32,6 @@ class NewtonRecord:
     converged: bool = False
     residuals: list[float] = field(default_factory=list)
     krylov: int = 0
-    stalled: bool = False
     first_order: bool = False  # the answer of upwind-1, where the chosen stencil found none
 
 
@@ -135,7 +134,6 @@ def newton(
             shift = max(_FIRST_SHIFT, 4.0 * shift)
         past = record.residuals
         if shift > _LARGEST_SHIFT or (len(past) > _PATIENCE and size > 0.6 * past[-_PATIENCE]):
-            record.stalled = True
             break
     record.converged = (
         size <= tolerance

@@ -110,10 +110,7 @@ class FilmMarch:
         assert isinstance(level, MovingLevel)
         self._level = level
         self._unit = time_step * level.scales.speed / level.scales.length
-        self._kept = KeptCycle(
-            self._grids,
-            RowCycle if long else lambda grids, linear, _: MultigridCycle(grids, linear),
-        )
+        self._kept = KeptCycle(self._grids, RowCycle if long else _multigrid)
         begin = clock.perf_counter()
         if record is None:
             impose(film, self._grids, start_time)
