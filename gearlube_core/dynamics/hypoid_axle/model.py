@@ -7,11 +7,9 @@ from numpy.typing import NDArray
 from scipy.optimize import root
 
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.checks import check_finite, check_within
 from gearlube_core.dynamics.hypoid_axle.communication import communication_step
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     NOT_FINITE,
-    OK,
     TOO_MANY_STEPS,
     StepControl,
     step_inputs,
@@ -39,7 +37,8 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
-from gearlube_core.errors import ConvergenceError, StepError
+from gearlube_core.dynamics.stepped_model import Kernels, SteppedModel, Words
+from gearlube_core.errors import ConvergenceError
 from gearlube_core.flat_tuples import flatten
 from gearlube_core.materials.solid import contact_modulus
 from gearlube_core.mesh_table.kernels import N_SERIES, blend_levels, load_bracket
@@ -49,20 +48,22 @@ Array = NDArray[np.float64]
 
 MAX_TORQUE = 1e4  # N.m at the pinion: far beyond any car axle
 MAX_WHEEL_TORQUE = 3e4  # N.m
-MAX_SPEED = 5e3  # rad/s
-MAX_STEP = 0.1  # s, communication step
-_MESSAGES = {
-    NOT_FINITE: (
-        "the axle state is no longer finite or the teeth have parted by more than 0.1 m. "
-        "Reduce the torques or check for an unstable option (equations='as_printed')"
-    ),
-    TOO_MANY_STEPS: (
-        "the step needs more than 1000000 integrator steps. Shorten the communication step"
-    ),
-}
+_WORDS = Words(
+    "axle",
+    "the bearing modes",
+    {
+        NOT_FINITE: (
+            "the axle state is no longer finite or the teeth have parted by more than 0.1 m. "
+            "Reduce the torques or check for an unstable option (equations='as_printed')"
+        ),
+        TOO_MANY_STEPS: (
+            "the step needs more than 1000000 integrator steps. Shorten the communication step"
+        ),
+    },
+)
 
 
-class HypoidAxle:
+class HypoidAxle(SteppedModel[StepControl]):
     """Lubricated hypoid axle: 8 DOF, dynamic tapered roller bearings, three flanks.
 
     Parameters
@@ -88,115 +89,37 @@ class HypoidAxle:
             parameters.mesh_stiffness,
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
-        self._oil_range = parameters.oil.temperature_low, parameters.oil.temperature_high
+        super().__init__(
+            states=N_STATE,
+            outputs=N_OUTPUTS,
+            control=StepControl(0.0, 0.0, 1.0, 1.0, 0.0),
+            oil=parameters.oil,
+            torque_limits=(MAX_TORQUE, MAX_WHEEL_TORQUE),
+            words=_WORDS,
+        )
+
+    def _with_data(self) -> Kernels:
         mesh = self.packed
-        self._mesh_arrays = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
-        self._flat_parameters = flatten(self.kernel_parameters)
-        self._state = np.zeros(N_STATE)
-        self._trial = np.zeros(N_STATE)
-        self._outputs = np.zeros(N_OUTPUTS)
-        self._work = np.zeros(work_size(self.packed.orders, self.packed.nodes))
-        self._rollers = np.zeros(ROLLERS_MAX)
-        self._control_values = flatten(StepControl(0.0, 0.0, 1.0, 1.0, 0.0))
-        self._inputs = np.zeros(3)
-        self.outputs: Array = self._outputs.view()
-        self.outputs.flags.writeable = False
-        self.state_view: Array = self._state.view()
-        self.state_view.flags.writeable = False
+        data = (
+            mesh.levels,
+            mesh.series,
+            mesh.orders,
+            mesh.windows,
+            mesh.nodes,
+            flatten(self.kernel_parameters),
+        )
+        work, rollers = np.zeros(work_size(mesh.orders, mesh.nodes)), np.zeros(ROLLERS_MAX)
+        return Kernels(
+            communication_step,
+            (*data, self._control_values, work, rollers, self._outputs),
+            write_outputs,
+            (*data, work, rollers, self._outputs),
+        )
 
     @property
     def highest_frequency(self) -> float:
         """Highest natural frequency at the initial load [Hz]; 1 before `initialise`."""
         return self.step_control.highest_frequency
-
-    @property
-    def step_control(self) -> StepControl:
-        """What the integrator step is tied to."""
-        return StepControl(*self._control_values.tolist())
-
-    def initialise(
-        self,
-        *,
-        pinion_speed: float,
-        pinion_torque: float,
-        wheel_torque: float,
-        oil_temperature: float,
-    ) -> None:
-        """Put the axle into static equilibrium under the torques, turning at `pinion_speed`.
-
-        Parameters
-        ----------
-        pinion_speed : float
-            [rad/s]
-        pinion_torque, wheel_torque : float
-            [N.m]; the wheel torque is a load.
-        oil_temperature : float
-            [K]
-
-        Raises
-        ------
-        ParameterError
-            When an input is not finite or out of range.
-        ConvergenceError
-            When no static equilibrium is found.
-        """
-        check_within("pinion_speed", pinion_speed, -MAX_SPEED, MAX_SPEED, "rad/s")
-        self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
-        before = self.get_state()
-        s = self._state
-        s[:] = 0.0
-        s[W_P] = pinion_speed
-        s[W_G] = pinion_speed / self.parameters.mesh.ratio
-        s[LOAD_TORQUE] = abs(pinion_torque)
-        s[SIDE] = -1.0 if pinion_torque < 0.0 else 1.0
-        self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
-        try:
-            self._settle(pinion_torque, oil_temperature)
-        except ConvergenceError:
-            self._take(before)
-            raise
-        self._control_values[:] = self._step_control(pinion_torque, oil_temperature)
-        self._write_outputs()
-
-    def step(
-        self, h: float, pinion_torque: float, wheel_torque: float, oil_temperature: float
-    ) -> None:
-        """Advance by `h` [s] under constant torques [N.m] and oil temperature [K].
-
-        Raises
-        ------
-        ParameterError
-            When an input is not finite or out of range.
-        StepError
-            When the step cannot be made; the axle is then as before the step.
-        """
-        if not 0.0 < h <= MAX_STEP:
-            check_finite("step size", h, "s")
-            raise StepError(
-                f"step size must be above 0 and at most {MAX_STEP:g} s, got {h:g} s. "
-                "A communication step of about 1e-4 s resolves the bearing modes."
-            )
-        self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
-        status = communication_step(
-            self._state,
-            self._trial,
-            h,
-            pinion_torque,
-            wheel_torque,
-            oil_temperature,
-            *self._mesh_arrays,
-            self._flat_parameters,
-            self._control_values,
-            self._work,
-            self._rollers,
-            self._outputs,
-        )
-        if status != OK:
-            raise StepError(f"step of {h:g} s refused: {_MESSAGES[status]}.")
-        inputs = self._inputs
-        inputs[0] = pinion_torque
-        inputs[1] = wheel_torque
-        inputs[2] = oil_temperature
 
     def derivative(self, state: Array) -> Array:
         """Return d/dt of the N_ODE integrated states, for any other integrator.
@@ -246,52 +169,13 @@ class HypoidAxle:
         )
         return slope
 
-    def get_state(self) -> Array:
-        """Return everything that the future depends on, shape (N_STATE + 8,)."""
-        return np.concatenate([self._state, self._inputs, self._control_values])
-
-    def set_state(self, state: Array) -> None:
-        """Continue from what `get_state` returned; bit-exact.
-
-        Raises
-        ------
-        StepError
-            When the array has the wrong length or holds a NaN; the axle is then as before.
-        """
-        values = np.asarray(state, dtype=np.float64)
-        size = N_STATE + 3 + len(StepControl._fields)
-        if values.shape != (size,) or not np.all(np.isfinite(values)):
-            raise StepError(
-                f"an axle state has {size} finite numbers, got shape {values.shape}. "
-                "Use an array from get_state of the same release."
-            )
-        control = StepControl(*values[N_STATE + 3 :].tolist())
-        if min(control[:4]) <= 0.0:
-            raise StepError(
-                f"an axle state must have step control values above 0, got {control}. "
-                "Use an array from get_state after initialise."
-            )
-        self._take(values)
-        self._write_outputs()
-
-    def _take(self, values: Array) -> None:
-        self._state[:] = values[:N_STATE]
-        self._inputs[:] = values[N_STATE : N_STATE + 3]
-        self._control_values[:] = values[N_STATE + 3 :]
-
-    def _check_inputs(self, pinion_torque: float, wheel_torque: float, oil: float) -> None:
-        low, high = self._oil_range
-        if (
-            abs(pinion_torque) <= MAX_TORQUE
-            and abs(wheel_torque) <= MAX_WHEEL_TORQUE
-            and low <= oil <= high
-        ):
-            return  # the usual case, thousands of times a second
-        limit = MAX_TORQUE
-        check_within("pinion.torque", pinion_torque, -limit, limit, "N.m", "Check the unit.")
-        limit = MAX_WHEEL_TORQUE
-        check_within("wheel.torque", wheel_torque, -limit, limit, "N.m", "Check the unit.")
-        self.parameters.oil.check_temperature(oil, "oil.temperature")
+    def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
+        s = self._state
+        s[W_P] = speed
+        s[W_G] = speed / self.parameters.mesh.ratio
+        s[LOAD_TORQUE] = abs(torque)
+        s[SIDE] = -1.0 if torque < 0.0 else 1.0
+        self._settle(torque, oil_temperature)
 
     def _settle(self, pinion_torque: float, oil_temperature: float) -> None:
         """Solve the six displacements and the transmission error for static equilibrium."""
@@ -364,18 +248,4 @@ class HypoidAxle:
             float(np.max(frequencies)),
             float(series[0]),
             float(compliance),
-        )
-
-    def _write_outputs(self) -> None:
-        pinion_torque, wheel_torque, oil_temperature = self._inputs.tolist()
-        write_outputs(
-            self._state,
-            pinion_torque,
-            wheel_torque,
-            oil_temperature,
-            *self._mesh_arrays,
-            self._flat_parameters,
-            self._work,
-            self._rollers,
-            self._outputs,
         )

@@ -1,0 +1,221 @@
+"""Gears in motion as an object: checked inputs, a step made or refused, a state to come back to."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from typing import Any, Generic, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.checks import check_finite, check_within
+from gearlube_core.errors import ConvergenceError, StepError
+from gearlube_core.flat_tuples import flatten
+from gearlube_core.materials.lubricant import Lubricant
+
+Array = NDArray[np.float64]
+Control = TypeVar("Control", bound=tuple[float, ...])  # a NamedTuple of floats
+
+MAX_SPEED = 5e3  # rad/s
+MAX_STEP = 0.1  # s, communication step
+_N_INPUTS = 3
+_OK = 0  # status of a kernel that made its step
+
+
+class Kernels(NamedTuple):
+    """Compiled functions of a model, and what they take behind state and inputs."""
+
+    step: Callable[..., int]  # (state, trial, h, torques, oil temperature, *step_data)
+    step_data: tuple[Any, ...]
+    write_outputs: Callable[..., None]  # (state, torques, oil temperature, *output_data)
+    output_data: tuple[Any, ...]
+
+
+class Words(NamedTuple):
+    """How messages speak of a model."""
+
+    name: str  # "axle"
+    resolved: str  # what a communication step of 1e-4 s resolves
+    refusals: Mapping[int, str]  # why a step was refused, by status
+
+
+class SteppedModel(ABC, Generic[Control]):
+    """A model with two shafts that is advanced by communication steps.
+
+    Parameters
+    ----------
+    states, outputs
+        How many there are.
+    control
+        What the integrator step is tied to, before `initialise`; its values are part of the state.
+    oil
+        Its range of temperatures is that of the input.
+    torque_limits
+        Largest torques at pinion and wheel [N.m].
+    words
+        For messages.
+    """
+
+    def __init__(
+        self,
+        *,
+        states: int,
+        outputs: int,
+        control: Control,
+        oil: Lubricant,
+        torque_limits: tuple[float, float],
+        words: Words,
+    ) -> None:
+        self._state = np.zeros(states)
+        self._trial = np.zeros(states)
+        self._outputs = np.zeros(outputs)
+        self._inputs = np.zeros(_N_INPUTS)
+        self._control_type = type(control)
+        self._control_values = flatten(control)
+        self._oil, self._oil_range = oil, (oil.temperature_low, oil.temperature_high)
+        self._torque_limits, self._words = torque_limits, words
+        self._kernels = self._with_data()
+        self.outputs: Array = self._outputs.view()
+        self.outputs.flags.writeable = False
+        self.state_view: Array = self._state.view()
+        self.state_view.flags.writeable = False
+
+    @abstractmethod
+    def _with_data(self) -> Kernels:
+        """Return the kernels, what they take made of what the base class has."""
+
+    @abstractmethod
+    def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
+        """Write the static equilibrium at the pinion's speed and torque into the state of zeros."""
+
+    @abstractmethod
+    def _step_control(self, torque: float, oil_temperature: float) -> Control:
+        """Return what the integrator step is tied to about the present equilibrium."""
+
+    @property
+    def step_control(self) -> Control:
+        """What the integrator step is tied to."""
+        return self._control_type(*self._control_values.tolist())
+
+    def initialise(
+        self,
+        *,
+        pinion_speed: float,
+        pinion_torque: float,
+        wheel_torque: float,
+        oil_temperature: float,
+    ) -> None:
+        """Put the model into static equilibrium under the pinion torque, turning.
+
+        Parameters
+        ----------
+        pinion_speed : float
+            [rad/s]
+        pinion_torque, wheel_torque : float
+            [N.m]; the wheel torque is a load.
+        oil_temperature : float
+            [K]
+
+        Raises
+        ------
+        ParameterError
+            When an input is not finite or out of range.
+        ConvergenceError
+            When no static equilibrium is found.
+        """
+        check_within("pinion_speed", pinion_speed, -MAX_SPEED, MAX_SPEED, "rad/s")
+        self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
+        before = self.get_state()
+        self._state[:] = 0.0
+        self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
+        try:
+            self._rest(pinion_speed, pinion_torque, oil_temperature)
+        except ConvergenceError:
+            self._take(before)
+            raise
+        self._control_values[:] = self._step_control(pinion_torque, oil_temperature)
+        self._write_outputs()
+
+    def step(
+        self, h: float, pinion_torque: float, wheel_torque: float, oil_temperature: float
+    ) -> None:
+        """Advance by `h` [s] under constant torques [N.m] and oil temperature [K].
+
+        Raises
+        ------
+        ParameterError
+            When an input is not finite or out of range.
+        StepError
+            When the step cannot be made; the model is then as before the step.
+        """
+        if not 0.0 < h <= MAX_STEP:
+            check_finite("step size", h, "s")
+            raise StepError(
+                f"step size must be above 0 and at most {MAX_STEP:g} s, got {h:g} s. "
+                f"A communication step of about 1e-4 s resolves {self._words.resolved}."
+            )
+        self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
+        kernels = self._kernels
+        status = kernels.step(
+            self._state,
+            self._trial,
+            h,
+            pinion_torque,
+            wheel_torque,
+            oil_temperature,
+            *kernels.step_data,
+        )
+        if status != _OK:
+            raise StepError(f"step of {h:g} s refused: {self._words.refusals[status]}.")
+        inputs = self._inputs
+        inputs[0] = pinion_torque
+        inputs[1] = wheel_torque
+        inputs[2] = oil_temperature
+
+    def get_state(self) -> Array:
+        """Return everything that the future depends on: states, inputs, step control."""
+        return np.concatenate([self._state, self._inputs, self._control_values])
+
+    def set_state(self, state: Array) -> None:
+        """Continue from what `get_state` returned; bit-exact.
+
+        Raises
+        ------
+        StepError
+            When the array has the wrong length or holds a NaN; the model is then as before.
+        """
+        values = np.asarray(state, dtype=np.float64)
+        at_control = self._state.size + _N_INPUTS
+        size = at_control + self._control_values.size
+        if values.shape != (size,) or not np.all(np.isfinite(values)):
+            raise StepError(
+                f"a state of the {self._words.name} has {size} finite numbers, got shape "
+                f"{values.shape}. Use an array from get_state of the same release."
+            )
+        control = self._control_type(*values[at_control:].tolist())
+        if min(control) <= 0.0:
+            raise StepError(
+                f"a state of the {self._words.name} must have step control values above 0, got "
+                f"{control}. Use an array from get_state after initialise."
+            )
+        self._take(values)
+        self._write_outputs()
+
+    def _take(self, values: Array) -> None:
+        at_control = self._state.size + _N_INPUTS
+        self._state[:] = values[: self._state.size]
+        self._inputs[:] = values[self._state.size : at_control]
+        self._control_values[:] = values[at_control:]
+
+    def _check_inputs(self, pinion_torque: float, wheel_torque: float, oil: float) -> None:
+        (at_pinion, at_wheel), (low, high) = self._torque_limits, self._oil_range
+        if abs(pinion_torque) <= at_pinion and abs(wheel_torque) <= at_wheel and low <= oil <= high:
+            return  # the usual case, thousands of times a second
+        check_within("pinion.torque", pinion_torque, -at_pinion, at_pinion, "N.m",
+                     "Check the unit.")  # fmt: skip
+        check_within("wheel.torque", wheel_torque, -at_wheel, at_wheel, "N.m", "Check the unit.")
+        self._oil.check_temperature(oil, "oil.temperature")
+
+    def _write_outputs(self) -> None:
+        self._kernels.write_outputs(self._state, *self._inputs.tolist(), *self._kernels.output_data)
