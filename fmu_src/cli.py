@@ -18,6 +18,7 @@ from fmu_src.contact_command import ContactCommand, contact
 from fmu_src.ehl_command import ehl
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from fmu_src.helical_command import HelicalCommand, helical
+from fmu_src.options import JobsOption, OilTemperatureOption, RoughnessOption
 from fmu_src.resonance_command import resonance
 from fmu_src.spread_values import SpreadingCommand
 from gearlube_core import __version__
@@ -82,15 +83,11 @@ def sweep(
             help="Bearing preloads [N], one or more. Default 2500 6000.", metavar="FORCE..."
         ),
     ] = None,
-    oil_temperature: Annotated[
-        float, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
-    ] = 95.0,
+    oil_temperature: OilTemperatureOption = 95.0,
     oil: Annotated[
         str, typer.Option(help="mohammadpour_2015 or karagiannis_2012.")
     ] = "mohammadpour_2015",
-    roughness_um: Annotated[
-        float, typer.Option(help="Composite rms roughness of the flanks [um].", metavar="UM")
-    ] = 0.5,
+    roughness_um: RoughnessOption = 0.5,
     equations: Annotated[
         str, typer.Option(help="consistent, or as_printed in the paper.")
     ] = "consistent",
@@ -103,9 +100,7 @@ def sweep(
     driver: Annotated[
         str, typer.Option(help="vehicle: coupled driveline; hold: road load and speed hold.")
     ] = "vehicle",
-    jobs: Annotated[
-        int | None, typer.Option(help="Local processes. Default: all processors.", metavar="N")
-    ] = None,
+    jobs: JobsOption = None,
     scheduler: Annotated[
         str | None,
         typer.Option(help="Address of a running Dask scheduler instead of local processes."),

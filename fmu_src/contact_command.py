@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from fmu_src.options import JobsOption
 from fmu_src.spread_values import SpreadingCommand
 from gearlube_core.errors import GearLubeError, ParameterError
 
@@ -62,9 +63,7 @@ def contact(
     shaft_angle_mrad: Annotated[
         float, typer.Option(help="Misalignment of the shaft angle, milliradians.", metavar="MRAD")
     ] = 0.0,
-    jobs: Annotated[
-        int | None, typer.Option(help="Local processes. Default: all processors.", metavar="N")
-    ] = None,
+    jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_contact"),
     export: Annotated[
         bool,

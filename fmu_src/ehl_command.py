@@ -11,6 +11,13 @@ from rich.console import Console
 from fmu_src.ehl_compare_command import compare
 from fmu_src.ehl_hypoid_command import hypoid
 from fmu_src.ehl_outcome import told, verdict
+from fmu_src.options import (
+    CaseArgument,
+    ExampleOption,
+    HelicalGearArgument,
+    SpeedOfFileOption,
+    TorqueOfFileOption,
+)
 from gearlube_core.checks import check_finite, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
@@ -36,17 +43,11 @@ _SlideRoll = Annotated[
     float | None,
     typer.Option(help="Slide-roll ratio along x, 2 (u1 - u2)/(u1 + u2).", metavar="RATIO"),
 ]
-_Example = Annotated[
-    bool,
-    typer.Option("--example", help="Print the shipped case as a file to start from, and stop."),
-]
 
 
 @ehl.command("line")
 def line(
-    case: Annotated[
-        str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
-    ] = "jamali_2015",
+    case: CaseArgument = "jamali_2015",
     load: Annotated[
         float | None, typer.Option(help="Load per length [N/mm].", metavar="N/MM")
     ] = None,
@@ -71,7 +72,7 @@ def line(
         ),
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
-    example: _Example = False,
+    example: ExampleOption = False,
 ) -> None:
     """Solve a lubricated line contact; write line.nc, summary.csv and figures.
 
@@ -97,9 +98,7 @@ def line(
 
 @ehl.command("point")
 def point(
-    case: Annotated[
-        str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
-    ] = "mourier_2006",
+    case: CaseArgument = "mourier_2006",
     load: Annotated[float | None, typer.Option(help="Load [N].", metavar="NEWTON")] = None,
     entrainment: _Entrainment = None,
     slide_roll: _SlideRoll = None,
@@ -111,7 +110,7 @@ def point(
         typer.Option(help="Stencil of the wedge.", metavar="upwind-2|upwind-1|central|quick"),
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
-    example: _Example = False,
+    example: ExampleOption = False,
 ) -> None:
     """Solve a lubricated point contact; write point.nc, summary.csv and figures.
 
@@ -136,12 +135,7 @@ def point(
 
 @ehl.command("helical")
 def helical(
-    gear: Annotated[
-        str,
-        typer.Argument(
-            help="jamali_2015_a, jamali_2015_b, he_2007 or a gear file (TOML).", metavar="GEAR"
-        ),
-    ] = "jamali_2015_a",
+    gear: HelicalGearArgument = "jamali_2015_a",
     step: Annotated[
         float | None,
         typer.Option(help="Step of the meshing cycle, 0.04 mm each.", metavar="N"),
@@ -161,14 +155,8 @@ def helical(
             metavar="all|FIRST:LAST",
         ),
     ] = None,
-    torque: Annotated[
-        float | None,
-        typer.Option(help="Pinion torque [N.m]. Default: that of the gear file.", metavar="TORQUE"),
-    ] = None,
-    speed_rpm: Annotated[
-        float | None,
-        typer.Option(help="Pinion speed [rpm]. Default: that of the gear file.", metavar="RPM"),
-    ] = None,
+    torque: TorqueOfFileOption = None,
+    speed_rpm: SpeedOfFileOption = None,
     oil: Annotated[
         str | None,
         typer.Option(help="Oil of the library. Default: that of the gear file."),

@@ -9,6 +9,7 @@ import typer
 from rich.console import Console
 
 from fmu_src.ehl_outcome import told, verdict
+from fmu_src.options import CaseArgument, ExampleOption
 from gearlube_core.errors import ParameterError
 
 console = Console(stderr=True)
@@ -22,9 +23,7 @@ _QUICK = {
 
 
 def hypoid(
-    case: Annotated[
-        str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
-    ] = "mohammadpour_2015",
+    case: CaseArgument = "mohammadpour_2015",
     mesh_table: Annotated[
         str | None,
         typer.Option(help="Shipped mesh table or one of `gearlube contact`.", metavar="TABLE"),
@@ -85,10 +84,7 @@ def hypoid(
         bool, typer.Option("--quick", help="Few nodes and steps, for a first look.")
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_hypoid"),
-    example: Annotated[
-        bool,
-        typer.Option("--example", help="Print the shipped case as a file to start from, and stop."),
-    ] = False,
+    example: ExampleOption = False,
 ) -> None:
     """Solve the films of a hypoid tooth pair through its engagement, beside the formulas.
 

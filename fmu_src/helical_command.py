@@ -12,6 +12,14 @@ import typer
 from rich.console import Console
 
 from fmu_src.exit_codes import INTERRUPTED, told
+from fmu_src.options import (
+    HelicalGearArgument,
+    JobsOption,
+    OilTemperatureOption,
+    RoughnessOption,
+    SpeedOfFileOption,
+    TorqueOfFileOption,
+)
 from fmu_src.spread_values import SpreadingCommand
 from fmu_src.value_range import values_from
 from gearlube_core.checks import check_within
@@ -31,20 +39,9 @@ class HelicalCommand(SpreadingCommand):
 
 
 def helical(
-    gear: Annotated[
-        str,
-        typer.Argument(
-            help="he_2007, jamali_2015_a, jamali_2015_b or a gear file (TOML).", metavar="GEAR"
-        ),
-    ] = "he_2007",
-    torque: Annotated[
-        float | None,
-        typer.Option(help="Pinion torque [N.m]. Default: that of the gear file.", metavar="TORQUE"),
-    ] = None,
-    speed_rpm: Annotated[
-        float | None,
-        typer.Option(help="Pinion speed [rpm]. Default: that of the gear file.", metavar="SPEED"),
-    ] = None,
+    gear: HelicalGearArgument = "he_2007",
+    torque: TorqueOfFileOption = None,
+    speed_rpm: SpeedOfFileOption = None,
     mu: Annotated[
         list[str] | None,
         typer.Option(
@@ -95,19 +92,13 @@ def helical(
     oil: Annotated[
         str, typer.Option(help="mohammadpour_2015, karagiannis_2012 or jamali_2015.")
     ] = "mohammadpour_2015",
-    oil_temperature: Annotated[
-        float, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
-    ] = 80.0,
-    roughness_um: Annotated[
-        float, typer.Option(help="Composite rms roughness of the flanks [um].", metavar="UM")
-    ] = 0.5,
+    oil_temperature: OilTemperatureOption = 80.0,
+    roughness_um: RoughnessOption = 0.5,
     parts: Annotated[
         str,
         typer.Option(help="What to run.", metavar="all|contact|dynamics|geometry"),
     ] = "all",
-    jobs: Annotated[
-        int | None, typer.Option(help="Local processes. Default: all processors.", metavar="N")
-    ] = None,
+    jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_helical"),
     quick: Annotated[
         bool, typer.Option("--quick", help="Few points and coarse teeth, for a first look.")

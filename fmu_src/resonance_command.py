@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 
 from fmu_src.exit_codes import INTERRUPTED, told
+from fmu_src.options import OilTemperatureOption, RoughnessOption
 from gearlube_core.checks import check_finite, check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.table import MeshTable
@@ -47,12 +48,8 @@ def resonance(
         ),
     ] = "consistent",
     torque: Annotated[float, typer.Option(help="Pinion torque [N.m].", metavar="TORQUE")] = 50.0,
-    oil_temperature: Annotated[
-        float, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
-    ] = 40.0,
-    roughness_um: Annotated[
-        float, typer.Option(help="Composite rms roughness of the flanks [um].", metavar="UM")
-    ] = 0.5,
+    oil_temperature: OilTemperatureOption = 40.0,
+    roughness_um: RoughnessOption = 0.5,
     friction: Annotated[
         str,
         typer.Option(

@@ -1,0 +1,38 @@
+"""Arguments and options that several commands have."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+CaseArgument = Annotated[
+    str, typer.Argument(help="Case file (TOML) or the name of a shipped one.", metavar="CASE")
+]
+ExampleOption = Annotated[
+    bool,
+    typer.Option("--example", help="Print the shipped case as a file to start from, and stop."),
+]
+HelicalGearArgument = Annotated[
+    str,
+    typer.Argument(
+        help="he_2007, jamali_2015_a, jamali_2015_b or a gear file (TOML).", metavar="GEAR"
+    ),
+]
+TorqueOfFileOption = Annotated[
+    float | None,
+    typer.Option(help="Pinion torque [N.m]. Default: that of the gear file.", metavar="TORQUE"),
+]
+SpeedOfFileOption = Annotated[
+    float | None,
+    typer.Option(help="Pinion speed [rpm]. Default: that of the gear file.", metavar="RPM"),
+]
+OilTemperatureOption = Annotated[
+    float, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
+]
+RoughnessOption = Annotated[
+    float, typer.Option(help="Composite rms roughness of the flanks [um].", metavar="UM")
+]
+JobsOption = Annotated[
+    int | None, typer.Option(help="Local processes. Default: all processors.", metavar="N")
+]
