@@ -214,7 +214,7 @@ class PointCase(EhlCase):
             one.check_serves(smooth.x, smooth.y)
         if self.height_map is not None and self.height_map.holds == "gap":
             *heights, whole = shapes
-            return replace(smooth, gap=RoughGap(whole, tuple(heights)))
+            return replace(smooth, gap=RoughGap(whole, tuple(heights)), oil_beyond=False)
         return replace(smooth, gap=RoughGap(smooth.gap, tuple(shapes)))
 
     def _smooth(self) -> PointContactProblem:
@@ -231,6 +231,7 @@ class PointCase(EhlCase):
             inlet=self.domain.inlet,
             outlet=self.domain.outlet,
             side=self.domain.side,
+            oil_beyond=self.domain.oil_beyond,
         )
 
     @property

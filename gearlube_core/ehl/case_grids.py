@@ -45,6 +45,11 @@ class PointDomain(Section):
     )
     outlet: Reach | None = Field(default=None, description="Downstream, in semi-axes")
     side: Reach | None = Field(default=None, description="To the sides, in semi-axes")
+    oil_beyond: bool | None = Field(
+        default=None,
+        description="Oil goes on beyond the domain; false: ambient pressure on its border; left "
+        "out: on the default domain where it carries more than 2.5 % of the load",
+    )
 
 
 class PointSolver(Section):

@@ -75,6 +75,7 @@ class HypoidFilm:
             lubricant=self._flowing(),
             nodes=self.nodes,
             sliding=instant.sliding,
+            oil_beyond=False,
         )
         semi_axis = problem.hertz_contact[1]
         low, high = (reach * semi_axis for reach in _Y_REACH)

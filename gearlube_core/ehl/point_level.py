@@ -12,6 +12,7 @@ from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coeffici
 from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
 from gearlube_core.ehl.film_shear import FilmShear
 from gearlube_core.ehl.lubricant import EhlLubricant, fill_properties
+from gearlube_core.ehl.point_border import OpenBorder
 from gearlube_core.ehl.point_cross_flow import add_cross_derivatives, add_cross_flow
 from gearlube_core.ehl.point_mesh import Grading, cell_faces, central_metric, mesh_metric, x_nodes
 from gearlube_core.ehl.point_solids import add_solids, solid_share
@@ -70,6 +71,8 @@ class PointLevel:
         Where oil may be above ambient pressure; None: everywhere.
     shear : FilmShear or None
         Of an Eyring film.
+    border : OpenBorder or None
+        Where the oil goes on; None: ambient pressure on the border.
     solids : SolidLayer or None
         Of solids that touch where the film is thin; None: they never do.
     """
@@ -138,6 +141,7 @@ class PointLevel:
         self.source = np.zeros(shape)
         self.closed: Flags | None = None
         self.shear: FilmShear | None = None
+        self.border: OpenBorder | None = None
         # powers of film and fluidity in the flow by pressure
         self._newtonian = np.full(shape, 3.0), np.ones(shape)
         self._aligned = np.zeros(shape)  # no cross flow
@@ -152,6 +156,10 @@ class PointLevel:
         self.flow_rate = self.stencil.wedge_x + self.stencil.wedge_y
         self.cells = self.cell / self.metric.narrow
         self._dense: Array | None = None
+
+    def open_border(self, border: OpenBorder) -> None:
+        """Let the oil go on beyond the border."""
+        self.border, self.closed = border, border.inside
 
     def convolution(self, single: bool = False) -> HalfSpaceConvolution | GradedConvolution:
         """Return the deflection under unit pressure, in float32 for preconditioners."""
@@ -199,9 +207,13 @@ class PointLevel:
         return self.deflection(pressure) + self.gap + approach
 
     def state(self, pressure: Array, approach: float, film: Array | None = None) -> FilmState:
-        """Return the state at a pressure, zero on the border, and an approach."""
+        """Return the state at a pressure, not counted on the border, and an approach."""
         if self.closed is not None:
             pressure = np.where(self.closed, pressure, 0.0)
+        load = self.scales.load
+        if self.border is not None:
+            pressure = self.border.impose(pressure, approach)
+            load -= self.border.load(approach)[0]
         if film is None:
             film = self.film(pressure, approach)
         viscosity, viscosity_slope, density, density_slope = np.empty((4, *self.shape))
@@ -235,7 +247,7 @@ class PointLevel:
             cubic_y=cubic_y,
             log_viscosity=np.log(viscosity),
             residual=np.empty(self.shape),
-            load_error=(self.scales.load - self.integral(pressure)) / self.scales.load,
+            load_error=(load - self.integral(pressure)) / self.scales.load,
             cubic_xy=cubic_xy,
             shear=shear,
             closed=self.closed,
@@ -272,6 +284,8 @@ class PointLevel:
         """
         here, upstream, downstream = (order * weight for weight in self._weights)
         poiseuille = mobility * self.scales.mobility
+        if self.border is not None:
+            self.border.thickening = 1.0 / mobility
         self.stencil = self.stencil._replace(
             poiseuille_x=poiseuille / self.dx**2,
             poiseuille_y=poiseuille / self.dy**2,
@@ -319,9 +333,15 @@ class PointLevel:
                 self._centre,
             )
         by_approach = by_film.sum(axis=0)
-        return Linearisation(
+        linear = Linearisation(
             offsets, by_pressure, by_film, by_approach, free, right, np.empty(self.shape)
         )
+        if self.border is not None:
+            rise = self.border.slope(state.approach)
+            beyond = self.border.load(state.approach)[1]
+            linear.load_by_approach = (self.integral(rise) + beyond) / self.scales.load
+            linear.by_approach = by_approach + self.apply(linear, rise, 0.0)
+        return linear
 
     def _derivatives(
         self, stencil: StencilParameters, state: FilmState, slopes: FlowSlopes, free: Flags

@@ -97,7 +97,7 @@ def newton(
         pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),
-                level.integral(p) / level.scales.load,
+                level.integral(p) / level.scales.load + h * linear.load_by_approach,
             ),
             cycle,
             linear.right,

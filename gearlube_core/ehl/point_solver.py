@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlube_core.ehl.point_border import OpenBorder
 from gearlube_core.ehl.point_continuation import solve_level
 from gearlube_core.ehl.point_element_level import ElementLevel
 from gearlube_core.ehl.point_level import PointLevel
@@ -69,6 +70,9 @@ def build_hierarchy(
     shapes = grid_shapes(nodes, steps)
     grid = ElementLevel if discretisation == "elements" else PointLevel
     levels = [grid(problem, scales, shape, wedge) for shape in shapes]
+    if problem.oil_beyond:
+        for level in levels:
+            level.open_border(OpenBorder(problem, scales, level.shape))
     transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
     return Hierarchy(levels, transfers)
 

@@ -71,3 +71,4 @@ class Linearisation:
     free: Flags  # where pressure is unknown
     right: Array  # what the derivatives times the changes have to be, (ny, nx)
     result: Array = field(repr=False)
+    load_by_approach: float = 0.0  # change of the load that is carried over the load

@@ -11,6 +11,7 @@ import numpy as np
 
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.ehl.far_field import FarField
 from gearlube_core.ehl.lubricant import EhlLubricant, pressure_viscosity
 from gearlube_core.ehl.nijenbanning_1994 import regime_films
 from gearlube_core.ehl.solid_contact import SolidContact
@@ -21,6 +22,8 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 Gap = Callable[[Array, Array], Array]
 
 _FLOODED = 20.0  # films of gap at the inlet
+_FLOODED_MORE = 15.0  # times as many more under thick films with no oil beyond the border
+_LOAD_BEYOND = 0.025  # share of the load that may lie beyond an ambient border
 _MOST_NODES = 2049  # along one side; 2049 x 2049 need about 3 GiB
 
 
@@ -50,7 +53,7 @@ class EllipticParaboloid:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointContactProblem:
-    """Steady film between two solids over a rectangle, pressure zero on its border.
+    """Steady film between two solids over a rectangle, with ambient pressure on its border.
 
     div(rho h^3/(12 eta) S grad p) = d(u rho h)/dx + d(v rho h)/dy,
     h = h_0 + h_u(x, y) + 1/(pi E*) int p/r,  int p = W,  p >= 0
@@ -80,6 +83,9 @@ class PointContactProblem:
         oil with an Eyring stress; None: it flows as a Newtonian one.
     solids
         What carries load where the film vanishes; None: the oil alone.
+    oil_beyond
+        Oil goes on beyond the domain, between the paraboloids `hertz` around zero: the border
+        has its pressure, and it carries its share of the load.
 
     Raises
     ------
@@ -98,6 +104,7 @@ class PointContactProblem:
     hertz: EllipticParaboloid
     sliding: tuple[float, float] | None = None
     solids: SolidContact | None = None
+    oil_beyond: bool = False
 
     def __post_init__(self) -> None:
         for axis, speed in zip("xy", self.entrainment, strict=True):
@@ -112,6 +119,11 @@ class PointContactProblem:
         for axis, limits in (("x", self.x_limits), ("y", self.y_limits)):
             low = check_finite(f"{axis}_limits[0]", limits[0], "m")
             check_positive(f"{axis}_limits[1] - {axis}_limits[0]", limits[1] - low, "m")
+            if self.oil_beyond and not low < 0.0 < limits[1]:
+                raise ParameterError(
+                    f"{axis}_limits must lie on both sides of 0 m where oil goes on beyond them, "
+                    f"got {low:.4g} to {limits[1]:.4g} m."
+                )
         for axis, count in zip("xy", self.nodes, strict=True):
             if not 17 <= count <= _MOST_NODES:
                 raise ParameterError(
@@ -135,6 +147,20 @@ class PointContactProblem:
             self.hertz.R_x, self.hertz.R_y, self.contact_modulus, self.load
         )
         return a_x, a_y, 1.5 * mean
+
+    def far_field(self, margins: tuple[float, float] = (0.0, 0.0)) -> FarField:
+        """Return the oil outside the domain and margins along x and y [m]."""
+        (x0, x1), (y0, y1), (dx, dy) = self.x_limits, self.y_limits, margins
+        return FarField(
+            R_x=self.hertz.R_x,
+            R_y=self.hertz.R_y,
+            entrainment=self.entrainment,
+            load=self.load,
+            contact_modulus=self.contact_modulus,
+            lubricant=self.lubricant,
+            x_limits=(x0 - dx, x1 + dx),
+            y_limits=(y0 - dy, y1 + dy),
+        )
 
     def with_nodes(self, nx: int, ny: int) -> PointContactProblem:
         """Return the same problem on another grid."""
@@ -186,6 +212,7 @@ def elliptical_contact(
     inlet: float | None = None,
     outlet: float | None = None,
     side: float | None = None,
+    oil_beyond: bool | None = None,
 ) -> PointContactProblem:
     """Return the problem of two smooth solids on a domain that floods the inlet.
 
@@ -198,6 +225,9 @@ def elliptical_contact(
     inlet, outlet, side
         Extent of the domain upstream, downstream and to the sides, in semi-axes of the dry
         contact along the same axis [1]. By default as far as the film needs.
+    oil_beyond
+        As in `PointContactProblem`. None: where the domain is the default one and oil outside
+        would carry more than 2.5 % of the load.
 
     Returns
     -------
@@ -206,12 +236,11 @@ def elliptical_contact(
 
     Notes
     -----
-    The default inlet lies where the undeformed gap is 20 central films, 320 where the film is
-    thicker than the solids flatten, never closer than 2.5 semi-axes; the sides and the outlet
-    follow likewise. A domain half as large again moves the central film by 0.5 % where
-    oil thickens with pressure and the solids flatten more than the film is thick, by 1.5 % in
-    isoviscous oil, and by up to 6 % on solids so stiff that the film is the thicker one: the
-    pressure they leave outside falls with the third power of distance only. Widen it there.
+    The default inlet lies where the undeformed gap is 20 central films, never closer than 2.5
+    semi-axes; the sides and the outlet follow likewise. Larger domains move the central film by
+    less than 1 %. Without oil beyond the border isoviscous films, and those thicker than the
+    solids flatten, come out up to a fifth too thin on a domain of 320 films: pressure falls
+    with the third power of distance only.
     """
     shape = EllipticParaboloid(R_x, R_y)
     problem = PointContactProblem(
@@ -226,13 +255,36 @@ def elliptical_contact(
         hertz=shape,
         sliding=sliding,
     )
-    a_x, a_y, _ = problem.hertz_contact
     film = expected_film(problem)
+    extent = inlet, outlet, side
+    near = _on_domain(problem, film, extent, 0.0)
+    if oil_beyond is None:
+        own = all(reach is None for reach in extent)
+        oil_beyond = own and near.far_field().load(film)[0] > _LOAD_BEYOND * load
+    if oil_beyond:
+        return replace(near, oil_beyond=True)
+    return _on_domain(problem, film, extent, _FLOODED_MORE)
+
+
+def _on_domain(
+    problem: PointContactProblem,
+    film: float,
+    extent: tuple[float | None, float | None, float | None],
+    more: float,
+) -> PointContactProblem:
+    """Return the problem with the limits for a film [m]; extent as in `elliptical_contact`.
+
+    `more` times the films of gap on top at the inlet where it is thicker than solids flatten.
+    """
+    inlet, outlet, side = extent
+    R_x, R_y = problem.hertz.R_x, problem.hertz.R_y
+    a_x, a_y, _ = problem.hertz_contact
+    entrainment = problem.entrainment
     speed = math.hypot(*entrainment)
     # films thicker than the solids flatten carry load far to the sides
     thickness = min(1.0, film * min(R_x, R_y) / min(a_x, a_y) ** 2)
     breadth = 0.6 + 0.4 * thickness
-    flooded_films = _FLOODED * (1.0 + 15.0 * thickness**4)
+    flooded_films = _FLOODED * (1.0 + more * thickness**4)
     limits = []
     for component, radius, semi_axis in (
         (entrainment[0], R_x, a_x),

@@ -46,6 +46,8 @@ class PointOutcome:
         What happened and what to do, also where the domain cuts the contact.
     touch
         How far the solids touch.
+    beyond
+        Share of the load that oil beyond the domain carries [1]; 0 where there is none.
     """
 
     converged: bool
@@ -56,6 +58,7 @@ class PointOutcome:
     limited: float
     sentence: str
     touch: Touch
+    beyond: float = 0.0
 
     @classmethod
     def of(
@@ -98,14 +101,24 @@ class PointOutcome:
         if record.first_order:
             good += f" With upwind-1: too few nodes for {settings.wedge} at this film; take more."
         good += touch.sentence
-        beside = border_pressure(*map(level.scales.outward, (state.pressure, state.film)))
+        outside, border = 0.0, level.border
+        if border is not None:
+            outside = border.load(state.approach)[0] / scales.load
+            good += f" Oil beyond the domain carries {100.0 * outside:.2g} % of the load."
+        cut = border_pressure(
+            scales.outward(state.pressure),
+            scales.outward(state.film),
+            None if border is None else scales.outward(border.beside(state.approach)),
+        )
         sentence = (
             good
             if not failed
             else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
         )
-        sentence += beside.sentence
-        return cls(not failed, residual, state.load_error, smallest, wedge, share, sentence, touch)
+        sentence += cut.sentence
+        return cls(
+            not failed, residual, state.load_error, smallest, wedge, share, sentence, touch, outside
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -146,6 +159,7 @@ class PointSolution:
 
     @property
     def load(self) -> float:
-        """Return the load that the pressure carries [N]."""
+        """Return the load that the pressure carries [N], that beyond the domain included."""
         x, y = self.problem.x, self.problem.y
-        return float(self.pressure.sum() * (x[1] - x[0]) * (y[1] - y[0]))
+        inside = float(self.pressure.sum() * (x[1] - x[0]) * (y[1] - y[0]))
+        return inside + self.outcome.beyond * self.problem.load
