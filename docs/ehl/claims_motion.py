@@ -49,8 +49,8 @@ def _lines(store: Store) -> Verdict:
         j, line = rest.column(y / MM), line_contact(store, case, 300, y / MM)
         off.append(
             (
-                100.0 * (float(rest.pressure[:, j].max()) / line.max_pressure - 1.0),
-                100.0 * (float(rest.film[:, j].min()) / line.min_film - 1.0),
+                100.0 * (float(rest.pressure[:, j].max()) / line.maximum_pressure - 1.0),
+                100.0 * (float(rest.film[:, j].min()) / line.minimum_film - 1.0),
             )
         )
     worst = [max(abs(p), abs(h)) for p, h in off]
@@ -95,8 +95,8 @@ def _elements(store: Store) -> Verdict:
             elements = fields[0]
             worst += [
                 max(
-                    abs(elements.max_pressure / other.max_pressure - 1.0),
-                    abs(elements.min_film / other.min_film - 1.0),
+                    abs(elements.maximum_pressure / other.maximum_pressure - 1.0),
+                    abs(elements.minimum_film / other.minimum_film - 1.0),
                     abs(elements.central_film / other.central_film - 1.0),
                 )
                 for other in fields[1:]

@@ -18,6 +18,10 @@ from gearlube_core.film.chittenden_1985 import (
 )
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from gearlube_core.film.hamrock_dowson_1977 import (
+    brewe_hamrock_ellipticity,
+    hamrock_dowson_films,
+)
 
 _ALONG_AXIS = math.radians(1.0)
 _SMALLEST_RATIO = 0.01  # R_x/R_y of Nijenbanning's fit
@@ -47,15 +51,10 @@ def line_film_formulas(problem: LineProblem) -> list[FilmFormula]:
 def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
     """Return films of formulas for a point contact; none for a constant viscosity.
 
-    H_c = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)),
-    H_m = 3.63 U^0.68 G^0.49 W^-0.073 (1 - e^(-0.68 k)),  k = 1.0339 (R_y/R_x)^0.636
-
     Notes
     -----
     Hamrock and Dowson's and Nijenbanning's are given where entrainment lies within a degree of
-    the minor axis of the contact, k from 1 up; Chittenden's at any angle.
-    Sources: Hamrock and Dowson 1977, with the ellipticity of Hamrock and Brewe 1983; Chittenden
-    et al. 1985; Nijenbanning, Venner and Moes 1994.
+    the minor axis of the contact; Chittenden's at any angle.
     """
     oil, (u, v) = problem.lubricant, problem.entrainment
     alpha, speed = pressure_viscosity(oil), math.hypot(u, v)
@@ -82,9 +81,7 @@ def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
         radius=R_x,
         reduced_modulus=modulus,
     )
-    k = 1.0339 * (R_y / R_x) ** 0.636
-    H_c = 2.69 * g.U**0.67 * g.G**0.53 * g.W**-0.067 * (1.0 - 0.61 * math.exp(-0.73 * k))
-    H_m = 3.63 * g.U**0.68 * g.G**0.49 * g.W**-0.073 * (1.0 - math.exp(-0.68 * k))
+    H_c, H_m = hamrock_dowson_films(g.U, g.G, g.W, brewe_hamrock_ellipticity(R_x, R_y))
     if R_x >= _SMALLEST_RATIO * R_y:
         H = central_film_group(g.M, g.L, R_x / R_y) * math.sqrt(2.0 * g.U)
         found.append(FilmFormula("central film", "Nijenbanning et al. 1994", R_x * H))

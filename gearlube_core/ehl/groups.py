@@ -1,4 +1,4 @@
-"""Dimensionless groups of an elastohydrodynamic point contact, in one convention."""
+"""Dimensionless groups of elastohydrodynamic point and line contacts, in one convention."""
 
 from __future__ import annotations
 
@@ -75,3 +75,56 @@ def point_contact_groups(
     G = pressure_viscosity * reduced_modulus
     W = load / (reduced_modulus * radius**2)
     return PointContactGroups(U, G, W, W * (2.0 * U) ** -0.75, G * (2.0 * U) ** 0.25)
+
+
+class LineGroups(NamedTuple):
+    """Groups of a line contact; all dimensionless [-]."""
+
+    U: float  # speed, eta0 u/(E' R), u the mean speed
+    G: float  # material, alpha E'
+    W: float  # load, w/(E' R)
+    M: float  # Moes load, W (2 U)^(-1/2)
+    L: float  # Moes material, G (2 U)^(1/4)
+
+
+def line_groups(
+    *,
+    viscosity: float,
+    pressure_viscosity: float,
+    entrainment_speed: float,
+    line_load: float,
+    radius: float,
+    reduced_modulus: float,
+) -> LineGroups:
+    """Return the groups of a line contact.
+
+    U = eta0 u/(E' R), G = alpha E', W = w/(E' R), M = W (2U)^(-1/2), L = G (2U)^(1/4)
+
+    Parameters
+    ----------
+    viscosity, pressure_viscosity : float
+        eta0 [Pa s] and alpha [1/Pa].
+    entrainment_speed : float
+        Mean surface speed u, above zero [m/s].
+    line_load : float
+        w [N/m].
+    radius : float
+        R [m].
+    reduced_modulus : float
+        E' = 2 E* [Pa].
+
+    References
+    ----------
+    Moes 1992; Venner and Lubrecht 2000.
+
+    Examples
+    --------
+    >>> g = line_groups(viscosity=0.04, pressure_viscosity=2e-8, entrainment_speed=1.0,
+    ...                 line_load=1e5, radius=0.01, reduced_modulus=2.3e11)
+    >>> round(g.M, 2), round(g.L, 2)
+    (7.37, 11.17)
+    """
+    stiffness = reduced_modulus * radius
+    U = viscosity * entrainment_speed / stiffness
+    G, W = pressure_viscosity * reduced_modulus, line_load / stiffness
+    return LineGroups(U, G, W, W * (2.0 * U) ** -0.5, G * (2.0 * U) ** 0.25)

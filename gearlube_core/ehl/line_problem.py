@@ -10,9 +10,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from gearlube_core.checks import check_finite, check_option, check_positive, check_within
-from gearlube_core.ehl.line_regimes import LineGroups, central_film_group, line_groups
+from gearlube_core.ehl.groups import LineGroups, line_groups
 from gearlube_core.ehl.line_rows import STENCILS
 from gearlube_core.ehl.lubricant import EhlLubricant, pressure_viscosity
+from gearlube_core.ehl.moes_1992 import central_film_group
 from gearlube_core.errors import ParameterError
 
 CAVITATION = ("reynolds", "mass_conserving")

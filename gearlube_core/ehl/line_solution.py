@@ -40,12 +40,12 @@ class LineSolution:
     outcome: str
 
     @property
-    def max_pressure(self) -> float:
+    def maximum_pressure(self) -> float:
         """Largest pressure, of the parabola through the largest nodal values [Pa]."""
         return -_parabola_lowest(self.x, -self.pressure)
 
     @property
-    def min_film(self) -> float:
+    def minimum_film(self) -> float:
         """Smallest film, of the parabola through the smallest nodal values [m]."""
         return _parabola_lowest(self.x, self.film)
 

@@ -55,7 +55,7 @@ def solve_line(
     >>> contact = LineProblem(lubricant=jamali_2015_oil(), radius=0.014, line_load=3.6e5,
     ...                       reduced_modulus=227.5e9, speed_1=7.93, speed_2=5.49)
     >>> film = solve_line(contact, LineSettings(nodes=501))
-    >>> round(film.max_pressure / 1e9, 2)
+    >>> round(film.maximum_pressure / 1e9, 2)
     0.96
     """
     settings = settings or LineSettings()

@@ -16,9 +16,7 @@ import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.jit import kernel
-from gearlube_core.rheology.houpert_1985 import (
-    GLASS_TEMPERATURE,
-)
+from gearlube_core.rheology.houpert_1985 import GLASS_TEMPERATURE
 
 ROELANDS_CHI = 5.1e-9  # 1/Pa, Jamali 2015 eq. (3.4)
 ROELANDS_KAPPA = 63.15e-6  # Pa s, Jamali 2015 eq. (3.4)
@@ -33,7 +31,7 @@ _LARGEST_RATIO = math.exp(_LARGEST_EXPONENT)
 
 
 class EhlLubricant(NamedTuple):
-    """Oil of a film; all floats, SI. Build it with `ehl_lubricant` or `from_library`."""
+    """Oil of a film; all floats, SI. Build it with `ehl_lubricant` or `lubricant_from_library`."""
 
     eta0: float  # viscosity at ambient pressure and `temperature` [Pa s]
     log_ratio: float  # A [1]

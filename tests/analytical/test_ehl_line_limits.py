@@ -81,7 +81,7 @@ def test_rigid_isoviscous_film_is_that_of_martin():
     errors = []
     for nodes in (401, 801):
         film = rigid_cylinder(10.0, nodes)
-        h0 = film.min_film
+        h0 = film.minimum_film
         inlet = -film.x[0] / math.sqrt(2.0 * R * h0)
         e, load = martin(inlet)
         exact = 24.0 * load * 0.1 * 1.0 * R / 100.0
@@ -102,7 +102,7 @@ def test_heavily_loaded_pressure_is_that_of_hertz():
     # a film of h R/b^2 = 0.004 moves the edge by about its 2/3 power, 2 % of b
     inner = abs(X) < 0.9
     assert np.abs(film.pressure - hertz)[inner].max() < 0.01 * contact.hertz_pressure
-    assert film.max_pressure == pytest.approx(contact.hertz_pressure, rel=3e-3)
+    assert film.maximum_pressure == pytest.approx(contact.hertz_pressure, rel=3e-3)
 
 
 def test_deflection_under_hertz_pressure_flattens_the_parabola():

@@ -37,7 +37,7 @@ def test_steady_film_stays(scheme, cavitation):
     # residual of the start, 1e-8 of the flow
     full = film.pressure > 0.0
     assert later.film[full] == pytest.approx(film.film[full], rel=1e-6)
-    assert later.pressure == pytest.approx(film.pressure, abs=1e-6 * film.max_pressure)
+    assert later.pressure == pytest.approx(film.pressure, abs=1e-6 * film.maximum_pressure)
 
 
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
@@ -57,7 +57,7 @@ def test_rigid_cylinder_falls_through_oil_as_the_integral_says(scheme):
     dt, steps = 2e-6, 60
     halt = LineHistory(speeds=lambda t: (0.0, 0.0))
     march = LineMarch(start, halt, dt, scheme)
-    heights = [march.step().min_film for _ in range(steps)]
+    heights = [march.step().minimum_film for _ in range(steps)]
     # by quadrature, and closed: w = 12 eta V (2 R h0)^1.5/h0^3 pi/8
     h0 = heights[-1]
     x = start.x
@@ -89,7 +89,7 @@ def test_order_in_time_is_two(scheme):
         march = LineMarch(start, LineHistory(line_load=load), T / steps, scheme)
         for _ in range(steps):
             film = march.step()
-        films.append(film.film[start.pressure > 0.3 * start.max_pressure])
+        films.append(film.film[start.pressure > 0.3 * start.maximum_pressure])
     errors = [np.abs(a - b).max() for a, b in itertools.pairwise(films)]
     # a rupture that jumps from node to node disturbs the asymptotic order
     assert math.log2(errors[1] / errors[2]) == pytest.approx(2.0, abs=0.35)

@@ -35,7 +35,7 @@ MILD = LineProblem(
 
 def measures(contact: LineProblem, nodes: int, stencil: str) -> np.ndarray:
     film = solve_line(contact, LineSettings(nodes=nodes, stencil=stencil))
-    return np.array([film.central_film, film.min_film, film.max_pressure])
+    return np.array([film.central_film, film.minimum_film, film.maximum_pressure])
 
 
 def observed_orders(contact: LineProblem, stencil: str, counts: tuple[int, ...]) -> np.ndarray:

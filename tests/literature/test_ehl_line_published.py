@@ -46,9 +46,9 @@ def test_smooth_line_of_the_thesis():
         speed_2=0.82 * u,
     )
     film = solve_line(contact)
-    assert film.max_pressure == pytest.approx(0.95e9, rel=0.02)
+    assert film.maximum_pressure == pytest.approx(0.95e9, rel=0.02)
     assert film.central_film == pytest.approx(0.239e-6, rel=0.015)
-    assert film.min_film == pytest.approx(0.208e-6, rel=0.015)
+    assert film.minimum_film == pytest.approx(0.208e-6, rel=0.015)
 
 
 def test_least_film_of_dowson_and_higginson():
@@ -56,7 +56,7 @@ def test_least_film_of_dowson_and_higginson():
     film = solve_line(steel_contact(1e-11, 5000.0, 1e-4))
     formula = minimum_line_film_thickness(0.01, 0.05, 5000.0 / MODULUS, 0.44, 2.2e5, MODULUS)
     assert formula / 0.01 == pytest.approx(1.7406e-5, rel=1e-4)
-    assert film.min_film == pytest.approx(formula, rel=0.10)
+    assert film.minimum_film == pytest.approx(formula, rel=0.10)
 
 
 @pytest.mark.parametrize("U", [3e-12, 1e-11, 4e-11])
@@ -95,10 +95,10 @@ def test_moes_asymptotes():
     thin = contact(0.01, 0.0)
     thin = replace(thin, domain=tuple(2.5 * x for x in thin.extent()))
     film = solve_line(thin, LineSettings(nodes=3201, tolerance=1e-7))
-    assert moes_group(thin, film.min_film) == pytest.approx(2.45 / 0.01, rel=0.01)
+    assert moes_group(thin, film.minimum_film) == pytest.approx(2.45 / 0.01, rel=0.01)
     soft = contact(300.0, 0.0)
     film = solve_line(soft, settings)
-    assert moes_group(soft, film.min_film) == pytest.approx(2.05 * 300.0**-0.2, rel=0.05)
+    assert moes_group(soft, film.minimum_film) == pytest.approx(2.05 * 300.0**-0.2, rel=0.05)
     hard = contact(100.0, 10.0, "roelands")
     film = solve_line(hard, settings)
     expected = 1.311 * 10.0**0.75 * 100.0**-0.125

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.line_regimes import central_film_group as line_film_group
 from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.moes_1992 import central_film_group as line_film_group
 from gearlube_core.ehl.nijenbanning_1994 import central_film_group, regime_films
 from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.errors import ParameterError

@@ -1,0 +1,37 @@
+"""Central film of a line contact between its regimes, after Moes; sizes a domain and a start."""
+
+from __future__ import annotations
+
+import math
+
+
+def central_film_group(M: float, L: float) -> float:
+    """Return the central film H = (h/R) (2U)^(-1/2) between the four regimes.
+
+    H = [(RI^(7/3) + EI^(7/3))^(3s/7) + (RP^(-7/2) + EP^(-7/2))^(-2s/7)]^(1/s),
+    s = (7 + 8 exp(-2 EI/RI))/5, RI = 3/M, EI = 2.621 M^(-1/5), RP = 1.287 L^(2/3),
+    EP = 1.311 M^(-1/8) L^(3/4)
+
+    Parameters
+    ----------
+    M, L : float
+        Moes load, above zero, and material, not negative [1].
+
+    Returns
+    -------
+    float
+        H [1].
+
+    Notes
+    -----
+    A fit, within about 10 %; here it sizes domains and starts iterations, it is no result.
+    Source: Moes 1992, coefficients for the central film as quoted by Venner and Lubrecht 2000.
+    """
+    RI, EI = 3.0 / M, 2.621 * M**-0.2
+    s = (7.0 + 8.0 * math.exp(-2.0 * EI / RI)) / 5.0
+    isoviscous = (RI ** (7.0 / 3.0) + EI ** (7.0 / 3.0)) ** (3.0 * s / 7.0)
+    if L <= 0.0:
+        return isoviscous ** (1.0 / s)
+    RP, EP = 1.287 * L ** (2.0 / 3.0), 1.311 * M**-0.125 * L**0.75
+    piezoviscous = (RP**-3.5 + EP**-3.5) ** (-2.0 * s / 7.0)
+    return (isoviscous + piezoviscous) ** (1.0 / s)
