@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gearlube_core.checks import check_within
-from gearlube_core.ehl.helical_film import HelicalFilm
+from gearlube_core.ehl.helical_film import JAMALI_2015_MODULUS, HelicalFilm
 from gearlube_core.ehl.lubricant import EhlLubricant, ehl_lubricant
 from gearlube_core.ehl.named_lubricants import lubricant_from_library
 from gearlube_core.errors import ParameterError
@@ -25,7 +25,6 @@ _STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 _STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: Jamali 2015 sec. 4.4
 # the thesis' own steps and E*, so that its step numbers name its positions
 _THESIS = {"jamali_2015_a": "a", "jamali_2015_b": "b"}
-_THESIS_MODULUS = 0.5 * 227.5e9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +83,7 @@ class HelicalLineCase:
             torque=torque,
             pinion_speed=speed,
             lubricant=self._lubricant(),
-            contact_modulus=_STEEL if thesis is None else _THESIS_MODULUS,
+            contact_modulus=_STEEL if thesis is None else JAMALI_2015_MODULUS,
             nodes=self.nodes,
             convention=self.convention,
         )

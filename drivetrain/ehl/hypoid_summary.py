@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+
+from drivetrain.csv_text import csv_text
 
 # quantity, what it is compared with, and the solved variable
 _CENTRAL, _MINIMUM, _FRICTION = (
@@ -84,11 +84,10 @@ def ratio_rows(dataset: xr.Dataset) -> list[RatioRow]:
 
 def ratio_csv(rows: list[RatioRow]) -> str:
     """Return rows as text with a head, comma between."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(RatioRow._fields)
-    for row in rows:
+
+    def written(row: RatioRow) -> list[str]:
         numbers = (row.least, row.largest, row.load_weighted_mean)
         told = [f"{value:.5g}" if math.isfinite(value) else "" for value in numbers]
-        writer.writerow([row.quantity, row.source, *told, row.unit])
-    return text.getvalue()
+        return [row.quantity, row.source, *told, row.unit]
+
+    return csv_text(RatioRow._fields, map(written, rows))

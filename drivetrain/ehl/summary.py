@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from typing import NamedTuple
 
 import xarray as xr
+
+from drivetrain.csv_text import csv_text
 
 SOLUTION = "solution"
 
@@ -60,13 +60,12 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
 
 def summary_csv(rows: list[Row]) -> str:
     """Return rows as text with a head, comma between; no deviation is left empty."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Row._fields)
-    for row in rows:
+
+    def written(row: Row) -> list[str]:
         deviation = f"{row.deviation:.4g}" if math.isfinite(row.deviation) else ""
-        writer.writerow([row.quantity, row.source, f"{row.value:.6g}", row.unit, deviation])
-    return text.getvalue()
+        return [row.quantity, row.source, f"{row.value:.6g}", row.unit, deviation]
+
+    return csv_text(Row._fields, map(written, rows))
 
 
 def _own(quantity: str, value: float, unit: str) -> Row:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
+from drivetrain.csv_text import csv_text
 from drivetrain.helical.settings import RPM, SHOWN_MU
 from drivetrain.helical.study import HelicalStudy
 
@@ -48,12 +47,9 @@ def summary_rows(study: HelicalStudy) -> list[Row]:
 
 def summary_csv(rows: list[Row]) -> str:
     """Return rows as text with a head, comma between."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Row._fields)
-    for row in rows:
-        writer.writerow([row.topic, row.quantity, f"{row.value:.6g}", row.unit])
-    return text.getvalue()
+    return csv_text(
+        Row._fields, ([row.topic, row.quantity, f"{row.value:.6g}", row.unit] for row in rows)
+    )
 
 
 def _contact(contact: xr.Dataset) -> list[Row]:

@@ -24,7 +24,7 @@ from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
-_CONTACT_MODULUS = 0.5 * 227.5e9  # Pa; E 207 GPa and nu 0.3 follow from Jamali 2015 ch. 7
+JAMALI_2015_MODULUS = 0.5 * 227.5e9  # E*, Pa; E 207 GPa and nu 0.3 follow from Jamali 2015 ch. 7
 _TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: Jamali 2015 ch. 4
 _LARGEST_GAP = 50e-6  # m
 _OPEN_FILM = 10e-6  # m
@@ -242,7 +242,7 @@ def jamali_2015_film(
         torque=_TORQUE,
         pinion_speed=_SPEED,
         lubricant=jamali_2015_oil(newtonian=newtonian),
-        contact_modulus=_CONTACT_MODULUS,
+        contact_modulus=JAMALI_2015_MODULUS,
         nodes=nodes,
         grading=grading,
         convention=convention,
