@@ -18,6 +18,7 @@ from fmu_src.contact_command import ContactCommand, contact
 from fmu_src.ehl_command import ehl
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from fmu_src.helical_command import HelicalCommand, helical
+from fmu_src.native_command import native
 from fmu_src.options import JobsOption, OilTemperatureOption, RoughnessOption
 from fmu_src.resonance_command import resonance
 from fmu_src.spread_values import SpreadingCommand
@@ -170,6 +171,7 @@ app.command("build-fmu")(build_fmu)
 app.command("contact", cls=ContactCommand)(contact)
 app.command("resonance")(resonance)
 app.command("helical", cls=HelicalCommand)(helical)
+app.command("native", context_settings={"allow_interspersed_args": False})(native)
 app.add_typer(ehl, name="ehl")
 
 

@@ -13,7 +13,8 @@ except ImportError as error:
     raise ImportError(
         "HypoidAxle.fmu needs the Python package gearlube where it runs, "
         f"not found in {sys.prefix} (Python {sys.version.split()[0]}): {error}. "
-        "Install it there with `pip install gearlube`, or add its environment to PYTHONPATH."
+        "Install it there with `pip install gearlube`. A host that is not Python is started by "
+        "`gearlube native HOST` of the environment that has it."
     ) from error
 
 __all__ = ["HypoidAxle"]

@@ -27,7 +27,7 @@ from fmu_src.registration import register_variables
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
 from fmu_src.warm_start import compile_ahead
-from fmu_src.wrapper import guarded, unload_with_python
+from fmu_src.wrapper import guarded, unload_before_libraries
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 
 LONGEST_STEP = 0.1  # s
@@ -52,8 +52,6 @@ class CoSimulationSlave(Fmi2Slave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        if self.resources:
-            unload_with_python(self.resources)
         self.definition = self.definition_of(Path(self.resources or ""))
         self.modelName = self.definition.name
         self._values = Values(self.definition, lambda text: self.report(Fmi2Status.error, text))
@@ -69,6 +67,8 @@ class CoSimulationSlave(Fmi2Slave):
             check_identity(self.definition, self.resources or ""),
             compile_ahead(self.definition),
         ]
+        if self.resources:
+            unload_before_libraries(self.resources)
 
     def report(self, status: Fmi2Status, message: str) -> None:
         """Send `message` to the host's logger, and to Python's, which a host cannot switch off."""

@@ -9,23 +9,25 @@ pythonfmu's `PySlaveInstance.cpp` has four habits that its Python side must bala
 * fmi2FreeInstance destroys the logger before the slave, which then sends it the messages still in
   the queue. The queue is emptied after each call, but not after instantiation.
 * On Linux the library stays loaded after fmi2FreeInstance, dlclose or not: it exports unique
-  symbols. When the process exits, the destructor of its static `pyState` runs before its unload
-  hook, which then releases that object a second time: it counts down a word of a freed block. Where
-  that word is a link of glibc's free list, the process aborts with "corrupted double-linked list".
+  symbols. When the process exits, the destructor of its static `pyState` ends Python, if it was
+  the wrapper that started it, and that after the destructors of every library loaded since. Python
+  then frees objects of extension modules whose C++ side is gone (SciPy's made with pybind11), and
+  the process crashes. Wherever Python comes from, the unload hook then releases `pyState` a second
+  time: it counts down a word of a freed block. Where that word is a link of glibc's free list, the
+  process aborts with "corrupted double-linked list".
 
 The first two are balanced by one more reference, given just before the wrapper takes it; the third
 by queueing what the constructor has to say in the first call that follows; the fourth by running
-the unload hook while Python ends. It leaves no pointer behind for a second release.
+the unload hook ahead of these destructors. It ends Python while all libraries live, and leaves no
+pointer behind for a second release.
 """
 
 from __future__ import annotations
 
-import atexit
 import ctypes
 import os
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
 from functools import cache, wraps
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
@@ -46,21 +48,53 @@ def forget_search_path(resources: str) -> None:
         sys.path.remove(resources)
 
 
-@cache
-def unload_with_python(resources: str) -> None:
-    """Run the unload hook of the library beside `resources` when Python ends, not after that.
+def unload_before_libraries(resources: str) -> None:
+    """Run the wrapper's unload hook at exit, before the destructors of libraries loaded by now.
 
-    Windows runs the hook before the static destructors, and there a handle on the library would
-    keep the host from removing the file.
+    Parameters
+    ----------
+    resources : str
+        Of the FMU that has been instantiated, all that it imports included.
+
+    Notes
+    -----
+    Exit handlers run in the reverse order of their registration, so the hook is registered again
+    when modules were imported since. It must not be registered later than in fmi2Instantiate: what
+    a host registers after that may still free the instance. Nothing is done on Windows, which runs
+    the hook before the static destructors and, at the end of a process, without other threads.
     """
-    if not sys.platform.startswith("linux"):
-        return
-    for path in Path(resources).parent.glob("binaries/linux64/*.so"):
-        # A library that is not loaded has no hook to run: the host has it somewhere else.
-        with suppress(OSError, AttributeError):
-            hook = ctypes.CDLL(str(path), mode=os.RTLD_NOLOAD).finalizePythonInterpreter
-            hook.restype = None
-            atexit.register(hook)
+    if sys.platform.startswith("linux"):
+        _register_hooks(resources, len(sys.modules))
+
+
+@cache
+def _register_hooks(resources: str, modules: int) -> None:
+    c_library = ctypes.CDLL(None)
+    at_exit = c_library["__cxa_atexit"]
+    at_exit.argtypes = 3 * [ctypes.c_void_p]
+    for hook in _unload_hooks(c_library):
+        at_exit(hook, None, None)
+
+
+def _unload_hooks(c_library: ctypes.CDLL) -> Iterator[int]:
+    """Yield the unload hook of every loaded wrapper: any of them may have started Python."""
+    c_library.dlopen.argtypes = [ctypes.c_char_p, ctypes.c_int]
+    c_library.dlsym.argtypes = [ctypes.c_void_p, ctypes.c_char_p]
+    c_library.dlclose.argtypes = [ctypes.c_void_p]
+    c_library.dlopen.restype = c_library.dlsym.restype = ctypes.c_void_p
+    for path in _loaded_libraries():
+        handle = c_library.dlopen(os.fsencode(path), os.RTLD_NOLOAD | os.RTLD_LAZY)
+        hook = c_library.dlsym(handle, b"finalizePythonInterpreter") if handle else None
+        if hook:
+            yield hook  # The handle stays: the library has to be there at exit.
+        elif handle:
+            c_library.dlclose(handle)
+
+
+def _loaded_libraries() -> list[str]:
+    mapped = Path("/proc/self/maps").read_text(errors="surrogateescape").splitlines()
+    paths = (line.split(maxsplit=5)[5] for line in mapped if ".so" in line and " r-xp " in line)
+    return list(dict.fromkeys(paths))
 
 
 def guarded(

@@ -1,9 +1,9 @@
-"""Host of one FMU that counts, as Python ends, what the FMU's library has left to release."""
+"""Host of one FMU that counts what the FMU's library has left to release as its process exits."""
 
 from __future__ import annotations
 
-import atexit
 import ctypes
+import os
 import sys
 from pathlib import Path
 
@@ -30,11 +30,19 @@ def shared_states(library: Path) -> int:
 
 def main(folder: Path) -> None:
     (library,) = folder.glob("binaries/linux64/*.so")
-    # Registered first, so it runs last.
-    atexit.register(lambda: sys.stdout.write(f"as Python ends: {shared_states(library)}\n"))
+
+    @ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+    def tell(_: int | None) -> None:
+        os.write(sys.stdout.fileno(), b"at exit: %d\n" % shared_states(library))
+
+    # Exit handlers run in reverse: the library's destructors are registered before `tell` and run
+    # after it, what an instance registers runs before it.
+    ctypes.CDLL(str(library))
+    ctypes.CDLL(None)["__cxa_atexit"](tell, None, None)
     host = Host(folder)
-    sys.stdout.write(f"with an instance: {shared_states(library)}\n")
+    os.write(sys.stdout.fileno(), b"with an instance: %d\n" % shared_states(library))
     host.close()
+    ctypes.CDLL(None).exit(0)  # Python would end before exit handlers run, and `tell` with it.
 
 
 if __name__ == "__main__":
