@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -294,13 +295,15 @@ class PointLevel:
             downstream=downstream,
         )
 
-    def linearise(self, state: FilmState, squeeze: float = 0.0) -> Linearisation:
-        """Return the derivatives of the residual at a state.
+    def linearise(
+        self, state: FilmState, squeeze: float = 0.0, rows: Flags | None = None
+    ) -> Linearisation:
+        """Return the derivatives of the residual at a state, where pressure is free or in `rows`.
 
         Flow factors answer to slopes of pressure along sliding, to viscosity and to the film.
         `squeeze` adds a rate of rho h that the residual does not contain.
         """
-        free, told, shear = state.free, state, state.shear
+        free, told, shear = state.free if rows is None else rows, state, state.shear
         by_pressure, cubic = state.density_slope / state.density, state.cubic_x
         slopes = FlowSlopes(cubic, state.cubic_y, self._aligned, by_pressure, *self._newtonian)
         if shear is not None:
@@ -380,17 +383,24 @@ class PointLevel:
             )
         return OFFSETS, by_pressure, by_film
 
-    def apply(self, linear: Linearisation, pressure: Array, approach: float) -> Array:
+    def apply(
+        self,
+        linear: Linearisation,
+        pressure: Array,
+        approach: float,
+        deflection: Callable[[Array], Array] | None = None,
+    ) -> Array:
         """Return the change of the residual under changes of pressure and approach.
 
-        The result is overwritten by the next call with the same `linear`.
+        `deflection` may be a rougher one. The result is overwritten by the next call with the
+        same `linear`.
         """
         apply_derivatives(
             linear.offsets,
             linear.by_pressure,
             linear.by_film,
             pressure,
-            self.deflection(pressure),
+            (deflection or self.deflection)(pressure),
             linear.result,
         )
         if approach != 0.0:

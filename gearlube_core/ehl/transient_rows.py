@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlube_core.ehl.deflection_window import WindowedDeflection
 from gearlube_core.ehl.point_coarse import CoarseSolution
 from gearlube_core.ehl.point_galerkin import SparseOperator, coarse_operator, sparse_operator
 from gearlube_core.ehl.point_level import PointLevel
@@ -228,7 +229,8 @@ class RowCycle:
     """From coarse to fine as an approximate inverse; pressure and approach are found together.
 
     A grid's rows are solved once, after the coarser grids: solving them before as well costs as
-    much again and saves no iteration. All but the coarsest grid is in single precision. `before`
+    much again and saves no iteration. The deflection under what comes from coarser grids is that
+    of the next coarser grid, between its nodes. All but the coarsest grid is in single precision. `before`
     is a cycle of the same grids whose rows serve again where little has changed; it cannot be
     used any more.
     """
@@ -239,7 +241,7 @@ class RowCycle:
         self._levels, self._transfers = grids.levels, grids.transfers
         if before is None:
             self._rows = [RowInverses(level) for level in self._levels[1:]]
-            self._deflections = [level.convolution(single=True) for level in self._levels]
+            self._deflections = [WindowedDeflection(level) for level in self._levels[:-1]]
         else:
             self._rows, self._deflections = before._rows, before._deflections
         operator = sparse_operator(linear)
@@ -247,6 +249,7 @@ class RowCycle:
         for k in range(len(self._levels) - 1, 0, -1):
             self._rows[k - 1].renew(operator)
             operator = coarse_operator(operator, self._transfers[k - 1])
+            self._deflections[k - 1].follow(operator.free)
             self._operators.insert(0, _Halved.of(operator))
         self._direct = CoarseSolution(self._levels[0], operator)
 
@@ -254,9 +257,10 @@ class RowCycle:
         """Return pressure, shape (ny, nx), and approach that cancel most of a residual."""
         return self._cycle(len(self._levels) - 1, residual, load_residual)
 
-    def _rest(self, k: int, residual: Array, pressure: Array, approach: float) -> Array:
+    def _rest(
+        self, k: int, residual: Array, pressure: Array, film: Array, approach: float
+    ) -> Array:
         operator = self._operators[k]
-        film = self._deflections[k](pressure)
         rest = np.empty(residual.shape)
         subtract_rows(
             operator.start,
@@ -278,6 +282,7 @@ class RowCycle:
         coarse, approach = self._cycle(k - 1, transfer.down(residual), load_residual)
         pressure = transfer.up(coarse)
         pressure[~free] = 0.0
-        after = self._rows[k - 1](self._rest(k, residual, pressure, approach))
+        film = transfer.up(self._deflections[k - 1](coarse))
+        after = self._rows[k - 1](self._rest(k, residual, pressure, film, approach))
         after[~free] = 0.0
         return pressure + after, approach
