@@ -11,7 +11,6 @@ from gearlube_core.contact.half_space_graded import GradedConvolution
 from gearlube_core.ehl.point_level import PointLevel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
-Single = np.ndarray[Any, np.dtype[np.float32]]
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 _Span = tuple[int, int]
 
@@ -39,17 +38,15 @@ class WindowedDeflection:
         if level.graded:
             self._whole = GradedConvolution(level.coefficients, single=True)
         self._spans: tuple[_Span, _Span] | None = None
-        self._result: Single = np.zeros(level.shape, dtype=np.float32)
+        self._result: Any = np.zeros(level.shape, dtype=np.float32)
 
     def follow(self, free: Flags) -> None:
         """Cut the box anew if it misses nodes, shape (ny, nx), or is much too large."""
         if self._whole is not None:
             return
-        needed = _span(free.any(axis=1), _REACH), _span(free.any(axis=0), _REACH)
-        wide = tuple(
-            _span(free.any(axis=axis), _REACH + 1 + int(_SPARE * count))
-            for axis, count in zip((1, 0), free.shape, strict=True)
-        )
+        filled = [np.asarray(free.any(axis=axis)) for axis in (1, 0)]
+        needed = [_span(flags, _REACH) for flags in filled]
+        wide = [_span(flags, _REACH + 1 + int(_SPARE * flags.size)) for flags in filled]
         if self._spans is not None:
             inside = all(
                 a <= c and d <= b for (a, b), (c, d) in zip(self._spans, needed, strict=True)
@@ -62,18 +59,22 @@ class WindowedDeflection:
         )
         self._result[:] = 0.0
 
-    def __call__(self, pressure: Array) -> Single:
+    def forget(self) -> None:
+        """Cut the box anew before it is used again."""
+        self._spans = None
+
+    def __call__(self, pressure: Array) -> Array:
         """Return the deflection, shape (ny, nx), zero outside the box.
 
         The result is overwritten by the next call.
         """
         if self._whole is not None:
-            return np.asarray(self._whole(pressure), dtype=np.float32)
+            return self._whole(pressure)
         assert self._spans is not None
         rows, columns = self._spans
         box = slice(*rows), slice(*columns)
         self._result[box] = self._convolution(pressure[box])
-        return self._result
+        return np.asarray(self._result)
 
 
 def _span(wanted: Flags, spare: int) -> _Span:

@@ -100,7 +100,9 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
         return state, size
     opening = (state.pressure <= 0.0) & state.free
     flow = np.where(opening, state.residual, 0.0)
-    if level.integral(flow) < _SHARE * level.integral(np.where(state.free, np.abs(state.residual), 0.0)):
+    if level.integral(flow) < _SHARE * level.integral(
+        np.where(state.free, np.abs(state.residual), 0.0)
+    ):
         return state, size
     band = np.zeros(level.shape, dtype=np.bool_)
     mark_band(flow > _FEW * flow.max(), _BACK, _AHEAD, _BESIDE, band)

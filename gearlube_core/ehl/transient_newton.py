@@ -98,6 +98,7 @@ class KeptCycle:
     def forget(self) -> None:
         """Drop the cycle."""
         self._cycle, self._stale = None, True
+        self.deflection.forget()
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
         """Return pressure and approach that cancel most of a residual."""

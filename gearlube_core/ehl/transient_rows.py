@@ -230,9 +230,9 @@ class RowCycle:
 
     A grid's rows are solved once, after the coarser grids: solving them before as well costs as
     much again and saves no iteration. The deflection under what comes from coarser grids is that
-    of the next coarser grid, between its nodes. All but the coarsest grid is in single precision. `before`
-    is a cycle of the same grids whose rows serve again where little has changed; it cannot be
-    used any more.
+    of the next coarser grid, between its nodes. All but the coarsest grid is in single precision.
+    `before` is a cycle of the same grids whose rows serve again where little has changed; it
+    cannot be used any more.
     """
 
     def __init__(

@@ -1,0 +1,67 @@
+"""Front of the oil under pressure within a time step: the complementarity problem, and a march."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import gearlube_core.ehl.transient_newton as transient_newton
+from gearlube_core.ehl.helical_film import jamali_2015_film
+from gearlube_core.ehl.transient_front import mark_band, relax_band
+from gearlube_core.ehl.transient_march import FilmMarch
+
+ROW = np.array([[0, 0], [0, -1], [0, 1]])
+
+
+def test_band_reaches_ahead_and_keeps_off_the_border():
+    opening, band = np.zeros((2, 9, 30), dtype=bool)
+    opening[1, 3] = opening[6, 20] = True
+    mark_band(opening, 4, 16, 2, band)
+    assert band[1, 1]
+    assert band[3, 19]
+    assert not band[4, 13]
+    assert not band[3, 20]
+    assert band[8 - 1, 28]
+    inner = np.zeros_like(band)
+    inner[1:-1, 1:-1] = True
+    assert not band[~inner].any()
+
+
+def test_band_is_the_string_over_an_obstacle():
+    # p'' = -1 for x < a and 1 beyond, where p > 0; p'(0) = 0; p and p' vanish at the front, 2 a:
+    # p = a^2 - x^2/2, then (2 a - x)^2/2, then 0
+    n, a = 201, 0.3
+    x = np.linspace(0.0, 1.0, n)
+    dx = x[1]
+    by_pressure = np.zeros((3, 3, n))
+    by_pressure[0, 1, 1:-1], by_pressure[1:, 1, 1:-1] = -2.0 / dx**2, 1.0 / dx**2
+    by_pressure[0, 1, 1] = -1.0 / dx**2  # mirror between the nodes 0 and 1
+    by_pressure[1, 1, 1] = 0.0
+    load = np.where(x - 0.5 * dx < a, 1.0, -1.0)
+    right, pressure, change = np.zeros((3, 3, n))
+    right[1] = -load
+    places = np.array([(1, i) for i in range(1, n - 1)])
+    relax_band(ROW, by_pressure, by_pressure[0], places, pressure, right, 20000, change)
+    at = x - 0.5 * dx  # the mirror stands half a spacing off node 0
+    exact = np.where(at < a, a**2 - at**2 / 2.0, np.maximum(2.0 * a - at, 0.0) ** 2 / 2.0)
+    # the load's edge and the front lie between nodes: an error of the first order
+    assert change[1, 1:-1] == pytest.approx(exact[1:-1], abs=1.5 * dx * a)
+    assert np.flatnonzero(change[1] > 0.0)[-1] == pytest.approx(2.0 * a / dx, abs=3)
+
+
+def test_front_leaves_the_answer_and_saves_steps(monkeypatch):
+    # towards the end of the cycle the edge of the pinion's relief runs along the line
+    film = jamali_2015_film("a", nodes=(65, 129))
+    start = 480 * film.time_step
+
+    def march() -> tuple[np.ndarray, int]:
+        solver = FilmMarch(film.moving_film(), film.time_step, start_time=start)
+        solutions = [solver.step() for _ in range(3)]
+        return solutions[-1].film, sum(s.newton_steps for s in solutions)
+
+    moved, few = march()
+    monkeypatch.setattr(transient_newton, "advance_front", lambda level, state, size: (state, size))
+    plain, many = march()
+    assert few < many
+    # both stop at 1e-5 of unbalanced flow
+    assert moved == pytest.approx(plain, rel=1e-4)
