@@ -58,7 +58,7 @@ def line(
     ] = None,
     stencil: Annotated[
         str | None,
-        typer.Option(help="Of the wedge.", metavar="upwind_2|central|upwind_1|galerkin"),
+        typer.Option(help="Of the wedge.", metavar="upwind-2|central|upwind-1|galerkin"),
     ] = None,
     cavitation: Annotated[
         str | None,

@@ -90,7 +90,7 @@ def _elements(store: Store) -> Verdict:
         for y in (-0.010, 0.0, 0.010):
             fields = [
                 line_contact(store, FilmCase(design=design), 300, y, stencil=stencil)
-                for stencil in ("galerkin", "central", "upwind_2")
+                for stencil in ("galerkin", "central", "upwind-2")
             ]
             elements = fields[0]
             worst += [

@@ -27,8 +27,8 @@ class LineSolver(Section):
     """How a line contact is solved."""
 
     nodes: LineNodes = Field(default=1001, description="Of the finest grid")
-    stencil: Literal["upwind_2", "central", "upwind_1", "galerkin"] = Field(
-        default="upwind_2", description="Of the wedge, or galerkin: finite elements"
+    stencil: Literal["upwind-2", "central", "upwind-1", "galerkin"] = Field(
+        default="upwind-2", description="Of the wedge, or galerkin: finite elements"
     )
     cavitation: Literal["reynolds", "mass_conserving"] = Field(
         default="reynolds", description="Where the film breaks"

@@ -144,7 +144,7 @@ class LineSettings:
     nodes
         Of the finest grid.
     stencil
-        Of the wedge: "upwind_2" (default), "central", "upwind_1", or "galerkin" for the finite
+        Of the wedge: "upwind-2" (default), "central", "upwind-1", or "galerkin" for the finite
         elements of Jamali 2015.
     cavitation
         "reynolds": pressure and its gradient vanish where the film breaks. "mass_conserving":
@@ -162,7 +162,7 @@ class LineSettings:
     """
 
     nodes: int = 1001
-    stencil: str = "upwind_2"
+    stencil: str = "upwind-2"
     cavitation: str = "reynolds"
     tolerance: float = 1e-8
     max_iterations: int = 40
@@ -180,5 +180,5 @@ class LineSettings:
         if self.stencil == "galerkin" and self.cavitation == "mass_conserving":
             raise ParameterError(
                 "stencil galerkin has no flux between nodes that a void share could follow. "
-                "Take upwind_2 with mass-conserving cavitation."
+                "Take upwind-2 with mass-conserving cavitation."
             )

@@ -17,7 +17,7 @@ from gearlube_core.jit import kernel
 
 # codes of the wedge term's stencil
 CENTRAL, UPWIND_1, UPWIND_2, GALERKIN = 0, 1, 2, 3
-STENCILS = {"central": CENTRAL, "upwind_1": UPWIND_1, "upwind_2": UPWIND_2, "galerkin": GALERKIN}
+STENCILS = {"central": CENTRAL, "upwind-1": UPWIND_1, "upwind-2": UPWIND_2, "galerkin": GALERKIN}
 WIDTH = 5  # nodes i - 2 to i + 2 of a row
 
 

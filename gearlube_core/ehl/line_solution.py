@@ -151,5 +151,5 @@ def _outcome(record: NewtonRecord, system: LineSystem, state: LineState) -> str:
     return (
         f"Not converged on {system.x.size} nodes: {record.reason}; unbalanced flow "
         f"{record.residual[-1]:.1e}, smallest film {least:.2e} m. Take more nodes, a narrower "
-        f"domain or the stencil upwind_1."
+        f"domain or the stencil upwind-1."
     )

@@ -148,7 +148,7 @@ def _detour(
         if record.converged:
             return state, record
     records.append((count, record))
-    sturdy = LineSystem(system.problem, count, "upwind_1", False)
+    sturdy = LineSystem(system.problem, count, "upwind-1", False)
     first = _cold_start(sturdy, settings, _START_FILM[-1])
     state, record = newton(sturdy, first, settings.tolerance, settings.max_iterations)
     records.append((count, record))

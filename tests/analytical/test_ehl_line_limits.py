@@ -134,7 +134,7 @@ def test_hat_coefficients_are_the_integral_of_the_logarithm(d):
 
 def test_film_does_not_depend_on_how_the_deflection_is_summed():
     contact = thesis_line()
-    system = LineSystem(contact, 301, "upwind_2", False)
+    system = LineSystem(contact, 301, "upwind-2", False)
     state, record = newton(system, hertz_start(system, contact.film_guess()), 1e-10, 60)
     assert record.converged
     # second differences of the deflection with its exact end values, Jamali eq. (3.16), solved
@@ -189,7 +189,7 @@ def _manufactured(nodes: int, stencil: str) -> float:
 
 @pytest.mark.parametrize(
     ("stencil", "order"),
-    [("central", 2.0), ("upwind_2", 2.0), ("upwind_1", 1.0), ("galerkin", 2.0)],
+    [("central", 2.0), ("upwind-2", 2.0), ("upwind-1", 1.0), ("galerkin", 2.0)],
 )
 def test_manufactured_pressure_is_met_with_the_order_of_the_stencil(stencil, order):
     errors = [_manufactured(n, stencil) for n in (65, 129, 257)]

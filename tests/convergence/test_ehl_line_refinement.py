@@ -44,7 +44,7 @@ def observed_orders(contact: LineProblem, stencil: str, counts: tuple[int, ...])
     return np.log2(steps[-2] / steps[-1])
 
 
-@pytest.mark.parametrize("stencil", ["central", "upwind_2", "galerkin"])
+@pytest.mark.parametrize("stencil", ["central", "upwind-2", "galerkin"])
 def test_film_converges_with_second_order(stencil):
     orders = observed_orders(THESIS, stencil, (251, 501, 1001))
     # asymptotic order; the parabola through the least film wanders between nodes
@@ -60,22 +60,22 @@ def test_pressure_of_a_mild_contact_converges_with_second_order(stencil):
 
 def test_upwind_stencil_of_first_order_has_it():
     # on these grids the order is still rising towards one; a second-order scheme shows 2
-    orders = observed_orders(MILD, "upwind_1", (501, 1001, 2001))
+    orders = observed_orders(MILD, "upwind-1", (501, 1001, 2001))
     assert orders[0] == pytest.approx(0.9, abs=0.15)
 
 
 def test_all_stencils_tend_to_one_film():
     # extrapolated with each one's order, so that what is left is of higher order
     limits = {}
-    for stencil in ("central", "upwind_2", "galerkin"):
+    for stencil in ("central", "upwind-2", "galerkin"):
         coarse, fine = measures(THESIS, 501, stencil), measures(THESIS, 1001, stencil)
         limits[stencil] = fine + (fine - coarse) / 3.0
-    for stencil in ("upwind_2", "galerkin"):
+    for stencil in ("upwind-2", "galerkin"):
         assert limits[stencil][:2] == pytest.approx(limits["central"][:2], rel=3e-4)
         assert limits[stencil][2] == pytest.approx(limits["central"][2], rel=1e-4)
 
 
-@pytest.mark.parametrize("stencil", ["central", "upwind_1", "upwind_2"])
+@pytest.mark.parametrize("stencil", ["central", "upwind-1", "upwind-2"])
 def test_mass_flow_and_load_are_balanced(stencil):
     film = solve_line(THESIS, LineSettings(nodes=501, stencil=stencil))
     assert film.mass_balance < 1e-8

@@ -294,7 +294,7 @@ def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
         (("line", "mourier_2006"), "mourier_2006"),
         (("line", "--nodes", 3), "nodes"),
         (("line", "--load", -5), "load_n_per_mm"),
-        (("line", "--stencil", "upwind"), "upwind_1"),
+        (("line", "--stencil", "upwind"), "upwind-1"),
         (("line", "--entrainment", "nan"), "--entrainment"),
         (("line", "--temperature", "warm"), "thermal"),
         (("line", "--temperature", "thermal"), "houpert"),

@@ -26,7 +26,7 @@ THESIS = LineProblem(
 )
 
 
-@pytest.mark.parametrize("stencil", ["central", "upwind_1", "upwind_2", "galerkin"])
+@pytest.mark.parametrize("stencil", ["central", "upwind-1", "upwind-2", "galerkin"])
 @pytest.mark.parametrize("speed", [1.0, -1.0])
 def test_jacobian_is_the_derivative_of_the_balance(stencil, speed):
     contact = replace(THESIS, speed_1=speed * 7.93, speed_2=speed * 5.49)
@@ -134,7 +134,7 @@ def test_solution_does_not_depend_on_its_start():
     cold = solve_line(THESIS, LineSettings(nodes=301))
     light = solve_line(replace(THESIS, line_load=3e5), LineSettings(nodes=301))
     warm = solve_line(THESIS, LineSettings(nodes=301), start=light)
-    system = LineSystem(THESIS, 301, "upwind_2", False)
+    system = LineSystem(THESIS, 301, "upwind-2", False)
     thick, record = newton(system, hertz_start(system, 5e-6), 1e-8, 60)
     assert record.converged
     # residual 1e-8 of the flow

@@ -83,7 +83,7 @@ def test_rough_bodies_that_touch_carry_the_load_and_say_where():
         assert film.contact_flow >= 0.0
 
 
-@pytest.mark.parametrize("stencil", ["central", "upwind_1", "upwind_2", "galerkin"])
+@pytest.mark.parametrize("stencil", ["central", "upwind-1", "upwind-2", "galerkin"])
 def test_compiled_balance_equals_its_python(stencil):
     contact = LineProblem(
         lubricant=jamali_2015_oil(),
