@@ -16,25 +16,11 @@ from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_solver import hertz_start, solve_line
 from gearlube_core.ehl.line_system import LineState, LineSystem
 from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 from gearlube_core.errors import ConvergenceError, ParameterError
+from tests.ehl_line_cases import thesis_line
 
 R = 0.01  # m
 ISOVISCOUS = ehl_lubricant(eta0=0.1, alpha=0.0, density_law="incompressible")
-
-
-def thesis_line(**changes):
-    """Return the smooth line contact of Jamali 2015, chapter 7."""
-    u, slide_roll = 6.71, 0.3632
-    contact = LineProblem(
-        lubricant=jamali_2015_oil(),
-        radius=0.014,
-        line_load=360e3,
-        reduced_modulus=227.5e9,
-        speed_1=u * (1.0 + 0.5 * slide_roll),
-        speed_2=u * (1.0 - 0.5 * slide_roll),
-    )
-    return replace(contact, **changes)
 
 
 def martin(inlet: float) -> tuple[float, float]:

@@ -24,6 +24,7 @@ from gearlube_core.ehl.lubricant import ehl_lubricant, thermal_viscosity
 from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from tests.ehl_line_cases import thesis_line
 
 T0 = 363.15  # K
 OIL = ehl_lubricant(
@@ -38,16 +39,7 @@ OIL = ehl_lubricant(
 
 
 def contact(slide_roll: float, **changes) -> LineProblem:
-    u = 6.71
-    problem = LineProblem(
-        lubricant=OIL,
-        radius=0.014,
-        line_load=360e3,
-        reduced_modulus=227.5e9,
-        speed_1=u * (1.0 + 0.5 * slide_roll),
-        speed_2=u * (1.0 - 0.5 * slide_roll),
-    )
-    return replace(problem, **changes)
+    return thesis_line(slide_roll=slide_roll, **({"lubricant": OIL} | changes))
 
 
 def uniform_film(n: int, p: float, h: float, slope: float, speed: float) -> FilmFields:

@@ -13,18 +13,10 @@ from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_transient import LineHistory, LineMarch
 from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 from gearlube_core.errors import ParameterError
+from tests.ehl_line_cases import thesis_line
 
-THESIS = LineProblem(
-    lubricant=jamali_2015_oil(),
-    radius=0.014,
-    line_load=360e3,
-    reduced_modulus=227.5e9,
-    speed_1=7.93,
-    speed_2=5.49,
-    domain=(-1.0e-3, 0.38e-3),
-)
+THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
 
 
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])

@@ -11,16 +11,9 @@ from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.lubricant import ehl_lubricant
 from gearlube_core.ehl.named_lubricants import jamali_2015_oil
+from tests.ehl_line_cases import thesis_line
 
-THESIS = LineProblem(
-    lubricant=jamali_2015_oil(newtonian=True),
-    radius=0.014,
-    line_load=360e3,
-    reduced_modulus=227.5e9,
-    speed_1=7.93,
-    speed_2=5.49,
-    domain=(-1.0e-3, 0.38e-3),
-)
+THESIS = thesis_line(lubricant=jamali_2015_oil(newtonian=True), domain=(-1.0e-3, 0.38e-3))
 # M 2, L 2.5: the spike is as wide as the contact and resolved from 250 nodes on
 MILD = LineProblem(
     lubricant=ehl_lubricant(eta0=0.04, alpha=20e-9),
@@ -94,7 +87,9 @@ def test_inlet_of_the_chosen_domain_is_flooded():
 
 def test_reversed_entrainment_mirrors_the_film():
     forward = solve_line(THESIS, LineSettings(nodes=301))
-    mirror = replace(THESIS, speed_1=-7.93, speed_2=-5.49, domain=(-0.38e-3, 1.0e-3))
+    mirror = replace(
+        THESIS, speed_1=-THESIS.speed_1, speed_2=-THESIS.speed_2, domain=(-0.38e-3, 1.0e-3)
+    )
     backward = solve_line(mirror, LineSettings(nodes=301))
     # rounding, grown by the condition of the Jacobian
     assert backward.film[::-1] == pytest.approx(forward.film, rel=1e-7)

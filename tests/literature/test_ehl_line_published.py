@@ -12,9 +12,9 @@ from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_transient import LineHistory, LineMarch
 from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
+from tests.ehl_line_cases import thesis_line
 
 MODULUS = 2.2e11
 
@@ -36,16 +36,7 @@ def steel_contact(U: float, G: float, W: float, **changes) -> LineProblem:
 def test_smooth_line_of_the_thesis():
     # Jamali 2015 chapter 7: 360 kN/m, R 14 mm, 6.71 m/s, slide-roll 0.36, p_max 0.95 GPa;
     # an independent Newton trial on 800 nodes: centre 0.239 um, least 0.208 um
-    u = 6.71
-    contact = LineProblem(
-        lubricant=jamali_2015_oil(),
-        radius=0.014,
-        line_load=360e3,
-        reduced_modulus=227.5e9,
-        speed_1=1.18 * u,
-        speed_2=0.82 * u,
-    )
-    film = solve_line(contact)
+    film = solve_line(thesis_line())
     assert film.maximum_pressure == pytest.approx(0.95e9, rel=0.02)
     assert film.central_film == pytest.approx(0.239e-6, rel=0.015)
     assert film.minimum_film == pytest.approx(0.208e-6, rel=0.015)

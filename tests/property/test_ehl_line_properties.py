@@ -14,22 +14,15 @@ from gearlube_core.ehl.line_solver import hertz_start, solve_line
 from gearlube_core.ehl.line_system import LineState, LineSystem
 from gearlube_core.ehl.lubricant import ehl_lubricant
 from gearlube_core.ehl.named_lubricants import jamali_2015_oil
+from tests.ehl_line_cases import thesis_line
 
-THESIS = LineProblem(
-    lubricant=jamali_2015_oil(),
-    radius=0.014,
-    line_load=360e3,
-    reduced_modulus=227.5e9,
-    speed_1=7.93,
-    speed_2=5.49,
-    domain=(-1.0e-3, 0.38e-3),
-)
+THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
 
 
 @pytest.mark.parametrize("stencil", ["central", "upwind-1", "upwind-2", "galerkin"])
 @pytest.mark.parametrize("speed", [1.0, -1.0])
 def test_jacobian_is_the_derivative_of_the_balance(stencil, speed):
-    contact = replace(THESIS, speed_1=speed * 7.93, speed_2=speed * 5.49)
+    contact = replace(THESIS, speed_1=speed * THESIS.speed_1, speed_2=speed * THESIS.speed_2)
     n = 41
     system = LineSystem(contact, n, stencil, True)
     rng = np.random.default_rng(3)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.line_problem import LineProblem, LineSettings
+from gearlube_core.ehl.line_problem import LineSettings
 from gearlube_core.ehl.line_rows import fill_rows, local_rows
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_system import LineState, LineSystem
 from gearlube_core.ehl.line_transient import LineHistory, LineMarch
-from gearlube_core.ehl.named_lubricants import jamali_2015_oil
+from tests.ehl_line_cases import thesis_line
 
 LENGTH = 2e-3  # of the profiles, which repeat [m]
 
@@ -30,16 +30,7 @@ def rough_profile(average: float, shortest: float, seed: int):
 
 
 def march_rough(average: float, steps: int, settings: LineSettings):
-    u = 6.71
-    contact = LineProblem(
-        lubricant=jamali_2015_oil(),
-        radius=0.014,
-        line_load=360e3,
-        reduced_modulus=227.5e9,
-        speed_1=1.1816 * u,
-        speed_2=0.8184 * u,
-        domain=(-0.7e-3, 0.38e-3),
-    )
+    contact = thesis_line(domain=(-0.7e-3, 0.38e-3))
     smooth = solve_line(contact, settings)
     dx = smooth.x[1] - smooth.x[0]
     above, below = (rough_profile(average, 10.0 * dx, seed) for seed in (1, 2))
@@ -85,14 +76,7 @@ def test_rough_bodies_that_touch_carry_the_load_and_say_where():
 
 @pytest.mark.parametrize("stencil", ["central", "upwind-1", "upwind-2", "galerkin"])
 def test_compiled_balance_equals_its_python(stencil):
-    contact = LineProblem(
-        lubricant=jamali_2015_oil(),
-        radius=0.014,
-        line_load=360e3,
-        reduced_modulus=227.5e9,
-        speed_1=7.9,
-        speed_2=5.5,
-    )
+    contact = thesis_line()
     system = LineSystem(contact, 33, stencil, stencil != "galerkin")
     rng = np.random.default_rng(5)
     state = LineState(rng.uniform(0.0, 0.6, 33), np.zeros(33), 2.0)
