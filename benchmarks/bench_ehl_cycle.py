@@ -58,7 +58,7 @@ def whole_cycle(name: str, film: HelicalFilm) -> None:
     """March all steps and print what they cost and find."""
     begin, tick = time.process_time(), time.perf_counter()
     cycle = march_helical_cycle(film, throw=False)
-    pressure, least = 1e-9 * cycle["max_pressure"], 1e6 * cycle["min_film"]
+    pressure, least = 1e-9 * cycle["pressure_max"], 1e6 * cycle["minimum_film"]
     sys.stdout.write(
         f"cycle, {name}, {film.nodes[0]} x {film.nodes[1]}: "
         f"{time.process_time() - begin:.0f} s processor, {time.perf_counter() - tick:.0f} s wall, "

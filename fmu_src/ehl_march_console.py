@@ -81,8 +81,8 @@ def console_helical_cycle(
         dataset = _with_steady_points(dataset, steady)
         write_dataset(dataset, out / "cycle.nc")
         save_ehl_figures(dataset, out / "figures")
-    logger.info("Largest pressure %.3f GPa.", 1e-9 * float(dataset["max_pressure"].max()))
-    logger.info("Smallest film %.1f nm.", 1e9 * float(dataset["min_film"].min()))
+    logger.info("Largest pressure %.3f GPa.", 1e-9 * float(dataset["pressure_max"].max()))
+    logger.info("Smallest film %.1f nm.", 1e9 * float(dataset["minimum_film"].min()))
     logger.info("Results: %s, %s", out / "cycle.nc", out / "figures")
     failed = dataset["step"].values[dataset["converged"].values == 0.0]
     if failed.size:
@@ -127,10 +127,10 @@ def _with_steady_points(dataset: xr.Dataset, steady: dict[int, FilmSolution]) ->
         k = int(np.flatnonzero(steps == step)[0])
         pressure[k], film[k] = solution.maximum_pressure, solution.minimum_film
     return dataset.assign(
-        steady_max_pressure=(
+        steady_pressure_max=(
             "step", pressure, {"units": "Pa", "long_name": "largest pressure, line at rest"},
         ),
-        steady_min_film=(
+        steady_minimum_film=(
             "step", film, {"units": "m", "long_name": "smallest film, line at rest"},
         ),
     )  # fmt: skip

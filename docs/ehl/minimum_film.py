@@ -70,7 +70,7 @@ def thinnest(store: Store, variant: Variant) -> Thinnest:
             settings=PointSolverSettings(tolerance=1e-5, wedge=variant.wedge),
             throw=False,
         )
-        film, x, y = (cycle[name] for name in ("min_film", "min_film_x", "min_film_y"))
+        film, x, y = (cycle[name] for name in ("minimum_film", "minimum_film_x", "minimum_film_y"))
         values = (film[0], film[-1], x[-1], y[-1], cycle.failures)
         write_arrays(path, dict(zip(_COLUMNS, map(np.asarray, values), strict=True)))
     with np.load(path) as data:

@@ -15,11 +15,11 @@ from gearlube_core.ehl.helical_film import HelicalFilm
 
 _NOTES = {
     "load": ("N", "load that the pressure carries"),
-    "max_pressure": ("Pa", "largest pressure"),
-    "max_pressure_y": ("m", "its place along the line"),
-    "min_film": ("m", "smallest film"),
-    "min_film_x": ("m", "its place across the line"),
-    "min_film_y": ("m", "its place along the line"),
+    "pressure_max": ("Pa", "largest pressure"),
+    "pressure_max_y": ("m", "its place along the line"),
+    "minimum_film": ("m", "smallest film"),
+    "minimum_film_x": ("m", "its place across the line"),
+    "minimum_film_y": ("m", "its place along the line"),
     "loaded_length": ("m", "length of the line that carries"),
     "load_error": ("1", "missing share of the load"),
     "converged": ("1", "1 where the step converged"),

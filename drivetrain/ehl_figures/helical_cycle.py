@@ -18,8 +18,8 @@ from drivetrain.figures.style import (
 )
 
 _PANELS = (
-    ("max_pressure", 1e-9, "largest pressure [GPa]", BLUE),
-    ("min_film", 1e6, "smallest film [µm]", VERMILLION),
+    ("pressure_max", 1e-9, "largest pressure [GPa]", BLUE),
+    ("minimum_film", 1e6, "smallest film [µm]", VERMILLION),
     ("load", 1e-3, "load [kN]", GREEN),
     ("loaded_length", 1e3, "loaded length [mm]", GREEN),
 )
@@ -47,7 +47,7 @@ def cycle_curves(dataset: xr.Dataset) -> Any:
                 ax.plot(step, at_rest, "s", color="black", mfc="none", label="line at rest")
                 values = np.append(values, at_rest)
             ax.set(ylabel=label, ylim=(0.0, 1.12 * max(float(np.nanmax(values)), 1e-12)))
-        if "steady_min_film" in dataset:
+        if "steady_minimum_film" in dataset:
             axes[0].legend(loc="lower left", ncols=2)
         _position_scale(axes[0], dataset)
         axes[-1].set_xlabel("step of the meshing cycle")
@@ -106,8 +106,8 @@ def compared_cycles(cycles: dict[str, xr.Dataset], film_exponent: float = 0.0) -
             step, failed = cycle["step"].values, cycle["converged"].values == 0.0
             scale = (cycle.attrs["pinion_speed"] / speed) ** film_exponent
             for ax, values in (
-                (top, 1e-9 * cycle["max_pressure"].values),
-                (bottom, 1e6 * cycle["min_film"].values / scale),
+                (top, 1e-9 * cycle["pressure_max"].values),
+                (bottom, 1e6 * cycle["minimum_film"].values / scale),
             ):
                 ax.plot(step, values, label=label if ax is top else None, **look)
                 ax.plot(step[failed], values[failed], "x", color=look["color"])

@@ -104,7 +104,7 @@ def test_interrupted_cycle_gives_the_same_curves(tmp_path):
     rest = march_helical_cycle(film, first=300, last=304, checkpoint=part, checkpoint_every=2,
                                keep=keep)  # fmt: skip
     assert whole.failures == 0
-    for column in ("step", "load", "max_pressure", "min_film"):
+    for column in ("step", "load", "pressure_max", "minimum_film"):
         assert np.array_equal(whole[column], rest[column])
     # also the solutions from before the interruption
     assert set(rest.kept) == set(whole.kept) == set(keep)

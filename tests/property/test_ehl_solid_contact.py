@@ -117,7 +117,7 @@ def test_a_thin_film_of_a_helical_pair_touches_and_goes_on() -> None:
         cycle = march_helical_cycle(film, first=498, last=500)
         assert cycle.failures == 0
         assert np.abs(cycle["load_error"]).max() < 1e-6
-        assert cycle["min_film"].min() > 0.2 * thickness
+        assert cycle["minimum_film"].min() > 0.2 * thickness
         shares.append(cycle["solid_share"][-1])
     # what touches hangs on the layer, more than in proportion
     assert shares[0] < shares[1] < shares[2]
