@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from gearlube_core.ehl.point_newton import NewtonRecord, newton
-from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_newton import Build, NewtonRecord, newton
+from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.settings import PointSolverSettings
 
@@ -44,6 +44,7 @@ def solve_level(
     tolerance: float,
     record: NewtonRecord,
     only_start: bool,
+    build: Build = MultigridCycle,
 ) -> FilmState:
     """Return the state on the finest grid of the hierarchy.
 
@@ -61,6 +62,8 @@ def solve_level(
         Takes up what was done.
     only_start
         The state starts a finer grid: a first-order or thicker film will do.
+    build
+        As in `newton`.
 
     Returns
     -------
@@ -89,6 +92,7 @@ def solve_level(
             load_tolerance=_EASY_TOLERANCE if easy else settings.load_tolerance,
             most=settings.newton_steps,
             most_krylov=settings.krylov_steps,
+            build=build,
         )
         record.residuals += report.residuals
         record.krylov += report.krylov

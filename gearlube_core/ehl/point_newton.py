@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,9 +12,11 @@ import numpy as np
 from gearlube_core.ehl.point_krylov import flexible_gmres
 from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
-from gearlube_core.ehl.point_state import FilmState
+from gearlube_core.ehl.point_state import FilmState, Linearisation
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
+Inverse = Callable[[Array, float], tuple[Array, float]]
+Build = Callable[[Hierarchy, Linearisation], Inverse]
 
 _THINNEST = 0.2  # of the film before a step
 _GROWTH = 1.05  # of the residual that a step may cost
@@ -58,6 +61,7 @@ def newton(
     load_tolerance: float,
     most: int,
     most_krylov: int,
+    build: Build = MultigridCycle,
 ) -> tuple[FilmState, NewtonRecord]:
     """Return the state on the finest grid of the hierarchy.
 
@@ -71,6 +75,8 @@ def newton(
         Limits of `flow_residual` and of the relative load error [1].
     most, most_krylov
         Most steps, and most iterations in one of them.
+    build
+        The preconditioner of hierarchy and linearisation.
 
     Returns
     -------
@@ -93,7 +99,7 @@ def newton(
         if size <= tolerance and abs(state.load_error) <= load_tolerance:
             break
         linear = level.linearise(state, squeeze=shift * level.flow_rate)
-        cycle = MultigridCycle(hierarchy, linear)
+        cycle = build(hierarchy, linear)
         pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),

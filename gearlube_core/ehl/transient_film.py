@@ -11,6 +11,7 @@ import numpy as np
 
 from gearlube_core.ehl.border_pressure import border_pressure
 from gearlube_core.ehl.lubricant import EhlLubricant
+from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_mesh import Grading, cell_faces, x_nodes
 from gearlube_core.ehl.point_newton import flow_residual
 from gearlube_core.ehl.point_preconditioner import Hierarchy
@@ -26,6 +27,7 @@ from gearlube_core.ehl.transient_rows import row_shapes
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
+_LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
 _CURE = "Take smaller time steps, or more nodes where the film is thin."
 _STEADY_CURE = "Take more nodes where the film is thin, or a crown where a line ends sharply."
 
@@ -112,6 +114,12 @@ class MovingFilm:
         """Return the same film on another grid."""
         return replace(self, nodes=(nx, ny))
 
+    @property
+    def long(self) -> bool:
+        """Tell whether rows along x are so far apart that they are best solved whole."""
+        (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
+        return (y1 - y0) * (nx - 1) > _LONG * (x1 - x0) * (ny - 1)
+
     def grids(self, wedge: str) -> Hierarchy:
         """Return the nested grids with the conditions of no time yet."""
         (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
@@ -124,10 +132,25 @@ class MovingFilm:
         nx, ny = self.nodes
         return self._hierarchy(row_shapes((ny, nx)), wedge)
 
-    def _hierarchy(self, shapes: list[tuple[int, int]], wedge: str) -> Hierarchy:
+    def with_rows_below(self, grids: Hierarchy, wedge: str) -> Hierarchy:
+        """Return `row_grids` with the finest of `grids`, whose conditions and load hold."""
+        finest = grids.levels[-1]
+        rows = self._hierarchy(row_shapes(finest.shape), wedge, finest)
+        for level in rows.levels:
+            level.scales = finest.scales
+        return rows
+
+    def _hierarchy(
+        self, shapes: list[tuple[int, int]], wedge: str, finest: PointLevel | None = None
+    ) -> Hierarchy:
         problem = self.reference()
         scales = PointScales.of(problem)
-        levels = [MovingLevel(problem, scales, shape, wedge, self.grading) for shape in shapes]
+        new = shapes if finest is None else shapes[:-1]
+        levels: list[PointLevel] = [
+            MovingLevel(problem, scales, shape, wedge, self.grading) for shape in new
+        ]
+        if finest is not None:
+            levels.append(finest)
         transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
         return Hierarchy(levels, transfers)
 

@@ -34,7 +34,6 @@ SCHEMES = ("bdf2", "crank_nicolson")
 # "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"
 MARCH_SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
 _PRESSED = 0.2  # of the layer of solids, the least film that a step starts from
-_LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
 
 
 def _multigrid(grids: Hierarchy, linear: Linearisation, _: object) -> MultigridCycle:
@@ -103,14 +102,12 @@ class FilmMarch:
             settings = MARCH_SETTINGS
         self.film, self.time_step, self.start_time = film, time_step, start_time
         self.scheme, self.settings, self.steps = scheme, settings, 0
-        (nx, ny), (x0, x1), (y0, y1) = film.nodes, film.x_limits, film.y_limits
-        long = (y1 - y0) * (nx - 1) > _LONG * (x1 - x0) * (ny - 1)
-        self._grids = film.row_grids(settings.wedge) if long else film.grids(settings.wedge)
+        self._grids = film.row_grids(settings.wedge) if film.long else film.grids(settings.wedge)
         level = self._grids.levels[-1]
         assert isinstance(level, MovingLevel)
         self._level = level
         self._unit = time_step * level.scales.speed / level.scales.length
-        self._kept = KeptCycle(self._grids, RowCycle if long else _multigrid)
+        self._kept = KeptCycle(self._grids, RowCycle if film.long else _multigrid)
         begin = clock.perf_counter()
         if record is None:
             impose(film, self._grids, start_time)

@@ -9,13 +9,14 @@ import numpy as np
 
 from gearlube_core.ehl.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point_continuation import solve_level
-from gearlube_core.ehl.point_newton import NewtonRecord
-from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_newton import Build, NewtonRecord
+from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.problem import expected_film
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import FilmSolution, MovingFilm, film_solution, impose
 from gearlube_core.ehl.transient_level import MovingLevel
+from gearlube_core.ehl.transient_rows import RowCycle
 from gearlube_core.errors import ConvergenceError
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -78,7 +79,11 @@ def steady_state(
             state = level.state(pressure, state.approach + lift)
         last = k == count - 1
         goal = settings.tolerance if last else _COARSE_TOLERANCE
-        state = solve_level(part, state, settings, goal, record, not last)
+        build: Build = MultigridCycle
+        if last and film.grading is not None and film.long:
+            # rows that are solved in part lose their way where the spacing changes along them
+            part, build = film.with_rows_below(grids, settings.wedge), RowCycle
+        state = solve_level(part, state, settings, goal, record, not last, build)
     return state, record
 
 
