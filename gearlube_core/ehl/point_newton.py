@@ -37,6 +37,12 @@ class NewtonRecord:
     krylov: int = 0
     first_order: bool = False  # the answer of upwind-1, where the chosen stencil found none
 
+    def fallen_back(self, wedge: str) -> str:
+        """Return a sentence where upwind-1 stands in for the stencil `wedge`, else nothing."""
+        if not self.first_order:
+            return ""
+        return f" With upwind-1: too few nodes for {wedge} at this film; take more."
+
 
 def flow_residual(level: PointLevel, state: FilmState) -> float:
     """Return the sum of unbalanced flow over the flow through the dry width [1].

@@ -98,9 +98,7 @@ class PointOutcome:
         if share > _LIMITED:
             good += f" {100.0 * share:.1f} % of the faces are of first order: too few nodes at"
             good += " the inlet or the sides for this film; take more."
-        if record.first_order:
-            good += f" With upwind-1: too few nodes for {settings.wedge} at this film; take more."
-        good += touch.sentence
+        good += record.fallen_back(settings.wedge) + touch.sentence
         outside, border = 0.0, level.border
         if border is not None:
             outside = border.load(state.approach)[0] / scales.load

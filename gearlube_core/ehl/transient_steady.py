@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time as clock
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -130,6 +131,9 @@ def solve_steady_film(
         seconds=clock.perf_counter() - begin,
         steady=True,
     )
+    if solution.converged:
+        outcome = solution.outcome + record.fallen_back(settings.wedge)
+        solution = replace(solution, outcome=outcome)
     if throw and not solution.converged:
         raise ConvergenceError(solution.outcome)
     return solution

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gearlube_core.ehl import point_continuation
 from gearlube_core.ehl.helical_cycle import solve_helical_line
 from gearlube_core.ehl.helical_film import EXIT_GRADING, jamali_2015_film
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.transient_film import FilmSolution
-from gearlube_core.ehl.transient_march import FilmMarch
+from gearlube_core.ehl.transient_march import MARCH_SETTINGS, FilmMarch
 
 ROWS = 33
 
@@ -56,6 +57,34 @@ def test_errors_on_a_graded_mesh_fall_with_its_nodes() -> None:
     assert finer[0] < 0.3 * central
     assert finer[1] < 0.5 * pressure
     assert finer[2] < 0.7 * smallest
+
+
+def test_long_graded_meshes_find_the_film_of_the_stencil_asked_for() -> None:
+    film = jamali_2015_film("a", nodes=(97, 193), grading=EXIT_GRADING)
+    solution = solve_helical_line(film, 490, MARCH_SETTINGS)
+    assert solution.converged
+    # the first-order film is thicker by a fifth; rows solved in part found no other
+    assert "upwind-1" not in solution.outcome
+    coarse = solve_helical_line(jamali_2015_film("a", nodes=(97, 97)), 490, MARCH_SETTINGS)
+    assert solution.minimum_film == pytest.approx(coarse.minimum_film, rel=0.06)
+
+
+def test_a_film_of_first_order_differences_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    film = jamali_2015_film("a", newtonian=True, nodes=(33, 49))
+    known = point_continuation.newton
+
+    def of_first_order(hierarchy: Any, state: Any, **options: Any) -> Any:
+        solved, record = known(hierarchy, state, **options)
+        # as if no film of the stencil asked for could be found
+        record.converged &= hierarchy.levels[-1].stencil.here == 1.0
+        return solved, record
+
+    second = solve_helical_line(film, 300)
+    monkeypatch.setattr(point_continuation, "newton", of_first_order)
+    first = solve_helical_line(film, 300)
+    assert "With upwind-1" in first.outcome
+    assert "With upwind-1" not in second.outcome
+    assert abs(first.minimum_film / second.minimum_film - 1.0) > 0.02
 
 
 def test_a_march_on_a_graded_mesh_follows_that_on_a_uniform_one() -> None:
