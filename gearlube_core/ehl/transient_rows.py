@@ -30,7 +30,7 @@ _DAMPING = 0.9
 # a row, of the wave across the motion whose deflection a row takes: longer ones would be amplified
 _WAVE = 0.12 * np.pi
 _SPARE = 4  # columns beside the free ones for those that come
-_CHANGE = 0.02  # mean relative change of a row from which on it is inverted anew
+_CHANGE = 0.05  # mean relative change of a row from which on it is inverted anew
 _AT_ONCE = 64  # rows
 _DIRECT_NODES = 1700  # of the grid that is solved directly
 _FEWEST_ROWS = 7
@@ -154,6 +154,9 @@ class RowInverses:
         self._centre = np.zeros(level.shape, dtype=np.complex128)
         self._transposed = np.empty((level.shape[0], 0, 0), dtype=np.float32)
         self._products = np.empty((level.shape[0], 0))
+        # nodes that came to rows whose inverse serves on are solved on their own
+        self._new = np.zeros(level.shape, dtype=np.bool_)
+        self._alone = np.zeros(0)
 
     def renew(self, operator: SparseOperator) -> int:
         """Invert the rows that have changed; return their number."""
@@ -186,6 +189,9 @@ class RowInverses:
             self._transposed[part] = np.linalg.inv(matrices).transpose(0, 2, 1)
         self._free[rows] = operator.free[rows]
         self._centre[rows] = centre[rows]
+        self._new = operator.free & ~self._free
+        slopes = centre.real + self._local.diagonal() * centre.imag
+        self._alone = _DAMPING / slopes[self._new]
         return int(rows.size)
 
     def _changes(self, centre: np.ndarray, free: Flags) -> Array:
@@ -205,6 +211,7 @@ class RowInverses:
         multiply_matrices(self._transposed, right, _DAMPING, self._products)
         pressure = np.zeros(residual.shape)
         pressure[:, self._held] = self._products
+        pressure[self._new] = residual[self._new] * self._alone
         return pressure
 
 
