@@ -20,6 +20,7 @@ from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 from fmu_src.definition import Definition, Model, Value
+from fmu_src.host_thread import HostThread
 from fmu_src.identity import check_identity, guid_of
 from fmu_src.model_description import LOG_CATEGORIES
 from fmu_src.phase import Phase
@@ -61,6 +62,7 @@ class CoSimulationSlave(Fmi2Slave):
         self._broken = ""
         self._time = 0.0
         self._phase = Phase.INSTANTIATED
+        self._thread = HostThread()
         register_variables(self, self.definition.variables)
         # Not logged yet: see the third habit in `fmu_src.wrapper`.
         self._warnings = [
@@ -97,6 +99,7 @@ class CoSimulationSlave(Fmi2Slave):
         self._log_warnings()
         self._expect(Phase.INSTANTIATED)
         self._phase = Phase.INITIALISING
+        self._thread.hold()
 
     @guarded
     def exit_initialization_mode(self) -> None:
@@ -111,6 +114,7 @@ class CoSimulationSlave(Fmi2Slave):
     def terminate(self) -> None:
         """Take no further step; outputs can still be read."""
         self._enter(Phase.TERMINATED)
+        self._thread.release()
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance the model; on any trouble log it, stay where it was and return False."""

@@ -1,9 +1,10 @@
-/* A host that is not Python: native_host ENDING STEPS {LIBRARY RESOURCES GUID REFERENCE}...
+/* A host that is not Python: native_host ENDING STEPS H {LIBRARY RESOURCES GUID REFERENCE}...
 
-   Steps two instances of every FMU in turn, prints one Real of each, and ends
+   Steps two instances of every FMU in turn by H seconds, reads one Real after each step, prints the
+   last, and ends
    free:  after fmi2FreeInstance
    close: after fmi2FreeInstance and dlclose
-   leave: with its instances in place. */
+   leave: with its instances running. */
 
 #include <dlfcn.h>
 #include <stdarg.h>
@@ -14,12 +15,11 @@
 #include "fmi2FunctionTypes.h"
 
 enum { INSTANCES = 2, MOST = 4 };
-static const double H = 1.0 / 1024.0; /* s */
-
 typedef struct {
   void *library;
   fmi2Component instances[INSTANCES];
   fmi2ValueReference reference;
+  double values[INSTANCES];
 } Fmu;
 
 static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
@@ -69,26 +69,37 @@ static void start(Fmu *fmu, char **argument) {
   }
 }
 
+static void step_and_read(Fmu *fmu, double time, double h) {
+  fmi2DoStepTYPE *step = CALL(fmu, fmi2DoStep);
+  fmi2GetRealTYPE *read = CALL(fmu, fmi2GetReal);
+  for (int i = 0; i < INSTANCES; i++) {
+    check(step(fmu->instances[i], time, h, fmi2True), "fmi2DoStep");
+    check(read(fmu->instances[i], &fmu->reference, 1, &fmu->values[i]), "fmi2GetReal");
+  }
+}
+
+static void end(Fmu *fmu) {
+  for (int i = 0; i < INSTANCES; i++) {
+    check(CALL(fmu, fmi2Terminate)(fmu->instances[i]), "fmi2Terminate");
+    CALL(fmu, fmi2FreeInstance)(fmu->instances[i]);
+  }
+}
+
 int main(int count, char **argument) {
+  enum { BEFORE = 4, EACH = 4 };
   Fmu fmus[MOST];
-  if (count < 7 || (count - 3) % 4 || (count - 3) / 4 > MOST) return 1;
-  const int n = (count - 3) / 4, steps = atoi(argument[2]);
-  const int leaves = !strcmp(argument[1], "leave"), closes = !strcmp(argument[1], "close");
-  for (int k = 0; k < n; k++) start(&fmus[k], argument + 3 + 4 * k);
+  const int n = (count - BEFORE) / EACH;
+  if (n < 1 || n > MOST || (count - BEFORE) % EACH) return 1;
+  const char *ending = argument[1];
+  const int steps = atoi(argument[2]);
+  const double h = atof(argument[3]);
+  for (int k = 0; k < n; k++) start(&fmus[k], argument + BEFORE + EACH * k);
   for (int step = 0; step < steps; step++)
-    for (int k = 0; k < n; k++)
-      for (int i = 0; i < INSTANCES; i++)
-        check(CALL(&fmus[k], fmi2DoStep)(fmus[k].instances[i], step * H, H, fmi2True),
-              "fmi2DoStep");
-  for (int k = 0; k < n; k++)
-    for (int i = 0; i < INSTANCES; i++) {
-      double value;
-      check(CALL(&fmus[k], fmi2GetReal)(fmus[k].instances[i], &fmus[k].reference, 1, &value),
-            "fmi2GetReal");
-      printf("%.17g\n", value);
-      check(CALL(&fmus[k], fmi2Terminate)(fmus[k].instances[i]), "fmi2Terminate");
-      if (!leaves) CALL(&fmus[k], fmi2FreeInstance)(fmus[k].instances[i]);
-    }
-  for (int k = 0; k < n && closes; k++) dlclose(fmus[k].library);
+    for (int k = 0; k < n; k++) step_and_read(&fmus[k], step * h, h);
+  for (int k = 0; k < n; k++) {
+    for (int i = 0; i < INSTANCES; i++) printf("%.17g\n", fmus[k].values[i]);
+    if (strcmp(ending, "leave")) end(&fmus[k]);
+    if (!strcmp(ending, "close")) dlclose(fmus[k].library);
+  }
   return 0;
 }

@@ -84,7 +84,7 @@ def test_a_host_of_both_fmus_ends_well(
     extracted: Callable[[Case], Path], tmp_path: Path, ending: str
 ) -> None:
     host = tmp_path / "native_host"
-    source = Path(__file__).with_suffix("").with_name("native_host.c")
+    source = Path(__file__).with_name("native_host.c")
     headers = Path(fmpy.__file__).parent / "c-code"
     subprocess.run(
         [str(COMPILER), "-std=c99", f"-I{headers}", str(source), "-o", str(host), "-ldl"],
@@ -98,7 +98,7 @@ def test_a_host_of_both_fmus_ends_well(
         reference = str(case.definition.references[case.load])
         arguments += [str(library), (folder / "resources").as_uri(), guid, reference]
         expected += 2 * [expected_outputs(case)[case.load]]
-    printed = run([str(host), ending, str(STEPS), *arguments], dict(os.environ))
+    printed = run([str(host), ending, str(STEPS), str(H), *arguments], dict(os.environ))
     assert [float(line) for line in printed.split()] == expected
 
 
