@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.checks import check_finite, check_positive
-from gearlube_core.ehl.eyring_flow import eyring_flow_factor
+from gearlube_core.ehl.eyring_flow import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.ehl.flow_factors import eyring_factors
 from gearlube_core.ehl.lubricant import EhlLubricant
 from gearlube_core.ehl.point_stencil import FilmFlow, FlowSlopes
@@ -33,6 +33,8 @@ def fill_shear_factors(
     sigma_y: float,
     cosine: float,
     sine: float,
+    limit: float,
+    limit_slope: float,
     along: np.ndarray,
     across: np.ndarray,
     steepness: np.ndarray,
@@ -51,6 +53,8 @@ def fill_shear_factors(
         nodes on both sides [1]; along x of every column, shape (nx,).
     cosine, sine
         Of the angle from x to sliding.
+    limit, limit_slope
+        Limiting shear stress over tau0 at ambient pressure and its slope with p [1]; both 0: none.
     along, across : ndarray, shape (ny, nx)
         Flow along and across sliding over its Newtonian value [1]; 1 on the border.
     steepness, stiffness : ndarray, shape (ny, nx)
@@ -59,7 +63,8 @@ def fill_shear_factors(
     Notes
     -----
     Pressure slopes are central. Small stresses: flow along grows by Sigma^2/10 + a^2/2, across
-    by Sigma^2/10 + a^2/6, the first terms of the series of `eyring_flow`.
+    by Sigma^2/10 + a^2/6, the first terms of the series of `eyring_flow`. A film that slips at
+    the limiting stress has the flow of one that is sheared just so far.
     """
     ny, nx = pressure.shape
     along[:] = 1.0
@@ -75,14 +80,24 @@ def fill_shear_factors(
             y = sigma_y * h * (pressure[j + 1, i] - pressure[j - 1, i])
             s, r = cosine * x + sine * y, cosine * y - sine * x
             a = couette[j] / (h * fluidity[j, i])
-            if max(abs(s), abs(r), abs(a)) < _SMALL_STRESS:
+            most, slips = math.inf, False
+            if limit + limit_slope > 0.0:
+                most = limit + limit_slope * max(pressure[j, i], 0.0)
+                slips = abs(eyring_mean_stress(s, a, 1.0)) > most
+            if max(abs(s), abs(r), abs(a)) < min(_SMALL_STRESS, most):
                 pumped = 0.1 * (s * s + r * r)
                 along[j, i] = 1.0 + pumped + 0.5 * a * a
                 across[j, i] = 1.0 + pumped + a * a / 6.0
                 steepness[j, i] = 1.0 + 0.2 * s * s
                 stiffness[j, i] = 1.0 - a * a
                 continue
-            along[j, i], across[j, i] = eyring_factors(s, r, a, math.inf)
+            along[j, i], across[j, i] = eyring_factors(s, r, a, most)
+            if slips:
+                # S = F cosh(limit): F alone answers to the slope of pressure, nothing to viscosity
+                F, by_sigma, _ = eyring_flow_factor(s, 0.0)
+                steepness[j, i] = 1.0 + s * by_sigma / F
+                stiffness[j, i] = 1.0
+                continue
             S, by_sigma, by_a = eyring_flow_factor(s, a)
             steepness[j, i] = 1.0 + s * by_sigma / S
             stiffness[j, i] = 1.0 - a * by_a / S
@@ -141,6 +156,8 @@ class FilmShear:
     cosine: float  # of the angle from x to sliding
     sine: float
     central: Array | None = None  # spacing along x over that of every column, (nx,); None: 1
+    limit: float = 0.0  # limiting stress over tau0 at ambient pressure
+    limit_slope: float = 0.0  # its slope with pressure
 
     @classmethod
     def of(
@@ -200,6 +217,8 @@ class FilmShear:
             cosine=sliding[0] / speed if speed > 0.0 else 1.0,
             sine=sliding[1] / speed if speed > 0.0 else 0.0,
             central=central,
+            limit=lubricant.tau_limit / tau0,
+            limit_slope=lubricant.limit_slope * pressure / tau0,
         )
 
     def slide(self, along: Array, across: float) -> None:
@@ -227,6 +246,8 @@ class FilmShear:
             self.sigma_y,
             self.cosine,
             self.sine,
+            self.limit,
+            self.limit_slope,
             along,
             across,
             steepness,

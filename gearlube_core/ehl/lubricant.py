@@ -138,6 +138,13 @@ def cooling_factor(oil: EhlLubricant, temperature: float) -> float:
 
 
 @kernel
+def viscosity_cooling(oil: EhlLubricant, p: float, temperature: float) -> float:
+    """Return -d ln eta/dT of the law of Houpert at a pressure [Pa] and a temperature [K] [1/K]."""
+    exponent = cooling_factor(oil, temperature) * (1.0 + _pressure_exponent(oil, p))
+    return oil.log_ratio * oil.S0 * exponent / (temperature - GLASS_TEMPERATURE)
+
+
+@kernel
 def thermal_log_slope(oil: EhlLubricant, p: float, cooling: float) -> tuple[float, float]:
     """Return ln(eta/eta0) and its slope with pressure at a cooling factor.
 
@@ -231,6 +238,34 @@ def fill_properties(
         eta_slope[i] = oil.eta0 * _bounded_exponential_slope(y) * steepness
         rho[i] = density(oil, p[i])
         rho_slope[i] = density_slope(oil, p[i])
+
+
+@kernel
+def fill_warm_properties(
+    oil: EhlLubricant,
+    p: np.ndarray,
+    cooling: np.ndarray,
+    dilation: np.ndarray,
+    eta: np.ndarray,
+    eta_slope: np.ndarray,
+    rho: np.ndarray,
+    rho_slope: np.ndarray,
+) -> None:
+    """Fill viscosity, density and their slopes in a film of uneven temperature.
+
+    Parameters
+    ----------
+    oil, p, eta, eta_slope, rho, rho_slope
+        As in `fill_properties`.
+    cooling, dilation
+        `cooling_factor` and the density's factor by heat, of the shape of `p` [1].
+    """
+    for i in range(p.size):
+        y, slope = thermal_log_slope(oil, p[i], cooling[i])
+        eta[i] = oil.eta0 * _bounded_exponential(y)
+        eta_slope[i] = oil.eta0 * _bounded_exponential_slope(y) * slope
+        rho[i] = dilation[i] * density(oil, p[i])
+        rho_slope[i] = dilation[i] * density_slope(oil, p[i])
 
 
 @kernel

@@ -11,8 +11,9 @@ import numpy as np
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
+from gearlube_core.ehl.film_properties import film_properties
 from gearlube_core.ehl.film_shear import FilmShear
-from gearlube_core.ehl.lubricant import EhlLubricant, fill_properties
+from gearlube_core.ehl.lubricant import EhlLubricant
 from gearlube_core.ehl.point_border import OpenBorder
 from gearlube_core.ehl.point_cross_flow import add_cross_derivatives, add_cross_flow
 from gearlube_core.ehl.point_mesh import Grading, cell_faces, central_metric, mesh_metric, x_nodes
@@ -74,6 +75,8 @@ class PointLevel:
         Of an Eyring film.
     border : OpenBorder or None
         Where the oil goes on; None: ambient pressure on the border.
+    warm : tuple of ndarray, shapes (ny, nx), or None
+        Factors by heat, see `film_properties`; None: 1.
     solids : SolidLayer or None
         Of solids that touch where the film is thin; None: they never do.
     """
@@ -148,11 +151,11 @@ class PointLevel:
         self._aligned = np.zeros(shape)  # no cross flow
         if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
             self.shear = self._film_shear(problem, scales.turned(problem.sliding))
+        self.warm: tuple[Array, Array] | None = None
         self.solids: SolidLayer | None = None
-        if problem.solids is not None:
-            self.solids = SolidLayer(
-                problem.solids.thickness / scales.film, problem.solids.pressure / scales.pressure
-            )
+        if (solids := problem.solids) is not None:
+            unit = scales.film, scales.pressure
+            self.solids = SolidLayer(solids.thickness / unit[0], solids.pressure / unit[1])
         self.cell = self.dx * self.dy
         self.flow_rate = self.stencil.wedge_x + self.stencil.wedge_y
         self.cells = self.cell / self.metric.narrow
@@ -195,12 +198,9 @@ class PointLevel:
         """Return the matrix of deflection per unit pressure, shape (ny nx, ny nx)."""
         if self._dense is None:
             rows, columns = (n.ravel() for n in np.indices(self.shape))
-            across = abs(rows[:, None] - rows)
-            self._dense = (
-                self.coefficients[across, columns[:, None], columns]
-                if self.graded
-                else self.coefficients[across, abs(columns[:, None] - columns)]
-            )
+            apart = abs(columns[:, None] - columns)
+            along = (columns[:, None], columns) if self.graded else (apart,)
+            self._dense = self.coefficients[(abs(rows[:, None] - rows), *along)]
         return self._dense
 
     def film(self, pressure: Array, approach: float) -> Array:
@@ -217,19 +217,11 @@ class PointLevel:
             load -= self.border.load(approach)[0]
         if film is None:
             film = self.film(pressure, approach)
-        viscosity, viscosity_slope, density, density_slope = np.empty((4, *self.shape))
         solids = solid_share(self.solids, pressure, film, self.flow_rate)
         oil = pressure if solids is None else solids.oil
-        fill_properties(
-            self.oil,
-            oil.ravel(),
-            viscosity.ravel(),
-            viscosity_slope.ravel(),
-            density.ravel(),
-            density_slope.ravel(),
-        )
+        eta, eta_slope, density, density_slope = film_properties(self.oil, oil, self.warm)
         cubic = density * np.maximum(film, 0.0) ** 3
-        fluidity, shear = 1.0 / viscosity, None
+        fluidity, shear = 1.0 / eta, None
         cubic_x, cubic_xy, cubic_y = cubic, None, cubic
         if self.shear is not None:
             shear = self.shear.factors(oil, film, fluidity)
@@ -243,10 +235,10 @@ class PointLevel:
             density=density,
             fluidity=fluidity,
             density_slope=density_slope,
-            viscosity_slope=viscosity_slope * fluidity,
+            viscosity_slope=eta_slope * fluidity,
             cubic_x=cubic_x,
             cubic_y=cubic_y,
-            log_viscosity=np.log(viscosity),
+            log_viscosity=np.log(eta),
             residual=np.empty(self.shape),
             load_error=(load - self.integral(pressure)) / self.scales.load,
             cubic_xy=cubic_xy,

@@ -138,6 +138,14 @@ def solve_point_contact(
     """
     settings = PointSolverSettings() if settings is None else settings
     begin = time.perf_counter()
+    hierarchy, state, record = nested_film(problem, settings)
+    return point_solution(problem, settings, hierarchy, state, record, begin, throw=throw)
+
+
+def nested_film(
+    problem: PointContactProblem, settings: PointSolverSettings
+) -> tuple[Hierarchy, FilmState, NewtonRecord]:
+    """Return the film on nested grids: the grids, the state on the finest, what was done."""
     scales = PointScales.of(problem)
     hierarchy = build_hierarchy(problem, scales, settings.wedge, settings.discretisation)
     record = NewtonRecord()
@@ -155,6 +163,21 @@ def solve_point_contact(
         last = k == count - 1
         tolerance = settings.tolerance if last else _COARSE_TOLERANCE
         state = solve_level(part, state, settings, tolerance, record, not last)
+    return hierarchy, state, record
+
+
+def point_solution(
+    problem: PointContactProblem,
+    settings: PointSolverSettings,
+    hierarchy: Hierarchy,
+    state: FilmState,
+    record: NewtonRecord,
+    begin: float,
+    *,
+    throw: bool,
+) -> PointSolution:
+    """Return a state of the finest grid in SI with its outcome; `begin` [s] of the clock."""
+    scales = hierarchy.levels[-1].scales
     outcome = PointOutcome.of(hierarchy.levels[-1], state, record, settings, problem)
     if throw and not outcome.converged:
         raise ConvergenceError(outcome.sentence)

@@ -71,7 +71,9 @@ class PointContactProblem:
     contact_modulus
         E* [Pa]; half of E' = 2 E*.
     lubricant
-        Oil; its Eyring stress is used where `sliding` is given, a limiting stress never.
+        Oil; its Eyring stress acts on the flow where `sliding` is given, and so does the limiting
+        stress of an oil that has both: beyond it the film slips. A Newtonian film's flow by
+        pressure does not know of slip, its traction does.
     x_limits, y_limits
         Domain [m].
     nodes
