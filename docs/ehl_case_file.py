@@ -39,7 +39,8 @@ not edited by hand.
 `gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts
 ship, `jamali_2015` and `jamali_2015_thermal`, and two point contacts, `mourier_2006` and
 `elliptical` (`gearlube_core/ehl/data/`); `gearlube ehl line --example` prints one to start from.
-Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md). A hypoid
+Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md), whose
+`[film_mesh]` can set the nodes denser where the film leaves the contact. A hypoid
 flank, `gearlube ehl hypoid my_case.toml`, takes its contacts from a mesh table; `mohammadpour_2015`
 ships, its fields stand at the end, and [ehl_hypoid.md](ehl_hypoid.md) shows what comes out. What
 follows is about lines and points.

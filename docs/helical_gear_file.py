@@ -18,6 +18,7 @@ SECTIONS = {
     "damping": "[damping]",
     "operation": "[operation]: torque and speed where none are asked for",
     "oil": "[oil]: of the source, for films",
+    "film_mesh": "[film_mesh]: nodes of films",
 }
 
 HEAD = """# The gear file of a helical pair
@@ -55,7 +56,9 @@ print(pair.total_contact_ratio, file.provenance("pair.backlash_mm"))
 
 `gearlube helical my_pair.toml` analyses it, `gearlube build-fmu --model helical-pair --gear
 my_pair.toml` makes it an FMU. `gearlube ehl helical my_pair.toml` solves the film on its contact
-lines: `[oil]` or `--oil` names what fills it.
+lines: `[oil]` or `--oil` names what fills it, `[film_mesh]` or `--nodes-across`, `--nodes-along`
+and `--spacing` what it is computed on. A film in motion on 129 x 257 nodes with `spacing = "exit"`
+is as exact as on 182 x 857 uniform ones, for a fraction of the cost (`benchmarks/README.md`).
 """
 
 

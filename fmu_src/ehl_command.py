@@ -197,8 +197,22 @@ def helical(
             metavar="normal|thesis",
         ),
     ] = "normal",
-    nodes_across: Annotated[int, typer.Option(help="Nodes across the line.", metavar="N")] = 97,
-    nodes_along: Annotated[int, typer.Option(help="Nodes along the line.", metavar="N")] = 257,
+    nodes_across: Annotated[
+        int | None,
+        typer.Option(help="Nodes across the line. Default: those of the gear file.", metavar="N"),
+    ] = None,
+    nodes_along: Annotated[
+        int | None,
+        typer.Option(help="Nodes along the line. Default: those of the gear file.", metavar="N"),
+    ] = None,
+    spacing: Annotated[
+        str | None,
+        typer.Option(
+            help="Of the nodes across the line: even, or dense where the film leaves the contact. "
+            "Default: that of the gear file.",
+            metavar="uniform|exit",
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
 ) -> None:
     """Solve the film on a helical pair's contact line, at rest at one position or marching.
@@ -249,6 +263,7 @@ def helical(
             newtonian=newtonian,
             convention=load_sharing,
             nodes=(nodes_across, nodes_along),
+            spacing=spacing,
         )
         if march is None:
             if snapshots is not None:

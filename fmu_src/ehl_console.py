@@ -72,7 +72,7 @@ def console_helical_line(console: Console, *, case: HelicalLineCase, out: Path) 
         solution = solve_helical_line(film, step, MARCH_SETTINGS, throw=False)
         return helical_dataset(case, film, step, solution)
 
-    nodes = f"{case.nodes[0]} x {case.nodes[1]}"
+    nodes = f"{film.nodes[0]} x {film.nodes[1]}"
     return _console(console, ("helical", case.file.name), f"film on {nodes} nodes", solve, out)
 
 

@@ -64,6 +64,7 @@ def cycle_dataset(
             "time_step": film.time_step,
             "nodes_across": film.nodes[0],
             "nodes_along": film.nodes[1],
+            "spacing_across": case.mesh[1],
             "failures": cycle.failures,
             "converged": int(cycle.failures == 0),
         },

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gearlube_core.checks import check_within
-from gearlube_core.ehl.helical_film import JAMALI_2015_MODULUS, HelicalFilm
+from gearlube_core.checks import check_option, check_within
+from gearlube_core.ehl.helical_film import GRADINGS, JAMALI_2015_MODULUS, HelicalFilm
 from gearlube_core.ehl.lubricant import EhlLubricant, ehl_lubricant
 from gearlube_core.ehl.named_lubricants import lubricant_from_library
 from gearlube_core.errors import ParameterError
@@ -49,7 +49,9 @@ class HelicalLineCase:
     convention
         Of the load, "normal" or "thesis".
     nodes
-        Across the line and along it.
+        Across the line and along it; None, also for one of them: those of the file.
+    spacing
+        Of the nodes across the line, "uniform" or "exit"; None: that of the file.
 
     Raises
     ------
@@ -66,15 +68,27 @@ class HelicalLineCase:
     oil_temperature: float = 353.15
     newtonian: bool = False
     convention: str = "normal"
-    nodes: tuple[int, int] = (97, 257)
+    nodes: tuple[int | None, int | None] = (None, None)
+    spacing: str | None = None
+
+    @property
+    def mesh(self) -> tuple[tuple[int, int], str]:
+        """Return the nodes across and along the line, and how they are spaced across it."""
+        own, (across, along) = self.file.film_mesh, self.nodes
+        return (
+            own.nodes_across if across is None else across,
+            own.nodes_along if along is None else along,
+        ), own.spacing if self.spacing is None else self.spacing
 
     def film(self) -> HelicalFilm:
         """Return the film through the cycle of which this is one position."""
         torque, speed = self._operation()
         modified = self.file.modified_pair()
         thesis = _THESIS.get(self.file.name)
-        for name, count in zip(("across", "along"), self.nodes, strict=True):
+        (across, along), spacing = self.mesh
+        for name, count in (("across", across), ("along", along)):
             check_within(f"nodes {name} the line", count, 17, 2049)
+        check_option("spacing", spacing, tuple(GRADINGS))
         return HelicalFilm(
             modified=modified,
             steps=meshing_steps(modified, _STEP, _SMALLEST_SHARE)
@@ -84,7 +98,8 @@ class HelicalLineCase:
             pinion_speed=speed,
             lubricant=self._lubricant(),
             contact_modulus=_STEEL if thesis is None else JAMALI_2015_MODULUS,
-            nodes=self.nodes,
+            nodes=(across, along),
+            grading=GRADINGS[spacing],
             convention=self.convention,
         )
 

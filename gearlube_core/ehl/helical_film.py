@@ -34,7 +34,8 @@ _SLENDEST = 2000.0  # R_y/R_x that stands for a line
 
 
 # densest where the film leaves the contact on any row at any time: the smallest film lies there
-EXIT_GRADING = ((-2.75, 6.0), (-1.5, 3.0), (-0.4, 3.0), (0.1, 1.0), (1.2, 1.0), (1.775, 4.0))
+EXIT_GRADING = ((-2.75, 4.0), (-1.5, 2.0), (-0.4, 2.0), (0.1, 1.0), (1.2, 1.0), (1.775, 3.0))
+GRADINGS: dict[str, tuple[tuple[float, float], ...]] = {"uniform": (), "exit": EXIT_GRADING}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,6 +106,8 @@ class HelicalFilm:
         check_positive("pinion_speed", self.pinion_speed, "rad/s", "Give the speed's magnitude.")
         check_positive("largest_gap", self.largest_gap, "m")
         check_option("convention", self.convention, CONVENTIONS)
+        if self.grading:
+            self._grading(1.0)
 
     @property
     def time_step(self) -> float:

@@ -12,6 +12,7 @@ from gearlube_core.helical_geometry.gear_body import GearBody, SupportStiffness
 from gearlube_core.helical_geometry.gear_file_sections import (
     Bearing,
     DampingRatios,
+    FilmMesh,
     Flank,
     Member,
     Oil,
@@ -58,6 +59,7 @@ class HelicalGearFile(InputFile):
     damping: DampingRatios = DampingRatios()
     operation: Operation | None = None
     oil: Oil | None = None
+    film_mesh: FilmMesh = FilmMesh()
     inferred: dict[Text, Text] = Field(
         default={},
         description="Dotted fields that the source implies without printing them, and how",

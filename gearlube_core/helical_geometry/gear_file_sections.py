@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from gearlube_core.input_file.input_file import Section
 
+Nodes = Annotated[int, Field(ge=17, le=2049)]
 Teeth = Annotated[int, Field(ge=5, le=1000)]
 Module = Annotated[float, Field(ge=0.1, le=100.0, allow_inf_nan=False)]
 PressureAngle = Annotated[float, Field(ge=10.0, le=35.0, allow_inf_nan=False)]
@@ -195,6 +196,18 @@ class Operation(Section):
 
     pinion_torque_n_m: Torque = Field(description="Drives the pinion")
     pinion_speed_rpm: Speed = Field(description="In the drive direction")
+
+
+class FilmMesh(Section):
+    """Nodes of the films on the pair's contact lines."""
+
+    nodes_across: Nodes = Field(default=97, description="Across the line, border included")
+    nodes_along: Nodes = Field(default=257, description="Along the line, border included")
+    spacing: Literal["uniform", "exit"] = Field(
+        default="uniform",
+        description="Across the line; exit: half as far apart where the film leaves the contact as "
+        "inside it, and twice as far in the inlet",
+    )
 
 
 class Oil(Section):

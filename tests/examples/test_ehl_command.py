@@ -16,8 +16,9 @@ from drivetrain.ehl_figures.catalogue import drawn_figures
 from fmu_src import cli, ehl_console, ehl_march_console
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube_core.ehl.case_file import LineCase, PointCase
-from gearlube_core.ehl.helical_film import jamali_2015_film
+from gearlube_core.ehl.helical_film import EXIT_GRADING, jamali_2015_film
 from gearlube_core.errors import ConvergenceError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 
 def run(*arguments):
@@ -128,10 +129,11 @@ def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
     assert "Hertz, mean load" in {row["source"] for row in summary}
 
 
-def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(tmp_path, monkeypatch):
+@pytest.mark.parametrize("spacing", ["uniform", "exit"])
+def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(spacing, tmp_path, monkeypatch):
     march = (
         "helical", "--march", "300:305", "--snapshots", "302", "--newtonian",
-        "--nodes-across", 33, "--nodes-along", 33,
+        "--nodes-across", 33, "--nodes-along", 33, "--spacing", spacing,
     )  # fmt: skip
     whole, stopped = tmp_path / "whole", tmp_path / "stopped"
     assert run(*march, "--out", whole).exit_code == 0
@@ -166,6 +168,11 @@ def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(tmp_path, monkeypatch)
     # the film of the step, and of the line at rest there, which two steps of 0.04 mm cannot leave
     one, other = (xr.load_dataset(out / "step_0302.nc", engine="scipy") for out in (whole, stopped))
     np.testing.assert_allclose(one["film"], other["film"], rtol=1e-6)
+    gaps = np.diff(one["x"])
+    # the exit has a quarter of the inlet's spacing
+    assert gaps[0] / gaps.min() == pytest.approx({"uniform": 1.0, "exit": 4.0}[spacing], rel=0.2)
+    carried = np.trapezoid(np.trapezoid(one["pressure"], one["y"]), one["x"])
+    assert carried == pytest.approx(one.attrs["load"], rel=1e-3)
     middle = {"x": 0.0, "y": 0.0}
     beside = one[["film", "steady_film"]].interp(middle)
     assert float(beside["film"]) == pytest.approx(float(beside["steady_film"]), rel=0.02)
@@ -214,8 +221,10 @@ def test_options_replace_relief_crown_and_facets_of_both_flanks(asked):
         assert film.steps == expected.steps
 
 
-def test_a_record_is_for_one_pair_operation_oil_and_first_step(asked):
-    options = ((), ("--torque", 1000), ("--newtonian",), ("--nodes-along", 129))
+def test_a_record_is_for_one_pair_operation_oil_grid_and_first_step(asked):
+    options = (
+        (), ("--torque", 1000), ("--newtonian",), ("--nodes-along", 129), ("--spacing", "exit"),
+    )  # fmt: skip
     for extra in options:
         assert run("helical", "--march", "all", *extra).exit_code == 0
     films = [call["case"].film() for call in asked]
@@ -258,6 +267,18 @@ def test_options_replace_what_the_case_says(asked):
     assert (line.solver.nodes, line.solver.stencil) == (301, "central")
     assert (point.solver.nodes_x, point.solver.nodes_y) == (301, 301)
     assert point.solver.wedge == "quick"
+
+
+def test_a_film_has_the_mesh_of_the_gear_file_or_of_the_options(asked, tmp_path):
+    path = tmp_path / "own.toml"
+    mesh = '[film_mesh]\nnodes_across = 129\nnodes_along = 193\nspacing = "exit"\n\n'
+    text = HelicalGearFile.shipped_text("jamali_2015_a")
+    path.write_text(text.replace("[pair]", mesh + "[pair]"))
+    for options in ((), ("--nodes-along", 65), ("--spacing", "uniform")):
+        assert run("helical", path, *options).exit_code == 0
+    films = [call["case"].film() for call in asked]
+    assert [film.nodes for film in films] == [(129, 193), (129, 65), (129, 193)]
+    assert [film.grading for film in films] == [EXIT_GRADING, EXIT_GRADING, ()]
 
 
 def test_a_line_of_a_pair_is_placed_by_step_or_position_or_its_largest_load(asked):
@@ -320,6 +341,7 @@ def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
         (("helical", "--march", "all", "--step", 3), "--step"),
         (("helical", "--position", 50), "mm"),
         (("helical", "--nodes-along", 5), "along"),
+        (("helical", "--spacing", "dense"), "exit"),
         (("helical", "--torque", -5), "torque"),
         (("helical", "--load-sharing", "equal"), "thesis"),
     ],

@@ -50,7 +50,7 @@ def test_what_is_no_number_is_refused(name, value):
 def test_every_number_has_a_unit_or_needs_none_and_a_meaning(name):
     plain = (
         "teeth", "facets", "tip_relief_parabola", "tip_relief_exponent", "mesh", "translation",
-        "tilt",
+        "tilt", "nodes_across", "nodes_along",
     )  # fmt: skip
     assert NOTES[name].unit or name.rsplit(".", 1)[1] in plain
     assert len(NOTES[name].meaning) > 5
