@@ -109,6 +109,10 @@ def point(
         str | None,
         typer.Option(help="Stencil of the wedge.", metavar="upwind-2|upwind-1|central|quick"),
     ] = None,
+    cavitation: Annotated[
+        str | None,
+        typer.Option(help="Where the film breaks.", metavar="reynolds|mass_conserving"),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
     example: ExampleOption = False,
 ) -> None:
@@ -128,6 +132,7 @@ def point(
             "solver.nodes_x": nodes,
             "solver.nodes_y": nodes,
             "solver.wedge": wedge,
+            "solver.cavitation": cavitation,
         }
         file = _changed(PointCase.given(case), changes, entrainment, slide_roll)
         verdict(console_point(console, case=file, out=out))

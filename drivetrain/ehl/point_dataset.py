@@ -39,11 +39,14 @@ def point_dataset(case: PointCase, solution: PointSolution) -> xr.Dataset:
     dry = largest * np.sqrt(
         np.maximum(1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2, 0.0)
     )
-    shear = point_traction(x, y, solution.pressure, solution.film, case.sliding, problem.lubricant)
+    shear = point_traction(
+        x, y, solution.pressure, solution.film, case.sliding, problem.lubricant, solution.fill
+    )
     modulus = 2.0 * problem.contact_modulus
     variables = {
         "pressure": (("x", "y"), solution.pressure, unit_note("Pa", "pressure")),
         "film": (("x", "y"), solution.film, unit_note("m", "film thickness")),
+        "fill": (("x", "y"), solution.fill, unit_note("1", "share of the gap that holds oil")),
         "viscosity": (("x", "y"), shear.viscosity, unit_note("Pa s", "viscosity")),
         "density": (("x", "y"), shear.density, unit_note("kg/m3", "density")),
         "mean_stress": (

@@ -21,6 +21,7 @@ from gearlube_core.ehl.case_surfaces import (
 )
 from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.micro_geometry import RoughGap
+from gearlube_core.ehl.point_cavitation import check_cavitation
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.errors import ParameterError
@@ -28,13 +29,14 @@ from gearlube_core.input_file.input_file import InputFile, read_toml
 from gearlube_core.materials.solid import Solid, reduced_modulus
 from gearlube_core.units import MILLIMETRE
 
-_GIGA = 1e9
+_GIGA, _MICRO = 1e9, 1e-6
 
 Text = Annotated[str, Field(min_length=1)]
 Radius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Speed = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
 LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
+Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]
 Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
 
 
@@ -174,6 +176,11 @@ class PointCase(EhlCase):
     load_n: Load = Field(description="Load")
     side_speed_1_m_s: Speed = Field(default=0.0, description="Of body 1 along y")
     side_speed_2_m_s: Speed = Field(default=0.0, description="Of body 2 along y")
+    inlet_layer_um: Layer | None = Field(
+        default=None,
+        description="Oil that both surfaces together bring to the inlet, for mass_conserving "
+        "cavitation; left out: flooded",
+    )
     domain: PointDomain = PointDomain()
     height_map: MapFile | None = None
     ridge: RidgeShape | None = None
@@ -184,6 +191,7 @@ class PointCase(EhlCase):
     @model_validator(mode="after")
     def _hangs_together(self) -> PointCase:
         _in_si(self._smooth, self.settings)
+        _in_si(lambda: check_cavitation(self._smooth(), self.settings()))
         _refused(self.problem)
         return self
 
@@ -232,6 +240,7 @@ class PointCase(EhlCase):
             outlet=self.domain.outlet,
             side=self.domain.side,
             oil_beyond=self.domain.oil_beyond,
+            inlet_layer=None if self.inlet_layer_um is None else _MICRO * self.inlet_layer_um,
         )
 
     @property

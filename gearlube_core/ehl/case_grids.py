@@ -65,6 +65,9 @@ class PointSolver(Section):
         description="Differences of finite volumes, or finite elements: Galerkin's, upwinded where "
         "pressure hardly flows",
     )
+    cavitation: Literal["reynolds", "mass_conserving"] = Field(
+        default="reynolds", description="Where the film breaks"
+    )
     tolerance: Tolerance = Field(default=1e-6, description="Unbalanced flow")
     load_tolerance: Tolerance = Field(default=1e-6, description="Error of the load")
     newton_steps: Steps = Field(default=60, description="Most Newton steps on each grid")

@@ -20,7 +20,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 # below, series to the second order are right to 1e-8
 _SMALL_STRESS = 1.0e-2
 # of the product of cosine and sine: flow along an axis does not feel the slope along the other
-_ALIGNED = 1.0e-12
+ALIGNED = 1.0e-12
 
 
 @kernel
@@ -256,7 +256,7 @@ class FilmShear:
         c, s = self.cosine, self.sine
         slope = along * steepness
         film_power = 1.0 + steepness + stiffness
-        if abs(c * s) < _ALIGNED:
+        if abs(c * s) < ALIGNED:
             if abs(c) > abs(s):
                 return ShearFactors(along, None, across, slope, None, across, stiffness, film_power)
             return ShearFactors(across, None, along, across, None, slope, stiffness, film_power)

@@ -75,7 +75,8 @@ def solve_level(
     -----
     In turn: directly; from thicker films (less mobility is more viscosity or speed); the same
     with first-order upwind differences, then back to the order asked for; where that fails, the
-    first-order solution itself, if the settings allow, and the level keeps its stencil.
+    first-order solution itself, if the settings allow, and the level keeps its stencil. Starved
+    contacts begin with first-order differences, in which the edge of the oil settles.
     """
     level = hierarchy.levels[-1]
     last = start
@@ -101,13 +102,14 @@ def solve_level(
             last = state
         return state if report.converged else None
 
-    state = attempt(start, 1.0, 1.0)
+    starved = level.broken is not None and level.broken.starved and settings.wedge != "upwind-1"
+    state = None if starved else attempt(start, 1.0, 1.0)
     if state is None and only_start:
         for mobility in (1.0, *_THICKER):
             state = attempt(start, mobility, 0.0)
             if state is not None:
                 break
-    elif state is None:
+    elif state is None and not starved:
         state = _return_to_mobility(attempt, start, 1.0)
     if state is None and not only_start and settings.wedge != "upwind-1":
         first = attempt(start, 1.0, 0.0)

@@ -131,6 +131,11 @@ def sparse_operator(linear: Linearisation) -> SparseOperator:
         entry,
     )
     matrix = csr_matrix((entry[:count], column[:count], start), shape=(size, size))
+    if linear.carriage is not None:
+        matrix = matrix + linear.carriage.matrix(
+            linear.offsets, linear.by_pressure, linear.by_film, linear.free
+        )
+        matrix.sort_indices()
     return SparseOperator(matrix, linear.free, linear.by_approach)
 
 

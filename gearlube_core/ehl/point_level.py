@@ -15,20 +15,18 @@ from gearlube_core.ehl.film_properties import film_properties
 from gearlube_core.ehl.film_shear import FilmShear
 from gearlube_core.ehl.lubricant import EhlLubricant
 from gearlube_core.ehl.point_border import OpenBorder
-from gearlube_core.ehl.point_cross_flow import add_cross_derivatives, add_cross_flow
+from gearlube_core.ehl.point_cross_flow import add_cross_flow
+from gearlube_core.ehl.point_derivatives import flow_derivatives
+from gearlube_core.ehl.point_fill import BrokenFilm
 from gearlube_core.ehl.point_mesh import Grading, cell_faces, central_metric, mesh_metric, x_nodes
 from gearlube_core.ehl.point_solids import add_solids, solid_share
 from gearlube_core.ehl.point_state import FilmState, Flags, Linearisation, Offsets
 from gearlube_core.ehl.point_stencil import (
     CENTRE,
-    CROSS_NEIGHBOURS,
-    NEIGHBOURS,
-    OFFSETS,
     FlowSlopes,
     MeshMetric,
     StencilParameters,
     apply_derivatives,
-    reynolds_derivatives,
     reynolds_residual,
 )
 from gearlube_core.ehl.problem import PointContactProblem
@@ -79,6 +77,8 @@ class PointLevel:
         Factors by heat, see `film_properties`; None: 1.
     solids : SolidLayer or None
         Of solids that touch where the film is thin; None: they never do.
+    broken : BrokenFilm or None
+        Of mass-conserving cavitation; None: broken film holds what its gap holds.
     """
 
     _centre = CENTRE  # of the neighbours
@@ -152,6 +152,7 @@ class PointLevel:
         if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
             self.shear = self._film_shear(problem, scales.turned(problem.sliding))
         self.warm: tuple[Array, Array] | None = None
+        self.broken: BrokenFilm | None = None
         self.solids: SolidLayer | None = None
         if (solids := problem.solids) is not None:
             unit = scales.film, scales.pressure
@@ -249,6 +250,8 @@ class PointLevel:
         self._balance(state, state.mass if self.rate is None else self.rate * state.mass)
         if self.storage is not None:
             state.residual[1:-1, 1:-1] -= (self.storage * state.mass)[1:-1, 1:-1]
+        if self.broken is not None:
+            self.broken.settle(self.stencil, self.rate, self.storage, state)
         return state
 
     def _balance(self, state: FilmState, carried: Array) -> None:
@@ -308,7 +311,8 @@ class PointLevel:
                 density_slope=self.rate * state.density_slope,
             )
         stencil = self.stencil._replace(squeeze=self.stencil.squeeze + squeeze)
-        offsets, by_pressure, by_film = self._derivatives(stencil, told, slopes, free)
+        wanted = free if state.ruptured is None else free | state.ruptured
+        offsets, by_pressure, by_film = self._derivatives(stencil, told, slopes, wanted)
         if self.storage is not None:
             kept = np.where(free, self.storage, 0.0)
             kept[[0, -1]] = 0.0
@@ -316,6 +320,11 @@ class PointLevel:
             centre = self._centre
             by_pressure[centre] -= kept * state.density_slope * state.film
             by_film[centre] -= kept * state.density
+        carriage = None
+        if self.broken is not None:
+            carriage = self.broken.linearise(
+                stencil, self.rate, self.storage, state, free, by_pressure, by_film
+            )
         right = np.where(free, -state.residual, 0.0)
         if state.solids is not None:
             free |= add_solids(
@@ -328,8 +337,11 @@ class PointLevel:
                 self._centre,
             )
         by_approach = by_film.sum(axis=0)
+        if carriage is not None:
+            carriage.pass_on(by_approach)
+        result = np.empty(self.shape)
         linear = Linearisation(
-            offsets, by_pressure, by_film, by_approach, free, right, np.empty(self.shape)
+            offsets, by_pressure, by_film, by_approach, free, right, result, carriage=carriage
         )
         if self.border is not None:
             rise = self.border.slope(state.approach)
@@ -342,38 +354,7 @@ class PointLevel:
         self, stencil: StencilParameters, state: FilmState, slopes: FlowSlopes, free: Flags
     ) -> tuple[Offsets, Array, Array]:
         """Return steps to the neighbours and derivatives with respect to pressure and film."""
-        if state.shear is not None:
-            slopes = state.shear.relative(slopes)
-        count = NEIGHBOURS if state.cubic_xy is None else CROSS_NEIGHBOURS
-        by_pressure, by_film = np.empty((2, count, *self.shape))
-        reynolds_derivatives(
-            stencil,
-            self.metric,
-            state.oil,
-            state.film_flow,
-            state.viscosity_slope,
-            state.density,
-            state.density_slope,
-            state.film,
-            slopes,
-            free,
-            by_pressure,
-            by_film,
-        )
-        if state.cubic_xy is not None:
-            add_cross_derivatives(
-                stencil,
-                state.oil,
-                state.cubic_xy,
-                state.fluidity,
-                state.viscosity_slope,
-                state.film,
-                slopes,
-                free,
-                by_pressure,
-                by_film,
-            )
-        return OFFSETS, by_pressure, by_film
+        return flow_derivatives(stencil, self.metric, state, slopes, free)
 
     def apply(
         self,
@@ -395,6 +376,8 @@ class PointLevel:
             (deflection or self.deflection)(pressure),
             linear.result,
         )
+        if linear.carriage is not None:
+            linear.carriage.pass_on(linear.result)
         if approach != 0.0:
             linear.result += approach * linear.by_approach
         return linear.result

@@ -20,12 +20,14 @@ Build = Callable[[Hierarchy, Linearisation], Inverse]
 
 _THINNEST = 0.2  # of the film before a step
 _GROWTH = 1.05  # of the residual that a step may cost
+_BROKEN_GROWTH = 20.0  # where the edge of the oil moves: a node of it comes and goes
 _CUTS = 3
 _UNSOLVED = 0.3  # of a linear residual: the state is too rough to step from
 _FIRST_SHIFT = 0.3  # of the flow through a cell, as a fictitious squeeze rate
 _LARGEST_SHIFT = 100.0
 _LOAD_WEIGHT = 0.1
 _PATIENCE = 9  # steps within which the residual must halve or so
+_BROKEN_PATIENCE = 14
 
 
 @dataclass(slots=True)
@@ -99,6 +101,9 @@ def newton(
     level = hierarchy.levels[-1]
     record = NewtonRecord()
     shift = 0.0
+    broken = level.broken is not None
+    growth = _BROKEN_GROWTH if broken else _GROWTH
+    patience = _BROKEN_PATIENCE if broken else _PATIENCE
     size = flow_residual(level, state)
     record.residuals.append(size)
     for _ in range(most):
@@ -131,7 +136,7 @@ def newton(
             )
             trial_size = flow_residual(level, trial)
             positive = float(trial.film.min()) > thinnest
-            if positive and trial_size < _GROWTH * size:
+            if positive and trial_size < growth * size:
                 accepted = True
                 break
             length *= 0.4
@@ -145,7 +150,7 @@ def newton(
         else:
             shift = max(_FIRST_SHIFT, 4.0 * shift)
         past = record.residuals
-        if shift > _LARGEST_SHIFT or (len(past) > _PATIENCE and size > 0.6 * past[-_PATIENCE]):
+        if shift > _LARGEST_SHIFT or (len(past) > patience and size > 0.6 * past[-patience]):
             break
     record.converged = (
         size <= tolerance

@@ -55,6 +55,8 @@ def fill_rows(
             for k in range(start[row], start[row + 1]):
                 jj = column[k] // nx
                 ii = column[k] - jj * nx
+                if abs(ii - i) > 2:
+                    continue  # oil that came through broken film: beyond the band
                 if jj == j and free[jj, ii]:
                     band[row + ii - i, diagonal - ii + i] += entry[k].real
                 slope = entry[k].imag * across[min(abs(jj - j), 4)]

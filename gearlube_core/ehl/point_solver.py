@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.ehl.point_border import OpenBorder
+from gearlube_core.ehl.point_cavitation import check_cavitation, let_rupture
 from gearlube_core.ehl.point_continuation import solve_level
 from gearlube_core.ehl.point_element_level import ElementLevel
 from gearlube_core.ehl.point_level import PointLevel
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy
+from gearlube_core.ehl.point_starvation import Starvation
 from gearlube_core.ehl.point_state import FilmState
 from gearlube_core.ehl.point_transfer import Transfer
 from gearlube_core.ehl.problem import PointContactProblem, expected_film
@@ -128,15 +130,19 @@ def solve_point_contact(
     ------
     ConvergenceError
         With the reason and a cure.
+    ParameterError
+        The problem does not go with the cavitation of the settings.
 
     Notes
     -----
     Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
     flexible GMRES with a multigrid cycle of line solutions; start on nested grids from the dry
-    contact. References: Venner and Lubrecht 2000 for the equations and the hybrid relaxation;
-    Saad 1993 for GMRES.
+    contact. Mass-conserving cavitation keeps these unknowns: what broken film holds follows from
+    them, node after node downstream. References: Venner and Lubrecht 2000 for the equations and
+    the hybrid relaxation; Saad 1993 for GMRES.
     """
     settings = PointSolverSettings() if settings is None else settings
+    check_cavitation(problem, settings)
     begin = time.perf_counter()
     hierarchy, state, record = nested_film(problem, settings)
     return point_solution(problem, settings, hierarchy, state, record, begin, throw=throw)
@@ -148,9 +154,12 @@ def nested_film(
     """Return the film on nested grids: the grids, the state on the finest, what was done."""
     scales = PointScales.of(problem)
     hierarchy = build_hierarchy(problem, scales, settings.wedge, settings.discretisation)
+    if settings.cavitation == "mass_conserving":
+        let_rupture(hierarchy.levels, problem)
     record = NewtonRecord()
     state = _hertz_start(problem, hierarchy.levels[0])
     count = len(hierarchy.levels)
+    starved = None if problem.inlet_layer is None else Starvation(hierarchy, settings, record)
     for k in range(count):
         part = hierarchy.below(k + 1)
         if k:
@@ -162,6 +171,8 @@ def nested_film(
             state = part.levels[-1].state(pressure, state.approach + lift)
         last = k == count - 1
         tolerance = settings.tolerance if last else _COARSE_TOLERANCE
+        if starved is not None:
+            state = starved.start(part, state, last)
         state = solve_level(part, state, settings, tolerance, record, not last)
     return hierarchy, state, record
 
@@ -186,6 +197,7 @@ def point_solution(
         pressure=scales.outward(state.pressure) * scales.pressure,
         film=scales.outward(state.film) * scales.film,
         approach=state.approach * scales.film,
+        fill=scales.outward(state.mass / (state.density * state.film)),
         outcome=outcome,
         residuals=tuple(record.residuals),
         krylov_steps=record.krylov,

@@ -6,8 +6,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from scipy.sparse import csr_matrix
 
 from gearlube_core.ehl.film_shear import ShearFactors
+from gearlube_core.ehl.point_rupture import carried_entries, pass_on
 from gearlube_core.ehl.point_solids import SolidShare
 from gearlube_core.ehl.point_stencil import FilmFlow
 
@@ -23,7 +25,7 @@ class FilmState:
     pressure: Array
     approach: float  # h_0
     film: Array
-    mass: Array  # rho h
+    mass: Array  # rho h, times the fill where the film is ruptured
     density: Array
     fluidity: Array  # 1/eta
     density_slope: Array
@@ -37,6 +39,7 @@ class FilmState:
     shear: ShearFactors | None = None  # of an Eyring film
     closed: Flags | None = None  # where oil may be above ambient pressure; None: everywhere
     solids: SolidShare | None = None  # None: no solids touch
+    ruptured: Flags | None = None  # holds less oil than its gap; None: no node does
 
     @property
     def oil(self) -> Array:
@@ -60,6 +63,46 @@ class FilmState:
         return free if self.closed is None else free & self.closed
 
 
+@dataclass(frozen=True, slots=True)
+class Carriage:
+    """How changes of what gathers in ruptured nodes reach full ones; arrays of shape (ny, nx)."""
+
+    to_x: Array
+    to_y: Array
+    ruptured: Flags
+
+    def pass_on(self, change: Array) -> None:
+        """Carry rows times a change downstream, in place."""
+        pass_on(self.to_x, self.to_y, self.ruptured, change)
+
+    def matrix(
+        self, offsets: Offsets, by_pressure: Array, by_film: Array, free: Flags
+    ) -> csr_matrix:
+        """Return what free nodes get this way, by pressure (real) and film (imaginary part)."""
+        size = free.size
+        count, room = 0, 40 * sum(free.shape)
+        while True:
+            row, column = np.empty((2, room), dtype=np.int32)
+            entry = np.empty(room, dtype=np.complex128)
+            count = carried_entries(
+                self.to_x,
+                self.to_y,
+                self.ruptured,
+                free,
+                offsets,
+                by_pressure,
+                by_film,
+                row,
+                column,
+                entry,
+            )
+            if count <= room:
+                break
+            room = count
+        parts = entry[:count], (row[:count], column[:count])
+        return csr_matrix(parts, shape=(size, size))
+
+
 @dataclass(slots=True)
 class Linearisation:
     """Derivatives of the residual on one grid at a state."""
@@ -72,3 +115,4 @@ class Linearisation:
     right: Array  # what the derivatives times the changes have to be, (ny, nx)
     result: Array = field(repr=False)
     load_by_approach: float = 0.0  # change of the load that is carried over the load
+    carriage: Carriage | None = None  # of oil through ruptured nodes; None: no node ruptures

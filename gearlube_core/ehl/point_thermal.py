@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.checks import check_within
+from gearlube_core.ehl.point_cavitation import check_cavitation, refuse_rupture
 from gearlube_core.ehl.point_newton import NewtonRecord, flow_residual, newton
 from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.ehl.point_solver import nested_film, point_solution
@@ -151,6 +152,8 @@ def solve_thermal_point(
     thermal = thermal or PointThermalSettings()
     begin = time.perf_counter()
     _check(problem)
+    check_cavitation(problem, settings)
+    refuse_rupture(settings, "with heat")
     hierarchy, state, record = nested_film(problem, settings)
     level = hierarchy.levels[-1]
     energy = FilmTemperature(problem, (solid_1, solid_2), level, thermal.heights)

@@ -29,6 +29,7 @@ def point_traction(
     film: Array,
     sliding: tuple[float, float],
     oil: EhlLubricant,
+    fill: Array | None = None,
 ) -> PointTraction:
     """Return the shear stress at mid-film, along the velocity of body 2 against body 1.
 
@@ -44,11 +45,13 @@ def point_traction(
         u_2 - u_1 along x and y [m/s].
     oil
         Newtonian where its Eyring stress is zero.
+    fill : ndarray, shape (nx, ny)
+        Share of the gap that holds oil [1], which sheared streaks fill; None: 1.
 
     Notes
     -----
     Stress across the sliding, from the pressure's slope there, is left out of Eyring's law. Where
-    the film is broken the gap counts as full of oil at ambient pressure.
+    the film is broken and no fill is given the gap counts as full of oil at ambient pressure.
     Source: Jamali 2015 eq. (3.29a), (3.31), along the sliding.
     """
     shape, p = pressure.shape, np.ascontiguousarray(pressure).ravel()
@@ -59,7 +62,8 @@ def point_traction(
     slopes = np.gradient(pressure, x, y)
     slope = np.ascontiguousarray(along[0] * slopes[0] + along[1] * slopes[1]).ravel()
     h = np.ascontiguousarray(film).ravel()
-    fill_mean_stress(p, slope, h, np.zeros(p.size), eta, speed, oil, tau)
+    void = np.zeros(p.size) if fill is None else np.ascontiguousarray(1.0 - fill).ravel()
+    fill_mean_stress(p, slope, h, void, eta, speed, oil, tau)
     stress = tau.reshape(shape)
     force = float(np.trapezoid(np.trapezoid(stress, y, axis=1), x))
     return PointTraction(eta.reshape(shape), rho.reshape(shape), stress, force)

@@ -88,6 +88,9 @@ class PointContactProblem:
     oil_beyond
         Oil goes on beyond the domain, between the paraboloids `hertz` around zero: the border
         has its pressure, and it carries its share of the load.
+    inlet_layer
+        Thickness of the oil that both surfaces together bring to the upstream border [m], for
+        mass-conserving cavitation; None: the gap is full there.
 
     Raises
     ------
@@ -107,6 +110,7 @@ class PointContactProblem:
     sliding: tuple[float, float] | None = None
     solids: SolidContact | None = None
     oil_beyond: bool = False
+    inlet_layer: float | None = None
 
     def __post_init__(self) -> None:
         for axis, speed in zip("xy", self.entrainment, strict=True):
@@ -118,6 +122,13 @@ class PointContactProblem:
         check_within(
             "contact_modulus", self.contact_modulus, 1e5, 1e13, "Pa", "115 GPa is 1.15e11 Pa."
         )
+        if self.inlet_layer is not None:
+            check_within("inlet_layer", self.inlet_layer, 1e-10, 1.0, "m")
+            if self.oil_beyond:
+                raise ParameterError(
+                    f"inlet_layer is {self.inlet_layer:g} m, but oil_beyond floods the border. "
+                    "Give one of them."
+                )
         for axis, limits in (("x", self.x_limits), ("y", self.y_limits)):
             low = check_finite(f"{axis}_limits[0]", limits[0], "m")
             check_positive(f"{axis}_limits[1] - {axis}_limits[0]", limits[1] - low, "m")
@@ -215,6 +226,7 @@ def elliptical_contact(
     outlet: float | None = None,
     side: float | None = None,
     oil_beyond: bool | None = None,
+    inlet_layer: float | None = None,
 ) -> PointContactProblem:
     """Return the problem of two smooth solids on a domain that floods the inlet.
 
@@ -228,8 +240,10 @@ def elliptical_contact(
         Extent of the domain upstream, downstream and to the sides, in semi-axes of the dry
         contact along the same axis [1]. By default as far as the film needs.
     oil_beyond
-        As in `PointContactProblem`. None: where the domain is the default one and oil outside
-        would carry more than 2.5 % of the load.
+        As in `PointContactProblem`. None: where the domain is the default one, flooded, and oil
+        outside would carry more than 2.5 % of the load.
+    inlet_layer
+        As in `PointContactProblem`.
 
     Returns
     -------
@@ -256,12 +270,13 @@ def elliptical_contact(
         nodes=nodes,
         hertz=shape,
         sliding=sliding,
+        inlet_layer=inlet_layer,
     )
     film = expected_film(problem)
     extent = inlet, outlet, side
     near = _on_domain(problem, film, extent, 0.0)
     if oil_beyond is None:
-        own = all(reach is None for reach in extent)
+        own = inlet_layer is None and all(reach is None for reach in extent)
         oil_beyond = own and near.far_field().load(film)[0] > _LOAD_BEYOND * load
     if oil_beyond:
         return replace(near, oil_beyond=True)

@@ -17,6 +17,7 @@ WEDGE_WEIGHTS = {
 
 
 DISCRETISATIONS = ("differences", "elements")
+CAVITATION = ("reynolds", "mass_conserving")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,6 +31,10 @@ class PointSolverSettings:
         upwinded where pressure hardly flows, or of first order for `upwind-1`.
     discretisation
         `differences` of finite volumes or bilinear finite `elements`.
+    cavitation
+        `reynolds`: pressure and its gradient vanish where the film breaks, and its gap counts as
+        full behind. `mass_conserving`: what broken film holds is found as well, after Jakobsson,
+        Floberg and Olsson.
     tolerance
         Limit of the flow residual: sum over the nodes of what flows in but not out, over the
         flow through the width of the dry contact at the central film [1].
@@ -46,6 +51,7 @@ class PointSolverSettings:
 
     wedge: str = "upwind-2"
     discretisation: str = "differences"
+    cavitation: str = "reynolds"
     tolerance: float = 1e-6
     load_tolerance: float = 1e-6
     fall_back: bool = True
@@ -55,6 +61,12 @@ class PointSolverSettings:
     def __post_init__(self) -> None:
         check_option("wedge", self.wedge, WEDGE_WEIGHTS)
         check_option("discretisation", self.discretisation, DISCRETISATIONS)
+        check_option("cavitation", self.cavitation, CAVITATION)
+        if self.discretisation == "elements" and self.cavitation == "mass_conserving":
+            raise ParameterError(
+                "elements have no flux between nodes that oil in broken film could follow. Take "
+                "differences with mass-conserving cavitation."
+            )
         check_within("tolerance", self.tolerance, 1e-11, 1e-2)
         check_within("load_tolerance", self.load_tolerance, 1e-11, 1e-2)
         for name in ("newton_steps", "krylov_steps"):

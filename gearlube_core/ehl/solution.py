@@ -126,6 +126,7 @@ class PointSolution:
     problem: PointContactProblem
     pressure: Array  # of oil and solids [Pa]
     film: Array  # [m]
+    fill: Array  # share of the gap that holds oil [1]; 1 where cavitation conserves no mass
     approach: float  # h_0 [m]
     outcome: PointOutcome
     residuals: tuple[float, ...]  # of every Newton step on all grids [1]

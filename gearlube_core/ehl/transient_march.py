@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.ehl.point_cavitation import refuse_rupture
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.point_state import FilmState, Linearisation
@@ -100,6 +101,7 @@ class FilmMarch:
         check_within("start_time", start_time, -1e9, 1e9, "s")
         if settings is None:
             settings = MARCH_SETTINGS
+        refuse_rupture(settings, "that changes in time")
         self.film, self.time_step, self.start_time = film, time_step, start_time
         self.scheme, self.settings, self.steps = scheme, settings, 0
         self._grids = film.row_grids(settings.wedge) if film.long else film.grids(settings.wedge)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.ehl.dry_contact import dry_contact_of_gap
+from gearlube_core.ehl.point_cavitation import refuse_rupture
 from gearlube_core.ehl.point_continuation import solve_level
 from gearlube_core.ehl.point_newton import Build, NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
@@ -61,6 +62,7 @@ def steady_state(
     film: MovingFilm, grids: Hierarchy, settings: PointSolverSettings
 ) -> tuple[FilmState, NewtonRecord]:
     """Return the steady state on the finest grid under the conditions that the grids hold."""
+    refuse_rupture(settings, "that changes in time")
     coarsest = grids.levels[0]
     assert isinstance(coarsest, MovingLevel)
     state = dry_start(film, coarsest)

@@ -100,6 +100,20 @@ def test_a_point_writes_dataset_summary_and_figures(tmp_path):
     assert dataset.attrs["friction_force"] == pytest.approx(force, rel=1e-9)
     sources = {row["source"] for row in summary if row["quantity"] == "minimum film"}
     assert sources == {"solution", "Hamrock and Dowson 1977", "Chittenden et al. 1985"}
+    assert (dataset["fill"] == 1.0).all()
+
+
+def test_a_point_that_conserves_mass_writes_what_broken_film_holds(tmp_path):
+    options = ("--nodes", 33, "--slide-roll", 0.1, "--cavitation", "mass_conserving")
+    assert run("point", *options, "--out", tmp_path).exit_code == 0
+    dataset, _ = written(tmp_path, "point")
+    fill = dataset["fill"]
+    assert 0.0 < fill.min() < 0.5
+    assert (dataset["pressure"].where(fill < 1.0, 0.0) == 0.0).all()
+    # sheared streaks cover the share of the surface that they fill
+    stress = fill * dataset["viscosity"] * 0.009 / dataset["film"]
+    force = np.trapezoid(np.trapezoid(stress, dataset["y"]), dataset["x"])
+    assert dataset.attrs["friction_force"] == pytest.approx(force, rel=1e-9)
 
 
 def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
@@ -259,7 +273,8 @@ def test_defaults_are_shipped_cases(asked):
 def test_options_replace_what_the_case_says(asked):
     options = ("--load", 100, "--entrainment", 2.0, "--slide-roll", 0.5, "--nodes", 301)
     assert run("line", *options, "--stencil", "central").exit_code == 0
-    assert run("point", *options, "--wedge", "quick").exit_code == 0
+    cavitation = ("--cavitation", "mass_conserving")
+    assert run("point", *options, "--wedge", "quick", *cavitation).exit_code == 0
     line, point = (call["case"] for call in asked)
     assert (line.load_n_per_mm, point.load_n) == (100.0, 100.0)
     for case in (line, point):
@@ -267,6 +282,7 @@ def test_options_replace_what_the_case_says(asked):
     assert (line.solver.nodes, line.solver.stencil) == (301, "central")
     assert (point.solver.nodes_x, point.solver.nodes_y) == (301, 301)
     assert point.solver.wedge == "quick"
+    assert point.settings().cavitation == "mass_conserving"
 
 
 def test_a_film_has_the_mesh_of_the_gear_file_or_of_the_options(asked, tmp_path):

@@ -143,3 +143,23 @@ def test_a_point_contact_is_discretised_as_its_file_says():
     assert case.settings().discretisation == "elements"
     with pytest.raises(ParameterError, match=r"solver\.discretisation must be a text, differences"):
         point(solver={"discretisation": "volumes"})
+
+
+def test_a_starved_point_needs_its_cavitation():
+    solver = {"cavitation": "mass_conserving"}
+    case = point(inlet_layer_um=0.25, solver=solver)
+    assert case.problem().inlet_layer == pytest.approx(2.5e-7)
+    assert case.settings().cavitation == "mass_conserving"
+    # oil beyond the border would flood it
+    assert not case.problem().oil_beyond
+    for changes, words in (
+        ({"inlet_layer_um": 0.25}, "a starved inlet needs cavitation mass_conserving"),
+        ({"inlet_layer_um": 0.0, "solver": solver}, "inlet_layer_um"),
+        (
+            {"inlet_layer_um": 0.25, "solver": solver, "domain": {"oil_beyond": True}},
+            "oil_beyond floods the border",
+        ),
+        ({"solver": {**solver, "discretisation": "elements"}}, "elements have no flux"),
+    ):
+        with pytest.raises(ParameterError, match=words):
+            point(**changes)
