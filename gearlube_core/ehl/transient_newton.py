@@ -25,9 +25,8 @@ _GROWTH = 1.2  # of the residual that a step may cost
 _CUTS = 4
 _LOAD_WEIGHT = 0.1
 _ENOUGH = 0.2  # of the residual that ends the iteration, for a linear solution
-_FIRST_FORCING = 0.03  # of the residual, for the first linear solution
-_FORCING = 0.3  # of the share of the residual that the last step left
-_LARGEST_FORCING = 0.15
+_FORCING = 0.3  # of the share of the residual that the last step left, for a linear solution
+_LARGEST_FORCING = 0.03  # rougher ones lose solids that touch
 
 
 @dataclass(slots=True)
@@ -151,7 +150,7 @@ def step_newton(
     level = kept.hierarchy.levels[-1]
     assert isinstance(level, MovingLevel)
     size = flow_residual(level, state)
-    krylov, steps, before, forcing = 0, 0, kept.renewals, _FIRST_FORCING
+    krylov, steps, before, forcing = 0, 0, kept.renewals, _LARGEST_FORCING
     while steps < most:
         if size <= tolerance and abs(state.load_error) <= load_tolerance:
             break
