@@ -37,8 +37,9 @@ The tables are written by `python -m docs.ehl_case_file` from the data models
 not edited by hand.
 
 `gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts
-ship, `jamali_2015` and `jamali_2015_thermal`, and two point contacts, `mourier_2006` and
-`elliptical` (`gearlube_core/ehl/data/`); `gearlube ehl line --example` prints one to start from.
+ship, `jamali_2015` and `jamali_2015_thermal`, and three point contacts, `mourier_2006`,
+`elliptical` and `elliptical_thermal` (`gearlube_core/ehl/data/`); `gearlube ehl line --example`
+prints one to start from.
 Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md), whose
 `[film_mesh]` can set the nodes denser where the film leaves the contact. A hypoid
 flank, `gearlube ehl hypoid my_case.toml`, takes its contacts from a mesh table; `mohammadpour_2015`
@@ -51,7 +52,11 @@ follows is about lines and points.
 - `reduced_modulus_gpa` is E' = 2 E*, with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Left out, it is
   that of the bodies, which are steel where nothing is said.
 - An oil is one of the library at a temperature, or its own numbers. An Eyring stress acts on flow
-  and friction, a limiting stress on friction alone.
+  and friction. A limiting stress acts on the friction, and in point contacts of an oil with an
+  Eyring stress on the flow as well: beyond it the film slips.
+- `temperature = "thermal"` solves the energy balance with the film: temperatures across it and of
+  both surfaces, for lines and points. The oil then needs `law = "houpert"`. In point contacts
+  entrainment and sliding point anywhere and either surface may stand; heat is balanced to 1e-6.
 
 ## Shapes of the gap
 
@@ -84,6 +89,7 @@ Of one core of a small server, from the dry contact on, without the compilation 
 | line with heat, `jamali_2015_thermal` | 1001 | 0.4 s | 0.26 GiB |
 | point, `mourier_2006` | 129 x 129 | 0.5 s | 0.31 GiB |
 | point, `mourier_2006` | 257 x 257 | 1.3 s | 0.38 GiB |
+| point with heat, `elliptical_thermal` | 129 x 129 | 2.5 s | 0.4 GiB |
 | point, `mourier_2006` | 513 x 513 | 4.0 s | 0.62 GiB |
 | helical line marching, `jamali_2015_a` | 97 x 257 | 0.4 s a step | 0.41 GiB |
 

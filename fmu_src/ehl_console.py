@@ -24,6 +24,7 @@ from gearlube_core.ehl.helical_film import HelicalFilm
 from gearlube_core.ehl.line_solver import solve_line
 from gearlube_core.ehl.line_thermal import solve_thermal_line
 from gearlube_core.ehl.point_solver import solve_point_contact
+from gearlube_core.ehl.point_thermal import solve_thermal_point
 from gearlube_core.ehl.transient_march import MARCH_SETTINGS
 from gearlube_core.whole_file import write_dataset, write_text
 
@@ -53,9 +54,11 @@ def console_point(console: Console, *, case: PointCase, out: Path) -> str:
     _warn_of_heights(case)
 
     def solve() -> xr.Dataset:
-        return point_dataset(
-            case, solve_point_contact(case.problem(), case.settings(), throw=False)
-        )
+        problem, settings = case.problem(), case.settings()
+        if case.temperature == "thermal":
+            warm = solve_thermal_point(problem, *case.solids, settings, throw=False)
+            return point_dataset(case, warm)
+        return point_dataset(case, solve_point_contact(problem, settings, throw=False))
 
     nodes = f"{case.solver.nodes_x} x {case.solver.nodes_y}"
     return _console(console, ("point", case.name), f"film on {nodes} nodes", solve, out)

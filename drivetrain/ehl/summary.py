@@ -44,10 +44,10 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
     if of["contact"] == "line":
         rows.append(_own("force of the film on body 1", of["friction_1"], "N/m"))
         rows.append(_own("force of the film on body 2", of["friction_2"], "N/m"))
-        if math.isfinite(of["temperature_max"]):
-            rise = of["temperature_max"] - of["temperature_inlet"]
-            rows.append(_own("highest temperature above the inlet", rise, "K"))
-            rows.append(_own("turns of film and energy", of["turns"], "1"))
+    if math.isfinite(of.get("temperature_max", math.nan)):
+        rise = of["temperature_max"] - of["temperature_inlet"]
+        rows.append(_own("highest temperature above the inlet", rise, "K"))
+        rows.append(_own("turns of film and energy", of["turns"], "1"))
     rows += [_own(f"group {key}", of[f"group_{key}"], "1") for key in "ML" if f"group_{key}" in of]
     return [
         *rows,

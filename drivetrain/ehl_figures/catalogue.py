@@ -24,7 +24,12 @@ from drivetrain.ehl_figures.line_contact import (
     line_shear,
     line_temperature,
 )
-from drivetrain.ehl_figures.point_contact import point_contours, point_sections, point_shear
+from drivetrain.ehl_figures.point_contact import (
+    point_contours,
+    point_sections,
+    point_shear,
+    point_temperature,
+)
 
 Draw = Callable[[xr.Dataset], Any]
 LINE_CATALOGUE: dict[str, Draw] = {
@@ -38,6 +43,7 @@ POINT_CATALOGUE: dict[str, Draw] = {
     "contours": point_contours,
     "sections": point_sections,
     "shear": point_shear,
+    "temperature": point_temperature,
     "residuals": residual_history,
 }
 HELICAL_CATALOGUE: dict[str, Draw] = {
@@ -81,7 +87,7 @@ def drawn_figures(dataset: xr.Dataset) -> list[str]:
     """Return the names of the figures for which a dataset holds data."""
     of = dataset.attrs
     left_out = set()
-    if of["contact"] == "line" and "temperature" not in dataset:
+    if of["contact"] in ("line", "point") and "temperature" not in dataset:
         left_out.add("temperature")
     if of["contact"] == "point" and of["sliding_x"] == of["sliding_y"] == 0.0:
         left_out.add("shear")

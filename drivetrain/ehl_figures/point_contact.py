@@ -92,6 +92,26 @@ def point_shear(dataset: xr.Dataset) -> Any:
     return figure
 
 
+def point_temperature(dataset: xr.Dataset) -> Any:
+    """Return contours of the rise of temperature in the middle of the film and of the surfaces."""
+    with house_style():
+        figure = new_figure(13.0, 4.6)
+        inlet = dataset.attrs["temperature_inlet"]
+        places = (1e3 * dataset["x"].values, 1e3 * dataset["y"].values)
+        axes = figure.subplots(1, 3)
+        titles = ("body 1", "middle of the film", "body 2")
+        for ax, name, title in zip(axes, ("1", "middle", "2"), titles, strict=True):
+            rise = dataset[f"temperature_{name}"].values.T - inlet
+            levels = contour_levels(min(float(rise.min()), 0.0), max(float(rise.max()), 1e-3))
+            drawn = ax.contourf(*places, rise, levels=levels, cmap="magma_r")
+            figure.colorbar(drawn, ax=ax, label="above the inlet [K]")
+            ax.set_title(f"{title}, up to {rise.max():.3g} K")
+            _plan(ax, dataset, GREY)
+        what = f"temperature, friction {dataset.attrs['friction_coefficient']:.4f}"
+        figure.suptitle(_title(dataset, what + _stretch(dataset)), fontsize=11.5)
+    return figure
+
+
 def contour_levels(low: float, high: float) -> Any:
     """Return round numbers from the one below `low` to the one above `high`."""
     from matplotlib.ticker import MaxNLocator

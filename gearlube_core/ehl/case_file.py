@@ -22,6 +22,7 @@ from gearlube_core.ehl.case_surfaces import (
 from gearlube_core.ehl.line_problem import LineProblem, LineSettings
 from gearlube_core.ehl.micro_geometry import RoughGap
 from gearlube_core.ehl.point_cavitation import check_cavitation
+from gearlube_core.ehl.point_thermal import check_thermal
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.errors import ParameterError
@@ -38,6 +39,10 @@ LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]
 Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
+Heat = Annotated[
+    Literal["isothermal", "thermal"],
+    Field(description="thermal: with the energy balance of oil and bodies"),
+]
 
 
 class EhlCase(InputFile):
@@ -118,9 +123,7 @@ class LineCase(EhlCase):
     inlet_fill: Fill = Field(
         default=1.0, description="Share of the inlet gap that holds oil; 1: flooded"
     )
-    temperature: Literal["isothermal", "thermal"] = Field(
-        default="isothermal", description="thermal: with the energy balance of oil and bodies"
-    )
+    temperature: Heat = "isothermal"
     domain: LineDomain | None = None
     profile: ProfileFile | None = None
     solver: LineSolver = LineSolver()
@@ -181,6 +184,7 @@ class PointCase(EhlCase):
         description="Oil that both surfaces together bring to the inlet, for mass_conserving "
         "cavitation; left out: flooded",
     )
+    temperature: Heat = "isothermal"
     domain: PointDomain = PointDomain()
     height_map: MapFile | None = None
     ridge: RidgeShape | None = None
@@ -193,6 +197,8 @@ class PointCase(EhlCase):
         _in_si(self._smooth, self.settings)
         _in_si(lambda: check_cavitation(self._smooth(), self.settings()))
         _refused(self.problem)
+        if self.temperature == "thermal":
+            _refused(lambda: check_thermal(self._smooth(), self.settings()))
         return self
 
     @property
@@ -234,7 +240,7 @@ class PointCase(EhlCase):
             load=self.load_n,
             contact_modulus=0.5 * self.modulus,
             lubricant=oil,
-            sliding=self.sliding if oil.tau0 > 0.0 else None,
+            sliding=self.sliding if oil.tau0 > 0.0 or self.temperature == "thermal" else None,
             nodes=(self.solver.nodes_x, self.solver.nodes_y),
             inlet=self.domain.inlet,
             outlet=self.domain.outlet,

@@ -151,9 +151,7 @@ def solve_thermal_point(
     settings = settings or PointSolverSettings()
     thermal = thermal or PointThermalSettings()
     begin = time.perf_counter()
-    _check(problem)
-    check_cavitation(problem, settings)
-    refuse_rupture(settings, "with heat")
+    check_thermal(problem, settings)
     hierarchy, state, record = nested_film(problem, settings)
     level = hierarchy.levels[-1]
     energy = FilmTemperature(problem, (solid_1, solid_2), level, thermal.heights)
@@ -192,7 +190,10 @@ def solve_thermal_point(
     return _solution(energy, state, solved, tuple(balances), converged, outcome, begin)
 
 
-def _check(problem: PointContactProblem) -> None:
+def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -> None:
+    """Refuse a contact that has no thermal film; see `solve_thermal_point`."""
+    check_cavitation(problem, settings)
+    refuse_rupture(settings, "with heat")
     if problem.sliding is None:
         raise ParameterError(
             "A thermal film needs `sliding`: the velocity of body 2 against body 1, (0, 0) where "

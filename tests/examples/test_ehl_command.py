@@ -17,7 +17,7 @@ from fmu_src import cli, ehl_console, ehl_march_console
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube_core.ehl.case_file import LineCase, PointCase
 from gearlube_core.ehl.helical_film import EXIT_GRADING, jamali_2015_film
-from gearlube_core.errors import ConvergenceError
+from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
 
@@ -114,6 +114,27 @@ def test_a_point_that_conserves_mass_writes_what_broken_film_holds(tmp_path):
     stress = fill * dataset["viscosity"] * 0.009 / dataset["film"]
     force = np.trapezoid(np.trapezoid(stress, dataset["y"]), dataset["x"])
     assert dataset.attrs["friction_force"] == pytest.approx(force, rel=1e-9)
+
+
+def test_a_thermal_point_writes_its_temperatures(tmp_path):
+    result = run("point", "elliptical_thermal", "--nodes", 33, "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    dataset, summary = written(tmp_path, "point")
+    assert "temperature" in drawn_figures(dataset)
+    rise = float(dataset["temperature"].max()) - 313.15
+    (row,) = [r for r in summary if r["quantity"] == "highest temperature above the inlet"]
+    assert 0.0 < rise == pytest.approx(float(row["value"]), rel=1e-4)
+    assert dataset["temperature"].values[..., -1] == pytest.approx(dataset["temperature_2"].values)
+    assert dataset["heat_balance_history"][-1] <= 1e-6
+    # what sliding works against the film becomes heat
+    heat = np.trapezoid(np.trapezoid(dataset["heating"], dataset["y"]), dataset["x"])
+    slip = np.hypot(dataset.attrs["sliding_x"], dataset.attrs["sliding_y"])
+    assert heat == pytest.approx(dataset.attrs["friction_force"] * slip, rel=0.05)
+
+
+def test_a_point_whose_oil_does_not_know_temperature_is_refused():
+    with pytest.raises(ParameterError, match="houpert"):
+        PointCase.named("elliptical").varied({"temperature": "thermal"})
 
 
 def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
