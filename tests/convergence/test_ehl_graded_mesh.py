@@ -22,6 +22,14 @@ def _line(step: float, nodes: int, **options: Any) -> FilmSolution:
     return solve_helical_line(film, step, PointSolverSettings(wedge="quick"))
 
 
+def _smallest_film(solution: FilmSolution) -> float:
+    """Return the film where it is smallest on the row of the thinnest node, between nodes."""
+    i, j = np.unravel_index(int(solution.film.argmin()), solution.film.shape)
+    x, film = solution.x[i - 1 : i + 2], solution.film[i - 1 : i + 2, j]
+    bend, slope, height = np.polyfit((x - x[1]) / (x[2] - x[0]), film, 2)
+    return float(height - 0.25 * slope**2 / bend)
+
+
 def _film_in_the_middle(solution: FilmSolution) -> float:
     return float(np.interp(0.0, solution.x, solution.film[:, ROWS // 2]))
 
@@ -31,10 +39,10 @@ def test_a_graded_mesh_is_as_right_as_a_uniform_one_of_its_finest_spacing(step: 
     graded = _line(step, 129, grading=EXIT_GRADING)
     thesis, fine = _line(step, 182), _line(step, 385)
     # 182 nodes: a/40; the smallest film is 1 to 2 % below that of a/85 with it
-    error = abs(thesis.minimum_film / fine.minimum_film - 1.0)
+    error = abs(_smallest_film(thesis) / _smallest_film(fine) - 1.0)
     assert error < 0.025
-    assert abs(graded.minimum_film / fine.minimum_film - 1.0) < 1.2 * error
-    # a third as dense over contact and inlet: pressure there to 1e-3, film to 2e-3
+    assert abs(_smallest_film(graded) / _smallest_film(fine) - 1.0) < 1.1 * error
+    # half as dense in the contact, a quarter in the inlet: pressure there to 1e-3, film to 2e-3
     assert graded.maximum_pressure == pytest.approx(fine.maximum_pressure, rel=1e-3)
     assert _film_in_the_middle(graded) == pytest.approx(_film_in_the_middle(fine), rel=2e-3)
 
@@ -48,14 +56,14 @@ def test_errors_on_a_graded_mesh_fall_with_its_nodes() -> None:
             (
                 abs(_film_in_the_middle(graded) / _film_in_the_middle(fine) - 1.0),
                 abs(graded.maximum_pressure / fine.maximum_pressure - 1.0),
-                abs(graded.minimum_film / fine.minimum_film - 1.0),
+                abs(_smallest_film(graded) / _smallest_film(fine) - 1.0),
             )
         )
     (central, pressure, smallest), finer = errors
-    # second order and better where the film is smooth, first order at the edge of the contact;
-    # the largest pressure is that of a node, 1e-4 below the peak or so
+    # second order and better where the film is smooth, first order at the edge of the contact
     assert finer[0] < 0.3 * central
-    assert finer[1] < 0.5 * pressure
+    # the largest pressure is that of a node, up to 1e-4 below the peak
+    assert max(pressure, finer[1]) < 1e-4
     assert finer[2] < 0.7 * smallest
 
 
