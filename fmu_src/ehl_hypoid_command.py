@@ -54,6 +54,13 @@ def hypoid(
     oil_temperature: Annotated[
         float | None, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
     ] = None,
+    temperature: Annotated[
+        str | None,
+        typer.Option(
+            help="thermal: also steady films with heat; needs --no-march.",
+            metavar="isothermal|thermal",
+        ),
+    ] = None,
     flow: Annotated[
         str | None,
         typer.Option(
@@ -108,6 +115,7 @@ def hypoid(
             "entrainment": entrainment,
             "oil": oil,
             "oil_temperature_degc": oil_temperature,
+            "temperature": temperature,
             "flow": flow,
             "first_phase": first,
             "last_phase": last,

@@ -17,7 +17,10 @@ from fmu_src.progress_bar import progress_bar
 from gearlube_core.ehl.film_curves import FilmCurves
 from gearlube_core.ehl.hypoid_case_file import HypoidCase
 from gearlube_core.ehl.hypoid_cycle import march_flank, steady_films
+from gearlube_core.ehl.hypoid_thermal import thermal_films
 from gearlube_core.ehl.transient_film import FilmSolution
+from gearlube_core.errors import ParameterError
+from gearlube_core.rheology.houpert_1985 import houpert_parameters
 from gearlube_core.whole_file import write_dataset, write_text
 
 logger = logging.getLogger("gearlube")
@@ -33,6 +36,12 @@ def console_hypoid(
 
     The march goes on from its last record in `out`, if there is one.
     """
+    warm_too = case.temperature == "thermal"
+    if warm_too and march:
+        raise ParameterError(
+            "temperature is thermal, but films in time are isothermal: heat has no history yet. "
+            "Leave the march out (--no-march)."
+        )
     flank = hypoid_flank(case)
     _warn_of_light_films(flank)
     out.mkdir(parents=True, exist_ok=True)
@@ -40,7 +49,7 @@ def console_hypoid(
     times = np.linspace(cycle.time[0], cycle.time[-1], solver.steady)
     rows = tuple(np.linspace(0, solver.steady - 1, kept + 2).round().astype(int)[1:-1].tolist())
     with progress_bar(console) as bar:
-        total = solver.steady + (solver.steps if march else 0)
+        total = solver.steady * (2 if warm_too else 1) + (solver.steps if march else 0)
         task = bar.add_task("steady films", total=total)
 
         def observe(done: int, solution: FilmSolution, what: str) -> None:
@@ -69,8 +78,25 @@ def console_hypoid(
                 progress=lambda n, _, film: observe(solver.steady + n, film, "film in time"),
                 throw=False,
             )
+        warm = None
+        if warm_too:
+
+            def observe_warm(n: int, _: int, smallest: float) -> None:
+                words = f"thermal film, smallest {1e9 * smallest:.0f} nm"
+                bar.update(task, completed=solver.steady + n + 1, description=words)
+
+            solid = flank.parameters.solid
+            warm = thermal_films(
+                flank.film,
+                times,
+                (solid, solid),
+                houpert_parameters(flank.parameters.oil).S0,
+                settings=case.settings(),
+                progress=observe_warm,
+                throw=False,
+            )
         bar.update(task, completed=total, description="files and figures")
-        dataset = hypoid_dataset(flank, steady, curves)
+        dataset = hypoid_dataset(flank, steady, curves, warm)
         found = ratio_rows(dataset)
         write_dataset(dataset, out / "hypoid.nc")
         write_text(ratio_csv(found), out / "summary.csv")

@@ -49,6 +49,12 @@ VARIANTS = (
         False,
     ),
     Variant(
+        "thermal",
+        "The same, with heat in the steady films",
+        {"temperature": "thermal", "solver.steady": HALF},
+        False,
+    ),
+    Variant(
         "moving_contact",
         "The same, entrainment against the moving point of contact",
         {"entrainment": "moving_contact", "solver.steady": HALF},
@@ -119,6 +125,19 @@ def findings(drive: list[RatioRow], sets: dict[str, xr.Dataset]) -> str:
     like = of(drive, "friction", "Evans and Johnson, film and Roelands").load_weighted_mean
     cool = of(drive, "friction", "Eyring, isothermal").load_weighted_mean
     squeeze = of(drive, "central film", "in time")
+    thermal = ratio_rows(sets["thermal"])
+    hot = {row.quantity: row for row in thermal if row.source == "solution, thermal"}
+    hot_film = of(thermal, "central film", "thermal, over isothermal")
+    hot_min = of(thermal, "minimum film", "thermal, over isothermal")
+    cooled = of(thermal, "friction", "thermal, over isothermal Eyring").load_weighted_mean
+    heated = of(thermal, "friction", "thermal, over heated Eyring").load_weighted_mean
+
+    def over(source: str) -> float:
+        return of(thermal, "friction", f"{source}, over thermal").load_weighted_mean
+
+    def loss(least: float, largest: float) -> str:
+        return f"{100.0 * (1.0 - largest):.1f} to {100.0 * (1.0 - least):.1f} %"
+
     return f"""## What the runs say
 
 - **Chittenden at the entrainment's angle**, the film of the axle model, is
@@ -135,6 +154,17 @@ def findings(drive: list[RatioRow], sets: dict[str, xr.Dataset]) -> str:
   solution's film and Roelands' viscosity at the mean pressure in place of exp(alpha p) it is
   {like:.2f}: most of the excess is the exponential. Heat takes little here: friction at the oil's
   temperature throughout is {cool:.2f} times the heated one.
+- **Heat** in the whole contact, surfaces included, takes more: the film is up to
+  {hot["rise in the film"].largest:.0f} K and a flank's surface up to
+  {hot["rise of a surface"].largest:.0f} K above the oil, both flanks in bulk at the oil's
+  temperature. Central films lose {loss(hot_film.least, hot_film.largest)}, smallest ones
+  {loss(hot_min.least, hot_min.largest)}. Friction is {cooled:.2f} times that at the oil's
+  temperature and {heated:.2f} times the one heated across the film with cool surfaces, of which
+  the lines above tell. Evans and Johnson's formula, which knows both parts of the heat, is
+  {over("Evans and Johnson 1986"):.2f} times the friction of the thermal films, with the
+  solution's film and Roelands' viscosity
+  {over("Evans and Johnson, film and Roelands"):.2f}: its excess over the solution is larger than
+  the isothermal films let it seem.
 - **Eyring's flow** changes the central film by {h_c}, the smallest one by
   {h_min} and the friction by {friction}
   against a film that flows as a Newtonian one. It flattens the pressure spikes of the lightly

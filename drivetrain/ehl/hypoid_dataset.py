@@ -44,6 +44,20 @@ _FORMULA_NOTES = {
     "asperity_share": ("1", "share of asperities in it"),
     "regime": ("1", "traction: 0 Newtonian, 1 Eyring, 2 elastic-plastic"),
 }
+_WARM_NOTES = {
+    "central_film": ("m", "film in the centre of the dry contact, thermal"),
+    "minimum_film": ("m", "smallest film, thermal"),
+    "cold_central_film": ("m", "central film on the same grid, isothermal"),
+    "cold_minimum_film": ("m", "smallest film on the same grid, isothermal"),
+    "pressure_max": ("Pa", "largest pressure, thermal"),
+    "traction": ("1", "friction along sliding, thermal"),
+    "rise_max": ("K", "highest temperature in the film above the inlet"),
+    "rise_surface": ("K", "highest temperature of a surface above the inlet"),
+    "heat_balance": ("1", "heat that is not balanced over that of shear"),
+    "turns": ("1", "turns of film and energy"),
+    "converged": ("1", "1 where the thermal film converged"),
+    "seconds": ("s", "time that the solution took"),
+}
 _CONTACT_NOTES = {
     "phase": ("1", "mesh periods from the middle of the pair's window"),
     "given_load": ("N", "load on the pair"),
@@ -57,7 +71,10 @@ _CONTACT_NOTES = {
 
 
 def hypoid_dataset(
-    flank: HypoidFlank, steady: FilmCurves, march: FilmCurves | None = None
+    flank: HypoidFlank,
+    steady: FilmCurves,
+    march: FilmCurves | None = None,
+    warm: FilmCurves | None = None,
 ) -> xr.Dataset:
     """Return films, formulas and what acts, over `position` (steady) and `step` (in time).
 
@@ -69,6 +86,8 @@ def hypoid_dataset(
         Films as if each position had lasted; those kept whole lie along `instant`.
     march
         Films in time; None: left out.
+    warm
+        Thermal films of the positions; None: left out.
     """
     variables: dict[str, Any] = _curves(flank, steady, "position", "steady_")
     if march is not None:
@@ -95,7 +114,13 @@ def hypoid_dataset(
             there = np.interp(steady["time"], flank.film.cycle.time, values)
             variables[name] = ("position", there, unit_note(*note))
     variables |= _whole_films(flank, steady)
-    case, failures = flank.case, steady.failures + (0 if march is None else march.failures)
+    if warm is not None:
+        variables |= {
+            f"warm_{name}": ("position", warm[name], unit_note(*note))
+            for name, note in _WARM_NOTES.items()
+        }
+    case = flank.case
+    failures = sum(curves.failures for curves in (steady, march, warm) if curves is not None)
     return xr.Dataset(
         variables,
         attrs={

@@ -29,6 +29,19 @@ _RATIOS = (
     ("friction", "axle, with asperities", "axle_friction", _FRICTION),
     ("friction", "Eyring, isothermal", "steady_traction_eyring", _FRICTION),
 )
+# of thermal films, where there are any
+_WARM = (
+    ("central film", "thermal, over isothermal", "warm_central_film", "warm_cold_central_film"),
+    ("minimum film", "thermal, over isothermal", "warm_minimum_film", "warm_cold_minimum_film"),
+    ("friction", "thermal, over heated Eyring", "warm_traction", _FRICTION),
+    ("friction", "thermal, over isothermal Eyring", "warm_traction", "steady_traction_eyring"),
+    ("friction", "Evans and Johnson 1986, over thermal", "evans_johnson", "warm_traction"),
+    ("friction", "Evans and Johnson, solved film, over thermal", "evans_johnson_solved",
+     "warm_traction"),
+    ("friction", "Evans and Johnson, film and Roelands, over thermal", "evans_johnson_roelands",
+     "warm_traction"),
+    ("friction", "axle, with asperities, over thermal", "axle_friction", "warm_traction"),
+)  # fmt: skip
 _SQUEEZE = (
     ("central film", "squeeze_central_film"),
     ("minimum film", "squeeze_minimum_film"),
@@ -74,6 +87,16 @@ def ratio_rows(dataset: xr.Dataset) -> list[RatioRow]:
         row(quantity, source, (dataset[formula] / dataset[solved]).values, "over solution")
         for quantity, source, formula, solved in _RATIOS
     ]
+    if "warm_traction" in dataset:
+        rows += [
+            row("friction", "solution, thermal", dataset["warm_traction"].values, "1"),
+            row("rise in the film", "solution, thermal", dataset["warm_rise_max"].values, "K"),
+            row("rise of a surface", "solution, thermal", dataset["warm_rise_surface"].values, "K"),
+        ]
+        rows += [
+            row(quantity, source, (dataset[one] / dataset[other]).values, "ratio")
+            for quantity, source, one, other in _WARM
+        ]
     rows += [
         row(quantity, "in time", dataset[name].values, "over steady")
         for quantity, name in _SQUEEZE

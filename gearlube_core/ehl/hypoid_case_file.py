@@ -74,6 +74,11 @@ class HypoidCase(InputFile):
         default="eyring",
         description="Of the film; newtonian: the Eyring stress acts on friction alone",
     )
+    temperature: Literal["isothermal", "thermal"] = Field(
+        default="isothermal",
+        description="thermal: also steady films with the energy balance of oil and flanks; films "
+        "in time are isothermal and have to be left out",
+    )
     oil_temperature_degc: Temperature = Field(default=95.0, description="At the inlet")
     roughness_um: Roughness = Field(
         default=0.5, description="Composite root mean square, for the axle's friction"

@@ -44,6 +44,28 @@ def test_it_writes_films_formulas_summary_and_figures(tmp_path):
     assert float(row["largest"]) == pytest.approx(float(ratio.max()), rel=1e-4)
 
 
+def test_thermal_films_stand_beside_the_cold_ones(tmp_path, monkeypatch, caplog):
+    monkeypatch.setattr(ehl_hypoid_console, "save_ehl_figures", lambda *_: [])
+    options = (*TINY, "--load", "static", "--phases", "0.2:0.8", "--temperature", "thermal")
+    result = run(*options, "--no-march", "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    dataset = xr.load_dataset(tmp_path / "hypoid.nc", engine="scipy")
+    assert (dataset["warm_heat_balance"] <= 1e-6).all()
+    assert (dataset["warm_rise_max"] > dataset["warm_rise_surface"]).all()
+    assert (dataset["warm_rise_surface"] > 1.0).all()
+    # warm surfaces take friction off what cool ones leave
+    assert (dataset["warm_traction"] < dataset["steady_traction_heated"]).all()
+    assert (dataset["warm_central_film"] < dataset["warm_cold_central_film"]).all()
+    with (tmp_path / "summary.csv").open(newline="") as file:
+        rows = {(row["quantity"], row["source"]): row for row in csv.DictReader(file)}
+    ratio = dataset["evans_johnson"] / dataset["warm_traction"]
+    row = rows["friction", "Evans and Johnson 1986, over thermal"]
+    assert float(row["largest"]) == pytest.approx(float(ratio.max()), rel=1e-4)
+    # heat has no history: a march with it is refused
+    assert run(*options, "--out", tmp_path).exit_code == BAD_ARGUMENT
+    assert "no-march" in caplog.text
+
+
 def test_a_stopped_march_goes_on_to_the_same_film(tmp_path, monkeypatch):
     """Its record stands after every 2 steps; the rest gives what an unbroken march gives."""
     monkeypatch.setattr(ehl_hypoid_console, "RECORD_EVERY", 2)
