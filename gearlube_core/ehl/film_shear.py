@@ -12,6 +12,7 @@ from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.ehl.eyring_flow import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.ehl.flow_factors import eyring_factors
 from gearlube_core.ehl.lubricant import EhlLubricant
+from gearlube_core.ehl.point_cross_flow import CrossFlow
 from gearlube_core.ehl.point_stencil import FilmFlow, FlowSlopes
 from gearlube_core.jit import kernel
 
@@ -138,6 +139,14 @@ class ShearFactors:
             densening + (1.0 - self.stiffness) * thickening,
             self.film_power,
             self.stiffness,
+        )
+
+    def cross(self) -> CrossFlow:
+        """Return the flow across the slope of pressure, of sliding at an angle to the axes."""
+        assert self.xy is not None
+        assert self.slope_xy is not None
+        return CrossFlow(
+            self.xy / self.xx, self.xy / self.yy, self.slope_xy / self.xx, self.slope_xy / self.yy
         )
 
     def relative(self, slopes: FlowSlopes) -> FlowSlopes:

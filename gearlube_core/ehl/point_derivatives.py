@@ -43,13 +43,14 @@ def flow_derivatives(
     """
     if state.shear is not None:
         slopes = state.shear.relative(slopes)
-    count = NEIGHBOURS if state.cubic_xy is None else CROSS_NEIGHBOURS
+    flow, cross = state.film_flow, state.cross
+    count = NEIGHBOURS if cross is None else CROSS_NEIGHBOURS
     by_pressure, by_film = np.empty((2, count, *state.film.shape))
     reynolds_derivatives(
         stencil,
         metric,
         state.oil,
-        state.film_flow,
+        flow,
         state.viscosity_slope,
         state.density,
         state.density_slope,
@@ -59,12 +60,13 @@ def flow_derivatives(
         by_pressure,
         by_film,
     )
-    if state.cubic_xy is not None:
+    if cross is not None:
         add_cross_derivatives(
             stencil,
+            metric,
             state.oil,
-            state.cubic_xy,
-            state.fluidity,
+            flow,
+            cross,
             state.viscosity_slope,
             state.film,
             slopes,

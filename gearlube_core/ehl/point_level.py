@@ -256,17 +256,12 @@ class PointLevel:
 
     def _balance(self, state: FilmState, carried: Array) -> None:
         """Write the residual without storage; `carried` is rho h times the share of the speed."""
+        flow, cross = state.film_flow, state.cross
         reynolds_residual(
-            self.stencil,
-            self.metric,
-            state.oil,
-            carried,
-            state.film_flow,
-            self.source,
-            state.residual,
+            self.stencil, self.metric, state.oil, carried, flow, self.source, state.residual
         )
-        if state.cubic_xy is not None:
-            add_cross_flow(self.stencil, state.oil, state.cubic_xy, state.fluidity, state.residual)
+        if cross is not None:
+            add_cross_flow(self.stencil, self.metric, state.oil, flow, cross, state.residual)
 
     def ease(self, mobility: float, order: float) -> None:
         """Set an easier problem of a continuation.

@@ -11,14 +11,16 @@ import numpy as np
 from gearlube_core.ehl.point_coarse import CoarseSolution
 from gearlube_core.ehl.point_galerkin import coarse_operator, sparse_operator
 from gearlube_core.ehl.point_level import PointLevel
-from gearlube_core.ehl.point_smoother import RowSmoother
+from gearlube_core.ehl.point_smoother import ColumnSmoother, RowSmoother
 from gearlube_core.ehl.point_state import Linearisation
 from gearlube_core.ehl.point_transfer import Transfer
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
+Lines = RowSmoother | ColumnSmoother
 
 _DAMPING = 0.5  # 0.8 and more amplify waves across narrow contacts at high L
-_MOSTLY_FREE = 0.5  # share of free fine nodes around a free coarse node
+# of the entrainment through cells along columns over that along rows: lines both ways from here
+_OBLIQUE = 0.5
 
 
 @dataclass(slots=True)
@@ -43,13 +45,16 @@ class MultigridCycle:
     def __init__(self, hierarchy: Hierarchy, linear: Linearisation) -> None:
         self._levels = hierarchy.levels
         self._transfers = hierarchy.transfers
-        self._smoothers: list[RowSmoother] = []
+        self._smoothers: list[list[Lines]] = []
         operator = sparse_operator(linear)
         self._operators = [operator]
         for k in range(len(self._levels) - 1, 0, -1):
             fine, coarse = self._levels[k], self._levels[k - 1]
             halved = (coarse.shape[0] < fine.shape[0], coarse.shape[1] < fine.shape[1])
-            self._smoothers.insert(0, RowSmoother(fine, operator, halved, _DAMPING))
+            lines: list[Lines] = [RowSmoother(fine, operator, halved, _DAMPING)]
+            if fine.stencil.wedge_y > _OBLIQUE * fine.stencil.wedge_x and not fine.graded:
+                lines.append(ColumnSmoother(fine, operator, halved, _DAMPING))
+            self._smoothers.insert(0, lines)
             operator = coarse_operator(operator, self._transfers[k - 1])
             self._operators.insert(0, operator)
         self._direct = CoarseSolution(self._levels[0], operator)
@@ -79,8 +84,13 @@ class MultigridCycle:
         Rows with a local deflection are too soft for long waves, by the ratio of their length to
         the spacing, and would amplify them.
         """
-        transfer = self._transfers[k - 1]
-        pressure = self._smoothers[k - 1](residual)
-        pressure -= transfer.up(transfer.down(pressure))
-        pressure[~self._operators[k].free] = 0.0
+        level, operator, transfer = self._levels[k], self._operators[k], self._transfers[k - 1]
+        pressure, rest = np.zeros(level.shape), residual
+        for count, lines in enumerate(self._smoothers[k - 1]):
+            if count:
+                rest = residual - operator.apply(level, pressure, 0.0)
+            change = lines(rest)
+            change -= transfer.up(transfer.down(change))
+            change[~operator.free] = 0.0
+            pressure += change
         return pressure

@@ -1,7 +1,8 @@
-"""Line solutions along the entrainment with a local deflection: assembly and smoothing."""
+"""Line solutions with a local deflection, along and across the rows: assembly and smoothing."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from scipy.linalg.lapack import sgbtrf, sgbtrs
 
 from gearlube_core.ehl.point_galerkin import SparseOperator
 from gearlube_core.ehl.point_level import PointLevel
-from gearlube_core.ehl.point_wave import wave_deflection
+from gearlube_core.ehl.point_wave import uniform_wave_deflection, wave_deflection
 from gearlube_core.jit import kernel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -66,11 +67,25 @@ def fill_rows(
                         band[row + offset, diagonal - offset] += slope * local[ii, i + offset]
 
 
+@dataclass(frozen=True, slots=True)
+class TurnedGrid:
+    """What a smoother knows of a uniform grid, here with rows and columns interchanged."""
+
+    shape: tuple[int, int]
+    dx: float
+    dy: float
+    modulus: float
+
+
 class RowSmoother:
     """Factored rows of one linearisation; float32 is enough for a preconditioner."""
 
     def __init__(
-        self, level: PointLevel, operator: SparseOperator, halved: tuple[bool, bool], damping: float
+        self,
+        level: PointLevel | TurnedGrid,
+        operator: SparseOperator,
+        halved: tuple[bool, bool],
+        damping: float,
     ) -> None:
         ny, nx = level.shape
         # the shortest waves that the coarser grid lacks
@@ -86,7 +101,9 @@ class RowSmoother:
             operator.matrix.indices,
             operator.matrix.data,
             operator.free,
-            wave_deflection(level, wave_number),
+            wave_deflection(level, wave_number)
+            if isinstance(level, PointLevel)
+            else uniform_wave_deflection(level.shape[1], level.dx, level.modulus, wave_number),
             across,
             band,
         )
@@ -100,3 +117,24 @@ class RowSmoother:
         right = np.where(self._free, residual, 0.0).astype(np.float32).ravel()
         solution, _ = sgbtrs(self._factors, _BELOW, _ABOVE, right, self._pivots, overwrite_b=True)
         return self._damping * solution.reshape(self._shape).astype(np.float64)
+
+
+class ColumnSmoother:
+    """Factored columns of one linearisation, on a uniform grid: rows of the turned operator."""
+
+    def __init__(
+        self, level: PointLevel, operator: SparseOperator, halved: tuple[bool, bool], damping: float
+    ) -> None:
+        ny, nx = level.shape
+        order = np.arange(ny * nx).reshape(ny, nx).T.ravel()
+        matrix = operator.matrix[order][:, order].tocsr()
+        matrix.sort_indices()
+        turned = SparseOperator(
+            matrix, np.ascontiguousarray(operator.free.T), operator.by_approach.T
+        )
+        grid = TurnedGrid((nx, ny), level.dy, level.dx, level.modulus)
+        self._rows = RowSmoother(grid, turned, halved[::-1], damping)
+
+    def __call__(self, residual: Array) -> Array:
+        """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
+        return np.ascontiguousarray(self._rows(residual.T).T)

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from gearlube_core.ehl.film_shear import ShearFactors
+from gearlube_core.ehl.point_cross_flow import CrossFlow
 from gearlube_core.ehl.point_rupture import carried_entries, pass_on
 from gearlube_core.ehl.point_solids import SolidShare
 from gearlube_core.ehl.point_stencil import FilmFlow
@@ -45,6 +46,11 @@ class FilmState:
     def oil(self) -> Array:
         """Return the pressure of the oil."""
         return self.pressure if self.solids is None else self.solids.oil
+
+    @property
+    def cross(self) -> CrossFlow | None:
+        """Return what flows across the slope of pressure; None: nothing."""
+        return None if self.shear is None or self.shear.xy is None else self.shear.cross()
 
     @property
     def film_flow(self) -> FilmFlow:

@@ -18,6 +18,14 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 _SPECTRUM = 512
 
 
+def uniform_wave_deflection(nodes: int, dx: float, modulus: float, wave_number: float) -> Array:
+    """Return `wave_deflection` on rows of nodes `dx` apart."""
+    count = max(_SPECTRUM, 4 * nodes)
+    n = np.fft.fftfreq(count) * 2.0 * np.pi / dx
+    symbol = 2.0 / (modulus * np.hypot(n, wave_number))
+    return np.asarray(toeplitz(np.fft.ifft(symbol).real[:nodes]))
+
+
 def wave_deflection(level: PointLevel, wave_number: float | Array) -> Array:
     """Return the deflection at the nodes of a row under unit pressure on its cells.
 
@@ -40,10 +48,7 @@ def wave_deflection(level: PointLevel, wave_number: float | Array) -> Array:
     closed form, 2/(pi E*) int K0(k |x|) dx over cells.
     """
     if not level.graded:
-        count = max(_SPECTRUM, 4 * level.shape[1])
-        n = np.fft.fftfreq(count) * 2.0 * np.pi / level.dx
-        symbol = 2.0 / (level.modulus * np.hypot(n, wave_number))
-        return np.asarray(toeplitz(np.fft.ifft(symbol).real[: level.shape[1]]))
+        return uniform_wave_deflection(level.shape[1], level.dx, level.modulus, float(wave_number))
     wave = np.broadcast_to(wave_number, level.positions.shape)[:, None]
     distance = cell_faces(level.positions) - level.positions[:, None]
     integral = np.sign(distance) * iti0k0(wave * np.abs(distance))[1] / wave

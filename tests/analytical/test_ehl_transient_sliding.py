@@ -96,12 +96,11 @@ def test_oil_in_a_box_grows_by_what_flows_in():
         log_mean = np.where(np.isclose(f, g, rtol=1e-9), f, (f - g) / np.log(f / g))
         mean = np.where(p[other] > p[face], log_mean, 0.5 * (f + g))
         straight = np.sqrt(cubic[face] * cubic[other]) * mean
-        askew = cubic * xy * slope / eta
+        ratio = xy / np.where(factor == 0.0, 1.0, factor)
+        askew = straight * 0.25 * (ratio[face] + ratio[other]) * (slope[face] + slope[other])
         carried = speed * 0.5 * (m[face] + m[other])
         pumped = straight * (p[other] - p[face]) / step
-        return float((carried - pumped - 0.5 * (askew[face] + askew[other])).sum()), float(
-            np.abs(askew[face]).sum() / carried.sum()
-        )
+        return float((carried - pumped - askew).sum()), float(np.abs(askew).sum() / carried.sum())
 
     def along_x(i):
         j = slice(j0, j1 + 1)
