@@ -153,7 +153,8 @@ def main() -> None:
         "Temperatures above the inlet; films and CPU time warm over cold. At a ratio of 2 one\n"
         "surface stands, beyond it the surfaces move against each other: heat goes upstream in\n"
         "the slow one and warms the inlet. Warm friction passes a maximum and falls with more\n"
-        "sliding, cold friction goes on rising.\n"
+        "sliding up to a ratio of 2, beyond which the film thins so much that it rises again;\n"
+        "cold friction rises all the way.\n"
     )
     page += "".join(sliding_table(speed) for speed in SPEEDS)
     page += (
