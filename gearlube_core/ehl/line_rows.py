@@ -98,31 +98,37 @@ def _wedge_weights(stencil: int, speed: float, face: int, faces: int) -> tuple[f
 def _add_poiseuille(
     f: int, P: np.ndarray, H: np.ndarray, c: RowCoefficients, rows: LocalRows
 ) -> None:
-    # flow by pressure between nodes f and f + 1, mean of the nodes' factors as Jamali eq. (3.9)
+    # flow by pressure between nodes f and f + 1, mean of the nodes' as Jamali eq. (3.9): viscosity
+    # and flow factor together, which cancel where the oil is thick; apart a coarse grid thins films
     g = f + 1
     by_step = c.mobility * c.weight / c.step
     left = rows.rho[f] * H[f] ** 3 / rows.eta[f]
     right = rows.rho[g] * H[g] ** 3 / rows.eta[g]
     drop = P[g] - P[f]
-    factor, factor_sigma, factor_a, sigma, a, film = 1.0, 0.0, 0.0, 0.0, 0.0, 1.0
+    film, sigma, sigma_f, sigma_g, react_f, react_g = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
     if c.sigma > 0.0:
         film = 0.5 * (H[f] + H[g])
         sigma = c.sigma * film * drop / c.step
-        a = c.shear * math.sqrt(rows.eta[f] * rows.eta[g]) / film
-        factor, factor_sigma, factor_a = eyring_flow_factor(sigma, a)
-    mean = 0.5 * (left + right) * factor
+        a = c.shear * rows.eta[f] / H[f]
+        factor, slope, by_a = eyring_flow_factor(sigma, a)
+        left *= factor
+        sigma_f, react_f = slope / factor, a * by_a / factor
+        a = c.shear * rows.eta[g] / H[g]
+        factor, slope, by_a = eyring_flow_factor(sigma, a)
+        right *= factor
+        sigma_g, react_g = slope / factor, a * by_a / factor
+    mean = 0.5 * (left + right)
     flow = -by_step * mean * drop
-    by_factor = -by_step * 0.5 * (left + right) * drop
-    by_mean = -0.5 * by_step * drop * factor
-    slope_sigma = by_factor * factor_sigma * c.sigma * film / c.step
-    slope_a = by_factor * factor_a * a
-    p_f = by_step * mean - slope_sigma + 0.5 * slope_a * rows.eta_slope[f]
-    p_g = -by_step * mean + slope_sigma + 0.5 * slope_a * rows.eta_slope[g]
-    p_f += by_mean * left * (rows.rho_slope[f] / rows.rho[f] - rows.eta_slope[f])
-    p_g += by_mean * right * (rows.rho_slope[g] / rows.rho[g] - rows.eta_slope[g])
-    both = 0.5 * (by_factor * factor_sigma * sigma - slope_a) / film
-    h_f = by_mean * 3.0 * left / H[f] + both
-    h_g = by_mean * 3.0 * right / H[g] + both
+    half = -0.5 * by_step * drop
+    by_sigma = half * (left * sigma_f + right * sigma_g)
+    slope_sigma = by_sigma * c.sigma * film / c.step
+    p_f = by_step * mean - slope_sigma
+    p_g = -by_step * mean + slope_sigma
+    p_f += half * left * (rows.rho_slope[f] / rows.rho[f] - (1.0 - react_f) * rows.eta_slope[f])
+    p_g += half * right * (rows.rho_slope[g] / rows.rho[g] - (1.0 - react_g) * rows.eta_slope[g])
+    both = 0.5 * by_sigma * sigma / film
+    h_f = half * left * (3.0 - react_f) / H[f] + both
+    h_g = half * right * (3.0 - react_g) / H[g] + both
     rows.flux[f] += flow
     rows.by_pressure[f, 2] += p_f
     rows.by_pressure[f, 3] += p_g
