@@ -19,8 +19,9 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 Lines = RowSmoother | ColumnSmoother
 
 _DAMPING = 0.5  # 0.8 and more amplify waves across narrow contacts at high L
-# of the entrainment through cells along columns over that along rows: lines both ways from here
-_OBLIQUE = 0.5
+# of the entrainment through cells along columns over that along rows, above which lines go both
+# ways; where rows carry more, columns on top do harm
+_OBLIQUE = 1.0
 
 
 @dataclass(slots=True)
