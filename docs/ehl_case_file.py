@@ -78,6 +78,25 @@ only choose scales, domain and start.
   motion. On a moving surface they would travel and squeeze the film, and the command says so.
 - Formulas and Hertz contacts in the summary are those of the smooth gap.
 
+## Where the film breaks
+
+By default pressure and its slope vanish where a film breaks, and the gap counts as full behind
+(Reynolds). With `cavitation = "mass_conserving"` what the broken film holds is found as well: there
+oil is carried along with the mean speed of the surfaces, and pressure moves it only where the gap
+is full (Jakobsson and Floberg 1957, Olsson 1965, Elrod 1981; pressure and void as complements as in
+Giacopini et al. 2010). What enters the domain leaves it, to the tolerance. A flooded contact has
+the film and the pressure of Reynolds' condition to the error of the grid; what is new is the oil
+behind it, `void` of a line and `fill` of a point contact, and an inlet that is not full:
+
+- a line takes `inlet_fill`, the share of the gap at the inlet;
+- a point contact takes `inlet_layer_um`, the thickness of oil on both surfaces together. As it
+  thins, the edge of the oil moves up to the contact and the central film h falls to the layer, at
+  the density under pressure: with r the layer over the flooded film, at that density, h over the
+  flooded film was found between r/(1 + r^g)^(1/g) with g = 2 and 5 (form of Chevalier et al. 1998).
+
+Point contacts have it at rest, isothermal, with finite volumes, without touching solids, and for an
+Eyring oil with sliding along x or y. Shear acts on the share of the surface that oil covers.
+
 ## Time and memory
 
 Of one core of a small server, from the dry contact on, without the compilation of the first run:

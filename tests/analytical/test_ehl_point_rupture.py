@@ -190,7 +190,7 @@ def test_starvation_lowers_the_film_to_the_layer_that_comes() -> None:
     assert (np.diff(found) < 0.0).all()
     assert found[-1] == pytest.approx(layers[-1], rel=5e-3)
     assert (found < np.minimum(1.0, layers) * 1.003).all()
-    # Chevalier et al. 1998: r/(1 + r^g)^(1/g) with g of 2 to 5
+    # the form of Chevalier et al. 1998, r/(1 + r^g)^(1/g): sharper the larger g
     for layer, share in zip(layers[1:4], found[1:4], strict=True):
         bounds = [layer / (1.0 + layer**g) ** (1.0 / g) for g in (2.0, 5.0)]
         assert bounds[0] - 0.01 < share < bounds[1] + 0.01
