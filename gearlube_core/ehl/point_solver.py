@@ -14,6 +14,7 @@ from gearlube_core.ehl.point_cavitation import check_cavitation, let_rupture
 from gearlube_core.ehl.point_continuation import solve_level
 from gearlube_core.ehl.point_element_level import ElementLevel
 from gearlube_core.ehl.point_level import PointLevel
+from gearlube_core.ehl.point_nest import COARSE_TOLERANCE, bordered, carried
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy
 from gearlube_core.ehl.point_starvation import Starvation
@@ -29,7 +30,6 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _DIRECT_NODES = 1300  # of the grid that is solved directly
 _SHORTEST = 12  # nodes of a side that is not halved any more
-_COARSE_TOLERANCE = 1e-3
 
 
 def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tuple[int, int]]:
@@ -79,13 +79,6 @@ def build_hierarchy(
     return Hierarchy(levels, transfers)
 
 
-def _bordered(pressure: Array) -> Array:
-    pressure = np.maximum(pressure, 0.0)
-    pressure[[0, -1]] = 0.0
-    pressure[:, [0, -1]] = 0.0
-    return pressure
-
-
 def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     """Return an ellipse of pressure with the film expected between, on the coarsest grid.
 
@@ -100,7 +93,7 @@ def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     a_x = max(math.sqrt(a_x**2 + problem.hertz.R_x * film), 2.5 * (x[1] - x[0]))
     a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
     ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
-    pressure = _bordered(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
+    pressure = bordered(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
     pressure *= scales.load / level.integral(pressure)
     return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
 
@@ -163,14 +156,10 @@ def nested_film(
     for k in range(count):
         part = hierarchy.below(k + 1)
         if k:
-            pressure = _bordered(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
-            # interpolation leaves ripples of the film; it starts no thinner than it was
-            thinnest = float(state.film.min())
-            state = part.levels[-1].state(pressure, state.approach)
-            lift = max(0.0, thinnest - float(state.film.min()))
-            state = part.levels[-1].state(pressure, state.approach + lift)
+            pressure = bordered(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
+            state = carried(part.levels[-1], pressure, state)
         last = k == count - 1
-        tolerance = settings.tolerance if last else _COARSE_TOLERANCE
+        tolerance = settings.tolerance if last else COARSE_TOLERANCE
         if starved is not None:
             state = starved.start(part, state, last)
         state = solve_level(part, state, settings, tolerance, record, not last)

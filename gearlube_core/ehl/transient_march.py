@@ -11,6 +11,7 @@ import numpy as np
 
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.point_cavitation import refuse_rupture
+from gearlube_core.ehl.point_nest import bordered
 from gearlube_core.ehl.point_newton import NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.point_state import FilmState, Linearisation
@@ -26,7 +27,7 @@ from gearlube_core.ehl.transient_level import MovingLevel
 from gearlube_core.ehl.transient_newton import KeptCycle, step_newton
 from gearlube_core.ehl.transient_record import MarchRecord
 from gearlube_core.ehl.transient_rows import RowCycle
-from gearlube_core.ehl.transient_steady import bordered, steady_state
+from gearlube_core.ehl.transient_steady import steady_state
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 Array = np.ndarray[Any, np.dtype[np.float64]]

@@ -11,6 +11,7 @@ import numpy as np
 from gearlube_core.ehl.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point_cavitation import refuse_rupture
 from gearlube_core.ehl.point_continuation import solve_level
+from gearlube_core.ehl.point_nest import COARSE_TOLERANCE, bordered, carried
 from gearlube_core.ehl.point_newton import Build, NewtonRecord
 from gearlube_core.ehl.point_preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.point_state import FilmState
@@ -22,16 +23,6 @@ from gearlube_core.ehl.transient_rows import RowCycle
 from gearlube_core.errors import ConvergenceError
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
-
-_COARSE_TOLERANCE = 1e-3
-
-
-def bordered(pressure: Array) -> Array:
-    """Return a pressure without its negative part and zero on the border."""
-    pressure = np.maximum(pressure, 0.0)
-    pressure[[0, -1]] = 0.0
-    pressure[:, [0, -1]] = 0.0
-    return pressure
 
 
 def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
@@ -74,14 +65,10 @@ def steady_state(
         assert isinstance(level, MovingLevel)
         if k:
             pressure = bordered(grids.transfers[k - 1].up_smoothly(state.pressure))
-            # interpolation leaves ripples of the film; it starts no thinner than it was
-            thinnest = float(state.film.min())
             level.open_where_thicker(level.film(pressure, state.approach), film.open_film)
-            state = level.state(pressure, state.approach)
-            lift = max(0.0, thinnest - float(state.film.min()))
-            state = level.state(pressure, state.approach + lift)
+            state = carried(level, pressure, state)
         last = k == count - 1
-        goal = settings.tolerance if last else _COARSE_TOLERANCE
+        goal = settings.tolerance if last else COARSE_TOLERANCE
         build: Build = MultigridCycle
         if last and film.grading is not None and film.long:
             # rows that are solved in part lose their way where the spacing changes along them
