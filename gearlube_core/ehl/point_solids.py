@@ -37,9 +37,14 @@ class SolidShare:
         return (self.pressure > 0.0) & (residual < -_DRAINING * self.weight * self.left)
 
     def unbalanced(self, residual: Array) -> Array:
-        """Return as flows what is left where nothing should be, and what lacks."""
-        wrong = np.where(self.drained(residual), np.abs(self.left), np.maximum(-self.left, 0.0))
-        return self.weight * wrong
+        """Return as flows what is left where nothing should be, what lacks, and what gathers there.
+
+        Flow that gathers counts at drained nodes, too: else a step that ends their draining would
+        look like one that unbalances them.
+        """
+        dry = self.drained(residual)
+        wrong = np.where(dry, np.abs(self.left), np.maximum(-self.left, 0.0))
+        return self.weight * wrong + np.where(dry, np.maximum(residual, 0.0), 0.0)
 
 
 def solid_share(

@@ -14,6 +14,7 @@ from gearlube_core.ehl.lubricant import ehl_lubricant
 from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.point_solids import SolidShare
 from gearlube_core.ehl.solid_contact import SolidContact, SolidLayer
 from gearlube_core.errors import ParameterError
 from tests.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, flow_out
@@ -122,3 +123,29 @@ def test_a_thin_film_of_a_helical_pair_touches_and_goes_on() -> None:
     # what touches hangs on the layer, more than in proportion
     assert shares[0] < shares[1] < shares[2]
     assert shares[2] > 0.9
+
+
+def test_flow_that_gathers_at_a_drained_node_is_not_hidden() -> None:
+    # the solids lack a little pressure there, and far more oil runs in than that is worth
+    left = np.full((1, 1), -0.03)
+    share = SolidShare(
+        pressure=np.full((1, 1), 0.26),
+        slope=np.full((1, 1), -1.0),
+        left=left,
+        oil=np.zeros((1, 1)),
+        weight=0.4,
+    )
+    inflow = np.full((1, 1), 0.55)
+    assert share.drained(inflow).all()
+    # once the pressure is right the node is not drained any more and its whole inflow counts
+    assert share.unbalanced(inflow)[0, 0] >= 0.55
+    assert share.unbalanced(-inflow)[0, 0] == pytest.approx(0.4 * 0.03)
+
+
+@pytest.mark.slow
+def test_solids_at_the_edge_of_steep_relief_let_go_again() -> None:
+    # at step 473 a node behind the edge stops draining: oil runs in and lifts the solids apart
+    film = jamali_2015_film("a", k=0.02, nodes=(97, 161), solids=SolidContact(thickness=30e-9))
+    film = dataclasses.replace(film, extent=(-2.75, 2.75))
+    cycle = march_helical_cycle(film, first=460, last=475, throw=False)
+    assert cycle.failures == 0
