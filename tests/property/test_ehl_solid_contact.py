@@ -11,10 +11,10 @@ from gearlube_core.ehl.dry_contact import dry_contact
 from gearlube_core.ehl.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.helical_film import jamali_2015_film
 from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.point_solids import SolidShare
 from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.point_solids import SolidShare
 from gearlube_core.ehl.solid_contact import SolidContact, SolidLayer
 from gearlube_core.errors import ParameterError
 from tests.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, flow_out
