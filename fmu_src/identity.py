@@ -18,9 +18,9 @@ IDENTITY_FILE = "gearlube_identity.txt"
 # Modules that run inside every FMU, beside `Definition.modules`; the rest of this package builds
 # FMUs or is the command line.
 RUNTIME = (
-    "definition", "identity", "model_description", "phase", "registration", "shared_variables",
-    "slave_base", "state_bytes", "units", "values", "variable", "variable_kinds", "warm_start",
-    "wrapper",
+    "definition", "host_thread", "identity", "model_description", "phase", "registration",
+    "shared_variables", "slave_base", "state_bytes", "units", "values", "variable",
+    "variable_kinds", "warm_start", "wrapper",
 )  # fmt: skip
 _TEXT = {".py", ".toml"}
 _DATA = {".nc"}
