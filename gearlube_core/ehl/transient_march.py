@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +35,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 SCHEMES = ("bdf2", "crank_nicolson")
 # "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"
 MARCH_SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
+_MOST_PARTS = 4  # of a step that is not found as a whole
 _PRESSED = 0.2  # of the layer of solids, the least film that a step starts from
 
 
@@ -83,7 +84,8 @@ class FilmMarch:
     -----
     d(rho h)/dt = [1.5 (rho h)^q - 2 (rho h)^(q-1) + 0.5 (rho h)^(q-2)]/dt or the mean of the
     flows at both times. Jamali 2015 eq. (3.23); (3.24) prints its right side with the wrong sign.
-    Nodes without pressure hold what the gap holds.
+    Nodes without pressure hold what the gap holds. A step that is not found as a whole is taken in
+    2 or 4 parts by backward Euler, and says so.
     """
 
     def __init__(
@@ -158,11 +160,20 @@ class FilmMarch:
             second.krylov_steps += record.krylov_steps
             if second.converged or second.residual < record.residual:
                 state, record = again, second
+        parts = 1
+        while not record.converged and parts < _MOST_PARTS:
+            parts *= 2
+            divided = self._divided(parts)
+            if divided is not None:
+                state, record = divided, replace(record, converged=True)
         rise = (state.pressure - past.state.pressure, state.approach - past.state.approach)
         self._past = _Past(state, state.mass, past.mass, level.outflow(state), rise)
         self.solution = self._solution(
             state, record.newton_steps, record.krylov_steps, clock.perf_counter() - begin
         )
+        if record.converged and parts > 1:
+            told = f" The step was taken in {parts} parts, by backward Euler."
+            self.solution = replace(self.solution, outcome=self.solution.outcome + told)
         if throw and not self.solution.converged:
             raise ConvergenceError(f"Step {self.steps}: {self.solution.outcome}")
         return self.solution
@@ -266,6 +277,24 @@ class FilmMarch:
         if float(trial.film.min()) > thinnest:
             return trial
         return self._level.state(state.pressure, state.approach)
+
+    def _divided(self, parts: int) -> FilmState | None:
+        """Return the state after shorter steps of backward Euler; None if one of them fails."""
+        level, state, mass = self._level, self._past.state, self._past.mass
+        rate = parts / self._unit
+        for left in reversed(range(parts)):
+            time = self.time - left * self.time_step / parts
+            impose(self.film, self._grids, time, finest_only=True)
+            level.keep(rate, rate * mass)
+            film = level.film(state.pressure, state.approach)
+            level.open_where_thicker(film, self.film.open_film)
+            state, record = self._attempt(level.state(state.pressure, state.approach))
+            if not record.converged:
+                impose(self.film, self._grids, self.time, finest_only=True)
+                self._set_storage()
+                return None
+            mass = state.mass
+        return state
 
     def _attempt(self, begin: FilmState):  # type: ignore[no-untyped-def]
         lowest = float(begin.film.min())

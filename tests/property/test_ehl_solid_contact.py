@@ -16,6 +16,7 @@ from gearlube_core.ehl.point_solver import solve_point_contact
 from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.settings import PointSolverSettings
 from gearlube_core.ehl.solid_contact import SolidContact, SolidLayer
+from gearlube_core.ehl.transient_march import FilmMarch
 from gearlube_core.errors import ParameterError
 from tests.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, flow_out
 
@@ -149,3 +150,16 @@ def test_solids_at_the_edge_of_steep_relief_let_go_again() -> None:
     film = dataclasses.replace(film, extent=(-2.75, 2.75))
     cycle = march_helical_cycle(film, first=460, last=475, throw=False)
     assert cycle.failures == 0
+
+
+@pytest.mark.slow
+def test_a_step_that_is_not_found_as_a_whole_is_taken_in_parts() -> None:
+    # at step 487 straight relief leaves the line with an edge, and solids touch there
+    film = jamali_2015_film("a", k=0.0, nodes=(97, 161), solids=SolidContact(thickness=10e-9))
+    film = dataclasses.replace(film, extent=(-2.75, 2.75))
+    march = FilmMarch(film.moving_film(), film.time_step, start_time=460 * film.time_step)
+    outcomes = [march.step(throw=False) for _ in range(30)]
+    assert all(solution.converged for solution in outcomes)
+    assert any("in 2 parts, by backward Euler" in solution.outcome for solution in outcomes)
+    # the parts carry the load of the whole step's end
+    assert max(abs(solution.load_error) for solution in outcomes) < 1e-3
