@@ -1,6 +1,5 @@
-"""The commands `gearlube ehl line`, `point` and `helical`: what they write and refuse."""
+"""The commands `gearlube ehl line`, `point` and `helical`: what they ask for, resume and refuse."""
 
-import csv
 import logging
 import math
 import tomllib
@@ -8,21 +7,16 @@ import tomllib
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import CliRunner
 
 from drivetrain.ehl.cycle_dataset import march_key
 from drivetrain.ehl.line_dataset import hertz_line
-from drivetrain.ehl_figures.catalogue import drawn_figures
-from fmu_src import cli, ehl_console, ehl_march_console
+from fmu_src import ehl_console, ehl_march_console
 from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube_core.ehl.case_file import LineCase, PointCase
 from gearlube_core.ehl.helical_film import EXIT_GRADING, jamali_2015_film
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-
-
-def run(*arguments):
-    return CliRunner().invoke(cli.app, ["ehl", *map(str, arguments)])
+from tests.ehl_command import run, written
 
 
 @pytest.fixture
@@ -41,127 +35,9 @@ def asked(monkeypatch):
     return calls
 
 
-def written(out, kind):
-    dataset = xr.load_dataset(out / f"{kind}.nc", engine="scipy")
-    figures = {path.stem for path in (out / "figures").glob("*.png")}
-    assert figures == set(drawn_figures(dataset))
-    for name, variable in {**dataset.data_vars, **dataset.coords}.items():
-        if not str(name).startswith("formula_"):
-            assert variable.attrs["units"], name
-            assert variable.attrs["long_name"], name
-    with (out / "summary.csv").open(newline="") as file:
-        return dataset, list(csv.DictReader(file))
-
-
-def test_a_line_writes_dataset_summary_and_figures(tmp_path):
-    result = run("line", "--nodes", 201, "--out", tmp_path)
-    assert result.exit_code == 0, result.output
-    dataset, summary = written(tmp_path, "line")
-    assert dataset.sizes["x"] == 201
-    # the load of 360 N/mm is carried by the pressure that is written
-    assert np.trapezoid(dataset["pressure"], dataset["x"]) == pytest.approx(3.6e5, rel=1e-6)
-    # what goes in comes out: between the surfaces the flow is one number
-    full = (dataset["pressure"].values[1:] > 0.0) & (dataset["pressure"].values[:-1] > 0.0)
-    flow = dataset["mass_flow"].values[full]
-    assert np.ptp(flow) < 1e-6 * flow.mean()
-    # u1 > u2: the film holds body 1 back and drives body 2
-    assert dataset.attrs["friction_1"] < 0.0 < dataset.attrs["friction_2"]
-    assert dataset["residual_history"][-1] <= 1e-8
-    assert dataset["nodes_history"][-1] == 201
-    films = {row["source"]: row for row in summary if row["quantity"] == "central film"}
-    assert set(films) == {"solution", "Dowson and Toyoda 1979"}
-    own, formula = (float(films[who]["value"]) for who in films)
-    assert float(films["Dowson and Toyoda 1979"]["deviation"]) == pytest.approx(
-        formula / own - 1.0, abs=1e-3
-    )
-
-
-def test_a_thermal_line_writes_its_temperatures(tmp_path):
-    result = run("line", "jamali_2015_thermal", "--nodes", 201, "--out", tmp_path)
-    assert result.exit_code == 0, result.output
-    dataset, summary = written(tmp_path, "line")
-    rise = float(dataset["temperature"].max()) - 363.15
-    (row,) = [r for r in summary if r["quantity"] == "highest temperature above the inlet"]
-    assert 0.0 < rise == pytest.approx(float(row["value"]), rel=1e-4)
-    assert dataset["temperature_change"][-1] <= 1e-3
-
-
-def test_a_point_writes_dataset_summary_and_figures(tmp_path):
-    result = run("point", "--nodes", 33, "--slide-roll", 0.1, "--out", tmp_path)
-    assert result.exit_code == 0, result.output
-    dataset, summary = written(tmp_path, "point")
-    assert dict(dataset.sizes)["x"] == dict(dataset.sizes)["y"] == 33
-    carried = np.trapezoid(np.trapezoid(dataset["pressure"], dataset["y"]), dataset["x"])
-    # pressure vanishes on the border, so that both sums are the same
-    assert carried == pytest.approx(15.0, rel=1e-6)
-    # a Newtonian film: shear force of eta |du|/h over the plane, |du| = 0.1 u
-    stress = dataset["viscosity"] * 0.009 / dataset["film"]
-    force = np.trapezoid(np.trapezoid(stress, dataset["y"]), dataset["x"])
-    assert dataset.attrs["friction_force"] == pytest.approx(force, rel=1e-9)
-    sources = {row["source"] for row in summary if row["quantity"] == "minimum film"}
-    assert sources == {"solution", "Hamrock and Dowson 1977", "Chittenden et al. 1985"}
-    assert (dataset["fill"] == 1.0).all()
-
-
-def test_a_point_that_conserves_mass_writes_what_broken_film_holds(tmp_path):
-    options = ("--nodes", 33, "--slide-roll", 0.1, "--cavitation", "mass_conserving")
-    assert run("point", *options, "--out", tmp_path).exit_code == 0
-    dataset, _ = written(tmp_path, "point")
-    fill = dataset["fill"]
-    assert 0.0 < fill.min() < 0.5
-    assert (dataset["pressure"].where(fill < 1.0, 0.0) == 0.0).all()
-    # sheared streaks cover the share of the surface that they fill
-    stress = fill * dataset["viscosity"] * 0.009 / dataset["film"]
-    force = np.trapezoid(np.trapezoid(stress, dataset["y"]), dataset["x"])
-    assert dataset.attrs["friction_force"] == pytest.approx(force, rel=1e-9)
-
-
-def test_a_thermal_point_writes_its_temperatures(tmp_path):
-    result = run("point", "elliptical_thermal", "--nodes", 33, "--out", tmp_path)
-    assert result.exit_code == 0, result.output
-    dataset, summary = written(tmp_path, "point")
-    assert "temperature" in drawn_figures(dataset)
-    rise = float(dataset["temperature"].max()) - 313.15
-    (row,) = [r for r in summary if r["quantity"] == "highest temperature above the inlet"]
-    assert 0.0 < rise == pytest.approx(float(row["value"]), rel=1e-4)
-    assert dataset["temperature"].values[..., -1] == pytest.approx(dataset["temperature_2"].values)
-    assert dataset["heat_balance_history"][-1] <= 1e-6
-    # what sliding works against the film becomes heat
-    heat = np.trapezoid(np.trapezoid(dataset["heating"], dataset["y"]), dataset["x"])
-    slip = np.hypot(dataset.attrs["sliding_x"], dataset.attrs["sliding_y"])
-    assert heat == pytest.approx(dataset.attrs["friction_force"] * slip, rel=0.05)
-
-
 def test_a_point_whose_oil_does_not_know_temperature_is_refused():
     with pytest.raises(ParameterError, match="houpert"):
         PointCase.named("elliptical").varied({"temperature": "thermal"})
-
-
-def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
-    grid = ("--nodes-across", 41, "--nodes-along", 49)
-    result = run("helical", "--step", 300, *grid, "--newtonian", "--out", tmp_path)
-    assert result.exit_code == 0, result.output
-    dataset, summary = written(tmp_path, "helical")
-    assert dict(dataset.sizes)["x"] == 41
-    # Jamali 2015 sec. 4.4: s_i = -18.7 mm + 300 * 0.04 mm
-    assert dataset.attrs["position"] == pytest.approx(-6.7e-3)
-    # sec. 4.1: at most 14.4 kN of a load that leaves out cos(beta_b), 18.38 deg; change points
-    # move it by 4.3 %
-    assert dataset.attrs["load"] == pytest.approx(14.4e3 / math.cos(math.radians(18.38)), rel=0.043)
-    carried = np.trapezoid(np.trapezoid(dataset["pressure"], dataset["y"]), dataset["x"])
-    assert carried == pytest.approx(dataset.attrs["load"], rel=1e-5)
-    # rolling without sliding at the pitch point alone, which the line crosses at one place
-    slide = (dataset["speed_2"] - dataset["speed_1"]).values
-    assert (np.diff(slide) < 0.0).all()
-    assert slide[0] > 0.0 > slide[-1]
-    # mid-film shear follows the sliding on both sides of the pitch point: all of it is lost
-    stress = dataset["mean_stress"].values
-    power = np.trapezoid(np.trapezoid(stress * slide, dataset["y"], axis=1), dataset["x"])
-    assert dataset.attrs["sliding_power"] == pytest.approx(power, rel=1e-9)
-    assert (stress * slide >= 0.0).all()
-    largest = np.abs(slide).max()
-    assert 0.0 < power < dataset.attrs["friction_coefficient"] * dataset.attrs["load"] * largest
-    assert "Hertz, mean load" in {row["source"] for row in summary}
 
 
 @pytest.mark.parametrize("spacing", ["uniform", "exit"])
