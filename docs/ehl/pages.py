@@ -131,9 +131,10 @@ def counts(store: Store, runs: Sequence[Run]) -> str:
     bad = sum(m.failures for m in tally.marches)
     spent = sum(float(m["seconds"].sum()) for m in tally.marches)
     lacking = f" {tally.missing} runs of the list are not computed yet." if tally.missing else ""
+    failed = f": {'; '.join(tally.failed)}" if tally.failed else ""
     return (
         f"\nOf {len(rest)} films at rest {sum(not f.converged for f in tally.films)} did not "
-        f"converge, of {steps} time steps {bad}: {'; '.join(tally.failed) or 'none'}.{lacking}\n"
+        f"converge, of {steps} time steps {bad}{failed}.{lacking}\n"
         f"\nPressure reaches the border of the domain (a hundredth of the largest, one node from "
         f"it): {'; '.join(tally.cut) or 'nowhere'}.\n"
         f"\nFilms at rest took {sum(rest):.0f} s of one processor, a median of "
