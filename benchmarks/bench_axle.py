@@ -35,7 +35,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     SIDE,
     X,
 )
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
 

@@ -15,15 +15,15 @@ from pathlib import Path
 import numpy as np
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.contact_table import contact_table
+from gearlube_core.hypoid_contact.gap_map import gap_map
+from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition, PairStiffness
+from gearlube_core.hypoid_contact.member_compliance import pair_stiffness
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
-from gearlube_core.tooth_contact.analysis import ContactSettings, analyse_contact
-from gearlube_core.tooth_contact.contact_path import contact_path
-from gearlube_core.tooth_contact.contact_table import contact_table
-from gearlube_core.tooth_contact.gap_map import gap_map
-from gearlube_core.tooth_contact.loaded_contact import LoadedSettings, MeshPosition, PairStiffness
-from gearlube_core.tooth_contact.member_compliance import pair_stiffness
-from gearlube_core.tooth_contact.pair import FlankPair
 
 _LOGGER = logging.getLogger("bench_contact")
 FILE = HypoidGearFile.named("mohammadpour_2015")

@@ -24,11 +24,11 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
-from gearlube_core.ehl.helical_cycle import march_helical_cycle
-from gearlube_core.ehl.helical_film import EXIT_GRADING, HelicalFilm, jamali_2015_film
-from gearlube_core.ehl.lubricant import fill_properties
-from gearlube_core.ehl.transient_film import FilmSolution
-from gearlube_core.ehl.transient_march import FilmMarch
+from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
+from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, HelicalFilm, jamali_2015_film
+from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.oil.film_oil import fill_properties
 
 Mesh = tuple[str, tuple[int, int], tuple[tuple[float, float], ...]]
 THESIS: Mesh = ("that of the thesis", (182, 857), ())

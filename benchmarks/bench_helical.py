@@ -19,10 +19,9 @@ import numpy as np
 from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.integrate import solve_ivp
 
-from drivetrain.helical.loaded import analyse_loaded_contact
-from drivetrain.helical.settings import RPM, HelicalSettings
-from drivetrain.helical.sweep_grid import sweep_dataset
-from gearlube_core.dynamics.helical_pair.accelerations import pair_accelerations
+from gearlube.studies.helical.loaded import analyse_loaded_contact
+from gearlube.studies.helical.settings import RPM, HelicalSettings
+from gearlube.studies.helical.sweep_grid import sweep_dataset
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     PeriodicResponse,
@@ -37,6 +36,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import line_loads, mesh_strain
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.references.helical_accelerations import pair_accelerations
 
 _LOGGER = logging.getLogger("bench_helical")
 SPEED = 1000.0 * RPM

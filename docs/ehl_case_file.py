@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from docs.field_tables import field_tables
-from gearlube_core.ehl.case_file import LineCase, PointCase
-from gearlube_core.ehl.hypoid_case_file import HypoidCase
+from gearlube_core.ehl.case.contact_case import LineCase, PointCase
+from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
 PAGE = Path(__file__).with_suffix(".md")
 OIL = {
@@ -33,7 +33,7 @@ HYPOID = {"": "Hypoid flank: the file", "solver": "[solver]"}
 HEAD = """# The case files of lubricated line and point contacts and of hypoid flanks
 
 The tables are written by `python -m docs.ehl_case_file` from the data models
-(`gearlube_core/ehl/case_file.py`, `hypoid_case_file.py` and their sections), the text with them;
+(`gearlube_core/ehl/case/`), the text with them;
 not edited by hand.
 
 `gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from docs.field_tables import field_tables
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.flank_surface.tooth import Tooth
-from gearlube_core.flank_surface.tooth_solid import Solid, gear_solid
-from gearlube_core.tooth_contact.pair import FlankPair
-from gearlube_core.tooth_contact.placement import Placement
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.placement import Placement
+from gearlube_core.hypoid_geometry.flank.tooth import Tooth
+from gearlube_core.hypoid_geometry.flank.tooth_solid import Solid, gear_solid
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,7 @@ SECTIONS = {
 HEAD = """# The gear file
 
 The tables are written by `python -m docs.gear_file` from the data model
-(`gearlube_core/flank_surface/gear_file.py`), the text with them; not edited by hand.
+(`gearlube_core/hypoid_geometry/gear_file.py`), the text with them; not edited by hand.
 
 A hypoid pair as a workshop describes it: blank, cutters and machine settings, in millimetres and
 degrees, in one TOML file. From it come the flank surfaces, and from them tooth contact,
@@ -80,12 +80,12 @@ chosen because the source is silent. All other fields count as printed.
 TAIL = """
 ## Write your own
 
-1. Copy `gearlube_core/flank_surface/data/mohammadpour_2015.toml` (face-hobbed) or
+1. Copy `gearlube_core/hypoid_geometry/data/mohammadpour_2015.toml` (face-hobbed) or
    `examples/gears/face_milled.toml` and put your summary sheet's numbers in.
 2. Read it. Every wrong field is named, with its value and its range:
 
    ```python
-   from gearlube_core.flank_surface.gear_file import HypoidGearFile
+   from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
    file = HypoidGearFile.from_toml("my_gear.toml")
    ```
@@ -94,7 +94,7 @@ TAIL = """
    changes that would cure it, `suggest_settings` gives them as numbers:
 
    ```python
-   from gearlube_core.flank_surface.setting_check import setting_report, suggest_settings
+   from gearlube_core.hypoid_geometry.flank.setting_check import setting_report, suggest_settings
 
    print(*setting_report(file), sep="\\n")
    for change in suggest_settings(file):
@@ -106,13 +106,13 @@ TAIL = """
 4. Look at the tooth: thin toplands, pointed teeth, undercut.
 
    ```python
-   from gearlube_core.flank_surface.tooth_form import tooth_form
+   from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
 
    print(*tooth_form(file, "pinion").report(), sep="\\n")
    ```
 
 5. Take it elsewhere: `write_flank_csv` (points, normals, curvatures), and `write_solid` with
-   `tooth_solid` or `gear_solid` for STL and GLB (`gearlube_core/flank_surface/export.py`).
+   `tooth_solid` or `gear_solid` for STL and GLB (`gearlube_core/hypoid_geometry/flank/export.py`).
 
 Half a degree of pressure angle that is left is not a fault of the file: summary sheets often omit
 hook angles and blade edge curvature. The two angle corrections of the pinion are the place for it;

@@ -8,9 +8,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from drivetrain.driveline import Driveline
-from drivetrain.driveline_parameters import DrivelineParameters
-from drivetrain.driveline_steady_state import GEAR_INERTIA, PINION_INERTIA
+from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.parameters import DrivelineParameters
+from drivetrain.driveline.steady_state import GEAR_INERTIA, PINION_INERTIA
 from drivetrain.road_load import RoadLoad
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError, StepError

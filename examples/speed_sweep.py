@@ -6,9 +6,9 @@ from pathlib import Path
 
 import xarray as xr
 
-from drivetrain.report import write_report
-from drivetrain.sweep import SweepSettings, quick_settings, run_sweep
 from fmu_src.build import build_hypoid_axle
+from gearlube.studies.sweep import SweepSettings, quick_settings, run_sweep
+from gearlube.studies.sweep.report import write_report
 
 
 def sweep(out: Path) -> xr.Dataset:

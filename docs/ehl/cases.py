@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.ehl.helical_film import HelicalFilm, jamali_2015_film
-from gearlube_core.ehl.solid_contact import SolidContact
+from gearlube_core.ehl.gears.helical_film import HelicalFilm, jamali_2015_film
+from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 
 Array = np.ndarray[Any, np.dtype[np.float64]]

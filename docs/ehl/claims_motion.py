@@ -9,7 +9,7 @@ from docs.ehl.measures import exponent
 from docs.ehl.runs import APPROACH, POSITIONS, SPEEDS
 from docs.ehl.sections import line_contact, section
 from docs.ehl.store import Store
-from gearlube_core.ehl.dry_contact import dry_contact_of_gap
+from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap

@@ -9,7 +9,7 @@ import numpy as np
 
 from docs.ehl.cases import Array, FilmCase
 from docs.ehl.lines import write_arrays
-from gearlube_core.ehl.dry_contact import dry_contact_of_gap
+from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

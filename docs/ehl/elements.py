@@ -7,9 +7,9 @@ import numpy as np
 from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase
 from docs.ehl.lines import write_arrays
 from docs.ehl.store import SETTINGS, MissingFilmError, Store
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.problem import PointContactProblem
-from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 
 METHODS = ("differences", "elements")

@@ -25,7 +25,7 @@ from docs.ehl.runs import (
     power_case,
 )
 from docs.ehl.store import Store
-from drivetrain.figures.style import BLUE, GREY, SERIES, VERMILLION, house_style, new_figure
+from gearlube.plotting.style import BLUE, GREY, SERIES, VERMILLION, house_style, new_figure
 
 COLOURS = dict(zip("ab", (BLUE, VERMILLION), strict=True))
 

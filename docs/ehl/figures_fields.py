@@ -14,7 +14,7 @@ from docs.ehl.dry_cycle import dry_cycle
 from docs.ehl.runs import POSITIONS, POWERS, power_case
 from docs.ehl.sections import line_contact, section
 from docs.ehl.store import Store
-from drivetrain.figures.style import BLUE, VERMILLION, house_style, new_figure
+from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 
 _FILMS = np.array([0.1, 0.14, 0.18, 0.22, 0.26, 0.3, 0.4, 0.6, 1.0])  # um
 _PRESSURES = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 1.1, 1.3])  # GPa

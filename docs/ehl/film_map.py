@@ -15,12 +15,12 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 from docs.ehl.store import Store
-from drivetrain.ehl.formulas import point_film_formulas
+from gearlube.studies.films.formulas import point_film_formulas
 from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.nijenbanning_1994 import regime_films
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.film.nijenbanning_1994 import regime_films
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 logger = logging.getLogger("docs.ehl")
 

@@ -17,7 +17,7 @@ from docs.ehl.film_map import (
     Films,
     map_contacts,
 )
-from drivetrain.figures.style import MARKERS, SERIES, house_style, new_figure
+from gearlube.plotting.style import MARKERS, SERIES, house_style, new_figure
 
 _PANELS = (
     ("central film", HAMROCK_DOWSON),

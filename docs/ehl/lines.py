@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from docs.ehl.cases import Array
-from gearlube_core.ehl.transient_film import FilmSolution
-from gearlube_core.whole_file import whole_file
+from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.storage.atomic_file import whole_file
 
 COLUMNS = (
     "number", "max_pressure", "max_pressure_y", "min_film", "min_film_y", "load_error",

@@ -17,12 +17,12 @@ import numpy as np
 from docs.ehl.cases import Array
 from docs.ehl.lines import write_arrays
 from docs.ehl.store import MissingFilmError, Store
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.problem import EllipticParaboloid
-from gearlube_core.ehl.transient_film import MovingFilm
-from gearlube_core.ehl.transient_level import FilmConditions
-from gearlube_core.ehl.transient_march import FilmMarch
-from gearlube_core.ehl.transient_steady import solve_steady_film
+from gearlube_core.ehl.point.problem import EllipticParaboloid
+from gearlube_core.ehl.transient.film import MovingFilm
+from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.steady import solve_steady_film
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 logger = logging.getLogger("docs.ehl")
 

@@ -21,7 +21,7 @@ from docs.ehl.micro_cavity import (
 )
 from docs.ehl.store import MissingFilmError, Store
 from docs.helical.pages import table
-from drivetrain.figures.style import BLUE, GREY, VERMILLION, house_style, new_figure
+from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 
 IMAGES = Path(__file__).resolve().parents[1] / "images"
 NODES = (161, 97)

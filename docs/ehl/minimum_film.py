@@ -11,9 +11,9 @@ from docs.ehl.claims import MISSING, MM, UM
 from docs.ehl.lines import write_arrays
 from docs.ehl.store import MissingFilmError, Store
 from docs.helical.pages import table
-from gearlube_core.ehl.helical_cycle import march_helical_cycle
-from gearlube_core.ehl.helical_film import jamali_2015_film
-from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
+from gearlube_core.ehl.gears.helical_film import jamali_2015_film
+from gearlube_core.ehl.point.settings import PointSolverSettings
 
 FIRST, LAST = 470, 490  # steps of design A; the contact is crossed in 17
 _COLUMNS = ("steady", "moving", "x", "y", "failures")

@@ -9,9 +9,9 @@ import numpy as np
 from docs.ehl.cases import CYCLE, Array, FilmCase
 from docs.ehl.claims_cycle import cycle
 from docs.ehl.store import Store
-from gearlube_core.ehl.line_problem import LineProblem, LineSettings
-from gearlube_core.ehl.line_solution import LineSolution
-from gearlube_core.ehl.line_solver import solve_line
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.solution import LineSolution
+from gearlube_core.ehl.line.solver import solve_line
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,11 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from drivetrain.ehl.hypoid_case import HypoidFlank, hypoid_flank
-from gearlube_core.ehl.hypoid_case_file import HypoidCase
-from gearlube_core.ehl.hypoid_cycle import central_film
-from gearlube_core.ehl.transient_steady import solve_steady_film
-from gearlube_core.whole_file import write_text
+from gearlube.studies.films.hypoid_case import HypoidFlank, hypoid_flank
+from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.ehl.gears.hypoid_cycle import central_film
+from gearlube_core.ehl.transient.steady import solve_steady_film
+from gearlube_core.storage.atomic_file import write_text
 
 
 class Film(NamedTuple):

@@ -15,9 +15,9 @@ import xarray as xr
 from rich.console import Console
 
 from docs.ehl_hypoid.grid import grid_sentence
-from drivetrain.ehl.hypoid_summary import RatioRow, ratio_rows
-from fmu_src.ehl_hypoid_console import console_hypoid
-from gearlube_core.ehl.hypoid_case_file import HypoidCase
+from gearlube.studies.films.hypoid_console import console_hypoid
+from gearlube.studies.films.hypoid_summary import RatioRow, ratio_rows
+from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = Path(__file__).parent / "text.md"

@@ -10,14 +10,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from gearlube_core.ehl.case_file import PointCase
-from gearlube_core.ehl.lubricant import EhlLubricant, viscosity_cooling
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.point_thermal import solve_thermal_point
-from gearlube_core.ehl.point_traction import point_traction
-from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.ehl.case.contact_case import PointCase
+from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
+from gearlube_core.ehl.point.traction import point_traction
 from gearlube_core.film.grubin_1949 import inlet_heating_factor
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.oil.film_oil import EhlLubricant, viscosity_cooling
 
 PAGE = Path(__file__).resolve().parents[1] / "ehl_thermal.md"
 OIL = PointCase.named("elliptical_thermal").oil.ehl_lubricant()
@@ -35,8 +35,9 @@ Written by `python -m docs.ehl_thermal.make`; not edited by hand.
 What the thermal option (`temperature = "thermal"`) makes of films and friction. Steel bodies, in
 bulk at the oil's inlet temperature of 40 degC; the oil of the shipped case `elliptical_thermal`
 (20 mPa s, 18 1/GPa, Houpert with S0 = 1.1, Eyring stress 5 MPa). Equations and limits stand in
-`gearlube_core.ehl.point_thermal`, their tests in `tests/analytical/test_ehl_point_thermal.py`
-(line contact, balances, symmetry) and `test_ehl_moving_heat.py` (Jaeger's sources).
+`gearlube_core.ehl.point.thermal.solver`, their tests in
+`tests/analytical/test_ehl_point_thermal.py` (line contact, balances, symmetry) and
+`test_ehl_moving_heat.py` (Jaeger's sources).
 """
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from docs.helical.separation import Curve
-from drivetrain.figures.style import SERIES, house_style, new_figure
+from gearlube.plotting.style import SERIES, house_style, new_figure
 
 UM = 1e6
 

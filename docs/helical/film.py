@@ -14,6 +14,7 @@ import numpy as np
 
 from docs.helical.cases import HE, Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
@@ -22,9 +23,8 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import line_points, table_line_load, uniform_line_load
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.oil.lubricant import Lubricant
 
 OIL, OIL_TEMPERATURE, SIGMA = "mohammadpour_2015", 353.15, 0.5e-6  # -, K, m
 RPM = math.pi / 30.0

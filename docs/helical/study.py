@@ -6,8 +6,8 @@ import logging
 from pathlib import Path
 
 from docs.helical.cases import density
-from drivetrain.helical.settings import HelicalSettings
-from drivetrain.helical.study import HelicalStudy, Stage, study_helical_pair
+from gearlube.studies.helical.settings import HelicalSettings
+from gearlube.studies.helical.study import HelicalStudy, Stage, study_helical_pair
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 

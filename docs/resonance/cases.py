@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drivetrain.resonance.measures import mesh_harmonics
-from drivetrain.resonance.response import Response, Segment
+from gearlube.studies.resonance.measures import mesh_harmonics
+from gearlube.studies.resonance.response import Response, Segment
 from gearlube_core.dynamics.hypoid_torsional.parameters import (
     HypoidTorsionalParameters,
     karagiannis_2012_pair,

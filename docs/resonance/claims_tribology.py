@@ -13,7 +13,7 @@ from docs.resonance.contacts import COLD, HOT, Contacts
 from docs.resonance.evidence import Evidence
 from docs.resonance.film_exponent import load_exponents
 from docs.resonance.verdicts import OPEN, Claim, Verdict, judge
-from drivetrain.resonance.traction_curve import SHEAR_RATES, traction_curve
+from gearlube.studies.resonance.traction_curve import SHEAR_RATES, traction_curve
 from gearlube_core.friction.traction_regime import EYRING
 
 UM = 1e6

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drivetrain.resonance.flank_cycle import FlankCycle, flank_cycle
-from drivetrain.resonance.motions import motion_near
+from gearlube.studies.resonance.flank_cycle import FlankCycle, flank_cycle
+from gearlube.studies.resonance.motions import motion_near
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.errors import ConvergenceError

@@ -33,10 +33,10 @@ from docs.resonance.pages import (
     verdict_counts,
 )
 from docs.resonance.starts import starts
-from drivetrain.resonance import ResonanceSettings, study_resonance
-from drivetrain.resonance.cycle_dataset import cycle_dataset
-from drivetrain.resonance.datasets import resonance_dataset
-from drivetrain.resonance_figures import save_resonance_figures
+from gearlube.studies.resonance import ResonanceSettings, study_resonance
+from gearlube.studies.resonance.cycle_dataset import cycle_dataset
+from gearlube.studies.resonance.datasets import resonance_dataset
+from gearlube.studies.resonance.figures import save_resonance_figures
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXTS = Path(__file__).parent / "text"

@@ -18,8 +18,8 @@ from docs.tooth_contact.measures import (
 )
 from docs.validation.claims import FAILS, HOLDS, PARTLY, Claim, Verdict
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
-from gearlube_core.tooth_contact.mesh_cycle import SIDES
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
+from gearlube_core.hypoid_contact.mesh_cycle import SIDES
 
 PINION_INERTIA, GEAR_INERTIA = 1.734e-3, 5.81e-2  # kg m2, Karagiannis 2012, data below fig. 7
 DAMPING, DAMPING_RATIO = 2278.1, 0.03  # N s/m and -, ditto

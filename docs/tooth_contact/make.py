@@ -25,9 +25,9 @@ from docs.tooth_contact.pages import (
 from docs.tooth_contact.refinement import refinements
 from docs.tooth_contact.study import analysed, axle_sweep
 from docs.tooth_contact.variants import variants
-from drivetrain.contact_figures import save_contact_figures
-from gearlube_core.tooth_contact.analysis import ContactSettings
-from gearlube_core.tooth_contact.mesh_cycle import CycleSettings
+from gearlube.studies.contact.figures import save_contact_figures
+from gearlube_core.hypoid_contact.analysis import ContactSettings
+from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXTS = Path(__file__).parent / "text"

@@ -18,7 +18,7 @@ from docs.tooth_contact.measures import (
     variation,
 )
 from docs.validation.claims import Claim
-from gearlube_core.tooth_contact.mesh_cycle import SIDES
+from gearlube_core.hypoid_contact.mesh_cycle import SIDES
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from gearlube_core.hypoid_contact.analysis import ContactSettings
+from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
+from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
-from gearlube_core.tooth_contact.analysis import ContactSettings
-from gearlube_core.tooth_contact.loaded_contact import LoadedSettings
-from gearlube_core.tooth_contact.mesh_cycle import CycleSettings
 
 POSITIONS = 6
 TORQUES = (50.0, 200.0)

@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from drivetrain.sweep import SweepSettings, run_sweep
 from fmu_src.build import build_hypoid_axle
+from gearlube.studies.sweep import SweepSettings, run_sweep
 from gearlube_core import __version__
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.hypoid_contact.contact_table import contact_table
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import write_mesh_table
-from gearlube_core.tooth_contact.analysis import ContactSettings, analyse_contact
-from gearlube_core.tooth_contact.contact_table import contact_table
-from gearlube_core.whole_file import write_dataset
+from gearlube_core.storage.atomic_file import write_dataset
 
 logger = logging.getLogger(__name__)
 

@@ -10,12 +10,12 @@ import numpy as np
 from scipy.optimize import brentq
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.flank import Side
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.flank_surface.machine_frames import gear_cut, pinion_cut
-from gearlube_core.tooth_contact.contact_kinematics import path_kinematics
-from gearlube_core.tooth_contact.contact_path import contact_path
-from gearlube_core.tooth_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
+from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_geometry.flank.flank import Side
+from gearlube_core.hypoid_geometry.flank.machine_frames import gear_cut, pinion_cut
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import DEGREE
 
 BASE = "mohammadpour_2015"

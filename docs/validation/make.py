@@ -15,9 +15,9 @@ import numpy as np
 import xarray as xr
 
 from docs.validation.claims import CLAIMS, Claim
-from drivetrain.report import write_report
-from drivetrain.sweep import SweepSettings, run_sweep
 from fmu_src.build import build_hypoid_axle
+from gearlube.studies.sweep import SweepSettings, run_sweep
+from gearlube.studies.sweep.report import write_report
 
 ROOT = Path(__file__).resolve().parents[2]
 PRELOADS = [2500.0, 6000.0]

@@ -8,7 +8,7 @@ bearing with side s = +1 is loaded by positive axial displacement, the one with 
 from __future__ import annotations
 
 from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, BearingParameters
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

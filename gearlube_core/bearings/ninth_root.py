@@ -6,7 +6,7 @@ ninth root of its approach once per evaluation; `pow` would take most of the tim
 
 from __future__ import annotations
 
-from gearlube_core.bearings.inlining import inlined
+from gearlube_core.kernels.inlining import inlined
 
 ROOT_MIN = 2.0**-13.5  # 1, smallest argument of ninth_root
 ROOT_MAX = 2.0**17.5  # 1, largest

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gearlube_core.bearings.parameters import BearingParameters
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # Tapered roller bearings in an oil bath, Harris and Kotzalas 2007 (f0 = 3 for oil mist, 8 to 10
 # for an oil jet) and the same f1 in ISO/TR 14179-1.

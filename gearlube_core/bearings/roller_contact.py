@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.bearings.inlining import inlined
 from gearlube_core.bearings.ninth_root import (
     ROOT_MIN,
     ninth_root_change,
@@ -32,7 +31,8 @@ from gearlube_core.film.mostofi_gohar_1983 import (
     SQUEEZE_RATE,
     SQUEEZE_SHARE,
 )
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.inlining import inlined
+from gearlube_core.kernels.jit import kernel
 
 N_LINE = 10.0 / 9.0  # 1, exponent of a line contact, Mohammadpour et al. 2015 eq. (25)
 _M_LINE = -LOAD_EXPONENT * N_LINE  # 0.05: the film goes with d^-0.05

@@ -19,7 +19,7 @@ from gearlube_core.bearings.roller_contact import (
     roller_load_general,
     roller_load_line,
 )
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

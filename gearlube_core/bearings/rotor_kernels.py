@@ -9,7 +9,7 @@ import numpy as np
 from gearlube_core.bearings.cage_frame import cage_torque
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.roller_loads import bearing_forces, roller_loads
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 N_STATE = 6  # r1, r2 [m], their velocities [m/s], lost energy and work on the cage [J]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from gearlube_core.bearings.cage_frame import approach_terms
-from gearlube_core.bearings.inlining import summing
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
     FILM_FLOOR_APPROACH,
@@ -20,7 +19,8 @@ from gearlube_core.bearings.roller_contact import (
     roller_approach_line,
 )
 from gearlube_core.film.mostofi_gohar_1983 import LOAD_EXPONENT
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.inlining import summing
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

@@ -13,7 +13,6 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.bearings.cage_frame import approach_terms
-from gearlube_core.bearings.inlining import summing
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
     FILM_FLOOR_APPROACH,
@@ -26,7 +25,8 @@ from gearlube_core.bearings.roller_contact import (
     roller_response_general,
     roller_response_line,
 )
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.inlining import summing
+from gearlube_core.kernels.jit import kernel
 
 # layout of an expansion: base approaches and rates (g1, g2, ga, v1, v2, va), sums of the load
 # (w cos b, w sin b, +-w), lost power, symmetric 3 x 3 slopes against approach and against rate

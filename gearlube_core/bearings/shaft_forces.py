@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.roller_loads import bearing_forces
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

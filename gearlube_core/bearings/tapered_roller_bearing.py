@@ -14,6 +14,7 @@ from gearlube_core.bearings.parameters import (
 )
 from gearlube_core.bearings.roller_contact import N_LINE
 from gearlube_core.checks import check_option, check_within
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, pi_contact_modulus
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.mostofi_gohar_1983 import (
     COEFFICIENT,
@@ -22,7 +23,6 @@ from gearlube_core.film.mostofi_gohar_1983 import (
     SPEED_EXPONENT,
     SQUEEZE_SHARE,
 )
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, pi_contact_modulus
 
 Approach = Literal["full", "as_printed"]
 Film = Literal["squeeze", "steady", "off"]

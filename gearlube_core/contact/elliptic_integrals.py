@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 _CYCLES = 8  # quadratic convergence: enough for axis ratios down to 1e-9
 

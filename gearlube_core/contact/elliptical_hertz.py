@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gearlube_core.contact.elliptic_integrals import complete_elliptic_k_d
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 _ITERATIONS = 12
 _TOLERANCE = 1.0e-13  # on ln(a/b)

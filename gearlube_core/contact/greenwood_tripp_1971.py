@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import gamma, pbdv
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 class SurfaceParameters(NamedTuple):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 LAMBDA_CRITICAL = 3.0  # Mohammadpour et al. 2015, below eq. (19)
 

@@ -11,7 +11,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 from gearlube_core.checks import check_positive
 from gearlube_core.contact.half_space import _love_integral
 from gearlube_core.errors import ParameterError
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 LARGEST_OVER_MEAN = 4.0 / math.pi  # p_0/p of an elliptical pressure over a strip
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 _ROUNDING = 1e-14
 

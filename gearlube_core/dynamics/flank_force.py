@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 DAMPING_BUILD_UP = 0.5e-6  # m, small against the 2 to 8 um of a loaded mesh
 

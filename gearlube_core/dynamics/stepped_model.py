@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gearlube_core.checks import check_finite, check_within
 from gearlube_core.errors import ConvergenceError, StepError
-from gearlube_core.flat_tuples import flatten
-from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.oil.lubricant import Lubricant
 
 Array = NDArray[np.float64]
 Control = TypeVar("Control", bound=tuple[float, ...])  # a NamedTuple of floats

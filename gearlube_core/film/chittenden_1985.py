@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # Chittenden et al. 1985 part II; Mohammadpour et al. 2015 eq. (22)
 _SPEED_EXPONENT = 0.68

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.film.line_film_law import LineFilmLaw, law_of_line_film
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 _LAW = LineFilmLaw(coefficient=2.65, speed=0.70, material=0.54, load=-0.13)
 

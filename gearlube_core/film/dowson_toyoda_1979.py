@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gearlube_core.checks import check_positive
 from gearlube_core.film.line_film_law import LineFilmLaw, law_of_line_film
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 _LAW = LineFilmLaw(coefficient=3.06, speed=0.69, material=0.56, load=-0.10)
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from gearlube_core.checks import check_option, check_positive
 from gearlube_core.film.chittenden_1985 import film_geometry
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # Karagiannis et al. 2012 eq. (10)
 _PRINTED_COEFFICIENT = 1.212

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 COEFFICIENT = 13.924  # 1, Mohammadpour et al. 2015 eq. (27)
 LOAD_EXPONENT = -0.045  # 1, eq. (27)

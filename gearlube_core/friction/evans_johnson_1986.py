@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.jit import kernel
-from gearlube_core.rheology.eyring_1936 import eyring_stress_ratio
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 
 # Evans and Johnson 1986; Mohammadpour et al. 2015 eq. (13), (14)
 _PRESSURE_COEFFICIENT = 0.87

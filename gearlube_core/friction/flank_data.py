@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from gearlube_core.contact.elliptical_hertz import hertz_coefficients
 from gearlube_core.film.chittenden_1985 import film_geometry
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 CONSISTENT = 0
 AS_PRINTED = 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

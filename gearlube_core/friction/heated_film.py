@@ -18,13 +18,13 @@ from gearlube_core.friction.johnson_greenwood_1980 import (
 )
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED
 from gearlube_core.friction.thermal_eyring_data import ThermalEyringOil
-from gearlube_core.jit import kernel
-from gearlube_core.materials.viscosity_constants import ROELANDS_LOG_VISCOSITY
-from gearlube_core.rheology.houpert_1985 import (
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.houpert_1985 import (
     HoupertParameters,
     houpert_log_viscosity,
     houpert_temperature_coefficient,
 )
+from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
 
 SEARCH_ITERATIONS = 40
 SEARCH_TOLERANCE = 1.0e-3  # K, of the last step; the error after a secant step is far smaller

@@ -16,8 +16,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube_core.jit import kernel
-from gearlube_core.rheology.eyring_1936 import eyring_stress_ratio
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 
 CONVERGED, NOT_CONVERGED = 0.0, 1.0
 _ITERATIONS = 60

@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
 from gearlube_core.friction.flank_data import CONSISTENT
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR, mixed_friction
-from gearlube_core.jit import kernel
-from gearlube_core.materials.solid import SolidParameters
-from gearlube_core.rheology.lubricant_state import LubricantState
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
 
 LINE_LOAD_FLOOR = 1.0  # N/m, film and pressure of an unloaded line are those at this floor
 # Round source with the mean rise of a resting strip of length 200 half widths b: radius 4.7 b.

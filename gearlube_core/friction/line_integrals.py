@@ -9,16 +9,16 @@ import numpy as np
 
 from gearlube_core.checks import check_positive
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.friction.line_friction import LINE_LOAD_FLOOR, line_friction
 from gearlube_core.friction.line_points import LinePoints
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
-from gearlube_core.jit import kernel
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import SolidParameters
-from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 _QUANTITIES = 8

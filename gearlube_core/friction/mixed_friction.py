@@ -16,15 +16,15 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     asperity_load_factor,
 )
 from gearlube_core.contact.greenwood_tripp_as_printed import f_2_as_printed, f_5_2_as_printed
+from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.friction.evans_johnson_1986 import (
     solid_resistance,
     surface_heating_number,
     viscous_friction_coefficient,
 )
 from gearlube_core.friction.flank_data import AS_PRINTED
-from gearlube_core.jit import kernel
-from gearlube_core.materials.solid import SolidParameters
-from gearlube_core.rheology.lubricant_state import LubricantState
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
 
 SPEED_FLOOR = 1.0e-6  # m/s, film and heat of a resting contact are those at this floor
 BOUNDARY_SPEED = 1.0e-3  # m/s, boundary friction builds up over this sliding speed

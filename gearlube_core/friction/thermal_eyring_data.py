@@ -9,9 +9,9 @@ from gearlube_core.checks import check_option
 from gearlube_core.contact.elliptical_hertz import hertz_coefficients
 from gearlube_core.film.grubin_1949 import grubin_convention, grubin_geometry
 from gearlube_core.friction.flank_data import ContactGeometry
-from gearlube_core.jit import kernel
-from gearlube_core.materials.lubricant import LubricantParameters
-from gearlube_core.rheology.houpert_1985 import HoupertParameters, houpert_log_viscosity
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.houpert_1985 import HoupertParameters, houpert_log_viscosity
+from gearlube_core.oil.lubricant import LubricantParameters
 
 INLET, EFFECTIVE, INLET_SHEAR_HEATING = 0.0, 1.0, 2.0
 FILM_TEMPERATURES = {

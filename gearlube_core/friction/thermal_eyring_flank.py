@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.grubin_1949 import (
     GrubinConvention,
     grubin_film_thickness,
@@ -28,14 +29,13 @@ from gearlube_core.friction.thermal_eyring_data import (
     ThermalEyringOptions,
     ThermalFlankState,
 )
-from gearlube_core.jit import kernel
-from gearlube_core.materials.solid import SolidParameters
-from gearlube_core.materials.viscosity_constants import ROELANDS_LOG_VISCOSITY, ROELANDS_PRESSURE
-from gearlube_core.rheology.houpert_1985 import (
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.houpert_1985 import (
     HoupertParameters,
     houpert_log_viscosity,
     houpert_temperature_coefficient,
 )
+from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY, ROELANDS_PRESSURE
 
 _LARGEST_OVER_MEAN = 1.5  # Hertz pressure
 

@@ -20,14 +20,14 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.friction.thermal_eyring_data import ThermalEyringOil, ThermalFlankState
-from gearlube_core.jit import kernel
-from gearlube_core.materials.viscosity_constants import ROELANDS_LOG_VISCOSITY
-from gearlube_core.rheology.eyring_1936 import eyring_stress_ratio
-from gearlube_core.rheology.houpert_1985 import (
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
+from gearlube_core.oil.houpert_1985 import (
     HoupertParameters,
     houpert_log_viscosity,
     houpert_temperature_coefficient,
 )
+from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
 
 NEWTONIAN, EYRING, PLASTIC = 0.0, 1.0, 2.0
 REGIMES = {NEWTONIAN: "newtonian", EYRING: "eyring", PLASTIC: "elastic_plastic"}

@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gearlube_core.contact.resumable_records import Record
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, line_numbers
 from gearlube_core.helical_geometry.contact_line import ContactPlane, clip_line, line_position
 from gearlube_core.helical_geometry.load_sharing import unrelieved_plane
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from gearlube_core.storage.resumable_records import Record
 
 Array = NDArray[np.float64]
 

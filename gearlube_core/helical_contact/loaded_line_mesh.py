@@ -7,12 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlube_core.contact.resumable_records import Record
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position, segment_length
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.storage.resumable_records import Record
 
 Array = NDArray[np.float64]
 

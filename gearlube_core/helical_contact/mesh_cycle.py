@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.checks import check_within
-from gearlube_core.contact.resumable_records import Record, RecordStore, resumable_records
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.loaded_contact import (
     LoadedLine,
@@ -23,6 +22,7 @@ from gearlube_core.helical_contact.loaded_contact import (
 from gearlube_core.helical_geometry.contact_line import clip_line, line_count
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
 from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
 
 Array = NDArray[np.float64]

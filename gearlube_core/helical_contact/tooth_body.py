@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlube_core.checks import check_option
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, contact_modulus
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import MEMBERS, involute_flank
 from gearlube_core.helical_geometry.iso_6336_stiffness import profile_shifts
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, contact_modulus
 from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
 from gearlube_core.tooth_compliance.tooth_body import (
     FLANK_GRID,

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 class ContactPlane(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 class LineKinematics(NamedTuple):

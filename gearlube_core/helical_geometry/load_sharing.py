@@ -23,7 +23,7 @@ from gearlube_core.helical_geometry.contact_line import (
 )
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 CONVENTIONS = ("normal", "thesis")
 Array = NDArray[np.float64]

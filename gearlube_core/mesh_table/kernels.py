@@ -8,7 +8,7 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # order of the series in a packed coefficient array
 K_M, R_P, R_G, N_X, N_Y, N_Z, E = range(7)

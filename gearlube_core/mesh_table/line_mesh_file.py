@@ -11,7 +11,7 @@ import xarray as xr
 
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.whole_file import write_dataset
+from gearlube_core.storage.atomic_file import write_dataset
 
 FORMAT = 1
 SHIPPED_PREFIX = "line_mesh_"  # of the shipped files' names

@@ -21,7 +21,7 @@ from gearlube_core.mesh_table.table import (
     MeshTable,
     Provenance,
 )
-from gearlube_core.whole_file import write_dataset
+from gearlube_core.storage.atomic_file import write_dataset
 
 FORMAT = 2  # 1 had one sign of torque, no tangent stiffness, sliding angle or highest pressure
 FILE_IN_FMU = "mesh_table.nc"  # name among the resources of an FMU with a table of its own

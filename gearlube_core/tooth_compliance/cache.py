@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gearlube_core.materials.solid import Solid
+from gearlube_core.contact.solid import Solid
 from gearlube_core.tooth_compliance.flank_compliance import (
     SIDES,
     CondensationSettings,

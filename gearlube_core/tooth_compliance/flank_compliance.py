@@ -18,8 +18,8 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from gearlube_core.checks import check_within
+from gearlube_core.contact.solid import Solid
 from gearlube_core.errors import ParameterError
-from gearlube_core.materials.solid import Solid
 from gearlube_core.tooth_compliance.half_space_hats import half_space_compliance
 from gearlube_core.tooth_compliance.hat_grid import (
     hat_values,

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial.distance import cdist
 
-from gearlube_core.materials.solid import Solid
+from gearlube_core.contact.solid import Solid
 from gearlube_core.tooth_compliance.hat_grid import hat_values
 from gearlube_core.tooth_compliance.tooth_section import Flank
 

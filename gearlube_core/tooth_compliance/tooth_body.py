@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TypeVar
 
 from gearlube_core.checks import check_within
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
+from gearlube_core.storage.worker_pool import worker_pool
 from gearlube_core.tooth_compliance.cache import cached_tooth_compliance, stored_tooth_compliance
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
-from gearlube_core.worker_pool import worker_pool
 
 FLANK_GRID = (13, 33)  # flank points handed to the mesher, root to tip and along the face
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array
 from skfem import Basis, ElementHexS2, FacetBasis
 
-from gearlube_core.materials.solid import Solid
+from gearlube_core.contact.solid import Solid
 from gearlube_core.tooth_compliance.hat_grid import hat_values
 from gearlube_core.tooth_compliance.layer_elimination import energy_products
 from gearlube_core.tooth_compliance.tooth_mesh import ToothMesh

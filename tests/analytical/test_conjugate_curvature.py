@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from conjugate_curvature import conjugate_relative_curvature
 
 from gearlube_core.errors import ParameterError
+from tests.helpers.conjugate_curvature import conjugate_relative_curvature
 
 BASE_1, BASE_2 = 0.03, 0.07  # base radii [m]
 PRESSURE = math.radians(20.0)

@@ -4,15 +4,15 @@ import math
 
 import numpy as np
 import pytest
-from conjugate_curvature import conjugate_relative_curvature
-from contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.vectors import Vector
-from gearlube_core.tooth_contact.contact_kinematics import contact_kinematics, path_kinematics
-from gearlube_core.tooth_contact.contact_path import contact_path
-from gearlube_core.tooth_contact.placed_flank import placed_sample, shape_operator
-from gearlube_core.tooth_contact.rays import HIT, hit_along
+from gearlube_core.hypoid_contact.contact_kinematics import contact_kinematics, path_kinematics
+from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.placed_flank import placed_sample, shape_operator
+from gearlube_core.hypoid_contact.rays import HIT, hit_along
+from gearlube_core.hypoid_geometry.flank.vectors import Vector
+from tests.helpers.conjugate_curvature import conjugate_relative_curvature
+from tests.helpers.contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
 
 PINION_AXIS, GEAR_AXIS = np.array([-1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 PINION_POINT = np.array([0.0, 0.024, 0.0])

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from drivetrain.driveline import Driveline
-from drivetrain.driveline_equations import INDEX, STATES
-from drivetrain.driveline_parameters import DrivelineParameters
-from drivetrain.driveline_steady_state import periodic_deviation
+from drivetrain.driveline.equations import INDEX, STATES
+from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.parameters import DrivelineParameters
+from drivetrain.driveline.steady_state import periodic_deviation
 from drivetrain.drivers import CoupledVehicle
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load

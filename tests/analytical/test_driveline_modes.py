@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from drivetrain.driveline import Driveline
-from drivetrain.driveline_modes import driveline_modes
-from drivetrain.driveline_parameters import DrivelineParameters
+from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.modes import driveline_modes
+from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load
 from drivetrain.vehicle import mohammadpour_2015_vehicle
@@ -100,7 +100,7 @@ def test_a_heavier_pinion_lowers_the_axle_mode() -> None:
 
 
 def test_the_speed_controller_is_critically_damped_and_slower_than_every_mode() -> None:
-    from drivetrain.driveline_steady_state import rigid_axle_jacobian
+    from drivetrain.driveline.steady_state import rigid_axle_jacobian
 
     line = Driveline(DAMPED, 60 / 3.6)
     eigenvalues = np.linalg.eigvals(rigid_axle_jacobian(DAMPED, line.steady))

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from drivetrain.driveline import COMMUNICATION_STEP, Driveline
-from drivetrain.driveline_equations import STATES
-from drivetrain.driveline_modes import driveline_modes
-from drivetrain.driveline_parameters import DrivelineParameters
-from drivetrain.driveline_stability import (
+from drivetrain.driveline.equations import STATES
+from drivetrain.driveline.model import COMMUNICATION_STEP, Driveline
+from drivetrain.driveline.modes import driveline_modes
+from drivetrain.driveline.parameters import DrivelineParameters
+from drivetrain.driveline.stability import (
     communication_map,
     communication_stability,
     largest_stable_step,
 )
-from drivetrain.driveline_torsional_axle import TorsionalAxle
+from drivetrain.driveline.torsional_axle import TorsionalAxle
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.errors import ConvergenceError

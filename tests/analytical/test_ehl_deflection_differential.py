@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.hertz_reference import HertzContact
-from gearlube_core.ehl.deflection_differential import (
+from gearlube_core.errors import ParameterError
+from tests.references.deflection_differential import (
     DifferentialDeflection,
     laplacian_coefficients,
 )
-from gearlube_core.errors import ParameterError
+from tests.references.hertz_reference import HertzContact
 
 E = 1.1375e11
 

@@ -7,11 +7,11 @@ import pytest
 from scipy.special import ellipe, ellipk
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
-from gearlube_core.contact.hertz_reference import HertzContact
-from gearlube_core.ehl.dry_contact import dry_contact, dry_contact_of_gap
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.problem import elliptical_contact
+from gearlube_core.ehl.point.dry_contact import dry_contact, dry_contact_of_gap
+from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.references.hertz_reference import HertzContact
 
 E = 1.1375e11
 OIL = ehl_lubricant(eta0=0.04, alpha=2e-8)

@@ -7,11 +7,11 @@ import pytest
 from scipy.integrate import cumulative_simpson, simpson
 from scipy.optimize import root
 
-from gearlube_core.ehl.eyring_flow import eyring_flow_factor, eyring_mean_stress
-from gearlube_core.ehl.film_shear import FilmShear
-from gearlube_core.ehl.flow_factors import eyring_flow
-from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor, eyring_mean_stress
+from gearlube_core.ehl.flow.flow_factors import eyring_flow
+from gearlube_core.ehl.point.equations.film_shear import FilmShear
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 UNLIMITED = math.inf
 

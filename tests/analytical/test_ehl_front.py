@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import gearlube_core.ehl.transient_newton as transient_newton
-from gearlube_core.ehl.helical_film import jamali_2015_film
-from gearlube_core.ehl.transient_front import mark_band, relax_band
-from gearlube_core.ehl.transient_march import FilmMarch
+import gearlube_core.ehl.transient.newton as transient_newton
+from gearlube_core.ehl.gears.helical_film import jamali_2015_film
+from gearlube_core.ehl.transient.front import mark_band, relax_band
+from gearlube_core.ehl.transient.march import FilmMarch
 
 ROW = np.array([[0, 0], [0, -1], [0, 1]])
 

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
-
-from gearlube_core.ehl.line_deflection import LineDeflection, hat_coefficients
-from gearlube_core.ehl.line_newton import newton
-from gearlube_core.ehl.line_problem import LineProblem, LineSettings
-from gearlube_core.ehl.line_solver import hertz_start, solve_line
-from gearlube_core.ehl.line_system import LineState, LineSystem
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.errors import ConvergenceError, ParameterError
 from tests.ehl_line_cases import thesis_line
+
+from gearlube_core.ehl.line.deflection import LineDeflection, hat_coefficients
+from gearlube_core.ehl.line.newton import newton
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.solver import hertz_start, solve_line
+from gearlube_core.ehl.line.system import LineState, LineSystem
+from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 R = 0.01  # m
 ISOVISCOUS = ehl_lubricant(eta0=0.1, alpha=0.0, density_law="incompressible")

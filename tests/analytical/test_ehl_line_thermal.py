@@ -9,22 +9,22 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
+from tests.ehl_line_cases import thesis_line
 
-from gearlube_core.ehl.line_energy import (
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.ehl.line.energy import (
     FilmFields,
     SurfaceHeating,
     fill_shear,
     fill_surface_weights,
     march_energy,
 )
-from gearlube_core.ehl.line_problem import LineProblem, LineSettings
-from gearlube_core.ehl.line_solver import solve_line
-from gearlube_core.ehl.line_thermal import ThermalSettings, solve_thermal_line
-from gearlube_core.ehl.lubricant import ehl_lubricant, thermal_viscosity
-from gearlube_core.ehl.named_lubricants import jamali_2015_oil
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.solver import solve_line
+from gearlube_core.ehl.line.thermal import ThermalSettings, solve_thermal_line
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
-from tests.ehl_line_cases import thesis_line
+from gearlube_core.oil.film_oil import ehl_lubricant, thermal_viscosity
+from gearlube_core.oil.named_film_oils import jamali_2015_oil
 
 T0 = 363.15  # K
 OIL = ehl_lubricant(

@@ -9,8 +9,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from gearlube_core.ehl.eyring_flow import eyring_flow_factor, eyring_mean_stress
-from gearlube_core.ehl.lubricant import (
+from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor, eyring_mean_stress
+from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil import (
     density,
     density_slope,
     ehl_lubricant,
@@ -21,9 +22,8 @@ from gearlube_core.ehl.lubricant import (
     viscosity,
     viscosity_slope,
 )
-from gearlube_core.ehl.named_lubricants import jamali_2015_oil, lubricant_from_library
-from gearlube_core.errors import ParameterError
-from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.named_film_oils import jamali_2015_oil, lubricant_from_library
 
 PRESSURES = (0.0, 1e6, 2e8, 1e9, 3e9)
 

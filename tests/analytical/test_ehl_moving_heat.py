@@ -9,9 +9,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import k0
 
-from gearlube_core.ehl.moving_heat import MovingHeat, moving_heat_coefficients
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.ehl.point.thermal.moving_heat import MovingHeat, moving_heat_coefficients
 from gearlube_core.errors import ParameterError
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 
 K = STEEL.conductivity
 KAPPA = K / (STEEL.density * STEEL.heat_capacity)

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.film_shear import FilmShear
-from gearlube_core.ehl.lubricant import EhlLubricant, ehl_lubricant
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.point_traction import point_traction
-from gearlube_core.ehl.problem import elliptical_contact
+from gearlube_core.ehl.point.equations.film_shear import FilmShear
+from gearlube_core.ehl.point.problem import elliptical_contact
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.point.traction import point_traction
+from gearlube_core.oil.film_oil import EhlLubricant, ehl_lubricant
 
 TAU0 = 5e6
 OIL = ehl_lubricant(eta0=0.02, alpha=18e-9, eyring_stress=TAU0)

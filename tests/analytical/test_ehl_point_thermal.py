@@ -9,14 +9,18 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from gearlube_core.ehl.line_problem import LineProblem, LineSettings
-from gearlube_core.ehl.line_thermal import solve_thermal_line
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.point_thermal import PointThermalSettings, solve_thermal_point
-from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem, elliptical_contact
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.thermal import solve_thermal_line
+from gearlube_core.ehl.point.problem import (
+    EllipticParaboloid,
+    PointContactProblem,
+    elliptical_contact,
+)
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.point.thermal.solver import PointThermalSettings, solve_thermal_point
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 T0 = 363.15  # K
 OIL = ehl_lubricant(

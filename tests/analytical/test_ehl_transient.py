@@ -7,17 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.lubricant import density as oil_density
-from gearlube_core.ehl.lubricant import ehl_lubricant, viscosity
-from gearlube_core.ehl.point_mesh import Grading
-from gearlube_core.ehl.problem import EllipticParaboloid
-from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.transient_film import MovingFilm
-from gearlube_core.ehl.transient_level import FilmConditions
-from gearlube_core.ehl.transient_march import FilmMarch
-from gearlube_core.ehl.transient_record import MarchRecord
-from gearlube_core.ehl.transient_steady import solve_steady_film
+from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.problem import EllipticParaboloid
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.transient.film import MovingFilm
+from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.record import MarchRecord
+from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil import density as oil_density
+from gearlube_core.oil.film_oil import ehl_lubricant, viscosity
 
 R, W, SPEED = 0.0125, 15.0, 0.5
 OIL = ehl_lubricant(eta0=0.05, alpha=15e-9)

@@ -7,14 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.flow_factors import eyring_flow
-from gearlube_core.ehl.lubricant import density, ehl_lubricant, viscosity
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
-from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.transient_film import MovingFilm
-from gearlube_core.ehl.transient_level import FilmConditions
-from gearlube_core.ehl.transient_march import FilmMarch
+from gearlube_core.ehl.flow.flow_factors import eyring_flow
+from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.transient.film import MovingFilm
+from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.oil.film_oil import density, ehl_lubricant, viscosity
 
 R, W, MODULUS, TAU0 = 0.0125, 15.0, 55e9, 5e5
 OIL = ehl_lubricant(eta0=0.05, alpha=15e-9, eyring_stress=TAU0)

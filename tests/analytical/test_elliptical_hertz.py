@@ -9,8 +9,8 @@ from scipy.special import ellipe, ellipk, ellipkm1
 
 from gearlube_core.contact.elliptic_integrals import complete_elliptic_k_d
 from gearlube_core.contact.elliptical_hertz import ellipticity, hertz_coefficients, hertz_ellipse
-from gearlube_core.contact.hertz_reference import HertzContact
 from gearlube_core.errors import ParameterError
+from tests.references.hertz_reference import HertzContact
 
 E_STAR = 115.4e9
 

@@ -7,13 +7,13 @@ from scipy.integrate import quad
 from scipy.special import ellipe, erfc
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.contact.hertz_reference import HertzContact
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.friction.flank import LOAD_FLOOR, flank_friction
 from gearlube_core.friction.flank_data import AS_PRINTED, CONSISTENT, FlankState, contact_geometry
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED, contact_temperature_rise
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
+from tests.references.hertz_reference import HertzContact
 
 STEEL = STEEL_MOHAMMADPOUR_2015
 SOLID = solid_parameters(STEEL, STEEL)

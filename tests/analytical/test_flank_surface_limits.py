@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.flank_surface.cutting_motion import CuttingMotion, cut_state
-from gearlube_core.flank_surface.flank import Flank
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.flank_surface.surface_point import CONVERGED, locate, surface_point
-from gearlube_core.flank_surface.vectors import Vector
+from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion, cut_state
+from gearlube_core.hypoid_geometry.flank.flank import Flank
+from gearlube_core.hypoid_geometry.flank.surface_point import CONVERGED, locate, surface_point
+from gearlube_core.hypoid_geometry.flank.vectors import Vector
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 SINGLE_INDEXED = {

@@ -7,7 +7,7 @@ import pytest
 
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
-from gearlube_core.ehl.point_mesh import Grading, cell_faces
+from gearlube_core.ehl.point.equations.mesh import Grading, cell_faces
 from gearlube_core.errors import ParameterError
 
 E = 1.15e11

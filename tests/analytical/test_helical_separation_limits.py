@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from separation_cases import separated_motion, separating_pair, spur_geometry
 
-from gearlube_core.dynamics.helical_pair.accelerations import pair_accelerations
 from gearlube_core.dynamics.helical_pair.linear.linear_system import linear_system, relative_rows
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     ResponseSettings,
@@ -31,6 +29,8 @@ from gearlube_core.dynamics.helical_pair.separation.system import relative_masse
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import symmetric_support
 from gearlube_core.periodic.shooting import solve_periodic
+from tests.helpers.separation_cases import separated_motion, separating_pair, spur_geometry
+from tests.references.helical_accelerations import pair_accelerations
 
 
 @pytest.mark.parametrize("form", ["twelve_dof", "six_dof"])

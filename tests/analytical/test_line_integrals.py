@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.friction.line_friction import line_friction
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import (
@@ -19,10 +20,9 @@ from gearlube_core.friction.line_points import (
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)

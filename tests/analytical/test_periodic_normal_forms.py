@@ -4,9 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from periodic_cases import delayed_logistic_map, logistic_map, map_problem, normal_form
 
 from gearlube_core.periodic import PeriodicProblem, follow, switch_branch
+from tests.helpers.periodic_cases import (
+    delayed_logistic_map,
+    logistic_map,
+    map_problem,
+    normal_form,
+)
 
 # asked for in the search: 1e-7 of arclength; at a fold p is flat, elsewhere its slope is below 1
 PLACE = 1e-6

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from periodic_cases import Oscillator, oscillator_problem
 from scipy.optimize import brentq
 from scipy.special import mathieu_a, mathieu_b
 
 from gearlube_core.periodic import ContinuationSettings, follow, solve_periodic
+from tests.helpers.periodic_cases import Oscillator, oscillator_problem
 
 
 def test_linear_oscillator_answers_as_its_complex_stiffness_says():

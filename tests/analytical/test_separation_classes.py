@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from drivetrain.sweep.separation import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
+from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE, SINGLE_SIDED, separation_class
 
 BACKLASH = 150e-6  # 2b [m]
 

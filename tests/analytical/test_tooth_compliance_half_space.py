@@ -4,15 +4,15 @@ import math
 
 import numpy as np
 import pytest
-from compliance_cases import box_mesh
 from scipy.integrate import dblquad
 from skfem import Basis, ElementHexS2
 
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.tooth_compliance.half_space_hats import half_space_compliance
 from gearlube_core.tooth_compliance.layer_elimination import energy_products
 from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, stiffness_matrix
 from gearlube_core.tooth_compliance.tooth_section import Flank
+from tests.helpers.compliance_cases import box_mesh
 
 FACTOR = (1.0 - STEEL.poisson_ratio**2) / (math.pi * STEEL.youngs_modulus)
 

@@ -4,14 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from compliance_cases import COARSE, box_mesh, spiral_tooth
 from scipy.integrate import quad
 from scipy.sparse import csr_array, eye_array
 from scipy.sparse.linalg import spsolve
 from skfem import Basis, ElementHexS2
 
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.tooth_compliance.layer_elimination import energy_products
 from gearlube_core.tooth_compliance.tooth_fe import (
     normal_hat_loads,
@@ -19,6 +18,7 @@ from gearlube_core.tooth_compliance.tooth_fe import (
     tooth_model,
 )
 from gearlube_core.tooth_compliance.tooth_mesh import tooth_mesh
+from tests.helpers.compliance_cases import COARSE, box_mesh, spiral_tooth
 
 
 @pytest.fixture(scope="module")

@@ -9,10 +9,10 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.flank_surface.cutting_motion import CuttingMotion
-from gearlube_core.flank_surface.flank import Flank, ToothRegion
-from gearlube_core.flank_surface.sound_limit import sound_limit
-from gearlube_core.flank_surface.vectors import Vector
+from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
+from gearlube_core.hypoid_geometry.flank.flank import Flank, ToothRegion
+from gearlube_core.hypoid_geometry.flank.sound_limit import sound_limit
+from gearlube_core.hypoid_geometry.flank.vectors import Vector
 
 FAR = 20.0  # radius of cutter and cradle that stand for a rack [m]
 PITCH_RADIUS, ANGLE = 40e-3, math.radians(20.0)

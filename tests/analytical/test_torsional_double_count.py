@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from torsional_cases import periodic_orbit, reconstructed
 
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import time_sweep
+from tests.helpers.torsional_cases import periodic_orbit, reconstructed
 
 R_P0, TEETH, D = 21.1e-3, 13, 0.002
 # R_p = R_p0 (1 + d cos z phi) moves x by int R_p0 d cos(z phi) dphi = R_p0 d/z sin(z phi)

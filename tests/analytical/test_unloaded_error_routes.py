@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
 
-from gearlube_core.tooth_contact.contact_kinematics import path_kinematics
-from gearlube_core.tooth_contact.contact_path import contact_migration, contact_path
-from gearlube_core.tooth_contact.ease_off import ease_off
-from gearlube_core.tooth_contact.placed_flank import placed_sample
-from gearlube_core.tooth_contact.touching_error import touching_error
-from gearlube_core.tooth_contact.unloaded_error import unloaded_error
+from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
+from gearlube_core.hypoid_contact.contact_path import contact_migration, contact_path
+from gearlube_core.hypoid_contact.ease_off import ease_off
+from gearlube_core.hypoid_contact.placed_flank import placed_sample
+from gearlube_core.hypoid_contact.touching_error import touching_error
+from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
+from tests.helpers.contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
 
 RATIO = 36.0 / 13.0
 MICRORADIAN = 1e-6

@@ -5,12 +5,12 @@ import math
 
 import pytest
 
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.viscosity_constants import walther_coefficients
-from gearlube_core.rheology.eyring_1936 import eyring_stress_ratio
-from gearlube_core.rheology.lubricant_state import lubricant_state
-from gearlube_core.rheology.roelands_1966 import roelands_viscosity
-from gearlube_core.rheology.walther_1931 import walther_viscosity
+from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.roelands_1966 import roelands_viscosity
+from gearlube_core.oil.viscosity_constants import walther_coefficients
+from gearlube_core.oil.walther_1931 import walther_viscosity
 
 OILS = ("karagiannis_2012", "mohammadpour_2015")
 

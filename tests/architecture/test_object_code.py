@@ -13,7 +13,7 @@ from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.flat_tuples import count_floats
+from gearlube_core.kernels.flat_tuples import count_floats
 from gearlube_core.mesh_table.kernels import N_SERIES
 
 N_PARAMETERS = count_floats(AxleParameters)

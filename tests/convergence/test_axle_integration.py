@@ -2,11 +2,18 @@
 
 import numpy as np
 import pytest
-from axle_cases import OIL, conservative, operating_point, output, record, running_axle
 from scipy.integrate import solve_ivp
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, X
+from tests.helpers.axle_cases import (
+    OIL,
+    conservative,
+    operating_point,
+    output,
+    record,
+    running_axle,
+)
 
 STEP = 1e-4  # s, communication step
 

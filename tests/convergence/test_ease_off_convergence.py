@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from contact_cases import SIDES, shipped_pair
 
-from gearlube_core.tooth_contact.ease_off import ease_off
-from gearlube_core.tooth_contact.unloaded_error import unloaded_error
+from gearlube_core.hypoid_contact.ease_off import ease_off
+from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
+from tests.helpers.contact_cases import SIDES, shipped_pair
 
 
 @pytest.mark.parametrize("side", SIDES)

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point_cross_flow import CrossFlow, add_cross_flow
-from gearlube_core.ehl.point_mesh import mesh_metric
-from gearlube_core.ehl.point_stencil import FilmFlow, StencilParameters
+from gearlube_core.ehl.point.equations.cross_flow import CrossFlow, add_cross_flow
+from gearlube_core.ehl.point.equations.mesh import mesh_metric
+from gearlube_core.ehl.point.equations.stencil import FilmFlow, StencilParameters
 
 STEP = 1e-4  # of the differences that stand for derivatives of the smooth fields
 

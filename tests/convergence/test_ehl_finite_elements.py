@@ -8,24 +8,28 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_element_level import ElementLevel
-from gearlube_core.ehl.point_finite_elements import (
+from gearlube_core.ehl.point.equations.element_level import ElementLevel
+from gearlube_core.ehl.point.equations.finite_elements import (
     ELEMENT_OFFSETS,
     element_derivatives,
     element_residual,
     upwind_shares,
 )
-from gearlube_core.ehl.point_galerkin import sparse_operator
-from gearlube_core.ehl.point_newton import newton
-from gearlube_core.ehl.point_preconditioner import Hierarchy
-from gearlube_core.ehl.point_solver import grid_shapes, solve_point_contact
-from gearlube_core.ehl.point_state import Linearisation
-from gearlube_core.ehl.point_stencil import FlowSlopes, StencilParameters, apply_derivatives
-from gearlube_core.ehl.point_transfer import Transfer
-from gearlube_core.ehl.problem import elliptical_contact
-from gearlube_core.ehl.scaling import PointScales
-from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.point.equations.state import Linearisation
+from gearlube_core.ehl.point.equations.stencil import (
+    FlowSlopes,
+    StencilParameters,
+    apply_derivatives,
+)
+from gearlube_core.ehl.point.newton.galerkin import sparse_operator
+from gearlube_core.ehl.point.newton.newton import newton
+from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
+from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.problem import elliptical_contact
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import grid_shapes, solve_point_contact
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 CROSS = 0.4  # xy component of the flow factor tensor; xx 1, yy 0.7
 U, V, SQUEEZE = 0.9, 0.4, 0.3

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearlube_core.ehl import point_continuation
-from gearlube_core.ehl.helical_cycle import solve_helical_line
-from gearlube_core.ehl.helical_film import EXIT_GRADING, jamali_2015_film
-from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.transient_film import FilmSolution
-from gearlube_core.ehl.transient_march import MARCH_SETTINGS, FilmMarch
+from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
+from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, jamali_2015_film
+from gearlube_core.ehl.point import continuation as point_continuation
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.march import MARCH_SETTINGS, FilmMarch
 
 ROWS = 33
 

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.point_traction import point_traction
-from gearlube_core.ehl.problem import elliptical_contact
-from gearlube_core.ehl.settings import PointSolverSettings
+from gearlube_core.ehl.point.problem import elliptical_contact
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.point.traction import point_traction
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 
 def film_and_friction(nodes: int, angle: float) -> np.ndarray:

@@ -1,10 +1,10 @@
 """Motions with tooth separation against the number of time steps and of points on a line."""
 
 import numpy as np
-from separation_cases import crowned_mesh, separated_motion, separating_pair
 
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.periodic.shooting import solve_periodic
+from tests.helpers.separation_cases import crowned_mesh, separated_motion, separating_pair
 
 
 def test_separated_motions_converge_with_the_time_step():

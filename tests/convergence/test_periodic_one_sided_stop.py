@@ -5,10 +5,10 @@ from functools import cache
 
 import numpy as np
 import pytest
-from periodic_cases import Oscillator, oscillator_problem
 from scipy.integrate import solve_bvp, solve_ivp
 
 from gearlube_core.periodic import NewtonSettings, follow, solve_periodic
+from tests.helpers.periodic_cases import Oscillator, oscillator_problem
 
 # stiffness steps from 1 to 5 at x = 0.5; at w = 2.2 the swing of 0.03 stays clear of the stop
 OSCILLATOR = Oscillator(damping=0.05, force=0.1, stop=4.0, gap=0.5)

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from compliance_cases import spiral_tooth
 
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.tooth_compliance.flank_compliance import (
     CondensationSettings,
     FlankCompliance,
@@ -17,6 +16,7 @@ from gearlube_core.tooth_compliance.hat_grid import lengthwise_nodes, profile_no
 from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, tooth_model
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity, tooth_mesh
 from gearlube_core.tooth_compliance.tooth_section import Flank
+from tests.helpers.compliance_cases import spiral_tooth
 
 TOOTH = spiral_tooth(neighbour_pitches=1.0, base_depth=12e-3)
 

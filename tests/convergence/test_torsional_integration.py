@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from torsional_cases import periodic_orbit, reconstructed, time_rates
 
 from gearlube_core.dynamics.hypoid_torsional.angle_march import OK, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
+from tests.helpers.torsional_cases import periodic_orbit, reconstructed, time_rates
 
 
 def marched(model, speed, steps, periods):

@@ -8,19 +8,20 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
-from drivetrain.contact_figures import CONTACT_CATALOGUE
-from fmu_src import cli, contact_console
-from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.cli import main as cli
+from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.studies.contact import console as contact_console
+from gearlube.studies.contact.figures import CONTACT_CATALOGUE
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_contact import analysis, mesh_cycle
+from gearlube_core.hypoid_contact.analysis import ContactSettings
+from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
+from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
-from gearlube_core.tooth_contact import analysis, mesh_cycle
-from gearlube_core.tooth_contact.analysis import ContactSettings
-from gearlube_core.tooth_contact.loaded_contact import LoadedSettings
-from gearlube_core.tooth_contact.mesh_cycle import CycleSettings
 
 COARSE_BODY = ToothBodySettings(
     neighbour_pitches=0.0,
@@ -200,5 +201,5 @@ def test_a_failed_analysis_says_why_and_fails(reason, monkeypatch, caplog):
 def gear_text():
     from importlib.resources import files
 
-    data = files("gearlube_core.flank_surface") / "data" / "mohammadpour_2015.toml"
+    data = files("gearlube_core.hypoid_geometry.flank") / "data" / "mohammadpour_2015.toml"
     return data.read_text(encoding="utf-8")

@@ -7,16 +7,17 @@ import tomllib
 import numpy as np
 import pytest
 import xarray as xr
+from tests.ehl_command import run, written
 
-from drivetrain.ehl.cycle_dataset import march_key
-from drivetrain.ehl.line_dataset import hertz_line
-from fmu_src import ehl_console, ehl_march_console
-from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube_core.ehl.case_file import LineCase, PointCase
-from gearlube_core.ehl.helical_film import EXIT_GRADING, jamali_2015_film
+from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.studies.films import console as ehl_console
+from gearlube.studies.films import march_console as ehl_march_console
+from gearlube.studies.films.cycle_dataset import march_key
+from gearlube.studies.films.line_dataset import hertz_line
+from gearlube_core.ehl.case.contact_case import LineCase, PointCase
+from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, jamali_2015_film
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from tests.ehl_command import run, written
 
 
 @pytest.fixture

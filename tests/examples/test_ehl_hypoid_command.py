@@ -7,10 +7,11 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
-from drivetrain.ehl_figures.catalogue import drawn_figures
-from fmu_src import cli, ehl_hypoid_console
-from fmu_src.exit_codes import BAD_ARGUMENT
-from gearlube_core.ehl.hypoid_case_file import HypoidCase
+from gearlube.cli import main as cli
+from gearlube.cli.exit_codes import BAD_ARGUMENT
+from gearlube.studies.films import hypoid_console as ehl_hypoid_console
+from gearlube.studies.films.figures.catalogue import drawn_figures
+from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
 TINY = ("--nodes-minor", 33, "--nodes-major", 25, "--steps", 6, "--steady", 3)
 

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-
-from drivetrain.ehl_figures.catalogue import drawn_figures
 from tests.ehl_command import run, written
+
+from gearlube.studies.films.figures.catalogue import drawn_figures
 
 
 def test_a_line_writes_dataset_summary_and_figures(tmp_path):

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gearlube_core.flank_surface.flank import Flank
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.flank_surface.setting_check import setting_report
-from gearlube_core.flank_surface.tooth_form import tooth_form
-from gearlube_core.tooth_contact.pair import FlankPair
-from gearlube_core.tooth_contact.unloaded_error import contact_ratio, unloaded_error
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.unloaded_error import contact_ratio, unloaded_error
+from gearlube_core.hypoid_geometry.flank.flank import Flank
+from gearlube_core.hypoid_geometry.flank.setting_check import setting_report
+from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 FILE = HypoidGearFile.from_toml(
     Path(__file__).parents[2] / "examples" / "gears" / "face_milled.toml"

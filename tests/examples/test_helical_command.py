@@ -6,13 +6,15 @@ import logging
 import numpy as np
 import pytest
 import xarray as xr
+from tests.helical_dynamics_cases import estimated_pair
 from typer.testing import CliRunner
 
-from drivetrain.helical import study, sweep_grid
-from drivetrain.helical.settings import RPM, HelicalSettings
-from drivetrain.helical_figures.catalogue import HELICAL_CATALOGUE
-from fmu_src import cli, helical_console
-from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.cli import main as cli
+from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.studies.helical import console as helical_console
+from gearlube.studies.helical import study, sweep_grid
+from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
+from gearlube.studies.helical.settings import RPM, HelicalSettings
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
@@ -20,7 +22,6 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import read_line_mesh
-from tests.helical_dynamics_cases import estimated_pair
 
 GEOMETRY = {"contact_plane", "contact_characteristics", "facet_gaps"}
 

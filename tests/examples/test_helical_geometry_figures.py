@@ -7,12 +7,12 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 
-from drivetrain.helical.geometry_dataset import gear_file_geometry, geometry_dataset
-from drivetrain.helical_figures.geometry_catalogue import (
+from gearlube.studies.helical.figures.geometry_catalogue import (
     GEOMETRY_CATALOGUE,
     drawn_datasets,
     save_geometry_figures,
 )
+from gearlube.studies.helical.geometry_dataset import gear_file_geometry, geometry_dataset
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.meshing_steps import line_at_position

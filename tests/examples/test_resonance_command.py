@@ -7,10 +7,11 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
-from drivetrain.resonance import study
-from drivetrain.resonance_figures import RESONANCE_CATALOGUE
-from fmu_src import cli, resonance_console
-from fmu_src.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.cli import main as cli
+from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.studies.resonance import console as resonance_console
+from gearlube.studies.resonance import study
+from gearlube.studies.resonance.figures import RESONANCE_CATALOGUE
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.mesh_table.netcdf import write_mesh_table

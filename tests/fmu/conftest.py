@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 from fmpy import extract
-from fmu_cases import CASES, HYPOID_AXLE, Case
-from fmu_host import Host
+
+from tests.helpers.fmu_cases import CASES, HYPOID_AXLE, Case
+from tests.helpers.fmu_host import Host
 
 
 @pytest.fixture(scope="session", params=CASES, ids=lambda case: case.name)

@@ -8,7 +8,8 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from fmu_host import Host
+
+from tests.helpers.fmu_host import Host
 
 CONTROL_BLOCK = 16  # bytes before the object that std::make_shared puts in the same allocation
 

@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from fmu_cases import CASES, Case, H
-from fmu_host import OK, Host
 
 from gearlube_core.errors import ParameterError
+from tests.helpers.fmu_cases import CASES, Case, H
+from tests.helpers.fmu_host import OK, Host
 
 
 def test_the_fmu_gives_the_numbers_of_the_model_bit_for_bit(case: Case, host: Host) -> None:

@@ -5,8 +5,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fmu_cases import CASES, Case
-from fmu_host import DISCARD, FATAL, OK, Host
+
+from tests.helpers.fmu_cases import CASES, Case
+from tests.helpers.fmu_host import DISCARD, FATAL, OK, Host
 
 NAN, INF = float("nan"), float("inf")
 

@@ -10,12 +10,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from fmu_cases import CASES, Case
 
 from build_fmu import main
 from fmu_src import identity
 from fmu_src.archive import write_archive
 from fmu_src.check import problems
+from tests.helpers.fmu_cases import CASES, Case
 
 
 def _digest(path: Path) -> str:

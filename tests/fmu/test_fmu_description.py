@@ -9,11 +9,11 @@ from xml.etree import ElementTree
 
 import fmpy
 import pytest
-from fmu_cases import Case
 from lxml import etree
 
 from fmu_src.check import fmpy_problems, fmutool_problems
 from fmu_src.documentation import variables_markdown
+from tests.helpers.fmu_cases import Case
 
 ROOT = Path(__file__).parents[2]
 

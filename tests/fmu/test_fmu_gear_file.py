@@ -12,20 +12,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fmpy import extract
-from fmu_cases import HELICAL_PAIR, H, helical
-from fmu_host import FATAL, OK, Host
 from typer.testing import CliRunner
 
 import build_fmu
-from fmu_src import cli, identity
+from fmu_src import identity
 from fmu_src.build import build_helical_pair, build_models
 from fmu_src.check import problems
 from fmu_src.helical_pair import DEFINITION, GEAR_FILE, LINE_MESH_FILE, definition_with
+from gearlube.cli import main as cli
 from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
+from tests.helpers.fmu_cases import HELICAL_PAIR, H, helical
+from tests.helpers.fmu_host import FATAL, OK, Host
 
 CUSTOM, LINE_MESH = 4, 2  # of gear.name and mesh.stiffness_model
 

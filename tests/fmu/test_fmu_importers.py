@@ -13,7 +13,8 @@ from typing import Any
 
 import pytest
 from fmpy import simulate_fmu
-from fmu_cases import Case
+
+from tests.helpers.fmu_cases import Case
 
 H = 2.0**-9  # s; exact in binary and a whole number of nanoseconds, as libcosim counts
 STEPS = 16

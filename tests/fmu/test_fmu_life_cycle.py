@@ -6,8 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fmu_cases import Case
-from fmu_host import DISCARD, OK, Host
+
+from tests.helpers.fmu_cases import Case
+from tests.helpers.fmu_host import DISCARD, OK, Host
 
 
 def test_reset_gives_a_fresh_instance(case: Case, new_host: Callable[[], Host]) -> None:

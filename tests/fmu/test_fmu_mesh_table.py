@@ -9,23 +9,25 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from axle_cases import with_coast_flanks
 from fmpy import extract
-from fmu_host import FATAL, OK, Host
 from typer.testing import CliRunner
 
 import build_fmu
-from drivetrain.sweep import SweepSettings, run_point
-from drivetrain.sweep.gear_pair import final_drive_of, mesh_table_of
-from fmu_src import cli, fmu_cache, identity, sweep_console
+from fmu_src import fmu_cache, identity
 from fmu_src.archive import write_archive
 from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
 from fmu_src.hypoid_axle import DEFINITION, definition_with_table
+from gearlube.cli import main as cli
+from gearlube.studies.sweep import SweepSettings, run_point
+from gearlube.studies.sweep import console as sweep_console
+from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
+from tests.helpers.axle_cases import with_coast_flanks
+from tests.helpers.fmu_host import FATAL, OK, Host
 
 SHIPPED = MeshTable.named("mohammadpour_2015")
 # other teeth, and coast flanks that differ from the drive flanks

@@ -14,10 +14,10 @@ from pathlib import Path
 import fmpy
 import pytest
 from fmpy import read_model_description
-from fmu_cases import CASES, Case, H
 
 from fmu_src.native_host import native_environment, shared_python, shell_lines
 from gearlube_core.errors import GearLubeError
+from tests.helpers.fmu_cases import CASES, Case, H
 
 STEPS = 16
 
@@ -114,7 +114,7 @@ def test_the_lines_for_a_shell_set_the_same_environment() -> None:
 
 
 def test_a_program_gets_its_own_options_and_gives_its_own_exit_code() -> None:
-    command = [sys.executable, "-c", "from fmu_src.cli import main; main()", "native"]
+    command = [sys.executable, "-c", "from gearlube.command import main; main()", "native"]
     program = ["sh", "-c", 'echo "$LD_PRELOAD" "$0"; exit 5', "--help"]
     base = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
     done = subprocess.run(

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fmu_cases import Case
-from fmu_host import FATAL, OK, Host
 
 from fmu_src.identity import guid_of
+from tests.helpers.fmu_cases import Case
+from tests.helpers.fmu_host import FATAL, OK, Host
 
 
 @pytest.fixture(params=["default", "changed", "last"])

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from drivetrain.sweep import SweepSettings, run_point
-from drivetrain.sweep.channels import CHANNELS
-from drivetrain.sweep.fmu_axle import FmuAxle
-from drivetrain.sweep.natural_frequencies import natural_frequencies
+from gearlube.studies.sweep import SweepSettings, run_point
+from gearlube.studies.sweep.channels import CHANNELS
+from gearlube.studies.sweep.fmu_axle import FmuAxle
+from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.mesh_table.table import MeshTable
 

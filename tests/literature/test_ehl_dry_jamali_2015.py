@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.dry_contact import dry_contact_of_gap
+from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.helical_geometry.load_sharing import shared_load
 from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.dry_contact import dry_contact_of_gap
-from gearlube_core.ehl.helical_cycle import march_helical_cycle, solve_helical_line
-from gearlube_core.ehl.helical_film import HelicalFilm, jamali_2015_film
-from gearlube_core.ehl.named_lubricants import jamali_2015_oil
+from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
+from gearlube_core.ehl.gears.helical_film import HelicalFilm, jamali_2015_film
+from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.meshing_steps import meshing_steps
+from gearlube_core.oil.named_film_oils import jamali_2015_oil
 
 
 @pytest.mark.parametrize(

@@ -7,14 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.ehl_line_cases import thesis_line
 
-from gearlube_core.ehl.line_problem import LineProblem, LineSettings
-from gearlube_core.ehl.line_solver import solve_line
-from gearlube_core.ehl.line_transient import LineHistory, LineMarch
-from gearlube_core.ehl.lubricant import ehl_lubricant
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.solver import solve_line
+from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
-from tests.ehl_line_cases import thesis_line
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 MODULUS = 2.2e11
 

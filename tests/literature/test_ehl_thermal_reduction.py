@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from gearlube_core.ehl.lubricant import ehl_lubricant, viscosity_cooling
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.point_thermal import solve_thermal_point
-from gearlube_core.ehl.problem import elliptical_contact
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.ehl.point.problem import elliptical_contact
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
+from gearlube_core.oil.film_oil import ehl_lubricant, viscosity_cooling
 
 OIL = ehl_lubricant(
     eta0=0.04, alpha=18e-9, law="houpert", temperature=313.15, temperature_exponent=1.1

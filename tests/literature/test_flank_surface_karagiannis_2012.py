@@ -12,18 +12,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.flank_surface.flank import Flank
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.flank_surface.machine_frames import (
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.placement import place_point
+from gearlube_core.hypoid_contact.rays import HIT, hit_by_turning
+from gearlube_core.hypoid_geometry.flank.flank import Flank
+from gearlube_core.hypoid_geometry.flank.machine_frames import (
     gear_cut,
     pinion_cut,
     reference_plane_distance,
 )
-from gearlube_core.flank_surface.setting_check import pressure_angle_mismatch
-from gearlube_core.flank_surface.vectors import Vector
-from gearlube_core.tooth_contact.pair import FlankPair
-from gearlube_core.tooth_contact.placement import place_point
-from gearlube_core.tooth_contact.rays import HIT, hit_by_turning
+from gearlube_core.hypoid_geometry.flank.setting_check import pressure_angle_mismatch
+from gearlube_core.hypoid_geometry.flank.vectors import Vector
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 # the settings as printed: nothing completed

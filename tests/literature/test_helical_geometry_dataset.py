@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from drivetrain.helical.geometry_dataset import gear_file_geometry, geometry_dataset
+from gearlube.studies.helical.geometry_dataset import gear_file_geometry, geometry_dataset
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015

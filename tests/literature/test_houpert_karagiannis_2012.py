@@ -5,15 +5,15 @@ import math
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.rheology.houpert_1985 import (
+from gearlube_core.oil.houpert_1985 import (
     fit_houpert,
     houpert_log_viscosity,
     houpert_parameters,
     houpert_temperature_coefficient,
     houpert_viscosity,
 )
-from gearlube_core.rheology.roelands_1966 import roelands_viscosity
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.roelands_1966 import roelands_viscosity
 
 TABLE_2 = (0.09483, 313.15, 0.0145, 373.15, 1.44e-8, 313.15)
 LAW = fit_houpert(*TABLE_2)

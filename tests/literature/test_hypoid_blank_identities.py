@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 PINION_CONE = math.radians(29.056)

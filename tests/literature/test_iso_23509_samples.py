@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from gearlube_core.blank.face_hobbed_lead import CutterHead
-from gearlube_core.blank.hypoid_blank import HypoidBlank, MemberBlank
-from gearlube_core.blank.iso_23509 import (
+from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead
+from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank, MemberBlank
+from gearlube_core.hypoid_geometry.blank.iso_23509 import (
     HypoidDesign,
     apex_misfit,
     cone_distance_misfit,
@@ -22,8 +22,8 @@ from gearlube_core.blank.iso_23509 import (
     method_2,
     method_3,
 )
-from gearlube_core.blank.member_profile import MemberProfile
-from gearlube_core.blank.pitch_cones import PitchCones
+from gearlube_core.hypoid_geometry.blank.member_profile import MemberProfile
+from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
 
 RAD = math.radians
 

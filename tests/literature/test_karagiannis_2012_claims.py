@@ -8,16 +8,16 @@ import functools
 
 import numpy as np
 import pytest
-from torsional_cases import periodic_orbit, reconstructed
 
-from drivetrain.resonance.flank_cycle import flank_cycle
-from drivetrain.resonance.motions import motion_near
+from gearlube.studies.resonance.flank_cycle import flank_cycle
+from gearlube.studies.resonance.motions import motion_near
 from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import settle_load, time_sweep
 from gearlube_core.periodic import follow
+from tests.helpers.torsional_cases import periodic_orbit, reconstructed
 
 
 def shipped(ratio, **options):

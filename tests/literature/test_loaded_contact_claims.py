@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.hypoid_contact.contact_table import contact_table
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.table import PAIRS, SERIES_UNITS, WINDOW_UNITS, MeshTable
-from gearlube_core.tooth_contact.analysis import ContactSettings, analyse_contact
-from gearlube_core.tooth_contact.contact_table import contact_table
 
 TABLE = MeshTable.named("mohammadpour_2015")
 RATIO = 36 / 13

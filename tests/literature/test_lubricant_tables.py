@@ -2,9 +2,9 @@
 
 import pytest
 
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from docs.validation.claims import CLAIMS, FAILS, HOLDS, PARTLY
-from drivetrain.sweep import SweepSettings, quick_settings, run_sweep
 from fmu_src.build import build_hypoid_axle
+from gearlube.studies.sweep import SweepSettings, quick_settings, run_sweep
 
 SPEEDS = [30.0, 80.0]  # km/h: the printed equations are stable at the first only
 PRELOADS = [2500.0, 6000.0]  # N

@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.friction.friction_torques import flank_speeds, friction_torques
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.friction.thermal_eyring_data import (
@@ -27,14 +28,13 @@ from gearlube_core.friction.thermal_eyring_data import (
 )
 from gearlube_core.friction.thermal_eyring_flank import thermal_eyring_flank
 from gearlube_core.friction.traction_regime import EYRING, flank_regime
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.mesh_table.table import MeshTable
-from gearlube_core.rheology.houpert_1985 import (
+from gearlube_core.oil.houpert_1985 import (
     houpert_log_viscosity,
     houpert_parameters,
     houpert_temperature_coefficient,
 )
+from gearlube_core.oil.lubricant import Lubricant
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 SURFACE = SurfaceParameters(0.5e-6, 0.055, 0.001)

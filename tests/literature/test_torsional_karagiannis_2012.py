@@ -6,11 +6,11 @@ claim needs a ratio mismatch, 0.2 to 0.4 % is assumed, see `synthetic_mesh`.
 
 import numpy as np
 import pytest
-from torsional_cases import periodic_orbit, reconstructed
 
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import time_sweep
+from tests.helpers.torsional_cases import periodic_orbit, reconstructed
 
 NATURAL = HypoidTorsional(reconstructed()).natural_frequency
 RATIOS = np.round(np.arange(0.3, 1.4001, 0.025), 4)

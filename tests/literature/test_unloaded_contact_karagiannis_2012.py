@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from contact_cases import SIDES, angles_on_teeth, shipped_pair
 
-from gearlube_core.tooth_contact.contact_kinematics import path_kinematics
-from gearlube_core.tooth_contact.contact_path import contact_path
-from gearlube_core.tooth_contact.unloaded_error import contact_ratio, unloaded_error
+from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
+from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.unloaded_error import contact_ratio, unloaded_error
+from tests.helpers.contact_cases import SIDES, angles_on_teeth, shipped_pair
 
 WORKING_DEPTH = 6.769e-3  # m, from the apexes of Table 1
 RATIO = 36.0 / 13.0

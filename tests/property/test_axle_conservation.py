@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from axle_cases import OIL, conservative, output, record, running_axle
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, linearise, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, U_G, U_P, V_G, V_P, W_G, W_P
+from tests.helpers.axle_cases import OIL, conservative, output, record, running_axle
 
 ENERGIES = ["energy.pinion_work", "energy.wheel_work", "energy.stored"]
 LOSSES = [

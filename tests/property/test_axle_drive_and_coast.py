@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from axle_cases import OIL, RATIO, conservative, output, plain, record, with_coast_flanks
 
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh, follow_flank
@@ -20,6 +19,15 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.mesh_table.kernels import mesh_series
 from gearlube_core.mesh_table.table import MeshTable
+from tests.helpers.axle_cases import (
+    OIL,
+    RATIO,
+    conservative,
+    output,
+    plain,
+    record,
+    with_coast_flanks,
+)
 
 SHIPPED = plain(MeshTable.named("mohammadpour_2015"))
 TWO_SIDED = with_coast_flanks(SHIPPED)

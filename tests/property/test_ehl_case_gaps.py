@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.case_file import LineCase, PointCase
-from gearlube_core.ehl.line_solver import solve_line
-from gearlube_core.ehl.point_solver import solve_point_contact
+from gearlube_core.ehl.case.contact_case import LineCase, PointCase
+from gearlube_core.ehl.line.solver import solve_line
+from gearlube_core.ehl.point.solver import solve_point_contact
 
 OIL = {"viscosity_pa_s": 0.02, "pressure_viscosity_per_gpa": 18.0}
 SHARED = {"name": "own", "source": "test", "speed_1_m_s": 3.0, "speed_2_m_s": 1.0, "oil": OIL}

@@ -6,15 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from gearlube_core.ehl.line_newton import newton
-from gearlube_core.ehl.line_problem import LineProblem, LineSettings
-from gearlube_core.ehl.line_rows import fill_jacobian
-from gearlube_core.ehl.line_solver import hertz_start, solve_line
-from gearlube_core.ehl.line_system import LineState, LineSystem
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.named_lubricants import jamali_2015_oil
 from tests.ehl_line_cases import thesis_line
+
+from gearlube_core.ehl.line.newton import newton
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.rows import fill_jacobian
+from gearlube_core.ehl.line.solver import hertz_start, solve_line
+from gearlube_core.ehl.line.system import LineState, LineSystem
+from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.named_film_oils import jamali_2015_oil
 
 THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
 

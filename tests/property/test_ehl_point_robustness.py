@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from gearlube_core.ehl.point_level import PointLevel
-from gearlube_core.ehl.point_limiter import limited_faces
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.scaling import PointScales
 from tests.ehl_point_cases import moes_contact, moes_film, radius_ratio, sliding_along
+
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.limiter import limited_faces
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.solver import solve_point_contact
 
 NODES = (65, 65)
 

@@ -7,14 +7,14 @@ import math
 
 import numpy as np
 import pytest
-
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_level import PointLevel
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
-from gearlube_core.ehl.scaling import PointScales
-from gearlube_core.ehl.settings import PointSolverSettings
 from tests.ehl_point_cases import ALPHA, ETA0, moes_contact
+
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 OIL = ehl_lubricant(eta0=ETA0, alpha=ALPHA, eyring_stress=5e6)
 TIGHT = PointSolverSettings(tolerance=1e-9, load_tolerance=1e-9)

@@ -6,19 +6,19 @@ import dataclasses
 
 import numpy as np
 import pytest
-
-from gearlube_core.ehl.dry_contact import dry_contact
-from gearlube_core.ehl.helical_cycle import march_helical_cycle
-from gearlube_core.ehl.helical_film import jamali_2015_film
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_solids import SolidShare
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.problem import PointContactProblem, elliptical_contact
-from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.solid_contact import SolidContact, SolidLayer
-from gearlube_core.ehl.transient_march import FilmMarch
-from gearlube_core.errors import ParameterError
 from tests.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, flow_out
+
+from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
+from gearlube_core.ehl.gears.helical_film import jamali_2015_film
+from gearlube_core.ehl.point.dry_contact import dry_contact
+from gearlube_core.ehl.point.equations.solids import SolidShare
+from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solid_contact import SolidContact, SolidLayer
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 
 def _contact(speed: float, thickness: float | None) -> PointContactProblem:

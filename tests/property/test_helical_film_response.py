@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.helical_dynamics_cases import SPEED
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.instability_map import instability_map
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
@@ -39,9 +41,7 @@ from gearlube_core.friction.line_friction import line_friction
 from gearlube_core.friction.line_integrals import friction_along_lines
 from gearlube_core.friction.line_points import line_points, uniform_line_load
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from tests.helical_dynamics_cases import SPEED
+from gearlube_core.oil.lubricant import Lubricant
 
 _ROUGHNESS = 0.5e-6
 _FILM = FilmFriction(

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-
 from tests.helical_march_cases import (
     PERIOD,
     SPEED,

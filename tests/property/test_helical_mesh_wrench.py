@@ -9,8 +9,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.helical_dynamics_cases import (
+    SPEED,
+    loaded_points,
+    random_state,
+    spur_pair,
+    summed_wrench,
+)
 
-from gearlube_core.dynamics.helical_pair.accelerations import points_damping
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
@@ -24,13 +30,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
 from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import mesh_stiffness_matrix
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import friction_power
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from tests.helical_dynamics_cases import (
-    SPEED,
-    loaded_points,
-    random_state,
-    spur_pair,
-    summed_wrench,
-)
+from tests.references.helical_accelerations import points_damping
 
 phases = st.floats(min_value=0.0, max_value=1.0, exclude_max=True)
 seeds = st.integers(min_value=0, max_value=10_000)

@@ -4,12 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from separation_cases import (
-    crowned_mesh,
-    separated_motion,
-    separating_pair,
-    spur_geometry,
-)
 
 from gearlube_core.dynamics.helical_pair.linear.linear_system import linear_system
 from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
@@ -19,6 +13,12 @@ from gearlube_core.dynamics.helical_pair.separation.system import relative_masse
 from gearlube_core.periodic.branch_switching import switch_branch
 from gearlube_core.periodic.continuation import ContinuationSettings, follow
 from gearlube_core.periodic.shooting import solve_periodic
+from tests.helpers.separation_cases import (
+    crowned_mesh,
+    separated_motion,
+    separating_pair,
+    spur_geometry,
+)
 
 
 def _resonance(problem, low, high, at=(), **settings):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from periodic_cases import Oscillator, oscillator_map, oscillator_problem
 
 from gearlube_core.periodic import ContinuationSettings, follow, solve_periodic
+from tests.helpers.periodic_cases import Oscillator, oscillator_map, oscillator_problem
 
 DUFFING = Oscillator(damping=0.06, cubic=0.05, force=0.12)
 VALUES = np.linspace(0.7, 1.6, 10)

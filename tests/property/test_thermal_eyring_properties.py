@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import grubin_1949
 from gearlube_core.friction import (
@@ -30,9 +31,8 @@ from gearlube_core.friction.thermal_eyring_data import (
     thermal_eyring_oil,
     thermal_eyring_options,
 )
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.rheology import houpert_1985
+from gearlube_core.oil import houpert_1985
+from gearlube_core.oil.lubricant import Lubricant
 
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 E_STAR = SOLID.contact_modulus

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from torsional_cases import reconstructed
 
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import time_sweep
 from gearlube_core.periodic.shooting import solve_periodic
+from tests.helpers.torsional_cases import reconstructed
 
 NATURAL = HypoidTorsional(reconstructed()).natural_frequency
 FEW = {"periods": 150, "steps_per_mesh_period": 64}

@@ -2,17 +2,23 @@
 
 import numpy as np
 import pytest
-from contact_cases import SIDES, angles_on_teeth, displaced, shipped_file, shipped_pair
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gearlube_core.tooth_contact.contact_kinematics import path_kinematics
-from gearlube_core.tooth_contact.contact_path import contact_path
-from gearlube_core.tooth_contact.contact_pattern import contact_pattern
-from gearlube_core.tooth_contact.ease_off import ease_off
-from gearlube_core.tooth_contact.pair import FlankPair
-from gearlube_core.tooth_contact.placement import Misalignment
-from gearlube_core.tooth_contact.unloaded_error import contact_ratio, unloaded_error
+from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
+from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.contact_pattern import contact_pattern
+from gearlube_core.hypoid_contact.ease_off import ease_off
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.placement import Misalignment
+from gearlube_core.hypoid_contact.unloaded_error import contact_ratio, unloaded_error
+from tests.helpers.contact_cases import (
+    SIDES,
+    angles_on_teeth,
+    displaced,
+    shipped_file,
+    shipped_pair,
+)
 
 
 @pytest.mark.parametrize("side", SIDES)

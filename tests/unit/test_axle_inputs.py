@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from axle_cases import OIL, running_axle
 
 from gearlube_core.dynamics.hypoid_axle import (
     OUTPUT_INDEX,
@@ -13,6 +12,7 @@ from gearlube_core.dynamics.hypoid_axle import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
+from tests.helpers.axle_cases import OIL, running_axle
 
 START = {
     "pinion_speed": 145.0,

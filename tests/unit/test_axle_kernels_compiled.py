@@ -10,7 +10,6 @@ from typing import get_type_hints
 
 import numpy as np
 import pytest
-from axle_cases import OIL, running_axle, with_coast_flanks
 from numba.core.dispatcher import Dispatcher
 
 from gearlube_core.bearings import shaft_expansion
@@ -37,9 +36,10 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
-from gearlube_core.flat_tuples import flatten
+from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table import kernels
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
+from tests.helpers.axle_cases import OIL, running_axle, with_coast_flanks
 
 AXLE, TORQUE_P, TORQUE_G = running_axle(60)
 for _ in range(20):

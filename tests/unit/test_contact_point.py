@@ -2,26 +2,26 @@
 
 import numpy as np
 import pytest
-from contact_cases import SIDES, shipped_file, shipped_pair
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.vectors import Vector
-from gearlube_core.tooth_contact.contact_path import contact_path
-from gearlube_core.tooth_contact.contact_pattern import contact_pattern
-from gearlube_core.tooth_contact.contact_point import (
+from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.contact_pattern import contact_pattern
+from gearlube_core.hypoid_contact.contact_point import (
     APART,
     TOUCHING,
     UNKNOWNS,
     find_contact,
     solve_in_place,
 )
-from gearlube_core.tooth_contact.ease_off import ease_off
-from gearlube_core.tooth_contact.first_touch import first_touch
-from gearlube_core.tooth_contact.pair import FlankPair
-from gearlube_core.tooth_contact.placed_flank import placed_axis, placed_sample, tooth_position
-from gearlube_core.tooth_contact.placement import Misalignment, place_direction, place_point
-from gearlube_core.tooth_contact.touching_error import touching_error
-from gearlube_core.tooth_contact.unloaded_error import unloaded_error
+from gearlube_core.hypoid_contact.ease_off import ease_off
+from gearlube_core.hypoid_contact.first_touch import first_touch
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample, tooth_position
+from gearlube_core.hypoid_contact.placement import Misalignment, place_direction, place_point
+from gearlube_core.hypoid_contact.touching_error import touching_error
+from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
+from gearlube_core.hypoid_geometry.flank.vectors import Vector
+from tests.helpers.contact_cases import SIDES, shipped_file, shipped_pair
 
 
 def test_elimination_agrees_with_lapack():

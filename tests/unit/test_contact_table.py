@@ -5,10 +5,10 @@ import pytest
 import xarray as xr
 
 from gearlube_core.errors import TableError
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_contact.contact_table import contact_table, fourier
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.kernels import mesh_series, pair_channels, transmission_error
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.tooth_contact.contact_table import contact_table, fourier
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 Z_P = 13

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from drivetrain.driveline import Driveline
-from drivetrain.driveline_parameters import DrivelineParameters, shaft_stiffness
-from drivetrain.driveline_stability import communication_stability
-from drivetrain.driveline_torsional_axle import TorsionalAxle
+from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.parameters import DrivelineParameters, shaft_stiffness
+from drivetrain.driveline.stability import communication_stability
+from drivetrain.driveline.torsional_axle import TorsionalAxle
 from drivetrain.drivers import CoupledVehicle, SpeedHold
 from drivetrain.engine import Engine, Gearbox, TorqueOrder
 from drivetrain.road_load import FinalDrive, mohammadpour_2015_road_load

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.border_pressure import border_pressure
-from gearlube_core.ehl.helical_cycle import solve_helical_line
-from gearlube_core.ehl.helical_film import jamali_2015_film
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.problem import elliptical_contact
+from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
+from gearlube_core.ehl.gears.helical_film import jamali_2015_film
+from gearlube_core.ehl.point.border.border_pressure import border_pressure
+from gearlube_core.ehl.point.problem import elliptical_contact
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 PLACES = {"small x": (1, 4), "large x": (-2, 4), "small y": (4, 1), "large y": (4, -2)}
 

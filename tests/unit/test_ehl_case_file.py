@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from gearlube_core.ehl.case_file import LineCase, PointCase
+from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.errors import ParameterError
-from gearlube_core.materials.lubricant import Lubricant
+from gearlube_core.oil.lubricant import Lubricant
 
 OIL = {"viscosity_pa_s": 0.02, "pressure_viscosity_per_gpa": 18.0}
 SHARED = {"name": "own", "source": "test", "speed_1_m_s": 3.0, "speed_2_m_s": 1.0, "oil": OIL}

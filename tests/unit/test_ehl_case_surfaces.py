@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube_core.ehl.case_file import LineCase, PointCase
+from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.errors import ParameterError
 
 OIL = {"viscosity_pa_s": 0.02, "pressure_viscosity_per_gpa": 18.0}

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.deflection_window import WindowedDeflection
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_level import PointLevel
-from gearlube_core.ehl.point_mesh import Grading
-from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
-from gearlube_core.ehl.scaling import PointScales
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 SHAPE = (97, 41)  # (ny, nx)
 

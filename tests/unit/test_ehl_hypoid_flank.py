@@ -4,15 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from gearlube_core.ehl.hypoid_window import pair_contact, phase_of, sliding_direction
-from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.mesh_table.table import MeshTable
-from gearlube_core.tooth_contact.contact_kinematics import path_kinematics
-from gearlube_core.tooth_contact.contact_path import contact_path
-from gearlube_core.tooth_contact.pair import FlankPair
 from tests.hypoid_film_cases import flank_cycle, hypoid_film
+
+from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of, sliding_direction
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
+from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.mesh_table.table import MeshTable
 
 TABLE = MeshTable.named("mohammadpour_2015")
 

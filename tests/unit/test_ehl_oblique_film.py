@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.problem import elliptical_contact
-from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.transient_film import MovingFilm
-from gearlube_core.ehl.transient_level import FilmConditions
-from gearlube_core.ehl.transient_steady import solve_steady_film
+from gearlube_core.ehl.point.problem import elliptical_contact
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.transient.film import MovingFilm
+from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-8, load_tolerance=1e-9)
 

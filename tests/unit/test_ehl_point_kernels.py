@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
-from gearlube_core.ehl import point_stencil
-from gearlube_core.ehl.point_krylov import flexible_gmres
-from gearlube_core.ehl.point_level import PointLevel
-from gearlube_core.ehl.point_mesh import Grading
-from gearlube_core.ehl.point_preconditioner import MultigridCycle
-from gearlube_core.ehl.point_solver import build_hierarchy, grid_shapes, solve_point_contact
-from gearlube_core.ehl.point_transfer import Transfer
-from gearlube_core.ehl.scaling import PointScales
-from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.errors import ConvergenceError, ParameterError
 from tests.ehl_point_cases import moes_contact
+
+from gearlube_core.ehl.point.equations import stencil as point_stencil
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.newton.krylov import flexible_gmres
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
+from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solver import build_hierarchy, grid_shapes, solve_point_contact
+from gearlube_core.errors import ConvergenceError, ParameterError
 
 SHAPE = (19, 23)
 

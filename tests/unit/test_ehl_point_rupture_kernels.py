@@ -6,19 +6,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-from gearlube_core.ehl.point_cavitation import let_rupture, refuse_rupture
-from gearlube_core.ehl.point_galerkin import sparse_operator
-from gearlube_core.ehl.point_level import PointLevel
-from gearlube_core.ehl.point_rupture import carried_entries, pass_on, settle_oil
-from gearlube_core.ehl.point_solver import solve_point_contact
-from gearlube_core.ehl.point_state import FilmState
-from gearlube_core.ehl.problem import PointContactProblem
-from gearlube_core.ehl.scaling import PointScales
-from gearlube_core.ehl.settings import PointSolverSettings
-from gearlube_core.ehl.solid_contact import SolidContact
-from gearlube_core.errors import ParameterError
 from tests.ehl_point_cases import moes_contact, sliding_along
+
+from gearlube_core.ehl.point.cavitation import let_rupture, refuse_rupture
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.rupture import carried_entries, pass_on, settle_oil
+from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.newton.galerkin import sparse_operator
+from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solid_contact import SolidContact
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.errors import ParameterError
 
 CONSERVING = PointSolverSettings(cavitation="mass_conserving")
 SHAPE = (17, 19)

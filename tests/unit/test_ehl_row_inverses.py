@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.ehl.lubricant import ehl_lubricant
-from gearlube_core.ehl.point_galerkin import sparse_operator
-from gearlube_core.ehl.point_level import PointLevel
-from gearlube_core.ehl.problem import EllipticParaboloid, PointContactProblem
-from gearlube_core.ehl.scaling import PointScales
-from gearlube_core.ehl.transient_rows import RowInverses
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.newton.galerkin import sparse_operator
+from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.transient.rows import RowInverses
+from gearlube_core.oil.film_oil import ehl_lubricant
 
 SHAPE = (49, 65)  # (ny, nx)
 

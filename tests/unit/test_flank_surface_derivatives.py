@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.flank_surface.cutting_motion import cut_state
-from gearlube_core.flank_surface.flank import Flank
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.flank_surface.surface_point import CONVERGED, locate, surface_point
+from gearlube_core.hypoid_geometry.flank.cutting_motion import cut_state
+from gearlube_core.hypoid_geometry.flank.flank import Flank
+from gearlube_core.hypoid_geometry.flank.surface_point import CONVERGED, locate, surface_point
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 MEMBERS = [(role, side) for role in ("pinion", "gear") for side in ("drive", "coast")]

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.export import write_flank_csv, write_solid
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.flank_surface.tooth import Tooth
-from gearlube_core.flank_surface.tooth_solid import gear_solid, tooth_solid
+from gearlube_core.hypoid_geometry.flank.export import write_flank_csv, write_solid
+from gearlube_core.hypoid_geometry.flank.tooth import Tooth
+from gearlube_core.hypoid_geometry.flank.tooth_solid import gear_solid, tooth_solid
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 trimesh = pytest.importorskip("trimesh")
 

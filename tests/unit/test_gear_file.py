@@ -6,7 +6,7 @@ import re
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
 
 FILE = HypoidGearFile.named("mohammadpour_2015")

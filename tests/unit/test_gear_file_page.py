@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from docs import ehl_case_file, gear_file, helical_gear_file
-from gearlube_core.ehl.case_file import LineCase, PointCase
-from gearlube_core.ehl.hypoid_case_file import HypoidCase
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.ehl.case.contact_case import LineCase, PointCase
+from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
 
 FOLDER = Path(__file__).parents[2] / "docs"

@@ -4,9 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from separation_cases import crowned_mesh, separating_pair
 
-from gearlube_core.dynamics.helical_pair.accelerations import pair_accelerations
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
     relative_rows,
@@ -33,6 +31,8 @@ from gearlube_core.dynamics.helical_pair.separation.march import (
 )
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
+from tests.helpers.separation_cases import crowned_mesh, separating_pair
+from tests.references.helical_accelerations import pair_accelerations
 
 COARSE = {"steps_per_mesh_period": 16}
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 

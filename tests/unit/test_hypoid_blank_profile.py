@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.blank.face_hobbed_lead import CutterHead, ToothTrace
-from gearlube_core.blank.iso_23509 import HypoidDesign, method_2
-from gearlube_core.blank.member_profile import MemberProfile
-from gearlube_core.blank.pitch_cones import PitchCones
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
+from gearlube_core.hypoid_geometry.blank.face_hobbed_lead import CutterHead, ToothTrace
+from gearlube_core.hypoid_geometry.blank.iso_23509 import HypoidDesign, method_2
+from gearlube_core.hypoid_geometry.blank.member_profile import MemberProfile
+from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 BLANK = HypoidGearFile.named("mohammadpour_2015").blank()
 PROFILES = [MemberProfile.of_pinion(BLANK), MemberProfile.of_gear(BLANK)]

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.line_integrals import friction_along_lines
 from gearlube_core.friction.line_points import line_points, table_line_load, uniform_line_load
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.mesh_table.line_mesh import uniform_line_mesh
+from gearlube_core.oil.lubricant import Lubricant
 
 HE = named_pair("he_2007")
 POINTS = line_points(HE, 4, 2)

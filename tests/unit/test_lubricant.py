@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from gearlube_core.errors import GearLubeError, ParameterError
-from gearlube_core.materials.lubricant import Lubricant, lubricant_names
-from gearlube_core.materials.lubricant_library import LIBRARY_PATH, TAGS, read_library
+from gearlube_core.oil.library import LIBRARY_PATH, TAGS, read_library
+from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 
 
 def library_with(old: str, new: str, directory: Path) -> Path:

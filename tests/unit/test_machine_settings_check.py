@@ -5,16 +5,16 @@ import math
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_surface.flank import Flank
-from gearlube_core.flank_surface.gear_file import HypoidGearFile
-from gearlube_core.flank_surface.machine_frames import pinion_cut
-from gearlube_core.flank_surface.setting_check import (
+from gearlube_core.hypoid_geometry.flank.flank import Flank
+from gearlube_core.hypoid_geometry.flank.machine_frames import pinion_cut
+from gearlube_core.hypoid_geometry.flank.setting_check import (
     pressure_angle_mismatch,
     reference_misfit,
     setting_report,
     suggest_corrections,
     suggest_settings,
 )
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
 

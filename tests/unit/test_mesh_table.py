@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from axle_cases import drive_only, with_coast_flanks
 
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.kernels import (
@@ -21,6 +20,7 @@ from gearlube_core.mesh_table.kernels import (
 )
 from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
 from gearlube_core.mesh_table.table import SERIES_UNITS, WINDOW_UNITS, MeshTable, Provenance
+from tests.helpers.axle_cases import drive_only, with_coast_flanks
 
 SHIPPED = MeshTable.named("mohammadpour_2015")
 TABLE = drive_only(SHIPPED)

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_src import native_host
-from fmu_src.cli import app
+from gearlube.command import app
 from gearlube_core.errors import GearLubeError
 
 pytestmark = pytest.mark.skipif(

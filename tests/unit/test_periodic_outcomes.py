@@ -2,14 +2,6 @@
 
 import numpy as np
 import pytest
-from periodic_cases import (
-    Oscillator,
-    acceleration,
-    logistic_map,
-    map_problem,
-    normal_form,
-    oscillator_problem,
-)
 
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.periodic import (
@@ -23,6 +15,14 @@ from gearlube_core.periodic import (
     solve_periodic,
     stability_margin,
     switch_branch,
+)
+from tests.helpers.periodic_cases import (
+    Oscillator,
+    acceleration,
+    logistic_map,
+    map_problem,
+    normal_form,
+    oscillator_problem,
 )
 
 PARABOLA = normal_form(lambda z, p: p - z * z, lambda z, p: -2 * z, lambda z, p: 1.0)

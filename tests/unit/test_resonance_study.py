@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from drivetrain.resonance import ResonanceSettings, study_resonance
-from drivetrain.resonance.cycle_dataset import cycle_dataset
-from drivetrain.resonance.datasets import resonance_dataset
-from drivetrain.resonance.measures import mesh_harmonics, rate_over_period
-from drivetrain.resonance.response import Response, follow_response
-from drivetrain.resonance.summary import main_special, summaries
+from gearlube.studies.resonance import ResonanceSettings, study_resonance
+from gearlube.studies.resonance.cycle_dataset import cycle_dataset
+from gearlube.studies.resonance.datasets import resonance_dataset
+from gearlube.studies.resonance.measures import mesh_harmonics, rate_over_period
+from gearlube.studies.resonance.response import Response, follow_response
+from gearlube.studies.resonance.summary import main_special, summaries
 from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh

@@ -5,14 +5,14 @@ import math
 
 import pytest
 
-from gearlube_core.errors import ParameterError
-from gearlube_core.materials.solid import (
+from gearlube_core.contact.solid import (
     STEEL_MOHAMMADPOUR_2015,
     contact_modulus,
     pi_contact_modulus,
     reduced_modulus,
     solid_parameters,
 )
+from gearlube_core.errors import ParameterError
 
 STEEL = STEEL_MOHAMMADPOUR_2015
 

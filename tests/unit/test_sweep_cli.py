@@ -3,9 +3,10 @@
 import pytest
 from typer.testing import CliRunner
 
-from fmu_src import cli, sweep_console
-from fmu_src.arguments import speeds_from
-from fmu_src.spread_values import spread
+from gearlube.cli import main as cli
+from gearlube.cli.arguments import speeds_from
+from gearlube.cli.spread_values import spread
+from gearlube.studies.sweep import console as sweep_console
 from gearlube_core import __version__
 from gearlube_core.errors import ParameterError
 

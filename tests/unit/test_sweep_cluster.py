@@ -9,10 +9,10 @@ import time
 from pathlib import Path
 
 import pytest
-import sweep_stand_in as stand_in
 import xarray as xr
 
-from drivetrain.sweep import SweepSettings, run_sweep
+from gearlube.studies.sweep import SweepSettings, run_sweep
+from tests.helpers import sweep_stand_in as stand_in
 
 DEADLINE = 60.0  # s, for anything that has to come up
 

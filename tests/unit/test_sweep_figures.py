@@ -5,17 +5,17 @@ import sys
 
 import numpy as np
 import pytest
-import sweep_stand_in as stand_in
 import xarray as xr
 
-from drivetrain.figures import CATALOGUE, spectrum_map
-from drivetrain.figures.order_cuts import harmonic_amplitude
-from drivetrain.figures.spectrum_map import DTE, default_top
-from drivetrain.figures.style import cell_edges
-from drivetrain.report import report_html, write_report
-from drivetrain.sweep import SweepSettings, quick_settings
-from drivetrain.sweep.merge import merge
-from drivetrain.sweep.point import failed_point
+from gearlube.plotting.style import cell_edges
+from gearlube.studies.sweep import SweepSettings, quick_settings
+from gearlube.studies.sweep.figures import CATALOGUE, spectrum_map
+from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
+from gearlube.studies.sweep.figures.spectrum_map import DTE, default_top
+from gearlube.studies.sweep.merge import merge
+from gearlube.studies.sweep.point import failed_point
+from gearlube.studies.sweep.report import report_html, write_report
+from tests.helpers import sweep_stand_in as stand_in
 
 SPEEDS, PRELOADS = [20.0, 60.0, 100.0], [2500.0, 6000.0]
 MESSAGE = "The axle FMU refused the step <at> t = 0.1 s"

@@ -4,7 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from sweep_stand_in import (
+
+from gearlube.studies.sweep import SweepSettings, quick_settings
+from gearlube.studies.sweep.recording import revolutions_to_record
+from gearlube.studies.sweep.separation import separation_class
+from tests.helpers.sweep_stand_in import (
     CAGE_ORDER,
     INPUT_POWER,
     LOSS_POWERS,
@@ -16,10 +20,6 @@ from sweep_stand_in import (
     point,
     recorded,
 )
-
-from drivetrain.sweep import SweepSettings, quick_settings
-from drivetrain.sweep.recording import revolutions_to_record
-from drivetrain.sweep.separation import separation_class
 
 SETTINGS = SweepSettings(settling_time=0.05)
 

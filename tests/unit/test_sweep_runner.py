@@ -5,13 +5,13 @@ import threading
 
 import numpy as np
 import pytest
-import sweep_stand_in as stand_in
 import xarray as xr
 
-from drivetrain.sweep import SweepInterruptedError, SweepSettings, load_sweep, run_sweep
-from drivetrain.sweep.interrupts import deferred_interrupts
-from drivetrain.sweep.merge import merge
+from gearlube.studies.sweep import SweepInterruptedError, SweepSettings, load_sweep, run_sweep
+from gearlube.studies.sweep.interrupts import deferred_interrupts
+from gearlube.studies.sweep.merge import merge
 from gearlube_core.errors import GearLubeError, ParameterError
+from tests.helpers import sweep_stand_in as stand_in
 
 SETTINGS = SweepSettings()
 SPEEDS = (20.0, 40.0, 60.0)
@@ -160,6 +160,6 @@ def test_a_file_that_is_no_fmu_is_refused_with_the_cure(tmp_path):
 
 
 def test_a_scheduler_that_does_not_answer_is_named(fmu, tmp_path, monkeypatch):
-    monkeypatch.setattr("drivetrain.sweep.cluster._CONNECT_TIMEOUT", 0.5)
+    monkeypatch.setattr("gearlube.studies.sweep.cluster._CONNECT_TIMEOUT", 0.5)
     with pytest.raises(GearLubeError, match=r"No Dask scheduler answered at tcp://127\.0\.0\.1:9"):
         sweep(fmu, tmp_path / "out", stand_in.small_point, scheduler="tcp://127.0.0.1:9")

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from compliance_cases import COARSE, spiral_tooth
 
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.tooth_compliance import cache
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
+from tests.helpers.compliance_cases import COARSE, spiral_tooth
 
 SETTINGS = CondensationSettings(profile_hats=3, lengthwise_hats=4, density=COARSE)
 TOOTH = spiral_tooth(neighbour_pitches=0.5, base_depth=8e-3)

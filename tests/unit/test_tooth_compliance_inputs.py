@@ -4,10 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from compliance_cases import COARSE, spiral_tooth
 
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.errors import ParameterError
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.tooth_compliance.flank_compliance import (
     CondensationSettings,
     interpolation_weights,
@@ -19,6 +18,7 @@ from gearlube_core.tooth_compliance.tooth_mesh import (
     smallest_scaled_jacobian,
     tooth_mesh,
 )
+from tests.helpers.compliance_cases import COARSE, spiral_tooth
 
 TOOTH = spiral_tooth(neighbour_pitches=1.0, base_depth=12e-3)
 

@@ -4,13 +4,13 @@ import dataclasses
 
 import numpy as np
 import pytest
-from torsional_cases import reconstructed
 
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import time_sweep
 from gearlube_core.errors import ParameterError, StepError
+from tests.helpers.torsional_cases import reconstructed
 
 PAIR = karagiannis_2012_pair()
 

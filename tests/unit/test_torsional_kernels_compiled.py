@@ -6,7 +6,6 @@ import pkgutil
 import numpy as np
 import pytest
 from numba.core.dispatcher import Dispatcher
-from torsional_cases import reconstructed
 
 from gearlube_core.dynamics import hypoid_torsional
 from gearlube_core.dynamics.hypoid_torsional import (
@@ -19,7 +18,8 @@ from gearlube_core.dynamics.hypoid_torsional import (
 )
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
-from gearlube_core.flat_tuples import flatten
+from gearlube_core.kernels.flat_tuples import flatten
+from tests.helpers.torsional_cases import reconstructed
 
 MODELS = {
     "hot": HypoidTorsional(karagiannis_2012_pair(friction="thermal_eyring", torque_ripple=0.1)),

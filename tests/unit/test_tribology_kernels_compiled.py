@@ -13,6 +13,7 @@ from gearlube_core.contact import (
     line_hertz,
 )
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.film import chittenden_1985, dowson_1968, dowson_toyoda_1979
 from gearlube_core.friction import (
     evans_johnson_1986,
@@ -21,10 +22,9 @@ from gearlube_core.friction import (
     line_friction,
     mixed_friction,
 )
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.rheology import eyring_1936, roelands_1966, walther_1931
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil import eyring_1936, roelands_1966, walther_1931
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 OIL = Lubricant.named("mohammadpour_2015").parameters()
 STATE = lubricant_state(OIL, 363.15)

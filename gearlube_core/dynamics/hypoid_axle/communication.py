@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from gearlube_core.dynamics.hypoid_axle.integrate import OK, advance
 from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

@@ -24,10 +24,10 @@ from gearlube_core.dynamics.packed_mesh import (
 )
 from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.rheology.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _PAIRS = PAIRS
 

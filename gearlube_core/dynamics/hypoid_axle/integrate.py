@@ -26,10 +26,10 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.flat_tuples import tuple_from_array
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES
-from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 OK = 0
 NOT_FINITE = 1

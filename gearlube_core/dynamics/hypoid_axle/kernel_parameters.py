@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.materials.lubricant import LubricantParameters
-from gearlube_core.materials.solid import SolidParameters
+from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.oil.lubricant import LubricantParameters
 
 
 class AxleParameters(NamedTuple):

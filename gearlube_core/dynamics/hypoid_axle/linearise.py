@@ -12,7 +12,7 @@ from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_ODE, U_G, U_P, V_G, V_P, W_G, W_P, X
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 if TYPE_CHECKING:
     from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle

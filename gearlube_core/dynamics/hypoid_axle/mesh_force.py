@@ -21,7 +21,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     X,
 )
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series
 
 

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.optimize import root
 
 from gearlube_core.bearings.parameters import ROLLERS_MAX
+from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.communication import communication_step
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     NOT_FINITE,
@@ -39,10 +40,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
 from gearlube_core.dynamics.stepped_model import Kernels, SteppedModel, Words
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.flat_tuples import flatten
-from gearlube_core.materials.solid import contact_modulus
+from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.kernels import N_SERIES, blend_levels, load_bracket
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
 

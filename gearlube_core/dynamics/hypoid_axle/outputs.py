@@ -59,10 +59,10 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, SHARE
-from gearlube_core.flat_tuples import tuple_from_array
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import N_SERIES, pair_channels
-from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 

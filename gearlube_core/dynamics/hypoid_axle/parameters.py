@@ -8,12 +8,12 @@ from typing import Literal, get_args
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.errors import ParameterError
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.oil.lubricant import Lubricant
 
 Equations = Literal["consistent", "as_printed"]
 Radii = Literal["consistent", "paper", "mean"]

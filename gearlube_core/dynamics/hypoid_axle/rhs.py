@@ -39,9 +39,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.rheology.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 N_FRICTION = 2 * PAIRS
 AT_EXPANSION = N_FRICTION + N_CHANNELS

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM, pair_rates, reduced_rates
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 OK, NOT_FINITE = 0, 1
 DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]

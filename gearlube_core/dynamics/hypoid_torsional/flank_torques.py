@@ -27,7 +27,7 @@ from gearlube_core.friction.flank_data import CONSISTENT, ContactGeometry
 from gearlube_core.friction.friction_torques import flank_speeds, friction_torques
 from gearlube_core.friction.thermal_eyring_data import ThermalFlankState
 from gearlube_core.friction.thermal_eyring_flank import thermal_eyring_flank
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.table import PAIRS
 
 _PAIRS = PAIRS

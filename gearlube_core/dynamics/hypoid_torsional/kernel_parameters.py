@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.friction.thermal_eyring_data import ThermalEyringOil, ThermalEyringOptions
-from gearlube_core.materials.solid import SolidParameters
-from gearlube_core.rheology.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 FRICTION_OFF, EVANS_JOHNSON, THERMAL_EYRING = -1.0, 0.0, 1.0
 ONE_DOF, TWO_DOF = 1.0, 2.0

@@ -12,7 +12,7 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series, pair_channels
 from gearlube_core.mesh_table.table import PAIRS
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.checks import check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.solid import contact_modulus, solid_parameters
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import (
     DE,
@@ -44,11 +45,10 @@ from gearlube_core.friction.thermal_eyring_data import (
     thermal_eyring_oil,
     thermal_eyring_options,
 )
-from gearlube_core.materials.solid import contact_modulus, solid_parameters
 from gearlube_core.mesh_table import kernels as series
 from gearlube_core.mesh_table.kernels import blend_levels, load_bracket
-from gearlube_core.rheology.houpert_1985 import houpert_parameters
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil.houpert_1985 import houpert_parameters
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     EVANS_JOHNSON,
     FRICTION_OFF,
@@ -14,9 +15,8 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     TWO_DOF,
 )
 from gearlube_core.errors import ParameterError
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.oil.lubricant import Lubricant
 
 Form = Literal["two_dof", "one_dof"]
 Radii = Literal["consistent", "paper", "mean"]

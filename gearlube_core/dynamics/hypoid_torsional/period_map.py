@@ -33,7 +33,7 @@ from gearlube_core.dynamics.hypoid_torsional.angle_march import (
     angle_slope,
 )
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # steps of the central differences; rates are linear or nearly so in all of these
 _STEP_X = 1.0e-5  # um, as small as rounding allows: stages may lie near a kink

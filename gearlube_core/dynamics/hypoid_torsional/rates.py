@@ -12,7 +12,7 @@ from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
 from gearlube_core.dynamics.hypoid_torsional.flank_torques import FlankTorques, flank_torques
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, DK, R_G, R_P, K
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 MICRO = 1.0e6  # um per m; states hold x in um beside speeds of like size
 UM = 1.0e-6

@@ -16,7 +16,7 @@ from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.rates import UM
 from gearlube_core.errors import StepError
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.spectra import AngleWindow, order_spectrum
 
 Array = NDArray[np.float64]

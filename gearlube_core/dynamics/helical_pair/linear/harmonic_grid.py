@@ -18,7 +18,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     with_friction,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.worker_pool import single_threaded, worker_pool
+from gearlube_core.storage.worker_pool import single_threaded, worker_pool
 
 QUANTITIES = (*RELATIVE, *COMPOSITES)
 

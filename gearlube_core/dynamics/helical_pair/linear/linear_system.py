@@ -22,7 +22,7 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import (
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import N_SUMS
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 RELATIVE = (*(name for name in COORDINATES if not name.startswith("th_z")), "psi")
 _KEPT = tuple(i for i, name in enumerate(COORDINATES) if not name.startswith("th_z"))

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 class MatrixEntries(NamedTuple):

@@ -20,7 +20,7 @@ from gearlube_core.dynamics.helical_pair.linear.matrix_entries import (
     matrix_entries,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_constant
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 _MERGED = 1e-10  # phases closer than this are one
 _INSIDE = 1e-9  # share of an interval by which its ends are moved inwards: the mesh may jump there

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from gearlube_core.dynamics.helical_pair.march.integrate import OK, advance
 from gearlube_core.dynamics.helical_pair.march.outputs import write_outputs
 from gearlube_core.dynamics.helical_pair.march.state import N_STATE
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.materials.lubricant import LubricantParameters
-from gearlube_core.materials.solid import SolidParameters
+from gearlube_core.oil.lubricant import LubricantParameters
 
 
 class SupportConstants(NamedTuple):

@@ -22,7 +22,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_P,
 )
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 Array = NDArray[np.float64]
 

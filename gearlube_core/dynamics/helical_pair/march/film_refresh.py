@@ -28,12 +28,12 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     REFRESHED,
     W_P,
 )
-from gearlube_core.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.friction.line_friction import LineState, line_friction
 from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
-from gearlube_core.jit import kernel
-from gearlube_core.rheology.lubricant_state import LubricantState
+from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # place of MarchConstants.refreshes in the pair data
 REFRESHES_AT = count_floats(MotionConstants) + MarchConstants._fields.index("refreshes") - 1

@@ -17,7 +17,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     U_P,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import plane_strain
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 SPEED_OF_FULL_FRICTION = 0.01  # rad/s; below, friction fades so that it has no jump at rest
 

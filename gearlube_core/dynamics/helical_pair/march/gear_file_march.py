@@ -24,8 +24,8 @@ from gearlube_core.dynamics.helical_pair.supports.shaft_support import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
-from gearlube_core.materials.lubricant import Lubricant
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.oil.lubricant import Lubricant
 
 
 def helical_march(

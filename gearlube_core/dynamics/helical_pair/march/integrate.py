@@ -23,9 +23,9 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_P,
     WORK_MARK,
 )
-from gearlube_core.flat_tuples import tuple_from_array
-from gearlube_core.jit import kernel
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 OK = 0
 NOT_FINITE = 1

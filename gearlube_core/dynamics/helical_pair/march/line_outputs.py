@@ -17,8 +17,8 @@ from gearlube_core.dynamics.helical_pair.march.output_names import (
     N_LINE_QUANTITIES,
 )
 from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE, W_P
-from gearlube_core.jit import kernel
-from gearlube_core.rheology.lubricant_state import LubricantState
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 @kernel

@@ -13,9 +13,9 @@ from gearlube_core.dynamics.helical_pair.march.constants import MotionConstants
 from gearlube_core.dynamics.helical_pair.march.mesh_data import STATIONS_AT
 from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import built_up
-from gearlube_core.flat_tuples import tuple_from_array
 from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.jit import kernel
 
 GAUSS = 0.21132486540518713  # (1 - 1/sqrt(3))/2: first of two points between 0 and 1
 _HALF_APART = 0.28867513459481287  # 1/(2 sqrt(3)): of the two points

@@ -47,9 +47,9 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_P,
     WORK_MARK,
 )
-from gearlube_core.flat_tuples import tuple_from_array
-from gearlube_core.jit import kernel
-from gearlube_core.rheology.lubricant_state import lubricant_state
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c_z
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work

@@ -8,6 +8,7 @@ from typing import Literal, get_args
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.constants import (
     FlankConstants,
     MarchConstants,
@@ -24,9 +25,8 @@ from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     support_stiffness,
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.oil.lubricant import Lubricant
 
 Form = Literal["twelve_dof", "six_dof"]
 Friction = Literal["film", "constant", "off"]

@@ -45,8 +45,8 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     WHEEL_WORK,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_constant, flank_damping
-from gearlube_core.flat_tuples import tuple_from_array
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

@@ -12,7 +12,7 @@ from gearlube_core.helical_geometry.contact_line import (
     line_position,
     pitch_crossing,
 )
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # columns of a table of points
 X, Z, LENGTH, DENSITY, OFFSET, SLIDING, LINE, LOAD, MU = range(9)

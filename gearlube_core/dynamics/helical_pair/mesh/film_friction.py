@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from gearlube_core.checks import check_within
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters, gear_flanks
+from gearlube_core.contact.solid import Solid, SolidParameters, solid_parameters
 from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, MeshArrays
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
@@ -20,10 +21,9 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import point_moments
 from gearlube_core.friction.line_friction import line_friction
 from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
-from gearlube_core.jit import kernel
-from gearlube_core.materials.lubricant import Lubricant
-from gearlube_core.materials.solid import Solid, SolidParameters, solid_parameters
-from gearlube_core.rheology.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 
 class FilmConstants(NamedTuple):

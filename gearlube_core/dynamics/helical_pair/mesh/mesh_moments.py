@@ -34,7 +34,7 @@ from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import (
     wrench_of_sums,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 
 @kernel

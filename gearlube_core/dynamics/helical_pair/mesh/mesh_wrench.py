@@ -25,7 +25,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     Z,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 N_SUMS = 5
 

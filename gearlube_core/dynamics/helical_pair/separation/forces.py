@@ -14,7 +14,7 @@ from gearlube_core.dynamics.helical_pair.separation.points import (
     X,
     Z,
 )
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # rows 0 to 4 are the sums of `mesh_wrench`; then per flank, drive and back, what damping needs
 FLANK_LOAD, FLANK_DAMPING = (5, 6), (7, 8)

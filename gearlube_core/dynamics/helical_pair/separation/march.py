@@ -19,7 +19,7 @@ from gearlube_core.dynamics.helical_pair.separation.forces import (
 )
 from gearlube_core.dynamics.helical_pair.separation.points import SeparationPoints
 from gearlube_core.dynamics.helical_pair.separation.system import SeparationSystem
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # columns of a record after the 2n states
 FORCE, DRAG_FORCE, CONTACT_SHARE, DAMPING_FORCE = range(4)

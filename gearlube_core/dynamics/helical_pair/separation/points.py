@@ -17,7 +17,7 @@ from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import contact_points, point_capacity
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import sign
 from gearlube_core.helical_geometry.contact_line import ContactPlane
-from gearlube_core.jit import kernel
+from gearlube_core.kernels.jit import kernel
 
 # columns of a table of points
 ALONG, STIFFNESS, OFFSET, DRAG, X, Z, STIFFNESS_RATE, OFFSET_RATE = range(8)

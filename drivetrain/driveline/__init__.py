@@ -1,0 +1,1 @@
+"""The driveline: casadi equations, steady state, modes, time steps."""

@@ -1,5 +1,0 @@
-"""Figures of a resonance study: functions from its datasets to a matplotlib Figure."""
-
-from drivetrain.resonance_figures.catalogue import RESONANCE_CATALOGUE, save_resonance_figures
-
-__all__ = ["RESONANCE_CATALOGUE", "save_resonance_figures"]

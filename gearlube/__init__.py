@@ -1,0 +1,1 @@
+"""Lubricated gear pairs for vehicle co-simulation."""

@@ -1,0 +1,5 @@
+"""Run the command `gearlube` with `python -m gearlube`."""
+
+from gearlube.command import main
+
+main()

@@ -1,0 +1,51 @@
+"""`gearlube build-fmu`."""
+
+from __future__ import annotations
+
+import logging
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED
+from gearlube_core.errors import GearLubeError, ParameterError, TableError
+
+_LOGGER = logging.getLogger("gearlube")
+
+
+def build_fmu(
+    out: Annotated[Path, typer.Option(help="Folder that gets the FMUs.")] = Path(),
+    model: Annotated[
+        str | None,
+        typer.Option(
+            help="hypoid-axle or helical-pair. Default: that of the file given, else both."
+        ),
+    ] = None,
+    mesh_table: Annotated[
+        Path | None,
+        typer.Option(help="Mesh table (.nc) of another hypoid pair. Default: the one that ships."),
+    ] = None,
+    gear: Annotated[
+        Path | None, typer.Option(help="Gear file (.toml) of another helical pair.")
+    ] = None,
+    line_mesh: Annotated[
+        Path | None, typer.Option(help="Line mesh (.nc) of that helical pair.")
+    ] = None,
+) -> None:
+    """Build HypoidAxle.fmu and HelicalPair.fmu (FMI 2.0 co-simulation)."""
+    from fmu_src.build import build_models
+
+    began = time.monotonic()
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        paths = build_models(out, model, mesh_table, gear, line_mesh)
+    except (ParameterError, TableError) as error:
+        _LOGGER.error("%s", error)
+        raise typer.Exit(BAD_ARGUMENT) from None
+    except (GearLubeError, OSError) as error:
+        _LOGGER.error("The FMU was not built: %s", error)
+        raise typer.Exit(FAILED) from None
+    built = " and ".join(str(path) for path in paths)
+    _LOGGER.info("Built %s in %.1f s.", built, time.monotonic() - began)

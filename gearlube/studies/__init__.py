@@ -1,0 +1,1 @@
+"""Studies: each folder holds the settings, run, datasets, figures and command of one."""

@@ -1,0 +1,1 @@
+"""Tooth contact analysis of a hypoid pair."""

@@ -1,0 +1,96 @@
+"""The figures of line and point contacts, in reading order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from gearlube.studies.films.figures.helical_cycle import cycle_curves, cycle_map
+from gearlube.studies.films.figures.helical_line import (
+    helical_along,
+    helical_contours,
+    helical_sections,
+)
+from gearlube.studies.films.figures.helical_step import step_contours, step_sections
+from gearlube.studies.films.figures.history import residual_history
+from gearlube.studies.films.figures.hypoid_contours import hypoid_contours
+from gearlube.studies.films.figures.hypoid_cycle import hypoid_curves, hypoid_ratios
+from gearlube.studies.films.figures.line_contact import (
+    line_profile,
+    line_profile_hertz,
+    line_shear,
+    line_temperature,
+)
+from gearlube.studies.films.figures.point_contact import (
+    point_contours,
+    point_sections,
+    point_shear,
+    point_temperature,
+)
+
+Draw = Callable[[xr.Dataset], Any]
+LINE_CATALOGUE: dict[str, Draw] = {
+    "profile": line_profile,
+    "profile_hertz": line_profile_hertz,
+    "shear": line_shear,
+    "temperature": line_temperature,
+    "residuals": residual_history,
+}
+POINT_CATALOGUE: dict[str, Draw] = {
+    "contours": point_contours,
+    "sections": point_sections,
+    "shear": point_shear,
+    "temperature": point_temperature,
+    "residuals": residual_history,
+}
+HELICAL_CATALOGUE: dict[str, Draw] = {
+    "contours": helical_contours,
+    "along": helical_along,
+    "sections": helical_sections,
+}
+CYCLE_CATALOGUE: dict[str, Draw] = {"cycle": cycle_curves, "cycle_map": cycle_map}
+STEP_CATALOGUE: dict[str, Draw] = {"contours": step_contours, "sections": step_sections}
+HYPOID_CATALOGUE: dict[str, Draw] = {
+    "curves": hypoid_curves,
+    "ratios": hypoid_ratios,
+    "contours": hypoid_contours,
+}
+_CATALOGUES = {
+    "line": LINE_CATALOGUE,
+    "point": POINT_CATALOGUE,
+    "helical": HELICAL_CATALOGUE,
+    "helical_cycle": CYCLE_CATALOGUE,
+    "helical_step": STEP_CATALOGUE,
+    "hypoid": HYPOID_CATALOGUE,
+}
+
+
+def save_ehl_figures(dataset: xr.Dataset, directory: Path, prefix: str = "") -> list[Path]:
+    """Draw every figure for which there are data into `directory` as PNG; return the files.
+
+    `prefix` begins the names of the files.
+    """
+    directory.mkdir(parents=True, exist_ok=True)
+    catalogue = _CATALOGUES[dataset.attrs["contact"]]
+    files = []
+    for name in drawn_figures(dataset):
+        path = directory / f"{prefix}{name}.png"
+        catalogue[name](dataset).savefig(path, dpi=150)
+        files.append(path)
+    return files
+
+
+def drawn_figures(dataset: xr.Dataset) -> list[str]:
+    """Return the names of the figures for which a dataset holds data."""
+    of = dataset.attrs
+    left_out = set()
+    if of["contact"] in ("line", "point") and "temperature" not in dataset:
+        left_out.add("temperature")
+    if of["contact"] == "point" and of["sliding_x"] == of["sliding_y"] == 0.0:
+        left_out.add("shear")
+    if of["contact"] == "helical_cycle" and dataset.sizes["step"] < 2:
+        left_out.add("cycle_map")
+    return [name for name in _CATALOGUES[of["contact"]] if name not in left_out]

@@ -1,0 +1,148 @@
+"""Pressure, film and load of a contact line over its meshing cycle."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.style import (
+    BLUE,
+    GREEN,
+    SERIES,
+    VERMILLION,
+    house_style,
+    new_figure,
+)
+from gearlube.studies.films.figures.point_contact import contour_levels
+
+_PANELS = (
+    ("pressure_max", 1e-9, "largest pressure [GPa]", BLUE),
+    ("minimum_film", 1e6, "smallest film [µm]", VERMILLION),
+    ("load", 1e-3, "load [kN]", GREEN),
+    ("loaded_length", 1e3, "loaded length [mm]", GREEN),
+)
+_THICK = 3.0  # smallest films of the cycle that have contours
+_DASHES = ("-", "--", ":", "-.")
+
+
+def cycle_curves(dataset: xr.Dataset) -> Any:
+    """Return largest pressure, smallest film, load and loaded length over the steps.
+
+    Steps that did not converge are marked, and so is the line at rest where it was solved.
+    """
+    with house_style():
+        figure = new_figure(8.6, 9.0)
+        step = dataset["step"].values
+        failed = dataset["converged"].values == 0.0
+        axes = figure.subplots(len(_PANELS), 1, sharex=True)
+        for ax, (name, factor, label, colour) in zip(axes, _PANELS, strict=True):
+            values = factor * dataset[name].values
+            ax.plot(step, values, color=colour, label="marching" if ax is axes[0] else None)
+            if failed.any():
+                ax.plot(step[failed], values[failed], "x", color="black")
+            if f"steady_{name}" in dataset:
+                at_rest = factor * dataset[f"steady_{name}"].values
+                ax.plot(step, at_rest, "s", color="black", mfc="none", label="line at rest")
+                values = np.append(values, at_rest)
+            ax.set(ylabel=label, ylim=(0.0, 1.12 * max(float(np.nanmax(values)), 1e-12)))
+        if "steady_minimum_film" in dataset:
+            axes[0].legend(loc="lower left", ncols=2)
+        _position_scale(axes[0], dataset)
+        axes[-1].set_xlabel("step of the meshing cycle")
+        figure.suptitle(_title(dataset), fontsize=11.5)
+    return figure
+
+
+def cycle_map(dataset: xr.Dataset) -> Any:
+    """Return contours of pressure and film along the line over the steps.
+
+    Of each section across the line its largest pressure and its smallest film.
+    """
+    with house_style():
+        figure = new_figure(9.4, 7.4)
+        top, bottom = figure.subplots(2, 1, sharex=True, sharey=True)
+        places = (dataset["step"].values, 1e3 * dataset["y"].values)
+        pressure = 1e-9 * dataset["line_pressure"].values.T
+        film = 1e6 * dataset["line_film"].values.T
+        levels = contour_levels(0.0, float(np.nanmax(pressure)))[1:]
+        drawn = top.contourf(*places, pressure, levels=levels, cmap="magma_r")
+        figure.colorbar(drawn, ax=top, label="pressure [GPa]")
+        top.set_title("largest pressure across the line")
+        lowest = float(np.nanmin(film))
+        levels = contour_levels(lowest, max(_THICK * lowest, 0.05))
+        drawn = bottom.contourf(*places, film, levels=levels, cmap="viridis", extend="max")
+        figure.colorbar(drawn, ax=bottom, label="film [µm]")
+        bottom.set_title("smallest film across the line")
+        for ax in (top, bottom):
+            ax.set_ylabel("along the line, y [mm]")
+            ax.grid(visible=False)
+        bottom.set_xlabel("step of the meshing cycle")
+        figure.suptitle(_title(dataset), fontsize=11.5)
+    return figure
+
+
+def compared_cycles(cycles: dict[str, xr.Dataset], film_exponent: float = 0.0) -> Any:
+    """Return largest pressures and smallest films of several marches over their steps.
+
+    Parameters
+    ----------
+    cycles
+        Marches by the names that the legend shows.
+    film_exponent
+        Films are divided by the pinion speed, over that of the first march, to this power.
+    """
+    with house_style():
+        figure = new_figure(8.6, 7.2)
+        top, bottom = figure.subplots(2, 1, sharex=True)
+        speed = next(iter(cycles.values())).attrs["pinion_speed"]
+        for k, (label, cycle) in enumerate(cycles.items()):
+            look: dict[str, Any] = {
+                "color": SERIES[k % len(SERIES)],
+                "ls": _DASHES[k // len(SERIES) % len(_DASHES)],
+                "lw": 1.4,
+            }
+            step, failed = cycle["step"].values, cycle["converged"].values == 0.0
+            scale = (cycle.attrs["pinion_speed"] / speed) ** film_exponent
+            for ax, values in (
+                (top, 1e-9 * cycle["pressure_max"].values),
+                (bottom, 1e6 * cycle["minimum_film"].values / scale),
+            ):
+                ax.plot(step, values, label=label if ax is top else None, **look)
+                ax.plot(step[failed], values[failed], "x", color=look["color"])
+        top.set(ylabel="largest pressure [GPa]", ylim=(0.0, None))
+        divided = f" over (speed ratio)$^{{{film_exponent:g}}}$" if film_exponent else ""
+        bottom.set(ylabel=f"smallest film{divided} [µm]", ylim=(0.0, None))
+        bottom.set_xlabel("step of the meshing cycle")
+        figure.legend(ncols=min(len(cycles), 4), loc="outside lower center")
+        failures = sum(int(cycle.attrs["failures"]) for cycle in cycles.values())
+        state = f", {failures} steps NOT CONVERGED (crosses)" if failures else ""
+        names = dict.fromkeys(cycle.attrs["name"] for cycle in cycles.values())
+        figure.suptitle(f"{', '.join(names)}{state}", fontsize=11.5)
+    return figure
+
+
+def _position_scale(ax: Any, dataset: xr.Dataset) -> None:
+    """Draw the position of the line above the steps."""
+    step, position = dataset["step"].values, 1e3 * dataset["position"].values
+    if step.size < 2:
+        return
+    slope = (position[-1] - position[0]) / (step[-1] - step[0])
+    above = ax.secondary_xaxis(
+        "top",
+        functions=(
+            lambda n: position[0] + slope * (n - step[0]),
+            lambda s: step[0] + (s - position[0]) / slope,
+        ),
+    )
+    above.set_xlabel("position of the line $s_i$ [mm]")
+
+
+def _title(dataset: xr.Dataset) -> str:
+    of = dataset.attrs
+    state = f"{of['failures']} steps NOT CONVERGED (crosses), " if of["failures"] else ""
+    return (
+        f"{of['name']}: {state}line through its cycle, {dataset.sizes['step']} steps, "
+        f"{of['torque']:.4g} N·m"
+    )

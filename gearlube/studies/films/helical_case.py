@@ -1,0 +1,158 @@
+"""The film of a helical pair's contact line at one position, from a gear file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gearlube_core.checks import check_option, check_within
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
+from gearlube_core.ehl.gears.helical_film import GRADINGS, JAMALI_2015_MODULUS, HelicalFilm
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.helical_geometry.meshing_steps import (
+    MeshingSteps,
+    jamali_2015_steps,
+    line_at_position,
+    meshing_steps,
+    position_of_line,
+)
+from gearlube_core.oil.film_oil import EhlLubricant, ehl_lubricant
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.named_film_oils import lubricant_from_library
+from gearlube_core.units import rpm_to_rads
+
+_STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
+_STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: Jamali 2015 sec. 4.4
+# the thesis' own steps and E*, so that its step numbers name its positions
+_THESIS = {"jamali_2015_a": "a", "jamali_2015_b": "b"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HelicalLineCase:
+    """A contact line at rest at one position of its cycle.
+
+    Parameters
+    ----------
+    file : HelicalGearFile
+    torque, pinion_speed
+        [N m], [rad/s]; None: those of the file.
+    step
+        Of the meshing cycle, need not be whole; None: see `position`.
+    position
+        s_i of the line [m]; None with `step` None: where the line carries most.
+    oil
+        Of the library; None: that of the file.
+    oil_temperature
+        Of an oil of the library [K].
+    newtonian
+        True: leave the Eyring stress out.
+    convention
+        Of the load, "normal" or "thesis".
+    nodes
+        Across the line and along it; None, also for one of them: those of the file.
+    spacing
+        Of the nodes across the line, "uniform" or "exit"; None: that of the file.
+
+    Raises
+    ------
+    ParameterError
+        Something is missing, given twice or out of range.
+    """
+
+    file: HelicalGearFile
+    torque: float | None = None
+    pinion_speed: float | None = None
+    step: float | None = None
+    position: float | None = None
+    oil: str | None = None
+    oil_temperature: float = 353.15
+    newtonian: bool = False
+    convention: str = "normal"
+    nodes: tuple[int | None, int | None] = (None, None)
+    spacing: str | None = None
+
+    @property
+    def mesh(self) -> tuple[tuple[int, int], str]:
+        """Return the nodes across and along the line, and how they are spaced across it."""
+        own, (across, along) = self.file.film_mesh, self.nodes
+        return (
+            own.nodes_across if across is None else across,
+            own.nodes_along if along is None else along,
+        ), own.spacing if self.spacing is None else self.spacing
+
+    def film(self) -> HelicalFilm:
+        """Return the film through the cycle of which this is one position."""
+        torque, speed = self._operation()
+        modified = self.file.modified_pair()
+        thesis = _THESIS.get(self.file.name)
+        (across, along), spacing = self.mesh
+        for name, count in (("across", across), ("along", along)):
+            check_within(f"nodes {name} the line", count, 17, 2049)
+        check_option("spacing", spacing, tuple(GRADINGS))
+        return HelicalFilm(
+            modified=modified,
+            steps=meshing_steps(modified, _STEP, _SMALLEST_SHARE)
+            if thesis is None
+            else jamali_2015_steps(thesis),
+            torque=torque,
+            pinion_speed=speed,
+            lubricant=self._lubricant(),
+            contact_modulus=_STEEL if thesis is None else JAMALI_2015_MODULUS,
+            nodes=(across, along),
+            grading=GRADINGS[spacing],
+            convention=self.convention,
+        )
+
+    def step_of(self, film: HelicalFilm) -> float:
+        """Return the step at which the line is looked at [1]."""
+        steps = film.steps
+        if self.step is not None and self.position is not None:
+            raise ParameterError(
+                f"Give a step or a position, not both, got step {self.step:g} and position "
+                f"{1e3 * self.position:g} mm."
+            )
+        if self.step is not None:
+            check_within("step", self.step, 0.0, steps.count)
+            return self.step
+        if self.position is not None:
+            first, last = (1e3 * float(steps.position(n)) for n in (0, steps.count))
+            check_within("position", 1e3 * self.position, first, last, "mm")
+            return float(steps.step_at(self.position))
+        return float(steps.step_at(position_of_line(film.largest_load()[1], steps.pair)))
+
+    def _operation(self) -> tuple[float, float]:
+        given = self.file.operation
+        torque, speed = self.torque, self.pinion_speed
+        if given is not None:
+            torque = given.pinion_torque_n_m if torque is None else torque
+            speed = rpm_to_rads(given.pinion_speed_rpm) if speed is None else speed
+        if torque is None or speed is None:
+            raise ParameterError(
+                f"Torque and speed must be given for {self.file.name}, whose file has no "
+                f"[operation], got {torque} N.m and {speed} rad/s. Add the section or give both."
+            )
+        return torque, speed
+
+    def _lubricant(self) -> EhlLubricant:
+        own = self.file.oil
+        if self.oil is not None:
+            return lubricant_from_library(
+                Lubricant.named(self.oil), self.oil_temperature, newtonian=self.newtonian
+            )
+        if own is None:
+            raise ParameterError(
+                f"An oil must be given for {self.file.name}, whose file has no [oil]. "
+                "Add the section or name an oil of the library."
+            )
+        stress = None if self.newtonian else own.eyring_stress_mpa
+        return ehl_lubricant(
+            eta0=own.viscosity_pa_s,
+            alpha=1e-9 * own.pressure_viscosity_per_gpa,
+            eyring_stress=None if stress is None else 1e6 * stress,
+        )
+
+
+def line_of_step(steps: MeshingSteps, step: float) -> tuple[float, float]:
+    """Return s_i and X of the line at a step [m]."""
+    position = float(steps.position(step))
+    return position, float(line_at_position(position, steps.pair))

@@ -1,0 +1,88 @@
+"""Names, units and attributes that the datasets of a study share."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gearlube.studies.helical.settings import HelicalSettings
+from gearlube_core import __version__
+from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import COMPOSITES
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+
+Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
+
+TRANSLATIONS = tuple(name for name in RELATIVE if name.startswith("u_"))
+TILTS = tuple(name for name in RELATIVE if name.startswith("th_"))
+LENGTHS = (*TRANSLATIONS, "psi", *COMPOSITES)
+FORCES = tuple(name for name in BEARING_FORCES if name.startswith("F"))
+MOMENTS = tuple(name for name in BEARING_FORCES if name.startswith("M"))
+
+_AXES = {"x": "along the line of action", "y": "off the line of action", "z": "axial"}
+_COMPOSITE_WORDS = {
+    "psi": "r_bp th_zp + r_bg th_zg",
+    "delta_x": "r_bp th_xp + r_bg th_xg + u_zp - u_zg",
+    "delta_y": "r_bp th_yp + r_bg th_yg + u_zp - u_zg",
+    "delta_z": "r_bp th_zp + r_bg th_zg - u_xp + u_xg, dynamic transmission error",
+}
+
+
+def words_of(name: str) -> str:
+    """Return what a coordinate, composite or bearing force is, in words.
+
+    >>> words_of("u_xp")
+    'displacement of the pinion along the line of action'
+    """
+    if name in _COMPOSITE_WORDS:
+        return _COMPOSITE_WORDS[name]
+    kind, axis, member = name.split("_")[0], name[-2], "pinion" if name[-1] == "p" else "gear"
+    if kind == "u":
+        return f"displacement of the {member} {_AXES[axis]}"
+    if kind == "th":
+        return f"tilt of the {member} about {axis}"
+    if kind == "F":
+        return f"force of the bearings on the {member} {_AXES[axis]}"
+    return f"moment of the bearings on the {member} about {axis}"
+
+
+def study_attributes(settings: HelicalSettings, command_line: str) -> dict[str, Any]:
+    """Return what a study was asked for, in SI, and where the pair's data are from."""
+    attributes: dict[str, Any] = {
+        "name": settings.file.name,
+        "source": settings.file.source,
+        "command_line": command_line,
+        "gearlube_version": __version__,
+        "pinion_torque": settings.pinion_torque,
+        "pinion_torque_units": "N.m",
+        "pinion_speed": settings.pinion_speed,
+        "pinion_speed_units": "rad/s",
+        "mesh": settings.mesh,
+        "friction": settings.friction,
+    }
+    return attributes | _provenance(settings.file)
+
+
+def _provenance(file: HelicalGearFile) -> dict[str, str]:
+    """Return which fields the source implies or lacks, a sentence each."""
+    return {
+        f"{origin}_fields": " ".join(f"{field}: {why}" for field, why in found.items())
+        for origin, found in (("inferred", file.inferred), ("completed", file.completed))
+        if found
+    }
+
+
+def pair_attributes(parameters: HelicalPairParameters) -> dict[str, Any]:
+    """Return the pair's numbers that its vibration hangs on, in SI."""
+    return {
+        "pinion_teeth": parameters.pair.pinion_teeth,
+        "gear_teeth": parameters.pair.gear_teeth,
+        "total_contact_ratio": parameters.pair.total_contact_ratio,
+        "mesh_name": parameters.mesh.name,
+        "mesh_source": parameters.mesh.source,
+        "effective_mass": parameters.effective_mass,
+        "effective_mass_units": "kg",
+        "mesh_damping_ratio": parameters.mesh_damping_ratio,
+        "support_damping_ratio": parameters.support_damping_ratio,
+    }

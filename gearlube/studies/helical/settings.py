@@ -1,0 +1,227 @@
+"""What a study of a helical pair is asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.checks import check_option, check_within
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.dynamics.helical_pair.gear_file_pair import (
+    constant_density_mesh,
+    gear_file_pair,
+    iso_mesh,
+)
+from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_contact.mesh_cycle import CycleSettings
+from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
+from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
+
+Array = NDArray[np.float64]
+
+MESHES = ("density", "contact")
+FRICTIONS = ("film", "constant")
+PARTS = ("all", "contact", "dynamics", "geometry")
+RPM = math.pi / 30.0  # rad/s
+
+HARMONICS = 15  # He et al. 2007 sec. 6
+SHOWN_MU = (0.01, 0.1)  # ditto, figures 6 to 8
+LOAD_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)  # of the pinion torque
+_SPEEDS = 60
+_REACH = 1.1  # highest mesh frequency over that of the mesh's own mode
+_COARSE = CondensationSettings(
+    profile_hats=5,
+    lengthwise_hats=7,
+    density=MeshDensity(profile=8, lengthwise=12, thickness=3, fillet=3, rim=2),
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HelicalSettings:
+    """One gear pair, one operating point, and the ranges around it.
+
+    Parameters
+    ----------
+    file : HelicalGearFile
+        The pair, its supports and damping.
+    pinion_torque, pinion_speed : float
+        Of the operating point [N.m], [rad/s].
+    mu : tuple of float
+        Coefficients of friction of the sweeps [-], rising from 0 to 1.
+    speeds : tuple of float
+        Pinion speeds of the sweep [rad/s], rising; empty: 60 of them up to 1.1 times the
+        resonance of the mesh.
+    mesh : {"density", "contact"}
+        One stiffness density along all lines, or that of the loaded contact.
+    density : float, optional
+        [N/m2]; None: from ISO 6336-1.
+    friction : {"film", "constant"}
+        What is run: constant coefficients alone, or the friction of the oil film beside them.
+    torques : tuple of float
+        Pinion torques of the loaded contact [N.m]; empty: `LOAD_STEPS`.
+    positions : int
+        Mesh phases of the loaded contact.
+    oil : str
+        Of the library.
+    oil_temperature, roughness_rms : float
+        [K], composite of both flanks [m].
+    parts : {"all", "contact", "dynamics", "geometry"}
+        What is run.
+    stability_columns, stability_rows : int
+        Size of the maps of parametric instability.
+    separation_speeds : int
+        Rows of the branch with tooth separation; 0 for none.
+    body : HelicalBodySettings
+        Elastic teeth.
+    """
+
+    file: HelicalGearFile
+    pinion_torque: float
+    pinion_speed: float
+    mu: tuple[float, ...] = tuple(float(v) for v in np.round(np.linspace(0.0, 0.3, 31), 10))
+    speeds: tuple[float, ...] = ()
+    mesh: str = "density"
+    density: float | None = None
+    friction: str = "film"
+    torques: tuple[float, ...] = ()
+    positions: int = 24
+    oil: str = "mohammadpour_2015"
+    oil_temperature: float = 353.15
+    roughness_rms: float = 0.5e-6
+    parts: str = "all"
+    stability_columns: int = 120
+    stability_rows: int = 33
+    separation_speeds: int = 120
+    body: HelicalBodySettings = field(default_factory=HelicalBodySettings)
+
+    def __post_init__(self) -> None:
+        for name, options in (("mesh", MESHES), ("friction", FRICTIONS), ("parts", PARTS)):
+            check_option(name, getattr(self, name), options)
+        check_within("pinion_torque", self.pinion_torque, 1e-3, 1e6, "N.m", "Give its magnitude.")
+        check_within("pinion_speed", self.pinion_speed, 1e-2, 1e5, "rad/s", "Give its magnitude.")
+        for name, unit, high in (("mu", "", 1.0), ("speeds", "rad/s", 1e5)):
+            values = getattr(self, name)
+            for value in values:
+                check_within(name, value, 0.0 if name == "mu" else 1e-2, high, unit)
+            if any(np.diff(values) <= 0.0):
+                raise ParameterError(f"{name} must rise, got {values}. Sort them.")
+        if not self.mu:
+            raise ParameterError("mu must name one coefficient at least, got none. Try 0:0.3:0.01.")
+        if self.density is not None:
+            if self.mesh == "contact":
+                raise ParameterError(
+                    "density must not be given with mesh contact, which computes it, got "
+                    f"{self.density:g} N/m2. Leave it out, or take mesh density."
+                )
+            cure = "About 1.3e10 N/m2 is usual for steel."
+            check_within("density", self.density, 1e7, 1e13, "N/m2", cure)
+        low, high = 0.999 * self.load_steps[0], 1.001 * self.load_steps[-1]
+        if self.with_contact and self.mesh == "contact":
+            cure = "Let the range of torques hold the operating point."
+            check_within("pinion_torque", self.pinion_torque, low, high, "N.m", cure)
+        self.film()
+        check_within("separation_speeds", self.separation_speeds, 0, 5000)
+        for name in ("stability_columns", "stability_rows"):
+            check_within(name, getattr(self, name), 2, 2000)
+        if self.with_contact:
+            self.cycle()
+        if self.with_dynamics:
+            self.parameters()
+
+    @property
+    def with_contact(self) -> bool:
+        """Whether loaded contact is analysed."""
+        return self.parts in ("all", "contact") or (
+            self.parts == "dynamics" and self.mesh == "contact"
+        )
+
+    @property
+    def with_dynamics(self) -> bool:
+        """Whether vibration is computed."""
+        return self.parts in ("all", "dynamics")
+
+    @property
+    def with_geometry(self) -> bool:
+        """Whether geometry is written."""
+        return self.parts in ("all", "geometry")
+
+    @property
+    def load_steps(self) -> tuple[float, ...]:
+        """Pinion torques of the loaded contact [N.m], rising."""
+        return self.torques or tuple(step * self.pinion_torque for step in LOAD_STEPS)
+
+    @property
+    def stiffness_density(self) -> float:
+        """Of mesh "density" [N/m2]."""
+        return float(self.constant_mesh().density.max())
+
+    def constant_mesh(self) -> LineMesh:
+        """Return the mesh of one density."""
+        pair = self.file.helical_pair()
+        if self.density is None:
+            return iso_mesh(pair, self.pinion_torque)
+        return constant_density_mesh(pair, self.density, "given")
+
+    def film(self) -> FilmFriction:
+        """Return the oil and the flanks that film friction depends on."""
+        return FilmFriction(
+            oil=Lubricant.named(self.oil),
+            oil_temperature=self.oil_temperature,
+            solid=STEEL_MOHAMMADPOUR_2015,
+            roughness_rms=self.roughness_rms,
+        )
+
+    def parameters(self, mesh: LineMesh | None = None) -> HelicalPairParameters:
+        """Return the vibrating pair with mu = 0; its mesh has one density if left out.
+
+        `film` is set where the oil film is asked for.
+        """
+        pair = gear_file_pair(self.file, mesh or self.constant_mesh(), self.pinion_torque, 0.0)
+        return replace(pair, film=self.film()) if self.friction == "film" else pair
+
+    def cycle(self) -> CycleSettings:
+        """Return the positions and loads of the loaded contact."""
+        return CycleSettings(torques=self.load_steps, positions=self.positions)
+
+    def swept_speeds(self, parameters: HelicalPairParameters) -> Array:
+        """Return the pinion speeds of the sweep [rad/s]."""
+        if self.speeds:
+            return np.array(self.speeds)
+        resonance = SeparationProblem(replace(parameters, contact="one_sided")).natural_speed
+        top = _REACH * resonance / RPM
+        step = max(10.0 * round(top / _SPEEDS / 10.0), 10.0)
+        return RPM * step * np.arange(1.0, _SPEEDS + 1.0)
+
+
+def quick_settings(settings: HelicalSettings) -> HelicalSettings:
+    """Return settings for a first look: few points, coarse teeth."""
+
+    def thinned(values: tuple[float, ...], count: int) -> tuple[float, ...]:
+        if len(values) <= count:
+            return values
+        return tuple(values[i] for i in np.linspace(0, len(values) - 1, count).round().astype(int))
+
+    speeds = settings.speeds
+    if not speeds and settings.with_dynamics:
+        speeds = tuple(settings.swept_speeds(settings.parameters()))
+    return replace(
+        settings,
+        mu=thinned(settings.mu, 7),
+        speeds=thinned(speeds, 15),
+        torques=settings.torques or thinned(settings.load_steps, 4),
+        positions=min(settings.positions, 8),
+        stability_columns=min(settings.stability_columns, 40),
+        stability_rows=min(settings.stability_rows, 7),
+        separation_speeds=min(settings.separation_speeds, 60),
+        body=replace(settings.body, condensation=_COARSE),
+    )

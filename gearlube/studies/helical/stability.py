@@ -1,0 +1,144 @@
+"""Maps of parametric instability, in parallel and resumable."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gearlube.studies.helical.sweep_grid import parameters_key
+from gearlube_core.dynamics.helical_pair.linear.instability_map import Axis, instability_map
+from gearlube_core.dynamics.helical_pair.linear.linear_system import (
+    linear_system,
+    moments_at,
+    natural_frequencies,
+)
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
+
+Array = NDArray[np.float64]
+LIGHT_DAMPING = 0.01  # [-], of welded bodies and rolling bearings, below the paper's 0.05
+VARIATION = 8.0  # of the mesh about its mean; spur gears of this size vary five times as much
+DAMPING = (0.001, 0.05)
+_RANGE = (0.3, 2.2)  # mesh frequency over the lowest, and over the highest natural frequency
+_SOFT = 0.95  # of the variation that leaves no stiffness, where instability is of another kind
+_PHASES = 64
+_FORMAT = 1
+
+
+class _Row(NamedTuple):
+    name: str
+    axis: Axis
+    value: float
+
+
+def stability_dataset(
+    parameters: HelicalPairParameters,
+    columns: int,
+    rows: int,
+    *,
+    store: Path | None = None,
+    jobs: int | None = None,
+    observe: Callable[[float], None] = lambda share: None,
+) -> xr.Dataset:
+    """Return growth of disturbances over mesh frequency, against two axes.
+
+    Parameters
+    ----------
+    parameters : HelicalPairParameters
+    columns, rows : int
+        Mesh frequencies, and values of each axis.
+    store, jobs, observe
+        As of `sweep_dataset`.
+
+    Returns
+    -------
+    xarray.Dataset
+        growth_variation of (variation, mesh_frequency) with the pair's damping,
+        growth_variation_light with `LIGHT_DAMPING`, growth_damping of (damping_ratio,
+        mesh_frequency) [1/s]; negative where disturbances die away.
+    """
+    modes = natural_frequencies(linear_system(parameters)) / (2.0 * np.pi)
+    frequency = np.linspace(_RANGE[0] * modes[0], _RANGE[1] * modes[-1], columns)
+    variation = np.linspace(0.0, min(VARIATION, _SOFT * _without_stiffness(parameters)), rows)
+    damping = np.geomspace(*DAMPING, rows)
+    tasks = [_Row("variation", "stiffness_variation", float(v)) for v in variation]
+    tasks += [_Row("variation_light", "stiffness_variation", float(v)) for v in variation]
+    tasks += [_Row("damping", "damping_ratio", float(v)) for v in damping]
+    key = hashlib.sha256(f"{_FORMAT} {parameters_key(parameters)}".encode())
+    key.update(frequency.tobytes())
+    found: dict[_Row, Array] = {}
+    for task, record in resumable_records(
+        tasks,
+        lambda row: f"{row.name}_{row.value:.9g}",
+        partial(_row, parameters, frequency),
+        RecordStore(store, key.hexdigest()[:16]),
+        jobs=jobs,
+    ):
+        found[task] = record["growth"]
+        observe(len(found) / len(tasks))
+
+    def growth(
+        name: str, words: str, dimension: str
+    ) -> tuple[tuple[str, ...], Array, dict[str, str]]:
+        values = np.stack([found[task] for task in tasks if task.name == name])
+        return (dimension, "mesh_frequency"), values, {"units": "1/s", "long_name": words}
+
+    return xr.Dataset(
+        {
+            "growth_variation": growth("variation", "growth of disturbances", "variation"),
+            "growth_variation_light": growth(
+                "variation_light",
+                f"growth of disturbances with damping ratios of {LIGHT_DAMPING:g}",
+                "variation",
+            ),
+            "growth_damping": growth("damping", "growth of disturbances", "damping_ratio"),
+            "natural_frequency": (
+                ("mode",),
+                modes,
+                {"units": "Hz", "long_name": "natural frequency with the mean mesh"},
+            ),
+        },
+        coords={
+            "mesh_frequency": (
+                "mesh_frequency",
+                frequency,
+                {"units": "Hz", "long_name": "mesh frequency"},
+            ),
+            "variation": (
+                "variation",
+                variation,
+                {"units": "1", "long_name": "factor on the mesh's deviation from its mean"},
+            ),
+            "damping_ratio": (
+                "damping_ratio",
+                damping,
+                {"units": "1", "long_name": "damping ratio of mesh and supports"},
+            ),
+        },
+    )
+
+
+def _without_stiffness(parameters: HelicalPairParameters) -> float:
+    """Return the factor on the mesh variation at which its stiffness passes through zero [-]."""
+    system = linear_system(parameters)
+    phase = (np.arange(_PHASES) + 0.5) / _PHASES
+    mean = abs(system.mean[0, 0])
+    least = np.abs(moments_at(system.plane, system.mesh, 0.0, phase)[:, 0, 0]).min()
+    return float(mean / max(mean - least, 1e-9 * mean))
+
+
+def _row(parameters: HelicalPairParameters, frequency: Array, row: _Row) -> Record:
+    if row.name == "variation_light":
+        parameters = replace(
+            parameters, support_damping_ratio=LIGHT_DAMPING, mesh_damping_ratio=LIGHT_DAMPING
+        )
+    found = instability_map(parameters, frequency, row.axis, np.array([row.value]))
+    return {"growth": found.growth[0]}

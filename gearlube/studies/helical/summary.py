@@ -1,0 +1,177 @@
+"""What a study of a helical pair found, as rows of quantity, value and unit."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gearlube.output.csv_text import csv_text
+from gearlube.studies.helical.settings import RPM, SHOWN_MU
+from gearlube.studies.helical.study import HelicalStudy
+
+_MOTIONS = ("delta_z", "u_xp", "u_yp", "u_zp")
+_FORCES = ("F_xp", "F_yp", "F_zp")
+
+
+class Row(NamedTuple):
+    """One number of the summary."""
+
+    topic: str
+    quantity: str
+    value: float
+    unit: str
+
+
+def summary_rows(study: HelicalStudy) -> list[Row]:
+    """Return the numbers of a study in the order of its stages."""
+    pair, found = study.settings.file.helical_pair(), study.datasets
+    rows = [
+        Row("pair", "transverse contact ratio", pair.transverse_contact_ratio, "1"),
+        Row("pair", "overlap ratio", pair.overlap_ratio, "1"),
+        Row("pair", "total contact ratio", pair.total_contact_ratio, "1"),
+    ]
+    for name, of in (
+        ("contact", _contact),
+        ("response", _response),
+        ("sweep", _sweep),
+        ("stability", _stability),
+        ("separation", _separation),
+        ("film", _film),
+    ):
+        if name in found:
+            rows += of(found[name])
+    return rows
+
+
+def summary_csv(rows: list[Row]) -> str:
+    """Return rows as text with a head, comma between."""
+    return csv_text(
+        Row._fields, ([row.topic, row.quantity, f"{row.value:.6g}", row.unit] for row in rows)
+    )
+
+
+def _contact(contact: xr.Dataset) -> list[Row]:
+    torque = contact.attrs["pinion_torque"]
+    at = contact.sel(torque=torque, method="nearest")
+    where = f"at {float(at['torque']):.4g} N.m"
+    mean = float(at["K"].mean())
+    return [
+        Row("loaded contact", f"mean mesh stiffness along x, secant, {where}", mean, "N/m"),
+        Row(
+            "loaded contact",
+            f"mean mesh stiffness along x, tangent, {where}",
+            float(at["K_tangent"].mean()),
+            "N/m",
+        ),
+        Row(
+            "loaded contact",
+            "ISO 6336-1 mesh stiffness along x",
+            contact.attrs["iso_mesh_stiffness"],
+            "N/m",
+        ),
+        Row(
+            "loaded contact",
+            f"secant stiffness, range over mean, {where}",
+            float((at["K"].max() - at["K"].min()) / mean),
+            "1",
+        ),
+        Row(
+            "loaded contact",
+            f"transmission error, peak to peak, {where}",
+            float(at["transmission_error_ptp"]),
+            "m",
+        ),
+        Row(
+            "loaded contact",
+            f"highest share outside the plane of contact, {where}",
+            float(at["corner_share"].max()),
+            "1",
+        ),
+    ]
+
+
+def _response(response: xr.Dataset) -> list[Row]:
+    rows = []
+    for case in response["case"].values:
+        at, label = response.sel(case=case), _case(str(case))
+        for names, unit in ((_MOTIONS, "m"), (_FORCES, "N")):
+            for name in names:
+                swing = float(np.ptp(at[name].values))
+                rows.append(Row("operating point", f"{name} peak to peak, {label}", swing, unit))
+        rows.append(
+            Row("operating point", f"friction power, {label}", float(at["friction_power"]), "W")
+        )
+    return rows
+
+
+def _case(label: str) -> str:
+    return "oil film" if label == "film" else f"mu {label}"
+
+
+def _sweep(sweep: xr.Dataset) -> list[Row]:
+    at = sweep.sel(mu=SHOWN_MU[-1], method="nearest")
+    rows = []
+    for name, unit in (("delta_z", "m"), ("F_xp", "N"), ("F_yp", "N"), ("F_zp", "N")):
+        order = at[f"{name}_harmonic"].sel(harmonic=1)
+        if not np.isfinite(order).any():
+            continue
+        top = int(np.nanargmax(order))
+        where = f"first mesh order of {name}, mu {float(at['mu']):g}"
+        rows.append(Row("speed sweep", f"largest {where}", float(order[top]), unit))
+        rows.append(
+            Row(
+                "speed sweep",
+                f"speed of the largest {where}",
+                float(sweep["speed"][top] / RPM),
+                "rpm",
+            )
+        )
+    margin = float(sweep["stability_margin"].min())
+    return [*rows, Row("speed sweep", "least 1 - |Floquet multiplier|", margin, "1")]
+
+
+def _stability(stability: xr.Dataset) -> list[Row]:
+    rows = []
+    for name, words in (
+        ("growth_variation", "with the pair's damping"),
+        ("growth_variation_light", "with light damping"),
+    ):
+        unstable = (stability[name] > 0.0).any("mesh_frequency").values
+        first = stability["variation"].values[unstable]
+        rows.append(
+            Row(
+                "stability",
+                f"least factor on the mesh variation that is unstable, {words}",
+                float(first[0]) if first.size else float("nan"),
+                "1",
+            )
+        )
+    return rows
+
+
+def _separation(separation: xr.Dataset) -> list[Row]:
+    rows = []
+    for ratio in separation["damping"].values:
+        at, where = separation.sel(damping=ratio), f"damping ratio {ratio:g}"
+        apart = float(np.nanmax(at["separation_share"]))
+        top = float(np.nanmax(at["peak_to_peak"]))
+        rows.append(Row("separation", f"largest delta_z peak to peak, {where}", top, "m"))
+        rows.append(Row("separation", f"longest time without contact, {where}", apart, "1"))
+        folds = (at["special_kind"] == "fold").sum()
+        rows.append(Row("separation", f"folds of the branch, {where}", float(folds), "1"))
+    return rows
+
+
+def _film(film: xr.Dataset) -> list[Row]:
+    return [
+        Row(
+            "oil film",
+            "constant coefficient of friction of the same loss",
+            film.attrs["operating_mean_coefficient"],
+            "1",
+        ),
+        Row("oil film", "power loss, static loads", film.attrs["operating_power_loss"], "W"),
+        Row("oil film", "loss factor H_V", film.attrs["loss_factor"], "1"),
+    ]

@@ -1,0 +1,136 @@
+"""The figures of a sweep report, in reading order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from gearlube.studies.sweep.figures import extremes, spectrum_map
+from gearlube.studies.sweep.figures.efficiency import efficiency
+from gearlube.studies.sweep.figures.film import film_over_mesh_cycle
+from gearlube.studies.sweep.figures.operation import operating_points
+from gearlube.studies.sweep.figures.order_cuts import order_cuts
+from gearlube.studies.sweep.figures.waveforms import roller_zone, waveforms
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entry:
+    """A figure, its file name and what to look for in it; `essential` for a first look."""
+
+    name: str
+    caption: str
+    draw: Callable[[xr.Dataset], Any]
+    essential: bool = False
+
+
+def _map(channel: spectrum_map.MapChannel, top: float | None = None) -> Callable[..., Any]:
+    return partial(spectrum_map.spectrum_map, channel=channel, highest_frequency=top)
+
+
+def _band(channel: extremes.ExtremesChannel) -> Callable[..., Any]:
+    return partial(extremes.extremes_against_speed, channel=channel)
+
+
+_CAGE_TOP = 80.0  # Hz, shows the cage frequency, its multiples and the pinion rotation
+
+CATALOGUE = (
+    Entry(
+        name="operating_points",
+        essential=True,
+        caption="Mean torques that the road load asks for, and the mesh, rotation and cage "
+        "frequencies against the natural frequencies. Grey bars span the preloads.",
+        draw=operating_points,
+    ),
+    Entry(
+        name="dte_map",
+        essential=True,
+        caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
+        "figures 3 and 4). Dashed: mesh frequency and multiples; dotted: natural frequencies. With "
+        "the coupled vehicle, lines below 200 Hz that do not follow the speed are engine orders.",
+        draw=_map(spectrum_map.DTE),
+    ),
+    Entry(
+        name="dte_orders",
+        caption="Amplitudes of the first three mesh orders of the transmission error.",
+        draw=order_cuts,
+    ),
+    Entry(
+        name="dte_extremes",
+        essential=True,
+        caption="Extremes of the dynamic transmission error (compare figure 5). Below zero the "
+        "drive flanks separate; the strip names the kind of separation.",
+        draw=_band(extremes.DTE),
+    ),
+    Entry(
+        name="dte_waveforms",
+        caption="Dynamic transmission error over one pinion revolution.",
+        draw=waveforms,
+    ),
+    Entry(
+        name="radial_map",
+        caption="Spectra of the radial displacement of the pinion, which excites the casing "
+        "(compare figures 6 and 7).",
+        draw=_map(spectrum_map.RADIAL),
+    ),
+    Entry(
+        name="radial_extremes",
+        essential=True,
+        caption="Extremes of the radial displacement of the pinion, sqrt(y2 + z2) from the "
+        "preloaded rest position (compare figure 8).",
+        draw=_band(extremes.RADIAL),
+    ),
+    Entry(
+        name="roller_map",
+        caption="Spectra of the load of one roller (compare figures 9 and 10).",
+        draw=_map(spectrum_map.ROLLER),
+    ),
+    Entry(
+        name="roller_map_cage",
+        caption="The same at low frequencies: cage frequency, pinion rotation and what the engine "
+        "orders of the coupled vehicle modulate.",
+        draw=_map(spectrum_map.ROLLER_LOW, _CAGE_TOP),
+    ),
+    Entry(
+        name="roller_extremes",
+        essential=True,
+        caption="Extremes of the load of one roller (compare figure 11). A roller that reaches "
+        "zero has left its races: the preload is too low.",
+        draw=_band(extremes.ROLLER),
+    ),
+    Entry(
+        name="roller_zone",
+        caption="Loaded zone: mean and range of the load of one roller over the turns of the cage.",
+        draw=roller_zone,
+    ),
+    Entry(
+        name="efficiency",
+        essential=True,
+        caption="Efficiency of the gear mesh (flank friction only, compare figure 12) and of the "
+        "axle with all modelled losses, above the losses themselves.",
+        draw=efficiency,
+    ),
+    Entry(
+        name="film",
+        essential=True,
+        caption="Load, central film thickness, film ratio and film temperature of the tooth pairs "
+        "in mesh, from entry to exit, mean over the record.",
+        draw=film_over_mesh_cycle,
+    ),
+)
+ESSENTIAL = tuple(entry for entry in CATALOGUE if entry.essential)
+
+
+def save_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
+    """Draw every figure of the catalogue into `directory` as PNG and return the files."""
+    directory.mkdir(parents=True, exist_ok=True)
+    files = []
+    for entry in CATALOGUE:
+        path = directory / f"{entry.name}.png"
+        entry.draw(dataset).savefig(path, dpi=150)
+        files.append(path)
+    return files

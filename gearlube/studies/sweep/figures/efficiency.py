@@ -1,0 +1,118 @@
+"""Efficiency against speed with the losses behind it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gearlube.plotting.style import (
+    BLUE,
+    GREEN,
+    HATCHES,
+    ORANGE,
+    PURPLE,
+    SKY,
+    house_style,
+    new_figure,
+    preload_label,
+    series,
+)
+
+_SOURCES = {
+    "friction_viscous": ("flank friction, fluid", BLUE),
+    "friction_boundary": ("flank friction, asperities", SKY),
+    "bearing_torque": ("bearing drag torque", ORANGE),
+    "bearing_damping": ("roller hysteresis", PURPLE),
+    "mesh_damping": ("mesh damping", GREEN),
+}
+
+
+def efficiency(dataset: xr.Dataset) -> Any:
+    """Return efficiency of mesh and axle against speed above the stacked losses."""
+    with house_style():
+        figure = new_figure(8.4, 7.0)
+        ax, below = figure.subplots(2, 1, sharex=True, height_ratios=[1.0, 1.0])
+        _efficiencies(ax, dataset)
+        _losses(below, dataset, _bar_group(dataset["speed_kmh"].values))
+        below.set_xlabel("vehicle speed [km/h]")
+        figure.suptitle("Transmission efficiency and losses", fontsize=11.5)
+    return figure
+
+
+def _efficiencies(ax: Any, dataset: xr.Dataset) -> None:
+    speed = dataset["speed_kmh"].values
+    for row, preload in enumerate(dataset["preload"].values):
+        look = series(row)
+        ax.plot(
+            speed,
+            100.0 * dataset["efficiency_mesh"].values[row],
+            label=f"gear mesh, {preload_label(preload)}",
+            **look,
+        )
+        ax.plot(
+            speed,
+            100.0 * dataset["efficiency_axle"].values[row],
+            label=f"axle, {preload_label(preload)}",
+            mfc="white",
+            ls=(0, (5, 2)),
+            **look,
+        )
+    ax.set_ylabel("efficiency [%]")
+    ax.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0), handlelength=2.6)
+
+
+def _bar_group(speed: NDArray[np.float64]) -> float:
+    """Return the width of the bars at one speed [km/h], not wider than 8 % of the axis."""
+    if speed.size == 1:
+        return 4.0
+    return 0.8 * min(float(np.min(np.diff(speed))), 0.1 * float(speed[-1] - speed[0]))
+
+
+def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
+    from matplotlib.patches import Patch
+
+    speed = dataset["speed_kmh"].values
+    preloads = dataset["preload"].values
+    width = group / preloads.size
+    ax.set_xlim(speed[0] - 0.8 * group, speed[-1] + 0.8 * group)
+    ax.grid(visible=False, axis="x")
+    for row in range(preloads.size):
+        shift = (row - 0.5 * (preloads.size - 1)) * width
+        bottom = np.zeros(speed.size)
+        for source, (_, colour) in _SOURCES.items():
+            loss = np.nan_to_num(dataset["loss"].sel(source=source).values[row])
+            ax.bar(
+                speed + shift,
+                loss,
+                0.94 * width,
+                bottom=bottom,
+                color=colour,
+                hatch=HATCHES[row % len(HATCHES)],
+                edgecolor="white",
+                lw=0.3,
+            )
+            bottom += loss
+    handles = [
+        Patch(color=colour, label=f"{name}, up to {_largest(dataset, source)} W")
+        for source, (name, colour) in _SOURCES.items()
+    ]
+    handles += [
+        Patch(
+            facecolor="#808080",
+            edgecolor="white",
+            hatch=HATCHES[row % len(HATCHES)],
+            label=preload_label(preload),
+        )
+        for row, preload in enumerate(preloads)
+    ]
+    ax.legend(handles=handles, loc="upper left")
+    ax.set_ylabel("power lost [W]")
+
+
+def _largest(dataset: xr.Dataset, source: str) -> str:
+    """Return the largest loss of a source to three digits; some are too small to see as bars."""
+    values = dataset["loss"].sel(source=source).values
+    return f"{np.nanmax(values):.3g}" if np.any(np.isfinite(values)) else "-"

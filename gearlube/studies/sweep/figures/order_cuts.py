@@ -1,0 +1,57 @@
+"""Mesh harmonics of the transmission error against vehicle speed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gearlube.plotting.style import (
+    house_style,
+    new_figure,
+    preload_label,
+    series,
+    speed_limits,
+)
+
+HARMONICS = (1, 2, 3)
+
+
+def order_cuts(dataset: xr.Dataset) -> Any:
+    """Return the amplitudes of the first three mesh orders against vehicle speed."""
+    speed = dataset["speed_kmh"].values
+    with house_style():
+        figure = new_figure(9.6, 4.2)
+        axes = figure.subplots(1, len(HARMONICS), sharey=True)
+        for ax, harmonic in zip(axes, HARMONICS, strict=True):
+            for row, preload in enumerate(dataset["preload"].values):
+                ax.semilogy(
+                    speed,
+                    harmonic_amplitude(dataset.isel(preload=row), harmonic) * 1e9,
+                    label=preload_label(preload),
+                    **series(row),
+                )
+            name = "$f_m$" if harmonic == 1 else f"${harmonic}f_m$"
+            ax.set_title(f"mesh order H{harmonic} at {name}")
+            ax.set_xlabel("vehicle speed [km/h]")
+            ax.set_xlim(*speed_limits(dataset))
+        axes[0].set_ylabel("amplitude of the DTE [nm]")
+        handles, labels = axes[0].get_legend_handles_labels()
+        figure.legend(handles, labels, ncols=len(handles), loc="outside lower center")
+        figure.suptitle("Order cuts of the dynamic transmission error", fontsize=11.5)
+    return figure
+
+
+def harmonic_amplitude(row: xr.Dataset, harmonic: int) -> NDArray[np.float64]:
+    """Return the amplitude [m] of mesh order `harmonic` at every speed of one preload."""
+    result = np.full(row.sizes["speed"], np.nan)
+    target = harmonic * row["mesh_frequency"].values
+    for column in range(result.size):
+        frequency = row["frequency"].values[column]
+        known = np.isfinite(frequency)
+        if np.isfinite(target[column]) and np.any(known):
+            nearest = np.argmin(np.abs(frequency[known] - target[column]))
+            result[column] = row["dte_spectrum"].values[column][known][nearest]
+    return result

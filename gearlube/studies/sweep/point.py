@@ -1,0 +1,117 @@
+"""One point of a sweep: the axle FMU with its driver at one speed and one preload."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.sweep.axle_loss import LOSS_CHANNELS, measured_loss
+from gearlube.studies.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
+from gearlube.studies.sweep.curves import mesh_cycle, roller_zone, spectra, waves
+from gearlube.studies.sweep.fmu_axle import FmuAxle
+from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
+from gearlube.studies.sweep.partner import operation
+from gearlube.studies.sweep.quantities import described
+from gearlube.studies.sweep.recording import Recording, record
+from gearlube.studies.sweep.scalars import scalars
+from gearlube.studies.sweep.settings import SweepSettings
+from gearlube.studies.sweep.unpack import unpacked
+from gearlube_core.errors import GearLubeError
+from gearlube_core.spectra import angle_window
+from gearlube_core.units import kmh_to_ms
+
+FINISHED, FAILED = 1, 0
+
+
+def run_point(
+    fmu: Path | str, speed_kmh: float, preload: float, settings: SweepSettings
+) -> xr.Dataset:
+    """Simulate one point and return everything the figures need.
+
+    Parameters
+    ----------
+    fmu : path
+        The axle FMU, or the folder into which it was unzipped (faster for many points).
+    speed_kmh : float
+        Vehicle speed [km/h].
+    preload : float
+        Bearing preload [N].
+    settings : SweepSettings
+        Everything else.
+
+    Returns
+    -------
+    xarray.Dataset
+        Scalars, spectra, one revolution of waveforms, mean mesh cycle and roller load zone, with
+        units. `status` is 0 and `message` says why when the FMU or its driver refused.
+    """
+    try:
+        with unpacked(Path(fmu)) as directory:
+            recording = _simulate(directory, speed_kmh, preload, settings)
+        return summarise(recording, speed_kmh, preload, settings)
+    except GearLubeError as error:
+        return failed_point(speed_kmh, preload, str(error))
+
+
+def _simulate(
+    directory: Path, speed_kmh: float, preload: float, settings: SweepSettings
+) -> Recording:
+    parameters = {**settings.fmu_parameters, "bearing.preload": preload}
+    final_drive = final_drive_of(mesh_table_of(directory))
+    held = operation(replace(settings, driver="hold"), speed_kmh, final_drive)
+    with FmuAxle(directory, LOSS_CHANNELS) as axle:
+        axle.set_parameters({**parameters, "pinion.speed_start": held.pinion_speed})
+        loss = measured_loss(axle, held.driver, settings)
+    where = operation(settings, speed_kmh, final_drive, loss)
+    with FmuAxle(directory, CHANNELS) as axle:
+        axle.set_parameters({**parameters, "pinion.speed_start": where.pinion_speed})
+        return record(axle, where.driver, settings, CHANNELS)
+
+
+def summarise(
+    recording: Recording, speed_kmh: float, preload: float, settings: SweepSettings
+) -> xr.Dataset:
+    """Turn a recording into the dataset of its point."""
+    window = angle_window(
+        recording.time,
+        recording["pinion.angle"],
+        revolutions=recording.revolutions,
+        samples_per_revolution=recording.teeth * recording.steps_per_mesh_period,
+    )
+    numbers = scalars(recording, window, backlash=settings.backlash)
+    dataset = xr.Dataset(
+        {
+            "status": FINISHED,
+            "message": "",
+            **numbers,
+            **spectra(recording, window),
+            **waves(recording, window),
+            **mesh_cycle(recording),
+            **roller_zone(recording),
+        },
+        coords={
+            **_operating_point(speed_kmh, preload),
+            "bearing": list(BEARINGS),
+            "axis": list(AXES),
+            "source": list(LOSSES),
+            "flank": list(FLANKS),
+        },
+    )
+    return described(dataset)
+
+
+def failed_point(speed_kmh: float, preload: float, message: str) -> xr.Dataset:
+    """Return the row of a point that could not be computed."""
+    variables = {"status": FAILED, "message": message}
+    return described(xr.Dataset(variables, coords=_operating_point(speed_kmh, preload)))
+
+
+def _operating_point(speed_kmh: float, preload: float) -> dict[str, np.float64]:
+    return {
+        "speed": np.float64(kmh_to_ms(speed_kmh)),
+        "speed_kmh": np.float64(speed_kmh),
+        "preload": np.float64(preload),
+    }

@@ -1,0 +1,129 @@
+"""Everything that determines the result of one sweep point, apart from speed and preload."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import asdict, dataclass, fields
+
+from drivetrain.driveline.model import COMMUNICATION_STEP
+from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.units import celsius_to_kelvin
+
+DRIVERS = ("vehicle", "hold")
+
+# FMI parameter name of every field that is passed on to the FMU.
+FMU_PARAMETERS = {
+    "oil": "oil.name",
+    "roughness_rms": "flank.roughness_rms",
+    "backlash": "mesh.backlash",
+    "equations": "model.equations",
+    "radii": "model.radii",
+    "mesh_stiffness": "model.mesh_stiffness",
+    "mesh_damping": "mesh.damping",
+    "modal_loss_factor": "mesh.modal_loss_factor",
+    "friction": "friction.model",
+    "bearing_approach": "bearing.approach",
+    "bearing_torque_loss": "bearing.torque_loss",
+    "steps_per_mesh_period": "solver.steps_per_mesh_period",
+    "steps_per_highest_period": "solver.steps_per_highest_period",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepSettings:
+    """Model options, partner and timing that all points of a sweep share.
+
+    Parameters
+    ----------
+    oil_temperature : float
+        Temperature of the oil at the flank inlet [K].
+    driver : str
+        "vehicle": the axle is coupled to the driveline and the road; "hold": road load and a slow
+        speed hold act on it directly.
+    oil, equations, radii, mesh_stiffness, mesh_damping, friction : str
+    bearing_approach, bearing_torque_loss : str
+        Options of the axle model, passed to the FMU.
+    roughness_rms, backlash : float
+        Composite roughness of the flanks, total normal backlash [m].
+    modal_loss_factor : float
+        Used by mesh_damping = "modal" only [-].
+    steps_per_mesh_period, steps_per_highest_period : int
+        Inner time steps of the FMU [-].
+    communication_step : float
+        Largest communication step [s]. The step used is the mesh period divided by an integer.
+        At 1e-4 s the record reaches 5 kHz, so bearing modes at 2-3 kHz are resolved.
+    settling_time : float
+        Least time before the record starts [s]; at least 20 mesh periods are waited too.
+    record_time : float
+        Least length of the record [s].
+    cage_turns : float
+        Least length of the record in turns of the pinion bearing cages [-].
+    """
+
+    oil_temperature: float = celsius_to_kelvin(95.0)
+    driver: str = "vehicle"
+    oil: str = "mohammadpour_2015"
+    roughness_rms: float = 0.5e-6
+    backlash: float = 150e-6
+    equations: str = "consistent"
+    radii: str = "consistent"
+    mesh_stiffness: str = "tangent"
+    mesh_damping: str = "hysteretic"
+    modal_loss_factor: float = 0.06
+    friction: str = "consistent"
+    bearing_approach: str = "full"
+    bearing_torque_loss: str = "palmgren"
+    steps_per_mesh_period: int = 64
+    steps_per_highest_period: int = 22
+    communication_step: float = COMMUNICATION_STEP
+    settling_time: float = 0.3
+    record_time: float = 0.5
+    cage_turns: float = 2.0
+
+    def __post_init__(self) -> None:
+        check_within(
+            "oil_temperature", self.oil_temperature, 253.15, 433.15, "K", "That is -20 to 160 degC."
+        )
+        check_option("driver", self.driver, DRIVERS)
+        check_within("roughness_rms", self.roughness_rms, 1e-9, 1e-5, "m", "0.5 um is 0.5e-6 m.")
+        check_within("backlash", self.backlash, 1e-9, 2e-3, "m", "150 um is 150e-6 m.")
+        check_within(
+            "communication_step",
+            self.communication_step,
+            1e-6,
+            1e-4,
+            "s",
+            "Bearing modes lie at 2-3 kHz and need at least 10 000 samples a second.",
+        )
+        check_within("settling_time", self.settling_time, 0.0, 60.0, "s")
+        check_within("record_time", self.record_time, 0.02, 60.0, "s")
+        check_positive("cage_turns", self.cage_turns)
+
+    def as_dict(self) -> dict[str, str | float | int]:
+        """Return all settings by name."""
+        return asdict(self)
+
+    @property
+    def fmu_parameters(self) -> dict[str, str | float | int]:
+        """Values of the FMU's parameters by FMI name (without preload and start speed)."""
+        return {fmi: getattr(self, name) for name, fmi in FMU_PARAMETERS.items()}
+
+    def key(self, *, speed_kmh: float, preload: float, fmu_guid: str, version: str) -> str:
+        """Return a hash of everything that determines the result of a point."""
+        everything = {
+            "settings": self.as_dict(),
+            "speed_kmh": float(speed_kmh),
+            "preload": float(preload),
+            "fmu_guid": fmu_guid,
+            "version": version,
+        }
+        text = json.dumps(everything, sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:20]
+
+
+def quick_settings(settings: SweepSettings) -> SweepSettings:
+    """Return `settings` with a settling time and a record just long enough for a first look."""
+    values = {field.name: getattr(settings, field.name) for field in fields(settings)}
+    values.update(settling_time=0.15, record_time=0.15, cage_turns=0.9)
+    return SweepSettings(**values)

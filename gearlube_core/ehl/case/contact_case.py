@@ -1,0 +1,275 @@
+"""Case files of lubricated line and point contacts, in engineers' units."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from gearlube_core.contact.solid import Solid, reduced_modulus
+from gearlube_core.ehl.case.grids import LineDomain, LineSolver, PointDomain, PointSolver
+from gearlube_core.ehl.case.sections import Body, Modulus, Oil
+from gearlube_core.ehl.case.surfaces import (
+    DentShape,
+    MapFile,
+    ProfileFile,
+    RidgeShape,
+    WavinessShape,
+    with_places,
+)
+from gearlube_core.ehl.gap.micro_geometry import RoughGap
+from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.point.cavitation import check_cavitation
+from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.thermal.solver import check_thermal
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_file import InputFile, read_toml
+from gearlube_core.units import MILLIMETRE
+
+_GIGA, _MICRO = 1e9, 1e-6
+
+Text = Annotated[str, Field(min_length=1)]
+Radius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
+Speed = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
+Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
+Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]
+Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
+Heat = Annotated[
+    Literal["isothermal", "thermal"],
+    Field(description="thermal: with the energy balance of oil and bodies"),
+]
+
+
+class EhlCase(InputFile):
+    """What line and point contacts share: names, speeds along x, solids, oil."""
+
+    package: ClassVar[str] = "gearlube_core.ehl.case"
+
+    name: Text = Field(description="What reports and plots call the case")
+    source: Text = Field(description="Where the numbers are from")
+    speed_1_m_s: Speed = Field(description="Surface speed of body 1, below, along x")
+    speed_2_m_s: Speed = Field(description="Surface speed of body 2, above, along x")
+    reduced_modulus_gpa: Modulus | None = Field(
+        default=None,
+        description="E' = 2 E*; left out, that of body_1 and body_2",
+    )
+    oil: Oil
+    body_1: Body = Body()
+    body_2: Body = Body()
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a file, what it names counted from its own folder; see `InputFile`."""
+        return cls.from_data(with_places(read_toml(path), Path(path).parent), str(path))
+
+    @property
+    def modulus(self) -> float:
+        """E' = 2 E* [Pa]."""
+        if self.reduced_modulus_gpa is not None:
+            return self.reduced_modulus_gpa * _GIGA
+        return reduced_modulus(*self.solids)
+
+    @property
+    def solids(self) -> tuple[Solid, Solid]:
+        """Body 1 and body 2, in SI units."""
+        return self.body_1.solid(), self.body_2.solid()
+
+    @property
+    def _both_move(self) -> bool:
+        return self.speed_1_m_s != 0.0 and self.speed_2_m_s != 0.0
+
+    def moved(self, entrainment: float | None, slide_roll: float | None) -> Self:
+        """Return the case with another mean speed along x or slide-roll ratio.
+
+        Parameters
+        ----------
+        entrainment
+            (u1 + u2)/2 [m/s]; None keeps it.
+        slide_roll
+            2 (u1 - u2)/(u1 + u2) [1]; None keeps it.
+
+        Raises
+        ------
+        ParameterError
+            When the speeds leave their range, or the case has no mean speed to keep a ratio to.
+        """
+        if entrainment is None and slide_roll is None:
+            return self
+        mean = 0.5 * (self.speed_1_m_s + self.speed_2_m_s)
+        if mean == 0.0:
+            raise ParameterError(
+                f"{self.name} has a mean speed of 0 m/s along x, so no slide-roll ratio. "
+                "Give both speeds in the case file."
+            )
+        ratio = (self.speed_1_m_s - self.speed_2_m_s) / mean if slide_roll is None else slide_roll
+        u = mean if entrainment is None else entrainment
+        speeds = {"speed_1_m_s": u * (1.0 + 0.5 * ratio), "speed_2_m_s": u * (1.0 - 0.5 * ratio)}
+        return self.varied(speeds)
+
+
+class LineCase(EhlCase):
+    """A lubricated line contact."""
+
+    title: ClassVar[str] = "line contact"
+    prefix: ClassVar[str] = "line_"
+
+    radius_mm: Radius = Field(description="Relative radius of curvature along x")
+    load_n_per_mm: LineLoad = Field(description="Load per length of the line")
+    inlet_fill: Fill = Field(
+        default=1.0, description="Share of the inlet gap that holds oil; 1: flooded"
+    )
+    temperature: Heat = "isothermal"
+    domain: LineDomain | None = None
+    profile: ProfileFile | None = None
+    solver: LineSolver = LineSolver()
+
+    @model_validator(mode="after")
+    def _hangs_together(self) -> LineCase:
+        _in_si(self._smooth, self.settings)
+        _refused(self.problem)
+        return self
+
+    def problem(self) -> LineProblem:
+        """Return the contact, in SI units."""
+        smooth, given = self._smooth(), self.profile
+        if given is None:
+            return smooth
+        profile = given.surface()
+        profile.check_serves(np.linspace(*smooth.extent(), self.solver.nodes))
+        if given.holds == "gap":
+            return replace(smooth, gap=profile)
+        return replace(smooth, gap=lambda x: smooth.undeformed_gap(x) - profile(x))
+
+    def _smooth(self) -> LineProblem:
+        d = self.domain
+        return LineProblem(
+            lubricant=self.oil.ehl_lubricant(),
+            radius=self.radius_mm * MILLIMETRE,
+            line_load=self.load_n_per_mm / MILLIMETRE,
+            reduced_modulus=self.modulus,
+            speed_1=self.speed_1_m_s,
+            speed_2=self.speed_2_m_s,
+            domain=None if d is None else (d.first_mm * MILLIMETRE, d.last_mm * MILLIMETRE),
+            inlet_fill=self.inlet_fill,
+        )
+
+    @property
+    def heights_travel(self) -> bool:
+        """Tell whether heights would move with a surface, which a steady solution leaves out."""
+        return self.profile is not None and self.profile.holds == "heights" and self._both_move
+
+    def settings(self) -> LineSettings:
+        """Return how it is solved."""
+        return LineSettings(**self.solver.model_dump())
+
+
+class PointCase(EhlCase):
+    """A lubricated point contact."""
+
+    title: ClassVar[str] = "point contact"
+    prefix: ClassVar[str] = "point_"
+
+    radius_x_mm: Radius = Field(description="Relative radius of curvature along x")
+    radius_y_mm: Radius = Field(description="Relative radius of curvature along y")
+    load_n: Load = Field(description="Load")
+    side_speed_1_m_s: Speed = Field(default=0.0, description="Of body 1 along y")
+    side_speed_2_m_s: Speed = Field(default=0.0, description="Of body 2 along y")
+    inlet_layer_um: Layer | None = Field(
+        default=None,
+        description="Oil that both surfaces together bring to the inlet, for mass_conserving "
+        "cavitation; left out: flooded",
+    )
+    temperature: Heat = "isothermal"
+    domain: PointDomain = PointDomain()
+    height_map: MapFile | None = None
+    ridge: RidgeShape | None = None
+    dent: DentShape | None = None
+    waviness: WavinessShape | None = None
+    solver: PointSolver = PointSolver()
+
+    @model_validator(mode="after")
+    def _hangs_together(self) -> PointCase:
+        _in_si(self._smooth, self.settings)
+        _in_si(lambda: check_cavitation(self._smooth(), self.settings()))
+        _refused(self.problem)
+        if self.temperature == "thermal":
+            _refused(lambda: check_thermal(self._smooth(), self.settings()))
+        return self
+
+    @property
+    def entrainment(self) -> tuple[float, float]:
+        """Mean surface velocity along x and y [m/s]."""
+        return (
+            0.5 * (self.speed_1_m_s + self.speed_2_m_s),
+            0.5 * (self.side_speed_1_m_s + self.side_speed_2_m_s),
+        )
+
+    @property
+    def sliding(self) -> tuple[float, float]:
+        """Velocity of body 2 against body 1 along x and y [m/s]."""
+        return (
+            self.speed_2_m_s - self.speed_1_m_s,
+            self.side_speed_2_m_s - self.side_speed_1_m_s,
+        )
+
+    def problem(self) -> PointContactProblem:
+        """Return the contact, in SI units."""
+        smooth = self._smooth()
+        given = (self.ridge, self.dent, self.waviness, self.height_map)
+        shapes = [one.surface() for one in given if one is not None]
+        if not shapes:
+            return smooth
+        for one in shapes:
+            one.check_serves(smooth.x, smooth.y)
+        if self.height_map is not None and self.height_map.holds == "gap":
+            *heights, whole = shapes
+            return replace(smooth, gap=RoughGap(whole, tuple(heights)), oil_beyond=False)
+        return replace(smooth, gap=RoughGap(smooth.gap, tuple(shapes)))
+
+    def _smooth(self) -> PointContactProblem:
+        oil = self.oil.ehl_lubricant()
+        return elliptical_contact(
+            R_x=self.radius_x_mm * MILLIMETRE,
+            R_y=self.radius_y_mm * MILLIMETRE,
+            entrainment=self.entrainment,
+            load=self.load_n,
+            contact_modulus=0.5 * self.modulus,
+            lubricant=oil,
+            sliding=self.sliding if oil.tau0 > 0.0 or self.temperature == "thermal" else None,
+            nodes=(self.solver.nodes_x, self.solver.nodes_y),
+            inlet=self.domain.inlet,
+            outlet=self.domain.outlet,
+            side=self.domain.side,
+            oil_beyond=self.domain.oil_beyond,
+            inlet_layer=None if self.inlet_layer_um is None else _MICRO * self.inlet_layer_um,
+        )
+
+    @property
+    def heights_travel(self) -> bool:
+        """Tell whether heights would move with a surface, which a steady solution leaves out."""
+        heights = [self.dent, self.waviness, self.ridge, self.height_map]
+        whole = self.height_map is not None and self.height_map.holds == "gap"
+        return any(one is not None for one in heights[: -1 if whole else None]) and self._both_move
+
+    def settings(self) -> PointSolverSettings:
+        """Return how it is solved."""
+        return PointSolverSettings(**self.solver.model_dump(exclude={"nodes_x", "nodes_y"}))
+
+
+def _in_si(*builders: Any) -> None:
+    """Refuse what no field can see alone, where messages are in SI units."""
+    _refused(*builders, head="In SI units: ")
+
+
+def _refused(*builders: Any, head: str = "") -> None:
+    """Refuse as pydantic wants it refused."""
+    try:
+        for build in builders:
+            build()
+    except ParameterError as reason:
+        raise ValueError(f"{head}{str(reason).removesuffix('.')}") from None

@@ -1,0 +1,131 @@
+"""The sections of a case file that shape the gap: measured heights, ridge, dent, waviness."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from gearlube_core.ehl.gap.measured_heights import (
+    MeasuredMap,
+    MeasuredProfile,
+    read_map,
+    read_profile,
+)
+from gearlube_core.ehl.gap.micro_geometry import Dent, Ridge, Waviness
+from gearlube_core.input_file.input_file import Section
+from gearlube_core.units import DEGREE, MILLIMETRE
+
+_MICROMETRE = 1e-6  # m
+FILES = ("profile", "height_map")  # sections that name a file
+
+FileName = Annotated[str, Field(min_length=1)]
+Size = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
+Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+Height = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+Amplitude = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
+Meaning = Literal["heights", "gap"]
+
+_MEANING = (
+    "heights: material above the smooth shape, which narrows the gap; gap: the whole gap of the "
+    "bare solids, up to a constant"
+)
+
+
+class ProfileFile(Section):
+    """Measured or computed heights along a line contact."""
+
+    file: FileName = Field(
+        description="CSV with the columns x_mm and height_um; its place counts from the case file"
+    )
+    holds: Meaning = Field(default="heights", description=_MEANING)
+
+    def surface(self) -> MeasuredProfile:
+        """Return the heights of the file, in SI units."""
+        return read_profile(self.file)
+
+
+class MapFile(Section):
+    """Measured or computed heights over a point contact."""
+
+    file: FileName = Field(
+        description="NetCDF or .npz with x, y in mm and height in um; its place counts from the "
+        "case file"
+    )
+    holds: Meaning = Field(default="heights", description=_MEANING)
+
+    def surface(self) -> MeasuredMap:
+        """Return the heights of the file, in SI units."""
+        return read_map(self.file)
+
+
+class RidgeShape(Section):
+    """A ridge or groove with a Gaussian section."""
+
+    height_um: Height = Field(description="Of the crest; below 0 a groove")
+    width_mm: Size = Field(description="At half height")
+    x_mm: Place = Field(default=0.0, description="A point of the crest")
+    y_mm: Place = Field(default=0.0, description="A point of the crest")
+    direction_deg: Angle = Field(
+        default=90.0, description="Of the crest, from x towards y; 90 lies across x"
+    )
+
+    def surface(self) -> Ridge:
+        """Return the ridge, in SI units."""
+        return Ridge(
+            height=self.height_um * _MICROMETRE,
+            width=self.width_mm * MILLIMETRE,
+            x=self.x_mm * MILLIMETRE,
+            y=self.y_mm * MILLIMETRE,
+            direction=self.direction_deg * DEGREE,
+        )
+
+
+class DentShape(Section):
+    """A round dent or bump with a Gaussian section."""
+
+    depth_um: Height = Field(description="In the middle; below 0 a bump")
+    width_mm: Size = Field(description="Diameter at half depth")
+    x_mm: Place = Field(default=0.0, description="Of the middle")
+    y_mm: Place = Field(default=0.0, description="Of the middle")
+
+    def surface(self) -> Dent:
+        """Return the dent, in SI units."""
+        return Dent(
+            depth=self.depth_um * _MICROMETRE,
+            width=self.width_mm * MILLIMETRE,
+            x=self.x_mm * MILLIMETRE,
+            y=self.y_mm * MILLIMETRE,
+        )
+
+
+class WavinessShape(Section):
+    """Straight harmonic waves."""
+
+    amplitude_um: Amplitude = Field(description="Half the height from trough to crest")
+    wavelength_mm: Size = Field(description="From crest to crest")
+    direction_deg: Angle = Field(
+        default=0.0, description="Across the crests, from x towards y; 0: crests across x"
+    )
+    phase_deg: Angle = Field(default=0.0, description="0: a crest through x = y = 0")
+
+    def surface(self) -> Waviness:
+        """Return the waves, in SI units."""
+        return Waviness(
+            amplitude=self.amplitude_um * _MICROMETRE,
+            wavelength=self.wavelength_mm * MILLIMETRE,
+            direction=self.direction_deg * DEGREE,
+            phase=self.phase_deg * DEGREE,
+        )
+
+
+def with_places(data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """Return the data of a case file with its files' names counted from `folder`."""
+    placed = dict(data)
+    for name in FILES:
+        section = placed.get(name)
+        if isinstance(section, dict) and isinstance(section.get("file"), str):
+            placed[name] = {**section, "file": str(folder / section["file"])}
+    return placed

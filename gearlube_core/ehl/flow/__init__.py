@@ -1,0 +1,1 @@
+"""Flow of an oil film under pressure and shear."""

@@ -1,0 +1,1 @@
+"""Shapes of the gap: ridges, dents, waviness, measured surfaces."""

@@ -1,0 +1,1 @@
+"""Films on the flanks of helical and hypoid pairs."""

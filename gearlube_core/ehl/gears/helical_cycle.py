@@ -1,0 +1,133 @@
+"""The film of a helical pair through its meshing cycle: curves over the steps, resumable."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from gearlube_core.checks import check_within
+from gearlube_core.ehl.gears.helical_film import HelicalFilm
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curves
+from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.steady import solve_steady_film
+
+COLUMNS = (
+    "step",
+    "load",
+    "pressure_max",
+    "pressure_max_y",
+    "minimum_film",
+    "minimum_film_x",
+    "minimum_film_y",
+    "loaded_length",
+    "load_error",
+    "converged",
+    "newton_steps",
+    "krylov_steps",
+    "seconds",
+    "solid_share",
+    "touching_area",
+    "solid_pressure",
+)
+
+
+def _row(step: int, solution: FilmSolution) -> list[float]:
+    i = np.unravel_index(int(solution.pressure.argmax()), solution.pressure.shape)
+    j = np.unravel_index(int(solution.film.argmin()), solution.film.shape)
+    return [
+        float(step),
+        solution.load,
+        solution.maximum_pressure,
+        float(solution.y[i[1]]),
+        solution.minimum_film,
+        float(solution.x[j[0]]),
+        float(solution.y[j[1]]),
+        solution.loaded_length,
+        solution.load_error,
+        float(solution.converged),
+        float(solution.newton_steps),
+        float(solution.krylov_steps),
+        solution.seconds,
+        solution.touch.share,
+        solution.touch.area,
+        solution.touch.largest,
+    ]
+
+
+def solve_helical_line(
+    film: HelicalFilm,
+    step: float,
+    settings: PointSolverSettings | None = None,
+    *,
+    throw: bool = True,
+) -> FilmSolution:
+    """Return the steady film with the line at rest at a step of its cycle.
+
+    Parameters
+    ----------
+    film
+        Pair, operation, oil and grid.
+    step
+        Number of the step, need not be whole.
+    settings, throw
+        As in `solve_steady_film`.
+    """
+    return solve_steady_film(film.moving_film(), step * film.time_step, settings, throw=throw)
+
+
+def march_helical_cycle(
+    film: HelicalFilm,
+    *,
+    first: int = 0,
+    last: int | None = None,
+    substeps: int = 1,
+    scheme: str = "bdf2",
+    settings: PointSolverSettings | None = None,
+    keep: tuple[int, ...] = (),
+    checkpoint: Path | str | None = None,
+    checkpoint_every: int = 25,
+    progress: Progress | None = None,
+    throw: bool = True,
+) -> FilmCurves:
+    """Return the film over the steps of a meshing cycle.
+
+    Parameters
+    ----------
+    film
+        Pair, operation, oil and grid.
+    first, last
+        Steps; the film is steady at the first. All of them by default.
+    substeps
+        Time steps for one step of the cycle.
+    scheme, settings, keep, checkpoint, checkpoint_every, progress, throw
+        As in `march_curves`.
+
+    Raises
+    ------
+    ConvergenceError
+        A step did not converge.
+    ParameterError
+        Steps out of range, or the checkpoint belongs to another march.
+    """
+    last = film.steps.count if last is None else last
+    check_within("first", first, 0, film.steps.count)
+    check_within("last", last, first, film.steps.count)
+    check_within("substeps", substeps, 1, 1000)
+    return march_curves(
+        film.moving_film(),
+        COLUMNS,
+        _row,
+        steps=(first, last),
+        start_time=first * film.time_step,
+        step_time=film.time_step,
+        substeps=substeps,
+        scheme=scheme,
+        settings=settings,
+        keep=keep,
+        checkpoint=checkpoint,
+        checkpoint_every=checkpoint_every,
+        progress=progress,
+        throw=throw,
+    )

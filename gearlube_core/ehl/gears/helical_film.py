@@ -1,0 +1,253 @@
+"""The film of a helical pair: gap, load and surface speeds of one contact line as it moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_option, check_positive
+from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.problem import EllipticParaboloid
+from gearlube_core.ehl.point.solid_contact import SolidContact
+from gearlube_core.ehl.transient.film import MovingFilm
+from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.helical_geometry.load_sharing import CONVENTIONS, shared_load
+from gearlube_core.helical_geometry.meshing_steps import MeshingSteps, jamali_2015_steps
+from gearlube_core.helical_geometry.modification import ModifiedPair
+from gearlube_core.helical_geometry.sample_modifications import jamali_2015
+from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+from gearlube_core.oil.film_oil import EhlLubricant
+from gearlube_core.oil.named_film_oils import jamali_2015_oil
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+JAMALI_2015_MODULUS = 0.5 * 227.5e9  # E*, Pa; E 207 GPa and nu 0.3 follow from Jamali 2015 ch. 7
+_TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: Jamali 2015 ch. 4
+_LARGEST_GAP = 50e-6  # m
+_OPEN_FILM = 10e-6  # m
+_DOMAIN = (-2.75, 1.775)  # of the largest Hertz semi-width; Jamali 2015 covers 4.5 of them
+_SOLIDS = SolidContact()
+_SLENDEST = 2000.0  # R_y/R_x that stands for a line
+
+
+# densest where the film leaves the contact on any row at any time: the smallest film lies there
+EXIT_GRADING = ((-2.75, 4.0), (-1.5, 2.0), (-0.4, 2.0), (0.1, 1.0), (1.2, 1.0), (1.775, 3.0))
+GRADINGS: dict[str, tuple[tuple[float, float], ...]] = {"uniform": (), "exit": EXIT_GRADING}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HelicalFilm:
+    """Film of one contact line of a helical pair through its meshing cycle.
+
+    Parameters
+    ----------
+    modified : ModifiedPair
+        Pair with its reliefs and crowns.
+    steps : MeshingSteps
+        Positions of the line; position 0 is time zero.
+    torque
+        On the pinion [N m].
+    pinion_speed
+        [rad/s].
+    lubricant : EhlLubricant
+    contact_modulus
+        E* [Pa].
+    nodes
+        Along x and along the line.
+    convention
+        Of the load, as in `shared_load`: "normal" or "thesis".
+    form
+        Of the flanks, as in `UndeformedGap`.
+    extent
+        Domain along x over the largest Hertz semi-width [1].
+    largest_gap
+        The gap is cut there [m].
+    open_film
+        Thicker films [m] are at ambient pressure: forty films and more carry no load, but small
+        pressures in them come and go over whole rows as the relief moves.
+    solids : SolidContact or None
+        What carries load where the film vanishes; None: the oil alone.
+    grading
+        Pairs of a place along x, over the largest Hertz semi-width, and the spacing there in
+        proportion, e.g. `EXIT_GRADING`; none: uniform.
+
+    Raises
+    ------
+    ParameterError
+        An input is out of range.
+
+    Notes
+    -----
+    u_j = R_j' omega_j varies along the line, not across it, and there is no velocity along the
+    line. Load in the share of the unrelieved length. Source: Jamali 2015 sec. 4.1, 4.2, 4.4,
+    eq. (2.9)-(2.18), (4.1), (4.2).
+    """
+
+    modified: ModifiedPair
+    steps: MeshingSteps
+    torque: float
+    pinion_speed: float
+    lubricant: EhlLubricant
+    contact_modulus: float
+    nodes: tuple[int, int] = (97, 257)
+    convention: str = "normal"
+    form: str = "involute"
+    extent: tuple[float, float] = _DOMAIN
+    largest_gap: float = _LARGEST_GAP
+    open_film: float = _OPEN_FILM
+    solids: SolidContact | None = None
+    grading: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        check_positive("torque", self.torque, "N m", "The pinion drives.")
+        check_positive("pinion_speed", self.pinion_speed, "rad/s", "Give the speed's magnitude.")
+        check_positive("largest_gap", self.largest_gap, "m")
+        check_option("convention", self.convention, CONVENTIONS)
+        if self.grading:
+            self._grading(1.0)
+
+    @property
+    def time_step(self) -> float:
+        """Return the time between two positions [s]."""
+        return self.steps.duration(self.pinion_speed)
+
+    @property
+    def line_length(self) -> float:
+        """Return w = F/cos(beta_b), the longest line [m]."""
+        plane = self.modified.pair.plane
+        return plane.W / plane.cos_b
+
+    def line(self, time: float) -> float:
+        """Return X of the line [m] at a time [s]."""
+        return float(self.steps.line(time / self.time_step))
+
+    def load(self, X: float) -> float:
+        """Return the normal load [N] of the line at X [m]."""
+        shared = shared_load(X, self.modified, self.torque, self.convention)
+        return float(shared.load)
+
+    def surface_speeds(self, y: Array, X: float) -> tuple[Array, Array]:
+        """Return the speeds of pinion and gear across the line [m/s] at y [m]."""
+        plane = self.modified.pair.plane
+        s = X - 0.5 * plane.W * plane.sin_b / plane.cos_b + np.asarray(y) * plane.sin_b
+        gear_speed = self.pinion_speed * plane.r_bp / plane.r_bg
+        return s * self.pinion_speed, (plane.x_g - s) * gear_speed
+
+    def gap(self, x: Array, y: Array, X: float) -> Array:
+        """Return the gap [m], shape (nx, ny), cut at `largest_gap`.
+
+        Nodes on the side faces have the largest gap: the teeth end there. Without crown the film
+        beside them gets thinner the finer the grid, as pressure on a sharp end grows.
+        """
+        heights = UndeformedGap(modified=self.modified, form=self.form).heights(
+            x[:, None], y[None, :], X
+        )
+        inside = np.abs(y) < (1.0 - 1e-9) * 0.5 * self.line_length
+        return np.where(inside, np.minimum(heights, self.largest_gap), self.largest_gap)
+
+    def conditions(self, x: Array, y: Array, time: float) -> FilmConditions:
+        """Return what acts on the film at a time [s]."""
+        X = self.line(time)
+        return FilmConditions(self.gap(x, y, X), self.load(X), *self.surface_speeds(y, X))
+
+    def largest_load(self) -> tuple[float, float]:
+        """Return the largest load of a line [N] and X where it is reached [m]."""
+        lines = self.steps.line(np.arange(self.steps.count + 1))
+        loads = shared_load(lines, self.modified, self.torque, self.convention).load
+        most = int(np.argmax(loads))
+        return float(loads[most]), float(lines[most])
+
+    def semi_width(self) -> float:
+        """Return the Hertz semi-width at the largest load in the middle of the line [m]."""
+        load, X = self.largest_load()
+        radii = self._radii(X)
+        return hertz_ellipse(radii.R_x, radii.R_y, self.contact_modulus, load)[0]
+
+    def _radii(self, X: float) -> EllipticParaboloid:
+        plane = self.modified.pair.plane
+        s = X - 0.5 * plane.W * plane.sin_b / plane.cos_b
+        R_x = s * (plane.x_g - s) / (plane.x_g * plane.cos_b)
+        half = 0.5 * self.line_length
+        edge = 0.0
+        for flank in (self.modified.pinion, self.modified.gear):
+            if flank.crown is not None:
+                edge += float(flank.crown.removal(half * plane.cos_b, plane.W)) * plane.cos_b
+        flat = _SLENDEST * R_x
+        return EllipticParaboloid(R_x, min(half * half / (2.0 * edge), flat) if edge else flat)
+
+    def _grading(self, a: float) -> Grading | None:
+        """Return the grading of the spacing for the largest Hertz semi-width [m]."""
+        if not self.grading:
+            return None
+        places, spacing = zip(*self.grading, strict=True)
+        return Grading(tuple(place * a for place in places), spacing)
+
+    def moving_film(self) -> MovingFilm:
+        """Return the film with the scales of the largest load."""
+        load, X = self.largest_load()
+        radii = self._radii(X)
+        a = self.semi_width()
+        half = 0.5 * self.line_length
+        speeds = self.surface_speeds(np.zeros(1), X)
+        return MovingFilm(
+            conditions=self.conditions,
+            lubricant=self.lubricant,
+            contact_modulus=self.contact_modulus,
+            x_limits=(self.extent[0] * a, self.extent[1] * a),
+            y_limits=(-half, half),
+            nodes=self.nodes,
+            hertz=radii,
+            load=load,
+            open_film=self.open_film,
+            solids=self.solids,
+            grading=self._grading(a),
+            speed=0.5 * float(speeds[0][0] + speeds[1][0]),
+        )
+
+
+def jamali_2015_film(
+    design: str,
+    *,
+    k: float = 1.0,
+    beta: float | None = None,
+    crown_start: float = 0.0,
+    facets: int = 0,
+    newtonian: bool = False,
+    nodes: tuple[int, int] = (97, 257),
+    grading: tuple[tuple[float, float], ...] = (),
+    convention: str = "thesis",
+    solids: SolidContact | None = _SOLIDS,
+) -> HelicalFilm:
+    """Return the film of design "a" or "b" of Jamali 2015 chapters 4 to 6.
+
+    Parameters
+    ----------
+    design, k, beta, crown_start, facets
+        As in `gearlube_core.helical_geometry.sample_modifications.jamali_2015`.
+    newtonian
+        Leave the Eyring stress out.
+    nodes
+        His mesh is (182, 857), uniform.
+    grading
+        As in `HelicalFilm`.
+    convention
+        Of the load; his leaves out cos(beta_b).
+    solids
+        What carries load where the film vanishes: by default a layer of 10 nm, of which his own
+        films of 20 nm and more know nothing. Where his solution fails solids touch and say so.
+    """
+    return HelicalFilm(
+        modified=jamali_2015(design, k=k, beta=beta, crown_start=crown_start, facets=facets),
+        steps=jamali_2015_steps(design),
+        torque=_TORQUE,
+        pinion_speed=_SPEED,
+        lubricant=jamali_2015_oil(newtonian=newtonian),
+        contact_modulus=JAMALI_2015_MODULUS,
+        nodes=nodes,
+        grading=grading,
+        convention=convention,
+        solids=solids,
+    )

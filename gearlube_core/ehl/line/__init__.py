@@ -1,0 +1,1 @@
+"""Line contacts: steady, transient and thermal films."""

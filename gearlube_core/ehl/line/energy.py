@@ -1,0 +1,286 @@
+"""Energy of a line film and the two moving surfaces, marched along entrainment: kernels.
+
+Reduced form: heat is carried along x and conducted across the film; oil that flows back in the
+inlet carries none; both bodies are half-spaces that move fast against diffusion.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.film_oil import (
+    EhlLubricant,
+    cooling_factor,
+    limiting_stress,
+    thermal_viscosity,
+)
+
+# sinh and cosh of a film's half drop of stress are kept finite
+_LARGEST_SIGMA = 100.0
+
+
+class FilmFields(NamedTuple):
+    """What the energy balance takes from a film on n nodes, in the direction of entrainment."""
+
+    p: np.ndarray  # [Pa]
+    p_slope: np.ndarray  # [Pa/m]
+    h: np.ndarray  # [m]
+    rho: np.ndarray  # [kg/m3]
+    mean_speed: np.ndarray  # flow over rho h [m/s]
+    wet: np.ndarray  # 1 where the film is full, 0 where it is broken
+
+
+class SurfaceHeating(NamedTuple):
+    """Constants of the surfaces' rise of temperature; floats, SI."""
+
+    speed_1: float  # [m/s], above zero
+    speed_2: float  # [m/s], above zero
+    factor_1: float  # (pi rho c k u)^(-1/2) of body 1 [K m^1.5/W]
+    factor_2: float  # of body 2
+    temperature: float  # of oil and bodies at the inlet [K]
+
+
+@kernel
+def fill_surface_weights(step: float, now: np.ndarray, before: np.ndarray) -> None:
+    """Fill weights of the integral of q(s) (x - s)^(-1/2) ds, q linear between nodes.
+
+    Parameters
+    ----------
+    step
+        Node spacing [m].
+    now, before
+        (n,): weights [m^0.5] of the downstream and the upstream end of the interval that ends m
+        nodes upstream of x.
+    """
+    for m in range(now.size):
+        a, b = (m + 1.0) * step, m * step
+        root = math.sqrt(a) - math.sqrt(b)
+        now[m] = (2.0 * a * root - 2.0 / 3.0 * (a * math.sqrt(a) - b * math.sqrt(b))) / step
+        before[m] = 2.0 * root - now[m]
+
+
+@kernel
+def fill_shear(
+    T: np.ndarray, i: int, f: FilmFields, sliding: float, oil: EhlLubricant, heat: np.ndarray
+) -> tuple[float, float]:
+    """Fill the heat of shear across the film at node i.
+
+    tau(z) = tau_m + z dp/dx,  integral of du/dz over the film = u2 - u1
+
+    Parameters
+    ----------
+    T
+        Temperatures (n, m) at m heights from body 1 to body 2 [K].
+    i
+        Node.
+    f
+        Film.
+    sliding
+        u2 - u1 [m/s].
+    oil
+        Lubricant data.
+    heat
+        Filled, (m,) [W/m3].
+
+    Returns
+    -------
+    tuple of float
+        tau_m [Pa] and the viscosity [Pa s] that lets pressure drive the same flow.
+
+    Notes
+    -----
+    Closed form for Eyring: integral of [sinh(a) cosh(bz) + cosh(a) sinh(bz)]/eta. With a limiting
+    stress the film slips at it and the rest of the sliding heats evenly.
+    """
+    m = heat.size
+    h, slope = f.h[i], f.p_slope[i]
+    dz = 1.0 / (m - 1)
+    even, odd, pumped = 0.0, 0.0, 0.0
+    b = 0.0
+    if oil.tau0 > 0.0:
+        b = slope * h / oil.tau0
+        b = math.copysign(min(abs(b), 2.0 * _LARGEST_SIGMA), b)
+    for k in range(m):
+        w = dz if 0 < k < m - 1 else 0.5 * dz
+        z = k * dz - 0.5
+        fluidity = w / thermal_viscosity(oil, f.p[i], T[i, k])
+        if oil.tau0 > 0.0:
+            even += fluidity * math.cosh(b * z)
+            odd += fluidity * math.sinh(b * z)
+        else:
+            even += fluidity
+            odd += fluidity * z
+        pumped += 12.0 * z * z * fluidity
+    # the trapezoidal rule for 12 z^2 alone gives 1 + 2 dz^2
+    pumped /= 1.0 + 2.0 * dz * dz
+    if oil.tau0 > 0.0:
+        asymmetry = odd / even
+        root = even * math.sqrt(max(1.0 - asymmetry * asymmetry, 1e-300))
+        shift = math.atanh(min(max(asymmetry, -1.0 + 1e-15), 1.0 - 1e-15))
+        tau = oil.tau0 * (math.asinh(sliding / (h * oil.tau0 * root)) - shift)
+    else:
+        tau = (sliding / h - slope * h * odd) / even
+    limit = limiting_stress(oil, f.p[i])
+    slips = abs(tau) > limit
+    if slips:
+        tau = math.copysign(limit, tau)
+    total = 0.0
+    for k in range(m):
+        w = dz if 0 < k < m - 1 else 0.5 * dz
+        z = k * dz - 0.5
+        eta = thermal_viscosity(oil, f.p[i], T[i, k])
+        stress = tau + slope * h * z
+        if oil.tau0 > 0.0:
+            ratio = min(max(stress / oil.tau0, -600.0), 600.0)
+            rate = oil.tau0 / eta * math.sinh(ratio)
+        else:
+            rate = stress / eta
+        heat[k] = f.wet[i] * stress * rate
+        total += w * rate
+    if slips:
+        for k in range(m):
+            heat[k] += f.wet[i] * tau * (sliding / h - total)
+    return tau, 1.0 / pumped
+
+
+@kernel
+def march_energy(
+    f: FilmFields,
+    step: float,
+    s: SurfaceHeating,
+    oil: EhlLubricant,
+    now: np.ndarray,
+    before: np.ndarray,
+    old: np.ndarray,
+    T: np.ndarray,
+    flux: np.ndarray,
+    tau: np.ndarray,
+    eta: np.ndarray,
+    heating: np.ndarray,
+) -> None:
+    """March the temperature along entrainment, with heat of shear at the temperatures `old`.
+
+    rho c u dT/dx = k d2T/dz2 + tau du/dz + beta T u dp/dx
+    T_s = T0 + (pi rho_s c_s k_s u_s)^(-1/2) integral of q(s) (x - s)^(-1/2) ds
+
+    Parameters
+    ----------
+    f, step, s, oil
+        Film, node spacing [m], surfaces, lubricant.
+    now, before
+        From `fill_surface_weights`, (n,).
+    old
+        Temperatures of the iteration before (n, m) [K].
+    T
+        Filled (n, m) [K].
+    flux
+        Filled (n, 2): heat into body 1 and body 2 [W/m2].
+    tau, eta
+        Filled (n,): mid-film stress [Pa], viscosity to pressure flow [Pa s].
+    heating
+        Filled (n,): heat of shear over the film [W/m2].
+
+    Notes
+    -----
+    Finite volumes across the film, half cells at the walls, second-order backward along x.
+    Source: Carslaw and Jaeger 1959 for the surfaces; reduced form of Cheng 1965.
+    """
+    n, m = T.shape
+    heat = np.empty(m)
+    lower, diagonal, upper, right = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
+    k_oil = oil.conductivity
+    for i in range(n):
+        tau[i], eta[i] = fill_shear(old, i, f, s.speed_2 - s.speed_1, oil, heat)
+        dz = f.h[i] / (m - 1)
+        total = 0.0
+        for k in range(m):
+            total += heat[k] * (dz if 0 < k < m - 1 else 0.5 * dz)
+        heating[i] = total
+        if i == 0:
+            T[0, :] = s.temperature
+            flux[0, :] = 0.0
+            continue
+        couette = 0.5 * (s.speed_1 + s.speed_2)
+        for k in range(m):
+            zeta = k / (m - 1.0)
+            u = s.speed_1 + (s.speed_2 - s.speed_1) * zeta
+            u += (f.mean_speed[i] - couette) * 6.0 * zeta * (1.0 - zeta)
+            thickness = dz if 0 < k < m - 1 else 0.5 * dz
+            carried = f.rho[i] * oil.heat_capacity * max(u, 0.0) * thickness / step
+            source = heat[k] * thickness
+            source += oil.expansion * old[i, k] * u * f.p_slope[i] * f.wet[i] * thickness
+            if i == 1:
+                diagonal[k] = carried
+                right[k] = carried * T[0, k] + source
+            else:
+                diagonal[k] = 1.5 * carried
+                right[k] = carried * (2.0 * T[i - 1, k] - 0.5 * T[i - 2, k]) + source
+            lower[k] = -k_oil / dz if k > 0 else 0.0
+            upper[k] = -k_oil / dz if k < m - 1 else 0.0
+            diagonal[k] -= lower[k] + upper[k]
+        # a wall cell gives q to its body: T_s = history + factor now[0] q
+        walls = (right[0], diagonal[0], right[m - 1], diagonal[m - 1])
+        past_1, past_2 = 0.0, 0.0
+        for j in range(i):
+            d = i - 1 - j
+            past_1 += before[d] * flux[j, 0]
+            past_2 += before[d] * flux[j, 1]
+            if j + 1 < i:
+                past_1 += now[d] * flux[j + 1, 0]
+                past_2 += now[d] * flux[j + 1, 1]
+        give_1, give_2 = s.factor_1 * now[0], s.factor_2 * now[0]
+        start_1 = s.temperature + s.factor_1 * past_1
+        start_2 = s.temperature + s.factor_2 * past_2
+        diagonal[0] = 1.0 + give_1 * walls[1]
+        upper[0] *= give_1
+        right[0] = start_1 + give_1 * walls[0]
+        diagonal[m - 1] = 1.0 + give_2 * walls[3]
+        lower[m - 1] *= give_2
+        right[m - 1] = start_2 + give_2 * walls[2]
+        for k in range(1, m):
+            w = lower[k] / diagonal[k - 1]
+            diagonal[k] -= w * upper[k - 1]
+            right[k] -= w * right[k - 1]
+        T[i, m - 1] = right[m - 1] / diagonal[m - 1]
+        for back in range(m - 1):
+            k = m - 2 - back
+            T[i, k] = (right[k] - upper[k] * T[i, k + 1]) / diagonal[k]
+        flux[i, 0] = walls[0] - walls[1] * T[i, 0] + k_oil / dz * T[i, 1]
+        flux[i, 1] = walls[2] - walls[3] * T[i, m - 1] + k_oil / dz * T[i, m - 2]
+
+
+@kernel
+def fill_thermal_oil(
+    p: np.ndarray,
+    T: np.ndarray,
+    eta: np.ndarray,
+    oil: EhlLubricant,
+    cooling: np.ndarray,
+    dilation: np.ndarray,
+) -> None:
+    """Fill the cooling factor that gives the viscosity `eta` and the density's factor by heat.
+
+    Parameters
+    ----------
+    p, T, eta
+        Pressure (n,) [Pa], temperatures (n, m) [K], viscosity to pressure flow (n,) [Pa s].
+    oil
+        Lubricant data.
+    cooling, dilation
+        Filled (n,) [1].
+    """
+    m = T.shape[1]
+    for i in range(p.size):
+        growth = math.expm1(oil.Z * math.log1p(oil.chi * max(p[i], 0.0)))
+        log_eta = math.log(eta[i] / oil.eta0)
+        cooling[i] = (log_eta / oil.log_ratio + 1.0) / (1.0 + growth)
+        mean = 0.0
+        for k in range(m):
+            mean += T[i, k] * (1.0 if 0 < k < m - 1 else 0.5) / (m - 1)
+        dilation[i] = max(1.0 - oil.expansion * (mean - oil.temperature), 0.1)
+        if oil.S0 == 0.0:
+            cooling[i] = cooling_factor(oil, oil.temperature)

@@ -1,0 +1,184 @@
+"""What a line contact solution needs to know: contact, speeds, load, oil, domain, accuracy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from gearlube_core.checks import check_finite, check_option, check_positive, check_within
+from gearlube_core.ehl.line.rows import STENCILS
+from gearlube_core.errors import ParameterError
+from gearlube_core.film.groups import LineGroups, line_groups
+from gearlube_core.film.moes_1992 import central_film_group
+from gearlube_core.oil.film_oil import EhlLubricant, pressure_viscosity
+
+CAVITATION = ("reynolds", "mass_conserving")
+Gap = Callable[[np.ndarray], np.ndarray]
+
+# gap over film where the domain begins and ends, and least distance in half widths
+_INLET_GAP, _OUTLET_GAP = 150.0, 4.0
+_INLET_LEAST, _OUTLET_LEAST = 2.0, 1.3
+
+
+def _hertz_distance(gap: float) -> float:
+    # x/b where the gap h R/b^2 beside a dry contact, [X (X^2 - 1)^(1/2) - acosh X]/2, is `gap`
+    def excess(X: float) -> float:
+        return 0.5 * (X * math.sqrt(X * X - 1.0) - math.acosh(X)) - gap
+
+    return float(brentq(excess, 1.0, math.sqrt(2.0 * gap) + 3.0, rtol=1e-6))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LineProblem:
+    """Steady line contact of two elastic bodies in plane strain.
+
+    Parameters
+    ----------
+    lubricant
+        Oil of the film.
+    radius
+        Relative radius of curvature R [m]; with `gap` given it only scales and starts.
+    line_load
+        w, load per unit length [N/m].
+    reduced_modulus
+        E' = 2 E* [Pa].
+    speed_1, speed_2
+        Surface speeds along x [m/s]; body 1 below the film, body 2 above. They may not add up
+        to zero in a steady problem.
+    gap
+        Undeformed gap h_u(x) [m] at positions (n,) [m], up to a constant; without it x^2/(2 R).
+    domain
+        First and last x [m]; without it chosen from load, film and direction of entrainment.
+    inlet_fill
+        Share of the gap filled with oil at the inlet, above 0 to 1; below 1 needs
+        mass-conserving cavitation.
+
+    Notes
+    -----
+    Half-spaces, smooth or with surface features long against the film (Reynolds).
+    """
+
+    lubricant: EhlLubricant
+    radius: float
+    line_load: float
+    reduced_modulus: float
+    speed_1: float
+    speed_2: float
+    gap: Gap | None = None
+    domain: tuple[float, float] | None = None
+    inlet_fill: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_positive("radius", self.radius, "m", "Give metres, not millimetres.")
+        check_positive("line_load", self.line_load, "N/m", "100 N/mm is 1e5 N/m.")
+        check_within("reduced_modulus", self.reduced_modulus, 1e4, 1e13, "Pa", "E' = 2 E*.")
+        check_finite("speed_1", self.speed_1, "m/s")
+        check_finite("speed_2", self.speed_2, "m/s")
+        check_within("inlet_fill", self.inlet_fill, 1e-6, 1.0)
+        if self.domain is not None and not self.domain[0] < self.domain[1]:
+            raise ParameterError(
+                f"domain must run from its smaller to its larger x, got {self.domain[0]:g} to "
+                f"{self.domain[1]:g} m."
+            )
+
+    @property
+    def entrainment_speed(self) -> float:
+        """Mean surface speed u = (u1 + u2)/2 [m/s]."""
+        return 0.5 * (self.speed_1 + self.speed_2)
+
+    @property
+    def half_width(self) -> float:
+        """Hertz half width b = [8 w R/(pi E')]^(1/2) [m]."""
+        return math.sqrt(8.0 * self.line_load * self.radius / (math.pi * self.reduced_modulus))
+
+    @property
+    def hertz_pressure(self) -> float:
+        """Largest Hertz pressure 2 w/(pi b) [Pa]."""
+        return 2.0 * self.line_load / (math.pi * self.half_width)
+
+    def groups(self) -> LineGroups:
+        """Return the dimensionless groups, with the amount of the entrainment speed."""
+        return line_groups(
+            viscosity=self.lubricant.eta0,
+            pressure_viscosity=pressure_viscosity(self.lubricant),
+            entrainment_speed=abs(self.entrainment_speed),
+            line_load=self.line_load,
+            radius=self.radius,
+            reduced_modulus=self.reduced_modulus,
+        )
+
+    def film_guess(self) -> float:
+        """Return a film [m] of the right size, to choose a domain and a start."""
+        g = self.groups()
+        return self.radius * math.sqrt(2.0 * g.U) * central_film_group(g.M, g.L)
+
+    def extent(self) -> tuple[float, float]:
+        """Return first and last x [m]: as given, or wide enough that the inlet is flooded."""
+        if self.domain is not None:
+            return self.domain
+        b = self.half_width
+        film = self.film_guess() * self.radius / (b * b)
+        ahead = b * max(_INLET_LEAST, _hertz_distance(_INLET_GAP * film))
+        behind = b * max(_OUTLET_LEAST, _hertz_distance(_OUTLET_GAP * film))
+        if self.entrainment_speed < 0.0:
+            return -behind, ahead
+        return -ahead, behind
+
+    def undeformed_gap(self, x: np.ndarray) -> np.ndarray:
+        """Return h_u [m] at x [m]."""
+        if self.gap is None:
+            return x * x / (2.0 * self.radius)
+        return np.asarray(self.gap(x), dtype=float)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LineSettings:
+    """How a line contact is solved.
+
+    Parameters
+    ----------
+    nodes
+        Of the finest grid.
+    stencil
+        Of the wedge: "upwind-2" (default), "central", "upwind-1", or "galerkin" for the finite
+        elements of Jamali 2015.
+    cavitation
+        "reynolds": pressure and its gradient vanish where the film breaks. "mass_conserving":
+        the void share of Jakobsson, Floberg and Olsson is solved as well.
+    tolerance
+        Largest sum of unbalanced flows over the flow through the contact, and of the load's
+        error [1]; never asked for beyond what rounding allows.
+    max_iterations
+        Newton steps on each grid.
+    coarsest
+        Fewest nodes of the coarsest grid of the nest.
+    contact_film
+        Film [m] at which solids touch in a march in time, where the oil alone finds no film; 0:
+        never.
+    """
+
+    nodes: int = 1001
+    stencil: str = "upwind-2"
+    cavitation: str = "reynolds"
+    tolerance: float = 1e-8
+    max_iterations: int = 40
+    coarsest: int = 100
+    contact_film: float = 1e-9
+
+    def __post_init__(self) -> None:
+        check_within("nodes", self.nodes, 17, 20001)
+        check_option("stencil", self.stencil, STENCILS)
+        check_option("cavitation", self.cavitation, CAVITATION)
+        check_within("tolerance", self.tolerance, 1e-13, 1e-2)
+        check_within("max_iterations", self.max_iterations, 1, 10000)
+        check_within("coarsest", self.coarsest, 9, 5000)
+        check_within("contact_film", self.contact_film, 0.0, 1e-6, "m")
+        if self.stencil == "galerkin" and self.cavitation == "mass_conserving":
+            raise ParameterError(
+                "stencil galerkin has no flux between nodes that a void share could follow. "
+                "Take upwind-2 with mass-conserving cavitation."
+            )

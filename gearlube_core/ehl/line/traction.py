@@ -1,0 +1,54 @@
+"""Shear stress on the two surfaces of a line film: kernels."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gearlube_core.ehl.flow.eyring_flow import eyring_mean_stress
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.film_oil import EhlLubricant, limiting_stress
+
+
+@kernel
+def fill_mean_stress(
+    p: np.ndarray,
+    p_slope: np.ndarray,
+    h: np.ndarray,
+    void: np.ndarray,
+    eta: np.ndarray,
+    sliding: float,
+    oil: EhlLubricant,
+    tau: np.ndarray,
+) -> None:
+    """Fill the shear stress at mid-film.
+
+    tau_m = eta (u2 - u1)/h, or tau0 asinh(a s/sinh s); at most tau_limit + slope p in amount
+
+    Parameters
+    ----------
+    p, p_slope, h, void, eta
+        Pressure [Pa], its slope along x [Pa/m], film [m], void share [1], viscosity [Pa s], (n,).
+    sliding
+        u2 - u1 [m/s].
+    oil
+        Lubricant data.
+    tau
+        Filled, (n,) [Pa].
+
+    Notes
+    -----
+    The limit acts on the traction alone: where it is met the film slips at the limiting stress,
+    and flow by pressure through an oil that stiff is negligible beside what is carried. Where the
+    film is broken the stress is that of the share of the gap that holds oil.
+    Source: Jamali 2015 eq. (3.29a), (3.31); Johnson and Tevaarwerk 1977 for the limit's use.
+    """
+    for i in range(p.size):
+        newtonian = eta[i] * sliding / h[i]
+        stress = newtonian
+        if oil.tau0 > 0.0:
+            sigma = 0.5 * h[i] * p_slope[i] / oil.tau0
+            stress = eyring_mean_stress(sigma, newtonian / oil.tau0, oil.tau0)
+        limit = limiting_stress(oil, p[i])
+        tau[i] = (1.0 - void[i]) * math.copysign(min(abs(stress), limit), stress)

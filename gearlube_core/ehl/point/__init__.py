@@ -1,0 +1,1 @@
+"""Point contacts: films at rest, isothermal and thermal."""

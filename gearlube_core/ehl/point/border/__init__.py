@@ -1,0 +1,1 @@
+"""Oil that goes on beyond the domain of a point contact."""

@@ -1,0 +1,64 @@
+"""Cavitation of a point contact: what goes with mass conservation, and the grids that have it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from gearlube_core.ehl.point.equations.fill import BrokenFilm
+from gearlube_core.ehl.point.equations.film_shear import ALIGNED
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.errors import ParameterError
+
+
+def check_cavitation(problem: PointContactProblem, settings: PointSolverSettings) -> None:
+    """Refuse a problem that the cavitation of the settings does not go with.
+
+    Raises
+    ------
+    ParameterError
+        A starved inlet without mass conservation; touching solids, or an Eyring oil sheared along
+        neither axis, with it.
+    """
+    if settings.cavitation == "reynolds":
+        if problem.inlet_layer is not None:
+            raise ParameterError(
+                f"inlet_layer is {problem.inlet_layer:g} m: a starved inlet needs cavitation "
+                "mass_conserving."
+            )
+        return
+    if problem.solids is not None:
+        raise ParameterError(
+            "mass-conserving cavitation does not go with solids that touch. Leave one out."
+        )
+    if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
+        along, across = problem.sliding
+        if abs(along * across) >= ALIGNED * math.hypot(along, across) ** 2 > 0.0:
+            raise ParameterError(
+                "mass-conserving cavitation of an Eyring oil needs sliding along x or y, got "
+                f"{along:g} and {across:g} m/s. Turn the axes along sliding, or take a Newtonian "
+                "oil."
+            )
+
+
+def let_rupture(levels: Sequence[PointLevel], problem: PointContactProblem) -> None:
+    """Give the grids of a problem mass-conserving cavitation."""
+    layer = math.inf if problem.inlet_layer is None else problem.inlet_layer
+    for level in levels:
+        level.broken = BrokenFilm(level.metric, level.dx, level.shape, layer / level.scales.film)
+
+
+def refuse_rupture(settings: PointSolverSettings, film: str) -> None:
+    """Refuse mass-conserving cavitation of a film that changes in time or warms.
+
+    Raises
+    ------
+    ParameterError
+    """
+    if settings.cavitation == "mass_conserving":
+        raise ParameterError(
+            "mass-conserving cavitation is for isothermal point contacts at rest, got it for a "
+            f"film {film}. Take cavitation reynolds."
+        )

@@ -1,0 +1,158 @@
+"""Dry elastic contact on the grid of a film: start of a film and check of its largest pressure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_positive
+from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
+from gearlube_core.contact.unilateral import solve_torque
+from gearlube_core.contact.unilateral_problem import Outcome, UnilateralProblem
+from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.errors import ParameterError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class DryContact:
+    """Two solids pressed together without a film, on a grid of nodes.
+
+    Parameters
+    ----------
+    pressure, separation : ndarray, shape (nx, ny)
+        Nodal pressure [Pa], and the gap left [m]: zero where the solids touch.
+    approach
+        How far the solids came together from first touch of the nodes [m]: minus h_0 of a film
+        that vanishes, for a gap whose least nodal value is zero.
+    touches_border
+        Whether the loaded area reaches the border of the grid, where a film has no pressure.
+    outcome
+        How the iteration ended.
+    """
+
+    pressure: Array
+    separation: Array
+    approach: float
+    touches_border: bool
+    outcome: Outcome
+
+
+def dry_contact_of_gap(
+    gap: Array,
+    dx: float,
+    dy: float,
+    contact_modulus: float,
+    load: float,
+    *,
+    tolerance: float = 1e-6,
+    start: Array | None = None,
+    throw: bool = True,
+) -> DryContact:
+    """Return the dry contact of a gap given at the nodes of a uniform grid.
+
+    h_0 + h_u + u >= 0,  p >= 0,  p (h_0 + h_u + u) = 0,  sum of p dx dy = load
+
+    Parameters
+    ----------
+    gap : ndarray, shape (nx, ny)
+        h_u [m] up to a constant; infinite where there is no solid.
+    dx, dy
+        Node spacing [m]; pressure is constant over a cell around each node.
+    contact_modulus
+        E* [Pa].
+    load
+        [N], above zero.
+    tolerance
+        Of complementarity, relative [1], 1e-12 to 1e-2.
+    start : ndarray, shape (nx, ny), optional
+        Pressure [Pa] of a similar contact.
+    throw
+        Raise when the iteration does not converge; else `outcome` tells.
+
+    Raises
+    ------
+    ParameterError
+        An input is out of range or of the wrong shape.
+    ConvergenceError
+        The iteration did not converge.
+
+    Notes
+    -----
+    Half-spaces without friction. Conjugate gradients of `contact.unilateral` with Love's
+    displacement at cell centres by FFT: the same discrete elasticity as that of the films.
+    """
+    gap = np.asarray(gap, dtype=np.float64)
+    if gap.ndim != 2 or gap.size == 0:
+        raise ParameterError(f"gap must have shape (nx, ny), got {gap.shape}. Give it at nodes.")
+    check_positive("load", load, "N")
+    area = check_positive("dx", dx, "m") * check_positive("dy", dy, "m")
+    nx, ny = gap.shape
+    grid = HalfSpaceConvolution(love_coefficients(dx, dy, nx, ny, contact_modulus))
+    if start is not None and np.shape(start) != gap.shape:
+        raise ParameterError(
+            f"start must have the shape of gap, {gap.shape}, got {np.shape(start)}. Leave it out."
+        )
+    lowest = float(gap.min())
+    problem = UnilateralProblem(
+        compliance=lambda forces: grid(forces.reshape(gap.shape)).ravel(),
+        gap=(gap - lowest if np.isfinite(lowest) else gap).ravel(),
+        arm=np.ones(gap.size),
+        cell_area=np.full(gap.size, area),
+    )
+    solution = solve_torque(
+        problem,
+        load,
+        tolerance=tolerance,
+        max_iterations=20_000,
+        start=None if start is None else np.asarray(start).ravel() * area,
+        throw=throw,
+    )
+    pressure = solution.pressure.reshape(gap.shape)
+    border = np.ones(gap.shape, dtype=bool)
+    border[1:-1, 1:-1] = False
+    return DryContact(
+        pressure=pressure,
+        separation=solution.separation.reshape(gap.shape),
+        approach=solution.rotation,
+        touches_border=bool((pressure[border] > 0.0).any()),
+        outcome=solution.outcome,
+    )
+
+
+def dry_contact(
+    problem: PointContactProblem,
+    *,
+    tolerance: float = 1e-6,
+    start: Array | None = None,
+    throw: bool = True,
+) -> DryContact:
+    """Return the dry contact of a film's problem on its own grid.
+
+    Parameters, errors and source as in `dry_contact_of_gap`; motion and oil do not matter.
+
+    Examples
+    --------
+    >>> from gearlube_core.oil.film_oil import ehl_lubricant
+    >>> from gearlube_core.ehl.point.problem import elliptical_contact
+    >>> film = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(1.0, 0.0), load=20.0,
+    ...     contact_modulus=1.15e11, lubricant=ehl_lubricant(eta0=0.04, alpha=2e-8), nodes=(65, 65))
+    >>> dry = dry_contact(film)
+    >>> float(round(dry.pressure.max() / film.hertz_contact[2], 2))
+    1.0
+    """
+    x, y = problem.x, problem.y
+    gap = np.broadcast_to(problem.gap(x[:, None], y[None, :]), problem.nodes)
+    return dry_contact_of_gap(
+        gap,
+        x[1] - x[0],
+        y[1] - y[0],
+        problem.contact_modulus,
+        problem.load,
+        tolerance=tolerance,
+        start=start,
+        throw=throw,
+    )

@@ -1,0 +1,1 @@
+"""Discrete Reynolds equation of a point contact on one grid."""

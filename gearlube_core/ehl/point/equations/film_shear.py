@@ -1,0 +1,281 @@
+"""Flow factors of an Eyring film on a uniform grid, for sliding at any angle to its axes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_finite, check_positive
+from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor, eyring_mean_stress
+from gearlube_core.ehl.flow.flow_factors import eyring_factors
+from gearlube_core.ehl.point.equations.cross_flow import CrossFlow
+from gearlube_core.ehl.point.equations.stencil import FilmFlow, FlowSlopes
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.film_oil import EhlLubricant
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+# below, series to the second order are right to 1e-8
+_SMALL_STRESS = 1.0e-2
+# of the product of cosine and sine: flow along an axis does not feel the slope along the other
+ALIGNED = 1.0e-12
+
+
+@kernel
+def fill_shear_factors(
+    pressure: np.ndarray,
+    film: np.ndarray,
+    fluidity: np.ndarray,
+    couette: np.ndarray,
+    sigma_x: np.ndarray,
+    sigma_y: float,
+    cosine: float,
+    sine: float,
+    limit: float,
+    limit_slope: float,
+    along: np.ndarray,
+    across: np.ndarray,
+    steepness: np.ndarray,
+    stiffness: np.ndarray,
+) -> None:
+    """Fill the flow factors of an Eyring film, by rows of other sliding in one direction.
+
+    Parameters
+    ----------
+    pressure, film, fluidity : ndarray, shape (ny, nx)
+        p, h and 1/eta [1].
+    couette : ndarray, shape (ny,)
+        Shear stress of sliding over tau0, times film and fluidity, of every row [1].
+    sigma_x, sigma_y
+        Stress drop over half the film over tau0, over film and difference of pressure between the
+        nodes on both sides [1]; along x of every column, shape (nx,).
+    cosine, sine
+        Of the angle from x to sliding.
+    limit, limit_slope
+        Limiting shear stress over tau0 at ambient pressure and its slope with p [1]; both 0: none.
+    along, across : ndarray, shape (ny, nx)
+        Flow along and across sliding over its Newtonian value [1]; 1 on the border.
+    steepness, stiffness : ndarray, shape (ny, nx)
+        d ln(flow)/d ln(dp/ds) and -d ln(flow)/d ln(eta) along sliding, as without dp/dr [1].
+
+    Notes
+    -----
+    Pressure slopes are central. Small stresses: flow along grows by Sigma^2/10 + a^2/2, across
+    by Sigma^2/10 + a^2/6, the first terms of the series of `eyring_flow`. A film that slips at
+    the limiting stress has the flow of one that is sheared just so far.
+    """
+    ny, nx = pressure.shape
+    along[:] = 1.0
+    across[:] = 1.0
+    steepness[:] = 1.0
+    stiffness[:] = 1.0
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            h = film[j, i]
+            if h <= 0.0:
+                continue
+            x = sigma_x[i] * h * (pressure[j, i + 1] - pressure[j, i - 1])
+            y = sigma_y * h * (pressure[j + 1, i] - pressure[j - 1, i])
+            s, r = cosine * x + sine * y, cosine * y - sine * x
+            a = couette[j] / (h * fluidity[j, i])
+            most, slips = math.inf, False
+            if limit + limit_slope > 0.0:
+                most = limit + limit_slope * max(pressure[j, i], 0.0)
+                slips = abs(eyring_mean_stress(s, a, 1.0)) > most
+            if max(abs(s), abs(r), abs(a)) < min(_SMALL_STRESS, most):
+                pumped = 0.1 * (s * s + r * r)
+                along[j, i] = 1.0 + pumped + 0.5 * a * a
+                across[j, i] = 1.0 + pumped + a * a / 6.0
+                steepness[j, i] = 1.0 + 0.2 * s * s
+                stiffness[j, i] = 1.0 - a * a
+                continue
+            along[j, i], across[j, i] = eyring_factors(s, r, a, most)
+            if slips:
+                # S = F cosh(limit): F alone answers to the slope of pressure, nothing to viscosity
+                F, by_sigma, _ = eyring_flow_factor(s, 0.0)
+                steepness[j, i] = 1.0 + s * by_sigma / F
+                stiffness[j, i] = 1.0
+                continue
+            S, by_sigma, by_a = eyring_flow_factor(s, a)
+            steepness[j, i] = 1.0 + s * by_sigma / S
+            stiffness[j, i] = 1.0 - a * by_a / S
+
+
+@dataclass(frozen=True, slots=True)
+class ShearFactors:
+    """Tensor of the flow by pressure over its Newtonian value, and how it answers; (ny, nx) [1].
+
+    flow = -rho h^3/(12 eta) [[xx, xy], [xy, yy]] grad p
+    """
+
+    xx: Array
+    xy: Array | None  # None: sliding is along an axis
+    yy: Array
+    slope_xx: Array  # what a change of grad p meets, as without dp/dr
+    slope_xy: Array | None
+    slope_yy: Array
+    stiffness: Array  # -d ln(flow)/d ln(eta) along sliding
+    film_power: Array  # d ln(flow)/d ln(h) along sliding
+
+    def flow(self, cubic: Array, fluidity: Array, log_viscosity: Array) -> FilmFlow:
+        """Return what pressure along x and y drives oil with; `cubic` is rho h^3."""
+        return FilmFlow(
+            cubic,
+            fluidity * self.xx,
+            fluidity * self.yy,
+            log_viscosity - np.log(self.xx),
+            log_viscosity - np.log(self.yy),
+        )
+
+    def slopes(self, cubic: Array, densening: Array, thickening: Array) -> FlowSlopes:
+        """Return how it answers, from d ln(rho)/dp and d ln(eta)/dp."""
+        return FlowSlopes(
+            cubic * self.slope_xx,
+            cubic * self.slope_yy,
+            np.zeros_like(cubic) if self.slope_xy is None else cubic * self.slope_xy,
+            densening + (1.0 - self.stiffness) * thickening,
+            self.film_power,
+            self.stiffness,
+        )
+
+    def cross(self) -> CrossFlow:
+        """Return the flow across the slope of pressure, of sliding at an angle to the axes."""
+        assert self.xy is not None
+        assert self.slope_xy is not None
+        return CrossFlow(
+            self.xy / self.xx, self.xy / self.yy, self.slope_xy / self.xx, self.slope_xy / self.yy
+        )
+
+    def relative(self, slopes: FlowSlopes) -> FlowSlopes:
+        """Return slopes whose `slope_x` and `slope_y` are over their flow factors."""
+        return slopes._replace(slope_x=slopes.slope_x / self.xx, slope_y=slopes.slope_y / self.yy)
+
+
+@dataclass(slots=True)
+class FilmShear:
+    """Constants of an Eyring film on one grid; build it with `of`."""
+
+    unit: float  # shear stress over tau0 of sliding at 1 m/s, times film and fluidity [s/m]
+    sigma_x: float  # stress drop over tau0, over film and pressure between the nodes beside
+    sigma_y: float
+    couette: Array  # shear stress of sliding over tau0, times film and fluidity, (rows,) [1]
+    cosine: float  # of the angle from x to sliding
+    sine: float
+    central: Array | None = None  # spacing along x over that of every column, (nx,); None: 1
+    limit: float = 0.0  # limiting stress over tau0 at ambient pressure
+    limit_slope: float = 0.0  # its slope with pressure
+
+    @classmethod
+    def of(
+        cls,
+        lubricant: EhlLubricant,
+        sliding: tuple[float, float],
+        steps: tuple[float, float],
+        rows: int,
+        *,
+        film: float = 1.0,
+        pressure: float = 1.0,
+        viscosity: float = 1.0,
+        central: Array | None = None,
+    ) -> FilmShear:
+        """Return the constants.
+
+        Parameters
+        ----------
+        lubricant
+            Oil with an Eyring stress, in SI.
+        sliding
+            Difference of the surface velocities along x and y [m/s].
+        steps
+            Node spacing along x and y [m].
+        rows
+            Number of rows of nodes.
+        film, pressure, viscosity
+            Units of the arrays: [m], [Pa], [Pa s].
+        central
+            Spacing along x over half the distance between the neighbours of each column of
+            nodes, shape (nx,) [1]; None: 1.
+
+        Raises
+        ------
+        ParameterError
+            An input is out of range, or the oil is Newtonian.
+        """
+        tau0 = check_positive(
+            "lubricant.tau0", lubricant.tau0, "Pa", "A Newtonian film has factors 1."
+        )
+        for axis, component, step in zip("xy", sliding, steps, strict=True):
+            check_finite(f"sliding along {axis}", component, "m/s")
+            check_positive(f"d{axis}", step, "m")
+        for name, value, si in (
+            ("film", film, "m"),
+            ("pressure", pressure, "Pa"),
+            ("viscosity", viscosity, "Pa s"),
+        ):
+            check_positive(name, value, si)
+        speed = math.hypot(*sliding)
+        unit = viscosity / (tau0 * film)
+        return cls(
+            unit=unit,
+            sigma_x=film * pressure / (4.0 * tau0 * steps[0]),
+            sigma_y=film * pressure / (4.0 * tau0 * steps[1]),
+            couette=np.full(rows, unit * speed),
+            cosine=sliding[0] / speed if speed > 0.0 else 1.0,
+            sine=sliding[1] / speed if speed > 0.0 else 0.0,
+            central=central,
+            limit=lubricant.tau_limit / tau0,
+            limit_slope=lubricant.limit_slope * pressure / tau0,
+        )
+
+    def slide(self, along: Array, across: float) -> None:
+        """Set the sliding of the rows along x, (rows,), and of all of them along y [m/s].
+
+        All rows slide in one direction: where there is sliding along y, that along x is even.
+        """
+        if across == 0.0:
+            self.cosine, self.sine = 1.0, 0.0
+            self.couette = self.unit * along
+            return
+        speed = math.hypot(float(along[0]), across)
+        self.cosine, self.sine = float(along[0]) / speed, across / speed
+        self.couette = np.full(along.size, self.unit * speed)
+
+    def factors(self, pressure: Array, film: Array, fluidity: Array) -> ShearFactors:
+        """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
+        along, across, steepness, stiffness = np.empty((4, *pressure.shape))
+        fill_shear_factors(
+            pressure,
+            film,
+            fluidity,
+            self.couette,
+            self.sigma_x * (np.ones(pressure.shape[1]) if self.central is None else self.central),
+            self.sigma_y,
+            self.cosine,
+            self.sine,
+            self.limit,
+            self.limit_slope,
+            along,
+            across,
+            steepness,
+            stiffness,
+        )
+        c, s = self.cosine, self.sine
+        slope = along * steepness
+        film_power = 1.0 + steepness + stiffness
+        if abs(c * s) < ALIGNED:
+            if abs(c) > abs(s):
+                return ShearFactors(along, None, across, slope, None, across, stiffness, film_power)
+            return ShearFactors(across, None, along, across, None, slope, stiffness, film_power)
+        return ShearFactors(
+            c * c * along + s * s * across,
+            c * s * (along - across),
+            s * s * along + c * c * across,
+            c * c * slope + s * s * across,
+            c * s * (slope - across),
+            s * s * slope + c * c * across,
+            stiffness,
+            film_power,
+        )

@@ -1,0 +1,255 @@
+"""Reynolds equation of a point contact by bilinear finite elements: residual and derivatives.
+
+The same arrays, scales and signs as the finite differences of `point_stencil`, on the same nodes.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gearlube_core.ehl.point.equations.stencil import FlowSlopes, StencilParameters
+from gearlube_core.kernels.jit import kernel
+
+# a node and its eight neighbours: row by row from south-west to north-east
+ELEMENT_NEIGHBOURS = 9
+ELEMENT_CENTRE = 4
+# steps to them along y and along x
+ELEMENT_OFFSETS = np.array([[n // 3 - 1, n % 3 - 1] for n in range(ELEMENT_NEIGHBOURS)])
+
+# values and slopes of the four shape functions at the four Gauss points of the unit square;
+# node k lies k // 2 above and k % 2 to the right of the element's first one
+_POINTS = 0.5 + np.array([-0.5, 0.5]) / math.sqrt(3.0)
+_SIDE = np.array([1.0 - _POINTS, _POINTS])  # (node, point) along one side
+_N = np.einsum("jb,ia->abji", _SIDE, _SIDE).reshape(4, 4)
+_NX = np.einsum("jb,i,a->abji", _SIDE, [-1.0, 1.0], [1.0, 1.0]).reshape(4, 4)
+_NY = np.einsum("j,ia,b->abji", [-1.0, 1.0], _SIDE, [1.0, 1.0]).reshape(4, 4)
+_WEIGHT = 0.25
+
+
+@kernel
+def upwind_shares(
+    parameters: StencilParameters, compliance: float, flow_x: float, flow_y: float, density: float
+) -> tuple[float, float]:
+    """Return the shares of upwinding along x and y in an element, 0 to 1.
+
+    coth(Pe) - 1/Pe,  Pe = u rho K/(2 dx) / (Lambda s/dx^2)
+
+    Parameters
+    ----------
+    parameters
+        Of the grid.
+    compliance
+        K: film per pressure that alternates from node to node [1]; zero for no upwinding beside
+        that of the weights.
+    flow_x, flow_y
+        Lambda s/dx^2 and the like along y [1].
+    density
+        rho [1].
+
+    Notes
+    -----
+    Where pressure changes the flow more by the film it opens than by its slope, Pe is large and
+    Galerkin's method leaves pressure that alternates from node to node. There rho h hardly
+    changes along the flow, so upwinding costs no accuracy; elsewhere, with Pe of the order of
+    dx^2, it is of third order.
+    """
+    least = 0.5 * (parameters.here - parameters.downstream)
+    if compliance == 0.0:
+        return least, least
+    share_x = share_y = 0.0
+    if parameters.wedge_x > 0.0:
+        Pe = 0.5 * parameters.wedge_x * density * compliance / max(flow_x, 1e-300)
+        share_x = Pe / 3.0 if Pe < 1e-3 else 1.0 / math.tanh(min(Pe, 100.0)) - 1.0 / Pe
+    if parameters.wedge_y > 0.0:
+        Pe = 0.5 * parameters.wedge_y * density * compliance / max(flow_y, 1e-300)
+        share_y = Pe / 3.0 if Pe < 1e-3 else 1.0 / math.tanh(min(Pe, 100.0)) - 1.0 / Pe
+    return max(least, 0.5 * share_x), max(least, 0.5 * share_y)
+
+
+@kernel
+def _centre_shares(
+    parameters: StencilParameters,
+    compliance: float,
+    cubic_x: np.ndarray,
+    cubic_y: np.ndarray,
+    fluidity: np.ndarray,
+    density: np.ndarray,
+    j: int,
+    i: int,
+) -> tuple[float, float]:
+    # with the means over the nodes of the element that begins at (j, i)
+    sx = sy = rho = 0.0
+    for k in range(4):
+        jj, ii = j + k // 2, i + k % 2
+        sx += 0.25 * cubic_x[jj, ii] * fluidity[jj, ii]
+        sy += 0.25 * cubic_y[jj, ii] * fluidity[jj, ii]
+        rho += 0.25 * density[jj, ii]
+    flow_x, flow_y = parameters.poiseuille_x * sx, parameters.poiseuille_y * sy
+    return upwind_shares(parameters, compliance, flow_x, flow_y, rho)
+
+
+@kernel
+def element_residual(
+    parameters: StencilParameters,
+    pressure: np.ndarray,
+    mass: np.ndarray,
+    cubic_x: np.ndarray,
+    cubic_xy: np.ndarray,
+    cubic_y: np.ndarray,
+    fluidity: np.ndarray,
+    source: np.ndarray,
+    compliance: float,
+    density: np.ndarray,
+    residual: np.ndarray,
+) -> None:
+    """Write the residual of all inner nodes, per cell as finite differences have it.
+
+    R_i = -int grad N_i . [Lambda s grad p - u (rho h)] - int N_i (squeeze rho h - source)
+
+    Parameters
+    ----------
+    parameters
+        Of the grid. `here - downstream` is the share of first-order upwinding, 0 for the central
+        weights that Galerkin's method stands for and 1 for the first-order ones; of the weights
+        nothing else counts.
+    pressure, mass, cubic_x, cubic_xy, cubic_y, fluidity, source : ndarray, shape (ny, nx)
+        p, rho h, rho h^3 times the components of the flow factor tensor, 1/eta, and what the
+        squeeze term takes from earlier times [1].
+    compliance, density
+        For `upwind_shares`: K, and rho [1], shape (ny, nx).
+    residual : ndarray, shape (ny, nx)
+        Result; zero on the border [1].
+
+    Notes
+    -----
+    Flow factors s = rho h^3/eta and rho h are linear along the sides of an element, integrals by
+    2 x 2 Gauss points are exact. The wedge is in the form that conserves mass: its product rule
+    (Jamali 2015 eq. 3.14) would not. Shape functions sum to one, so the sum of the residuals of
+    any set of nodes is the flow over its border. Source: Jamali 2015 eq. (3.13), (3.14).
+    """
+    ny, nx = pressure.shape
+    residual[:] = 0.0
+    px, py = parameters.poiseuille_x, parameters.poiseuille_y
+    pxy = math.sqrt(px * py)
+    ux, uy = parameters.wedge_x, parameters.wedge_y
+    for j in range(ny - 1):
+        for i in range(nx - 1):
+            back_x, back_y = _centre_shares(
+                parameters, compliance, cubic_x, cubic_y, fluidity, density, j, i
+            )
+            for g in range(4):
+                slope_x = slope_y = sx = sxy = sy = m = m_x = m_y = gather = 0.0
+                for k in range(4):
+                    jj, ii = j + k // 2, i + k % 2
+                    N, NX, NY, f = _N[g, k], _NX[g, k], _NY[g, k], fluidity[jj, ii]
+                    slope_x += NX * pressure[jj, ii]
+                    slope_y += NY * pressure[jj, ii]
+                    sx += N * cubic_x[jj, ii] * f
+                    sxy += N * cubic_xy[jj, ii] * f
+                    sy += N * cubic_y[jj, ii] * f
+                    m += N * mass[jj, ii]
+                    m_x += NX * mass[jj, ii]
+                    m_y += NY * mass[jj, ii]
+                    gather += N * (parameters.squeeze * mass[jj, ii] - source[jj, ii])
+                flow_x = px * sx * slope_x + pxy * sxy * slope_y - ux * (m - back_x * m_x)
+                flow_y = py * sy * slope_y + pxy * sxy * slope_x - uy * (m - back_y * m_y)
+                for k in range(4):
+                    residual[j + k // 2, i + k % 2] -= _WEIGHT * (
+                        _NX[g, k] * flow_x + _NY[g, k] * flow_y + _N[g, k] * gather
+                    )
+    residual[0] = 0.0
+    residual[ny - 1] = 0.0
+    residual[:, 0] = 0.0
+    residual[:, nx - 1] = 0.0
+
+
+@kernel
+def element_derivatives(
+    parameters: StencilParameters,
+    pressure: np.ndarray,
+    cubic_x: np.ndarray,
+    cubic_xy: np.ndarray,
+    cubic_y: np.ndarray,
+    fluidity: np.ndarray,
+    viscosity_slope: np.ndarray,
+    density: np.ndarray,
+    density_slope: np.ndarray,
+    film: np.ndarray,
+    slopes: FlowSlopes,
+    compliance: float,
+    free: np.ndarray,
+    by_pressure: np.ndarray,
+    by_film: np.ndarray,
+) -> None:
+    """Write the derivatives of the residual with respect to pressure and film of all neighbours.
+
+    Parameters
+    ----------
+    parameters, pressure, cubic_x, cubic_xy, cubic_y, fluidity
+        As in `element_residual`.
+    viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
+        d ln eta/dp, rho, d rho/dp, h [1].
+    slopes
+        As in `reynolds_derivatives`.
+    compliance
+        As in `element_residual`; the shares of upwinding are held.
+    free : ndarray of bool, shape (ny, nx)
+        Nodes whose equation is solved; rows of the others become zero, as on the border.
+    by_pressure, by_film : ndarray, shape (9, ny, nx)
+        Result [1], neighbour 3 (j' - j + 1) + i' - i + 1.
+    """
+    ny, nx = pressure.shape
+    by_pressure[:] = 0.0
+    by_film[:] = 0.0
+    px, py = parameters.poiseuille_x, parameters.poiseuille_y
+    pxy = math.sqrt(px * py)
+    ux, uy = parameters.wedge_x, parameters.wedge_y
+    for j in range(ny - 1):
+        for i in range(nx - 1):
+            back_x, back_y = _centre_shares(
+                parameters, compliance, cubic_x, cubic_y, fluidity, density, j, i
+            )
+            for g in range(4):
+                slope_x = slope_y = sx = sxy = sy = 0.0
+                for k in range(4):
+                    jj, ii = j + k // 2, i + k % 2
+                    slope_x += _NX[g, k] * pressure[jj, ii]
+                    slope_y += _NY[g, k] * pressure[jj, ii]
+                    share = _N[g, k] * fluidity[jj, ii]
+                    sx += share * slopes.slope_x[jj, ii]
+                    sxy += share * slopes.slope_xy[jj, ii]
+                    sy += share * slopes.slope_y[jj, ii]
+                for n in range(4):
+                    jj, ii = j + n // 2, i + n % 2
+                    N, NX, NY, f = _N[g, n], _NX[g, n], _NY[g, n], fluidity[jj, ii]
+                    rho, rho_p, h = density[jj, ii], density_slope[jj, ii], film[jj, ii]
+                    pumped_x = px * cubic_x[jj, ii] * slope_x + pxy * cubic_xy[jj, ii] * slope_y
+                    pumped_y = py * cubic_y[jj, ii] * slope_y + pxy * cubic_xy[jj, ii] * slope_x
+                    steep = slopes.by_pressure[jj, ii] - viscosity_slope[jj, ii]
+                    cubed = slopes.film_power[jj, ii] / max(h, 1e-30)
+                    carried_x, carried_y = ux * (N - back_x * NX), uy * (N - back_y * NY)
+                    x_p = px * sx * NX + pxy * sxy * NY + N * f * pumped_x * steep
+                    x_p -= carried_x * rho_p * h
+                    y_p = py * sy * NY + pxy * sxy * NX + N * f * pumped_y * steep
+                    y_p -= carried_y * rho_p * h
+                    x_h = N * f * pumped_x * cubed - carried_x * rho
+                    y_h = N * f * pumped_y * cubed - carried_y * rho
+                    gathered = parameters.squeeze * N
+                    for k in range(4):
+                        row, column = j + k // 2, i + k % 2
+                        if not free[row, column]:
+                            continue
+                        a, b, c = _WEIGHT * _NX[g, k], _WEIGHT * _NY[g, k], _WEIGHT * _N[g, k]
+                        neighbour = 3 * (n // 2 - k // 2 + 1) + n % 2 - k % 2 + 1
+                        by_pressure[neighbour, row, column] -= (
+                            a * x_p + b * y_p + c * gathered * rho_p * h
+                        )
+                        by_film[neighbour, row, column] -= a * x_h + b * y_h + c * gathered * rho
+    for neighbour in range(9):
+        for values in (by_pressure, by_film):
+            values[neighbour, 0] = 0.0
+            values[neighbour, ny - 1] = 0.0
+            values[neighbour, :, 0] = 0.0
+            values[neighbour, :, nx - 1] = 0.0

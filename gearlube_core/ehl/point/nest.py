@@ -1,0 +1,32 @@
+"""Start of a film on a grid from that of the next coarser one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.state import FilmState
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+COARSE_TOLERANCE = 1e-3  # of the flow residual on all but the finest grid
+
+
+def bordered(pressure: Array) -> Array:
+    """Return a pressure without its negative part and zero on the border."""
+    pressure = np.maximum(pressure, 0.0)
+    pressure[[0, -1]] = 0.0
+    pressure[:, [0, -1]] = 0.0
+    return pressure
+
+
+def carried(level: PointLevel, pressure: Array, coarse: FilmState) -> FilmState:
+    """Return the state at a pressure from a coarser grid, no thinner than the film there.
+
+    Interpolation leaves ripples of the film.
+    """
+    state = level.state(pressure, coarse.approach)
+    lift = max(0.0, float(coarse.film.min()) - float(state.film.min()))
+    return level.state(pressure, coarse.approach + lift)

@@ -1,0 +1,1 @@
+"""Newton steps of a point contact, preconditioned by multigrid."""

@@ -1,0 +1,39 @@
+"""Direct solution of a linearised point contact on a coarse grid."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.newton.galerkin import SparseOperator
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+class CoarseSolution:
+    """Factored matrix of pressure and approach at the free nodes of a Galerkin operator."""
+
+    def __init__(self, level: PointLevel, operator: SparseOperator) -> None:
+        free = operator.free.ravel()
+        self._nodes = np.flatnonzero(free)
+        n = self._nodes.size
+        matrix = np.empty((n + 1, n + 1), order="F")
+        rows = operator.matrix[self._nodes]
+        matrix[:n, :n] = rows.imag @ level.dense_deflection()[:, self._nodes]
+        matrix[:n, :n] += rows.real[:, self._nodes].toarray()
+        matrix[:n, n] = operator.by_approach.ravel()[self._nodes]
+        matrix[n, :n] = level.cells[self._nodes % level.shape[1]] / level.scales.load
+        matrix[n, n] = 0.0
+        self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
+        self._shape = level.shape
+
+    def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
+        """Return pressure, shape (ny, nx), and approach with the residual and the load given."""
+        right = np.append(residual.ravel()[self._nodes], load_residual)
+        solution = lu_solve(self._factors, right, check_finite=False)
+        pressure = np.zeros(self._shape)
+        pressure.ravel()[self._nodes] = solution[:-1]
+        return pressure, float(solution[-1])

@@ -1,0 +1,160 @@
+"""Semismooth Newton iteration for pressure and approach on one grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.state import FilmState, Linearisation
+from gearlube_core.ehl.point.newton.krylov import flexible_gmres
+from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+Inverse = Callable[[Array, float], tuple[Array, float]]
+Build = Callable[[Hierarchy, Linearisation], Inverse]
+
+_THINNEST = 0.2  # of the film before a step
+_GROWTH = 1.05  # of the residual that a step may cost
+_BROKEN_GROWTH = 20.0  # where the edge of the oil moves: a node of it comes and goes
+_CUTS = 3
+_UNSOLVED = 0.3  # of a linear residual: the state is too rough to step from
+_FIRST_SHIFT = 0.3  # of the flow through a cell, as a fictitious squeeze rate
+_LARGEST_SHIFT = 100.0
+_LOAD_WEIGHT = 0.1
+_PATIENCE = 9  # steps within which the residual must halve or so
+_BROKEN_PATIENCE = 14
+
+
+@dataclass(slots=True)
+class NewtonRecord:
+    """What an iteration did."""
+
+    converged: bool = False
+    residuals: list[float] = field(default_factory=list)
+    krylov: int = 0
+    first_order: bool = False  # the answer of upwind-1, where the chosen stencil found none
+
+    def fallen_back(self, wedge: str) -> str:
+        """Return a sentence where upwind-1 stands in for the stencil `wedge`, else nothing."""
+        if not self.first_order:
+            return ""
+        return f" With upwind-1: too few nodes for {wedge} at this film; take more."
+
+
+def flow_residual(level: PointLevel, state: FilmState) -> float:
+    """Return the sum of unbalanced flow over the flow through the dry width [1].
+
+    Nodes without pressure count only where flow gathers that no pressure drives away. What
+    touching solids carry beyond the pressure counts as a flow.
+    """
+    unbalanced = level.integral(np.where(state.free, np.abs(state.residual), 0.0))
+    if state.solids is not None:
+        unbalanced += level.integral(state.solids.unbalanced(state.residual))
+    middle = float(state.film[state.pressure >= 0.8 * state.pressure.max()].mean())
+    if not middle > 0.0:
+        return math.inf
+    return unbalanced / (2.0 * level.half_width * middle)
+
+
+def newton(
+    hierarchy: Hierarchy,
+    state: FilmState,
+    *,
+    tolerance: float,
+    load_tolerance: float,
+    most: int,
+    most_krylov: int,
+    build: Build = MultigridCycle,
+) -> tuple[FilmState, NewtonRecord]:
+    """Return the state on the finest grid of the hierarchy.
+
+    Parameters
+    ----------
+    hierarchy
+        Grids; the finest one is solved.
+    state
+        Start on it.
+    tolerance, load_tolerance
+        Limits of `flow_residual` and of the relative load error [1].
+    most, most_krylov
+        Most steps, and most iterations in one of them.
+    build
+        The preconditioner of hierarchy and linearisation.
+
+    Returns
+    -------
+    tuple
+        State and record.
+
+    Notes
+    -----
+    Cavitation p >= 0, R <= 0, p R = 0 as an active set: the equation is solved where there is
+    pressure or flow gathers, other nodes keep none, negative pressure is cut. A step that makes
+    the film collapse or the residual grow is shortened, then repeated with a fictitious squeeze
+    term, which fades as the residual falls.
+    """
+    level = hierarchy.levels[-1]
+    record = NewtonRecord()
+    shift = 0.0
+    broken = level.broken is not None
+    growth = _BROKEN_GROWTH if broken else _GROWTH
+    patience = _BROKEN_PATIENCE if broken else _PATIENCE
+    size = flow_residual(level, state)
+    record.residuals.append(size)
+    for _ in range(most):
+        if size <= tolerance and abs(state.load_error) <= load_tolerance:
+            break
+        linear = level.linearise(state, squeeze=shift * level.flow_rate)
+        cycle = build(hierarchy, linear)
+        pressure, approach, remainder, count = flexible_gmres(
+            lambda p, h, linear=linear: (  # type: ignore[misc]
+                level.apply(linear, p, h).copy(),
+                level.integral(p) / level.scales.load + h * linear.load_by_approach,
+            ),
+            cycle,
+            linear.right,
+            state.load_error,
+            tolerance=min(0.03, max(1e-3, 0.1 * math.sqrt(size))),
+            most=most_krylov,
+            weight=_LOAD_WEIGHT * float(np.linalg.norm(linear.by_approach)),
+        )
+        record.krylov += count
+        if remainder > _UNSOLVED and shift < _LARGEST_SHIFT:
+            shift = max(_FIRST_SHIFT, 4.0 * shift)
+            continue
+        thinnest = _THINNEST * max(float(state.film.min()), 0.0)
+        length, accepted = 1.0, False
+        for _ in range(_CUTS):
+            trial = level.state(
+                np.maximum(state.pressure + length * pressure, 0.0),
+                state.approach + length * approach,
+            )
+            trial_size = flow_residual(level, trial)
+            positive = float(trial.film.min()) > thinnest
+            if positive and trial_size < growth * size:
+                accepted = True
+                break
+            length *= 0.4
+        if accepted:
+            if length == 1.0 and trial_size < 0.7 * size:
+                shift = 0.25 * shift if shift > 0.02 else 0.0
+            elif trial_size > 0.9 * size:
+                shift = max(_FIRST_SHIFT, 2.0 * shift)
+            state, size = trial, trial_size
+            record.residuals.append(size)
+        else:
+            shift = max(_FIRST_SHIFT, 4.0 * shift)
+        past = record.residuals
+        if shift > _LARGEST_SHIFT or (len(past) > patience and size > 0.6 * past[-patience]):
+            break
+    record.converged = (
+        size <= tolerance
+        and abs(state.load_error) <= load_tolerance
+        and float(state.film.min()) > 0.0
+    )
+    return state, record

@@ -1,0 +1,140 @@
+"""Line solutions with a local deflection, along and across the rows: assembly and smoothing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.linalg.lapack import sgbtrf, sgbtrs
+
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.newton.galerkin import SparseOperator
+from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection, wave_deflection
+from gearlube_core.kernels.jit import kernel
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+REACH = 4  # nodes over which the local deflection acts to each side
+_BELOW = REACH + 2  # the far upstream neighbour
+_ABOVE = REACH + 2
+
+
+@kernel
+def fill_rows(
+    start: np.ndarray,
+    column: np.ndarray,
+    entry: np.ndarray,
+    free: np.ndarray,
+    local: np.ndarray,
+    across: np.ndarray,
+    band: np.ndarray,
+) -> None:
+    """Fill the LAPACK band of all rows of nodes, uncoupled from each other.
+
+    Parameters
+    ----------
+    start, column, entry : ndarray
+        Compressed rows of the operator.
+    free : ndarray of bool, shape (ny, nx)
+        Other nodes get the identity.
+    local : ndarray, shape (nx, nx)
+        Deflection at the nodes of a row per unit pressure on its cells.
+    across : ndarray, shape (5,)
+        Share of it that neighbours 0 to 4 rows away see.
+    band : ndarray, shape (ny nx, 2 _BELOW + _ABOVE + 1)
+        Result, transposed band storage; zero on entry.
+    """
+    ny, nx = free.shape
+    diagonal = _BELOW + _ABOVE
+    for j in range(ny):
+        for i in range(nx):
+            row = j * nx + i
+            if not free[j, i]:
+                band[row, diagonal] = 1.0
+                continue
+            for k in range(start[row], start[row + 1]):
+                jj = column[k] // nx
+                ii = column[k] - jj * nx
+                if abs(ii - i) > 2:
+                    continue  # oil that came through broken film: beyond the band
+                if jj == j and free[jj, ii]:
+                    band[row + ii - i, diagonal - ii + i] += entry[k].real
+                slope = entry[k].imag * across[min(abs(jj - j), 4)]
+                for m in range(-REACH, REACH + 1):
+                    offset = ii - i + m
+                    if 0 <= i + offset < nx and free[j, i + offset]:
+                        band[row + offset, diagonal - offset] += slope * local[ii, i + offset]
+
+
+@dataclass(frozen=True, slots=True)
+class TurnedGrid:
+    """What a smoother knows of a uniform grid, here with rows and columns interchanged."""
+
+    shape: tuple[int, int]
+    dx: float
+    dy: float
+    modulus: float
+
+
+class RowSmoother:
+    """Factored rows of one linearisation; float32 is enough for a preconditioner."""
+
+    def __init__(
+        self,
+        level: PointLevel | TurnedGrid,
+        operator: SparseOperator,
+        halved: tuple[bool, bool],
+        damping: float,
+    ) -> None:
+        ny, nx = level.shape
+        # the shortest waves that the coarser grid lacks
+        wave_number = max(
+            0.55 * np.pi / level.dy if halved[0] else 0.0,
+            0.35 * np.pi / level.dx if halved[1] else 0.0,
+        )
+        shortest = min(wave_number * level.dy, 0.55 * np.pi)
+        across = np.cos(shortest * np.arange(5.0))
+        band = np.zeros((ny * nx, 2 * _BELOW + _ABOVE + 1), dtype=np.float32)
+        fill_rows(
+            operator.matrix.indptr,
+            operator.matrix.indices,
+            operator.matrix.data,
+            operator.free,
+            wave_deflection(level, wave_number)
+            if isinstance(level, PointLevel)
+            else uniform_wave_deflection(level.shape[1], level.dx, level.modulus, wave_number),
+            across,
+            band,
+        )
+        self._factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)
+        self._shape = level.shape
+        self._damping = damping
+        self._free = operator.free
+
+    def __call__(self, residual: Array) -> Array:
+        """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
+        right = np.where(self._free, residual, 0.0).astype(np.float32).ravel()
+        solution, _ = sgbtrs(self._factors, _BELOW, _ABOVE, right, self._pivots, overwrite_b=True)
+        return self._damping * solution.reshape(self._shape).astype(np.float64)
+
+
+class ColumnSmoother:
+    """Factored columns of one linearisation, on a uniform grid: rows of the turned operator."""
+
+    def __init__(
+        self, level: PointLevel, operator: SparseOperator, halved: tuple[bool, bool], damping: float
+    ) -> None:
+        ny, nx = level.shape
+        order = np.arange(ny * nx).reshape(ny, nx).T.ravel()
+        matrix = operator.matrix[order][:, order].tocsr()
+        matrix.sort_indices()
+        turned = SparseOperator(
+            matrix, np.ascontiguousarray(operator.free.T), operator.by_approach.T
+        )
+        grid = TurnedGrid((nx, ny), level.dy, level.dx, level.modulus)
+        self._rows = RowSmoother(grid, turned, halved[::-1], damping)
+
+    def __call__(self, residual: Array) -> Array:
+        """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
+        return np.ascontiguousarray(self._rows(residual.T).T)

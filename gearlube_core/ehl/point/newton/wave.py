@@ -1,0 +1,55 @@
+"""Deflection along the rows of a grid under pressure that alternates across them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from scipy.linalg import toeplitz
+from scipy.special import iti0k0
+
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.mesh import cell_faces
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+_SPECTRUM = 512
+
+
+def uniform_wave_deflection(nodes: int, dx: float, modulus: float, wave_number: float) -> Array:
+    """Return `wave_deflection` on rows of nodes `dx` apart."""
+    count = max(_SPECTRUM, 4 * nodes)
+    n = np.fft.fftfreq(count) * 2.0 * np.pi / dx
+    symbol = 2.0 / (modulus * np.hypot(n, wave_number))
+    return np.asarray(toeplitz(np.fft.ifft(symbol).real[:nodes]))
+
+
+def wave_deflection(level: PointLevel, wave_number: float | Array) -> Array:
+    """Return the deflection at the nodes of a row under unit pressure on its cells.
+
+    Parameters
+    ----------
+    level
+        Grid.
+    wave_number
+        k of the wave across the rows, above zero; on a graded grid also one for every node,
+        shape (nx,).
+
+    Returns
+    -------
+    ndarray, shape (nx, nx)
+        At node, under cell [1].
+
+    Notes
+    -----
+    Inverse transform of 2/(E* sqrt(k_x^2 + k^2)): over the waves of a uniform grid, else in
+    closed form, 2/(pi E*) int K0(k |x|) dx over cells.
+    """
+    if not level.graded:
+        return uniform_wave_deflection(level.shape[1], level.dx, level.modulus, float(wave_number))
+    wave = np.broadcast_to(wave_number, level.positions.shape)[:, None]
+    distance = cell_faces(level.positions) - level.positions[:, None]
+    integral = np.sign(distance) * iti0k0(wave * np.abs(distance))[1] / wave
+    return np.asarray(2.0 / (math.pi * level.modulus) * np.diff(integral, axis=1))

@@ -1,0 +1,90 @@
+"""The one place where a point contact is made dimensionless and turned with its motion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.oil.film_oil import EhlLubricant
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+@dataclass(frozen=True, slots=True)
+class PointScales:
+    """Units of the solver, in SI, and the turn that makes entrainment point to larger indices.
+
+    Lengths in the dry semi-axis, pressure in the dry maximum, film in length^2/R, density and
+    viscosity in their ambient values.
+    """
+
+    length: float  # [m]
+    pressure: float  # [Pa]
+    film: float  # [m]
+    speed: float  # [m/s]
+    mobility: float  # Lambda = h^2 p/(12 eta0 u l) [1]
+    load: float  # int p dx dy that balances the load [1]
+    flip_x: bool
+    flip_y: bool
+    swap: bool  # arrays (ny, nx) with x the direction of the larger entrainment over spacing
+
+    @classmethod
+    def of(cls, problem: PointContactProblem) -> PointScales:
+        """Return the scales of a problem."""
+        a_x, a_y, pressure = problem.hertz_contact
+        u, v = problem.entrainment
+        speed = math.hypot(u, v)
+        length = math.sqrt(a_x * a_y)
+        film = length * pressure / problem.contact_modulus
+        lubricant = problem.lubricant
+        nx, ny = problem.nodes
+        dx = (problem.x_limits[1] - problem.x_limits[0]) / (nx - 1)
+        dy = (problem.y_limits[1] - problem.y_limits[0]) / (ny - 1)
+        return cls(
+            length=length,
+            pressure=pressure,
+            film=film,
+            speed=speed,
+            mobility=film * film * pressure / (12.0 * lubricant.eta0 * speed * length),
+            load=problem.load / (pressure * length**2),
+            flip_x=u < 0.0,
+            flip_y=v < 0.0,
+            swap=abs(v) / dy > abs(u) / dx,
+        )
+
+    def inward(self, values: Array) -> Array:
+        """Return an array of shape (nx, ny) in the solver's order."""
+        if self.flip_x:
+            values = values[::-1]
+        if self.flip_y:
+            values = values[:, ::-1]
+        return np.ascontiguousarray(values if self.swap else values.T)
+
+    def outward(self, values: Array) -> Array:
+        """Return an array of the solver in the order (nx, ny) of the problem."""
+        values = values if self.swap else values.T
+        if self.flip_x:
+            values = values[::-1]
+        if self.flip_y:
+            values = values[:, ::-1]
+        return np.ascontiguousarray(values)
+
+    def turned(self, velocity: tuple[float, float]) -> tuple[float, float]:
+        """Return a velocity along the axes of the solver's arrays."""
+        u, v = velocity
+        u, v = -u if self.flip_x else u, -v if self.flip_y else v
+        return (v, u) if self.swap else (u, v)
+
+    def oil(self, lubricant: EhlLubricant) -> EhlLubricant:
+        """Return the oil with viscosity, density and pressure in these units."""
+        return lubricant._replace(
+            eta0=1.0,
+            rho0=1.0,
+            chi=lubricant.chi * self.pressure,
+            gamma=lubricant.gamma * self.pressure,
+            lam=lubricant.lam * self.pressure,
+        )

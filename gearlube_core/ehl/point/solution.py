@@ -1,0 +1,164 @@
+"""Result of a point contact and whether it can be trusted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point.border.border_pressure import border_pressure
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.limiter import limited_faces
+from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
+from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solid_contact import Touch
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_CURE = "Take more nodes where the film is thin, upwind-1 to start from, or a lower load first."
+_LIMITED = 0.01  # share of first-order faces worth a word
+
+
+@dataclass(frozen=True, slots=True)
+class PointOutcome:
+    """Residual, load, film and complementarity together.
+
+    Parameters
+    ----------
+    converged
+        All four within their limits.
+    residual
+        Unbalanced flow over the flow through the dry width [1], flow that gathers where there
+        is no pressure included.
+    load_error
+        Missing share of the load [1].
+    smallest_film
+        Over the domain [m]; above zero if sound.
+    wedge
+        Stencil of the answer.
+    limited
+        Share of the faces under pressure where rho h falls by more than a factor of 2 in a cell
+        or so and the stencil is limited to first order [1]; 0 on grids that resolve the inlet.
+    sentence
+        What happened and what to do, also where the domain cuts the contact.
+    touch
+        How far the solids touch.
+    beyond
+        Share of the load that oil beyond the domain carries [1]; 0 where there is none.
+    """
+
+    converged: bool
+    residual: float
+    load_error: float
+    smallest_film: float
+    wedge: str
+    limited: float
+    sentence: str
+    touch: Touch
+    beyond: float = 0.0
+
+    @classmethod
+    def of(
+        cls,
+        level: PointLevel,
+        state: FilmState,
+        record: NewtonRecord,
+        settings: PointSolverSettings,
+        problem: PointContactProblem,
+    ) -> PointOutcome:
+        """Return the judgement on a state."""
+        residual = flow_residual(level, state)
+        scales = level.scales
+        smallest = float(state.film.min()) * scales.film
+        touch = Touch.of(
+            problem.solids,
+            state.film * scales.film,
+            level.cells * scales.length**2,
+            problem.load,
+        )
+        sound = bool(np.isfinite(state.pressure).all())
+        checks = (
+            (sound, "the pressure is not finite"),
+            (residual <= settings.tolerance, f"the flow residual is {residual:.1e}"),
+            (
+                abs(state.load_error) <= settings.load_tolerance,
+                f"the load is {100.0 * state.load_error:.1e} % off",
+            ),
+            (smallest > 0.0, "the film vanishes"),
+        )
+        failed = [text for good, text in checks if not good]
+        steps = len(record.residuals)
+        wedge = "upwind-1" if record.first_order else settings.wedge
+        limited, faces = limited_faces(level.stencil, state.pressure, state.mass)
+        share = limited / max(faces, 1)
+        good = f"Converged in {steps} steps."
+        if share > _LIMITED:
+            good += f" {100.0 * share:.1f} % of the faces are of first order: too few nodes at"
+            good += " the inlet or the sides for this film; take more."
+        good += record.fallen_back(settings.wedge) + touch.sentence
+        outside, border = 0.0, level.border
+        if border is not None:
+            outside = border.load(state.approach)[0] / scales.load
+            good += f" Oil beyond the domain carries {100.0 * outside:.2g} % of the load."
+        cut = border_pressure(
+            scales.outward(state.pressure),
+            scales.outward(state.film),
+            None if border is None else scales.outward(border.beside(state.approach)),
+        )
+        sentence = (
+            good
+            if not failed
+            else f"Not converged after {steps} steps: {' and '.join(failed)}. {_CURE}"
+        )
+        sentence += cut.sentence
+        return cls(
+            not failed, residual, state.load_error, smallest, wedge, share, sentence, touch, outside
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PointSolution:
+    """Film of a point contact; arrays of shape (nx, ny) over `problem.x` and `problem.y`."""
+
+    problem: PointContactProblem
+    pressure: Array  # of oil and solids [Pa]
+    film: Array  # [m]
+    fill: Array  # share of the gap that holds oil [1]; 1 where cavitation conserves no mass
+    approach: float  # h_0 [m]
+    outcome: PointOutcome
+    residuals: tuple[float, ...]  # of every Newton step on all grids [1]
+    krylov_steps: int
+    seconds: float
+
+    @property
+    def central_film(self) -> float:
+        """Return the film in the centre of the dry contact, by linear interpolation [m]."""
+        x, y = self.problem.x, self.problem.y
+        column = np.array([np.interp(0.0, y, row) for row in self.film])
+        return float(np.interp(0.0, x, column))
+
+    @property
+    def minimum_film(self) -> float:
+        """Return the smallest film [m]."""
+        return float(self.film.min())
+
+    @property
+    def maximum_pressure(self) -> float:
+        """Return the largest pressure [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def solid_pressure(self) -> Array:
+        """Return the share of the pressure that touching solids carry [Pa], shape (nx, ny)."""
+        solids = self.problem.solids
+        return np.zeros(self.film.shape) if solids is None else solids(self.film)
+
+    @property
+    def load(self) -> float:
+        """Return the load that the pressure carries [N], that beyond the domain included."""
+        x, y = self.problem.x, self.problem.y
+        inside = float(self.pressure.sum() * (x[1] - x[0]) * (y[1] - y[0]))
+        return inside + self.outcome.beyond * self.problem.load

@@ -1,0 +1,194 @@
+"""Steady film of a point contact: nested grids around the Newton iteration."""
+
+from __future__ import annotations
+
+import math
+import time
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point.border.open_border import OpenBorder
+from gearlube_core.ehl.point.cavitation import check_cavitation, let_rupture
+from gearlube_core.ehl.point.continuation import solve_level
+from gearlube_core.ehl.point.equations.element_level import ElementLevel
+from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.nest import COARSE_TOLERANCE, bordered, carried
+from gearlube_core.ehl.point.newton.newton import NewtonRecord
+from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
+from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.problem import PointContactProblem, expected_film
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.solution import PointOutcome, PointSolution
+from gearlube_core.ehl.point.starvation import Starvation
+from gearlube_core.errors import ConvergenceError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+_DIRECT_NODES = 1300  # of the grid that is solved directly
+_SHORTEST = 12  # nodes of a side that is not halved any more
+
+
+def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tuple[int, int]]:
+    """Return shapes from coarse to fine; the side of the smaller spacing is halved first.
+
+    Parameters
+    ----------
+    nodes
+        (ny, nx) of the finest grid.
+    steps
+        Its spacings (dy, dx).
+    """
+    shapes = [nodes]
+    sides, spacing = list(nodes), list(steps)
+    while sides[0] * sides[1] > _DIRECT_NODES:
+        ratio = spacing[0] / spacing[1]
+        halve = [ratio < 1.5 and sides[0] > _SHORTEST, ratio > 1.0 / 1.5 and sides[1] > _SHORTEST]
+        if not any(halve):
+            halve = [side > _SHORTEST for side in sides]
+        for axis in range(2):
+            if halve[axis]:
+                coarse = (sides[axis] - 1) // 2 + 1
+                spacing[axis] *= (sides[axis] - 1) / (coarse - 1)
+                sides[axis] = coarse
+        shapes.insert(0, (sides[0], sides[1]))
+    return shapes
+
+
+def build_hierarchy(
+    problem: PointContactProblem,
+    scales: PointScales,
+    wedge: str,
+    discretisation: str = "differences",
+) -> Hierarchy:
+    """Return the grids of a problem."""
+    nx, ny = problem.nodes
+    dx = (problem.x_limits[1] - problem.x_limits[0]) / (nx - 1)
+    dy = (problem.y_limits[1] - problem.y_limits[0]) / (ny - 1)
+    nodes, steps = ((nx, ny), (dx, dy)) if scales.swap else ((ny, nx), (dy, dx))
+    shapes = grid_shapes(nodes, steps)
+    grid = ElementLevel if discretisation == "elements" else PointLevel
+    levels = [grid(problem, scales, shape, wedge) for shape in shapes]
+    if problem.oil_beyond:
+        for level in levels:
+            level.open_border(OpenBorder(problem, scales, level.shape))
+    transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
+    return Hierarchy(levels, transfers)
+
+
+def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
+    """Return an ellipse of pressure with the film expected between, on the coarsest grid.
+
+    The dry ellipse, widened to where a rigid film carries and to what the grid can show.
+    """
+    a_x, a_y, _ = problem.hertz_contact
+    film = expected_film(problem)
+    scales, (ny, nx) = level.scales, level.shape
+    nodes = (ny, nx) if scales.swap else (nx, ny)
+    x = np.linspace(*problem.x_limits, nodes[0])
+    y = np.linspace(*problem.y_limits, nodes[1])
+    a_x = max(math.sqrt(a_x**2 + problem.hertz.R_x * film), 2.5 * (x[1] - x[0]))
+    a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
+    ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
+    pressure = bordered(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
+    pressure *= scales.load / level.integral(pressure)
+    return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
+
+
+def solve_point_contact(
+    problem: PointContactProblem,
+    settings: PointSolverSettings | None = None,
+    *,
+    throw: bool = True,
+) -> PointSolution:
+    """Return pressure and film of a steady point contact.
+
+    Parameters
+    ----------
+    problem
+        Gap, motion, load, oil, domain.
+    settings
+        Stencil and tolerances.
+    throw
+        Raise where the solution does not converge; else return the last state.
+
+    Returns
+    -------
+    PointSolution
+
+    Raises
+    ------
+    ConvergenceError
+        With the reason and a cure.
+    ParameterError
+        The problem does not go with the cavitation of the settings.
+
+    Notes
+    -----
+    Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
+    flexible GMRES with a multigrid cycle of line solutions; start on nested grids from the dry
+    contact. Mass-conserving cavitation keeps these unknowns: what broken film holds follows from
+    them, node after node downstream. References: Venner and Lubrecht 2000 for the equations and
+    the hybrid relaxation; Saad 1993 for GMRES.
+    """
+    settings = PointSolverSettings() if settings is None else settings
+    check_cavitation(problem, settings)
+    begin = time.perf_counter()
+    hierarchy, state, record = nested_film(problem, settings)
+    return point_solution(problem, settings, hierarchy, state, record, begin, throw=throw)
+
+
+def nested_film(
+    problem: PointContactProblem, settings: PointSolverSettings
+) -> tuple[Hierarchy, FilmState, NewtonRecord]:
+    """Return the film on nested grids: the grids, the state on the finest, what was done."""
+    scales = PointScales.of(problem)
+    hierarchy = build_hierarchy(problem, scales, settings.wedge, settings.discretisation)
+    if settings.cavitation == "mass_conserving":
+        let_rupture(hierarchy.levels, problem)
+    record = NewtonRecord()
+    state = _hertz_start(problem, hierarchy.levels[0])
+    count = len(hierarchy.levels)
+    starved = None if problem.inlet_layer is None else Starvation(hierarchy, settings, record)
+    for k in range(count):
+        part = hierarchy.below(k + 1)
+        if k:
+            pressure = bordered(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
+            state = carried(part.levels[-1], pressure, state)
+        last = k == count - 1
+        tolerance = settings.tolerance if last else COARSE_TOLERANCE
+        if starved is not None:
+            state = starved.start(part, state, last)
+        state = solve_level(part, state, settings, tolerance, record, not last)
+    return hierarchy, state, record
+
+
+def point_solution(
+    problem: PointContactProblem,
+    settings: PointSolverSettings,
+    hierarchy: Hierarchy,
+    state: FilmState,
+    record: NewtonRecord,
+    begin: float,
+    *,
+    throw: bool,
+) -> PointSolution:
+    """Return a state of the finest grid in SI with its outcome; `begin` [s] of the clock."""
+    scales = hierarchy.levels[-1].scales
+    outcome = PointOutcome.of(hierarchy.levels[-1], state, record, settings, problem)
+    if throw and not outcome.converged:
+        raise ConvergenceError(outcome.sentence)
+    return PointSolution(
+        problem=problem,
+        pressure=scales.outward(state.pressure) * scales.pressure,
+        film=scales.outward(state.film) * scales.film,
+        approach=state.approach * scales.film,
+        fill=scales.outward(state.mass / (state.density * state.film)),
+        outcome=outcome,
+        residuals=tuple(record.residuals),
+        krylov_steps=record.krylov,
+        seconds=time.perf_counter() - begin,
+    )

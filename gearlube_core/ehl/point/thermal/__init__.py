@@ -1,0 +1,1 @@
+"""Heat in the film and the bodies of a point contact."""

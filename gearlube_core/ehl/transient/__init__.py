@@ -1,0 +1,1 @@
+"""Films in motion: the march of a point contact in time."""

@@ -1,0 +1,131 @@
+"""Curves of films over steps or times, and the march that gathers them, resumable."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_within
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm, unpack_solutions
+from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.record import MarchRecord
+from gearlube_core.errors import ConvergenceError, ParameterError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+Progress = Callable[[int, int, FilmSolution], None]
+Row = Callable[[int, FilmSolution], list[float]]
+
+
+@dataclass(frozen=True, slots=True)
+class FilmCurves:
+    """One row a film, SI; `curves[column]` is a column by its name."""
+
+    columns: tuple[str, ...]
+    table: Array  # (films, columns)
+    kept: dict[int, FilmSolution]  # whole films of the rows or steps that were asked for
+
+    def __getitem__(self, column: str) -> Array:
+        """Return a column by its name, shape (films,)."""
+        if column not in self.columns:
+            raise ParameterError(f"column must be one of {', '.join(self.columns)}, got {column}.")
+        return self.table[:, self.columns.index(column)]
+
+    @property
+    def failures(self) -> int:
+        """Return the number of films that did not converge."""
+        return int((self["converged"] == 0.0).sum())
+
+
+def march_curves(
+    film: MovingFilm,
+    columns: tuple[str, ...],
+    row: Row,
+    *,
+    steps: tuple[int, int],
+    start_time: float,
+    step_time: float,
+    substeps: int = 1,
+    scheme: str = "bdf2",
+    settings: PointSolverSettings | None = None,
+    keep: tuple[int, ...] = (),
+    checkpoint: Path | str | None = None,
+    checkpoint_every: int,
+    progress: Progress | None = None,
+    throw: bool = True,
+) -> FilmCurves:
+    """Return the curves of a film over numbered steps, from the steady film at the first.
+
+    Parameters
+    ----------
+    film
+        What changes.
+    columns, row
+        Names of the columns, and the numbers in them of a step and its film.
+    steps
+        The first and the last.
+    start_time
+        Of the first step [s].
+    step_time
+        From one step to the next [s].
+    substeps
+        Time steps for one step.
+    scheme, settings
+        As in `FilmMarch`.
+    keep
+        Steps whose whole film is returned; a checkpoint holds those already reached.
+    checkpoint
+        File to write every `checkpoint_every` steps, and to go on from if it is there.
+    progress
+        Called with the step, the last step and its film, from the first step on.
+    throw
+        Raise at the first step that does not converge; else go on and say so in the table.
+
+    Raises
+    ------
+    ConvergenceError
+        A step did not converge.
+    ParameterError
+        The checkpoint belongs to another march.
+    """
+    check_within("checkpoint_every", checkpoint_every, 1, 1_000_000)
+    first, last = steps
+    path = None if checkpoint is None else Path(checkpoint)
+    record = MarchRecord.read(path) if path is not None and path.exists() else None
+    march = FilmMarch(
+        film,
+        step_time / substeps,
+        start_time=start_time,
+        scheme=scheme,
+        settings=settings,
+        record=record,
+        throw=throw,
+    )
+    if record is None:
+        rows = [row(first, march.solution)]
+        kept = {first: march.solution} if first in keep else {}
+        if progress is not None:
+            progress(first, last, march.solution)
+    else:
+        rows = record.curves.tolist()
+        kept = unpack_solutions(
+            film, march.settings, record.kept_steps, record.kept_fields, record.kept_values
+        )
+    for n in range(first + len(rows), last + 1):
+        while march.steps < (n - first) * substeps:
+            solution = march.step(throw=False)
+        if throw and not solution.converged:
+            raise ConvergenceError(f"Step {n}: {solution.outcome}")
+        rows.append(row(n, solution))
+        if n in keep:
+            kept[n] = solution
+        if path is not None and (n % checkpoint_every == 0 or n == last):
+            march.save(path, np.array(rows), kept)
+        if progress is not None:
+            progress(n, last, solution)
+    return FilmCurves(columns, np.array(rows), kept)

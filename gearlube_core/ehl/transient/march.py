@@ -1,0 +1,327 @@
+"""March of a film in time: storage of oil, moving gap and load, one Newton solution a step."""
+
+from __future__ import annotations
+
+import time as clock
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.ehl.point.cavitation import refuse_rupture
+from gearlube_core.ehl.point.equations.state import FilmState, Linearisation
+from gearlube_core.ehl.point.nest import bordered
+from gearlube_core.ehl.point.newton.newton import NewtonRecord
+from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.transient.film import (
+    FilmSolution,
+    MovingFilm,
+    film_solution,
+    impose,
+    pack_solutions,
+)
+from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.newton import KeptCycle, step_newton
+from gearlube_core.ehl.transient.record import MarchRecord
+from gearlube_core.ehl.transient.rows import RowCycle
+from gearlube_core.ehl.transient.steady import steady_state
+from gearlube_core.errors import ConvergenceError, ParameterError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+SCHEMES = ("bdf2", "crank_nicolson")
+# "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"
+MARCH_SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5)
+_MOST_PARTS = 4  # of a step that is not found as a whole
+_PRESSED = 0.2  # of the layer of solids, the least film that a step starts from
+
+
+def _multigrid(grids: Hierarchy, linear: Linearisation, _: object) -> MultigridCycle:
+    return MultigridCycle(grids, linear)
+
+
+@dataclass(slots=True)
+class _Past:
+    """What the next step needs of the times before."""
+
+    state: FilmState
+    mass: Array  # rho h now
+    mass_before: Array
+    inflow: Array  # of every node now, without storage
+    rise: tuple[Array, float] | None  # of pressure and approach in the last step
+
+
+class FilmMarch:
+    """Marches a film from its steady state, step by step.
+
+    Parameters
+    ----------
+    film : MovingFilm
+    time_step
+        [s].
+    start_time
+        Of the conditions whose steady film is the start [s].
+    scheme : {"bdf2", "crank_nicolson"}
+        Of the storage term; the first step of "bdf2" is a backward Euler step.
+    settings
+        Stencil and tolerances; `MARCH_SETTINGS` by default.
+    record
+        Goes on from there instead of from a steady state.
+    throw
+        Raise where the start does not converge.
+
+    Raises
+    ------
+    ConvergenceError
+        The steady start was not found.
+    ParameterError
+        An input is out of range or the record belongs to another grid.
+
+    Notes
+    -----
+    d(rho h)/dt = [1.5 (rho h)^q - 2 (rho h)^(q-1) + 0.5 (rho h)^(q-2)]/dt or the mean of the
+    flows at both times. Jamali 2015 eq. (3.23); (3.24) prints its right side with the wrong sign.
+    Nodes without pressure hold what the gap holds. A step that is not found as a whole is taken in
+    2 or 4 parts by backward Euler, and its outcome says so; solutions read again
+    from a record do not.
+    """
+
+    def __init__(
+        self,
+        film: MovingFilm,
+        time_step: float,
+        *,
+        start_time: float = 0.0,
+        scheme: str = "bdf2",
+        settings: PointSolverSettings | None = None,
+        record: MarchRecord | None = None,
+        throw: bool = True,
+    ) -> None:
+        check_option("scheme", scheme, SCHEMES)
+        check_positive("time_step", time_step, "s")
+        check_within("start_time", start_time, -1e9, 1e9, "s")
+        if settings is None:
+            settings = MARCH_SETTINGS
+        refuse_rupture(settings, "that changes in time")
+        self.film, self.time_step, self.start_time = film, time_step, start_time
+        self.scheme, self.settings, self.steps = scheme, settings, 0
+        self._grids = film.row_grids(settings.wedge) if film.long else film.grids(settings.wedge)
+        level = self._grids.levels[-1]
+        assert isinstance(level, MovingLevel)
+        self._level = level
+        self._unit = time_step * level.scales.speed / level.scales.length
+        self._kept = KeptCycle(self._grids, RowCycle if film.long else _multigrid)
+        begin = clock.perf_counter()
+        if record is None:
+            impose(film, self._grids, start_time)
+            state, work = self._steady()
+            self._past = _Past(state, state.mass, state.mass, level.outflow(state), None)
+            count, krylov = len(work.residuals), work.krylov
+        else:
+            self._resume(record)
+            state, count, krylov = self._past.state, 0, 0
+        self.solution = self._solution(state, count, krylov, clock.perf_counter() - begin)
+        if throw and not self.solution.converged:
+            raise ConvergenceError(f"Start: {self.solution.outcome}")
+
+    @property
+    def time(self) -> float:
+        """Return the time that was reached [s]."""
+        return self.start_time + self.steps * self.time_step
+
+    def step(self, *, throw: bool = True) -> FilmSolution:
+        """Return the film one time step later.
+
+        Parameters
+        ----------
+        throw
+            False: return a solution that is not converged instead of raising; the march goes on
+            from it.
+
+        Raises
+        ------
+        ConvergenceError
+        """
+        level, past = self._level, self._past
+        begin = clock.perf_counter()
+        self.steps += 1
+        impose(self.film, self._grids, self.time, finest_only=True)
+        self._set_storage()
+        level.open_where_thicker(
+            level.film(past.state.pressure, past.state.approach), self.film.open_film
+        )
+        state, record = self._attempt(self._predicted())
+        if not record.converged:
+            self._kept.forget()
+            again, second = self._attempt(level.state(past.state.pressure, past.state.approach))
+            second.newton_steps += record.newton_steps
+            second.krylov_steps += record.krylov_steps
+            if second.converged or second.residual < record.residual:
+                state, record = again, second
+        parts = 1
+        while not record.converged and parts < _MOST_PARTS:
+            parts *= 2
+            divided = self._divided(parts)
+            if divided is not None:
+                state, record = divided, replace(record, converged=True)
+        rise = (state.pressure - past.state.pressure, state.approach - past.state.approach)
+        self._past = _Past(state, state.mass, past.mass, level.outflow(state), rise)
+        self.solution = self._solution(
+            state, record.newton_steps, record.krylov_steps, clock.perf_counter() - begin
+        )
+        if record.converged and parts > 1:
+            told = f" The step was taken in {parts} parts, by backward Euler."
+            self.solution = replace(self.solution, outcome=self.solution.outcome + told)
+        if throw and not self.solution.converged:
+            raise ConvergenceError(f"Step {self.steps}: {self.solution.outcome}")
+        return self.solution
+
+    def save(
+        self,
+        path: Path | str,
+        curves: Array | None = None,
+        kept: dict[int, FilmSolution] | None = None,
+    ) -> None:
+        """Write a record from which a march goes on as if it had not stopped.
+
+        `curves` and the solutions in `kept` go with it, for the caller.
+        """
+        kept_steps, kept_fields, kept_values = pack_solutions(kept or {})
+        past = self._past
+        empty = np.zeros_like(past.mass)
+        rise, approach_rise = (empty, 0.0) if past.rise is None else past.rise
+        MarchRecord(
+            steps=self.steps,
+            start_time=self.start_time,
+            time_step=self.time_step,
+            scheme=self.scheme,
+            positions=self._level.positions,
+            pressure=past.state.pressure,
+            approach=past.state.approach,
+            mass=past.mass,
+            mass_before=past.mass_before,
+            inflow=past.inflow,
+            rise=rise,
+            approach_rise=approach_rise,
+            curves=np.zeros(0) if curves is None else curves,
+            kept_steps=kept_steps,
+            kept_fields=kept_fields,
+            kept_values=kept_values,
+        ).write(path)
+        # what goes on and what is read again start from the same preconditioner: none
+        self._kept.forget()
+
+    def _resume(self, record: MarchRecord) -> None:
+        level = self._level
+        same = (
+            record.pressure.shape == level.shape
+            and record.scheme == self.scheme
+            and record.time_step == self.time_step
+            and record.start_time == self.start_time
+        )
+        if not same:
+            raise ParameterError(
+                f"the record must belong to this march: its grid has the shape "
+                f"{record.pressure.shape}, its scheme is {record.scheme} and its step "
+                f"{record.time_step:.6g} s, got {level.shape}, {self.scheme} and "
+                f"{self.time_step:.6g} s. Start anew."
+            )
+        if not np.allclose(record.positions, level.positions, rtol=0.0, atol=1e-9 * level.dx):
+            raise ParameterError(
+                "the record must belong to this march, got nodes at other places along x. "
+                "Start anew, or take the grading that it was made with."
+            )
+        self.steps = record.steps
+        impose(self.film, self._grids, self.time)
+        state = level.state(record.pressure, record.approach)
+        state.residual = np.zeros(level.shape)  # it was solved with storage
+        rise = (record.rise, record.approach_rise) if record.steps else None
+        self._past = _Past(state, record.mass, record.mass_before, record.inflow, rise)
+
+    def _steady(self) -> tuple[FilmState, NewtonRecord]:
+        grids = self.film.grids(self.settings.wedge)
+        impose(self.film, grids, self.start_time)
+        state, work = steady_state(self.film, grids, self.settings)
+        finest = grids.levels[-1]
+        assert isinstance(finest, MovingLevel)
+        self._level.closed = finest.closed
+        return self._level.state(state.pressure, state.approach), work
+
+    def _set_storage(self) -> None:
+        past, unit = self._past, self._unit
+        if self.scheme == "crank_nicolson":
+            # where there was no pressure the flow of before was not balanced
+            loaded = past.state.pressure > 0.0
+            storage = np.where(loaded, 2.0, 1.0) / unit
+            source = storage * past.mass + np.where(loaded, past.inflow, 0.0)
+            self._level.keep(storage, source)
+        elif self.steps == 1:
+            self._level.keep(1.0 / unit, past.mass / unit)
+        else:
+            self._level.keep(1.5 / unit, (2.0 * past.mass - 0.5 * past.mass_before) / unit)
+
+    def _predicted(self) -> FilmState:
+        past = self._past
+        state = past.state
+        if past.rise is None:
+            return self._level.state(state.pressure, state.approach)
+        pressure = np.where(
+            state.pressure > 0.0,
+            np.maximum(state.pressure + past.rise[0], 0.5 * state.pressure),
+            0.0,
+        )
+        trial = self._level.state(bordered(pressure), state.approach + past.rise[1])
+        thinnest = 0.5 * float(state.film.min())
+        if float(trial.film.min()) > thinnest:
+            return trial
+        return self._level.state(state.pressure, state.approach)
+
+    def _divided(self, parts: int) -> FilmState | None:
+        """Return the state after shorter steps of backward Euler; None if one of them fails."""
+        level, state, mass = self._level, self._past.state, self._past.mass
+        rate = parts / self._unit
+        for left in reversed(range(parts)):
+            time = self.time - left * self.time_step / parts
+            impose(self.film, self._grids, time, finest_only=True)
+            level.keep(rate, rate * mass)
+            film = level.film(state.pressure, state.approach)
+            level.open_where_thicker(film, self.film.open_film)
+            state, record = self._attempt(level.state(state.pressure, state.approach))
+            if not record.converged:
+                impose(self.film, self._grids, self.time, finest_only=True)
+                self._set_storage()
+                return None
+            mass = state.mass
+        return state
+
+    def _attempt(self, begin: FilmState):  # type: ignore[no-untyped-def]
+        lowest = float(begin.film.min())
+        least = 0.05 * float(np.median(begin.film[begin.pressure > 0.5 * begin.pressure.max()]))
+        if self.film.solids is not None:
+            # touching solids are meant to be close
+            least = min(least, _PRESSED * self.film.solids.thickness / self._level.scales.film)
+        if lowest < least:
+            begin = self._level.state(begin.pressure, begin.approach + least - lowest)
+        return step_newton(
+            self._kept,
+            begin,
+            tolerance=self.settings.tolerance,
+            load_tolerance=self.settings.load_tolerance,
+            most=self.settings.newton_steps,
+            most_krylov=self.settings.krylov_steps,
+        )
+
+    def _solution(self, state: FilmState, steps: int, krylov: int, seconds: float) -> FilmSolution:
+        return film_solution(
+            self.film,
+            self._level,
+            state,
+            self.settings,
+            time=self.time,
+            newton_steps=steps,
+            krylov_steps=krylov,
+            seconds=seconds,
+        )

@@ -1,0 +1,63 @@
+"""Record of a march: everything that its next step depends on, in one file."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.storage.atomic_file import whole_file
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MarchRecord:
+    """State of a march after a step, in the units of its scales; arrays of shape (ny, nx)."""
+
+    steps: int
+    start_time: float  # [s]
+    time_step: float  # [s]
+    scheme: str
+    positions: Array  # of the nodes along x over the unit of lengths, shape (nx,)
+    pressure: Array
+    approach: float
+    mass: Array  # rho h
+    mass_before: Array
+    inflow: Array
+    rise: Array  # of the pressure in the last step
+    approach_rise: float
+    curves: Array  # what a caller has gathered so far, any shape
+    kept_steps: Array  # whole solutions that a caller keeps: their numbers, shape (m,)
+    kept_fields: Array  # pressure [Pa] and film [m], shape (m, 2, nx, ny)
+    kept_values: Array  # the numbers of `FilmSolution`, shape (m, 8)
+
+    def write(self, path: Path | str) -> None:
+        """Write the record; an older one at `path` stays whole until the new one is complete."""
+        with whole_file(Path(path)) as partial, partial.open("wb") as stream:
+            np.savez(stream, **asdict(self))
+            stream.flush()
+            os.fsync(stream.fileno())
+
+    @classmethod
+    def read(cls, path: Path | str) -> MarchRecord:
+        """Return the record in a file.
+
+        Raises
+        ------
+        ParameterError
+            The file is not such a record.
+        """
+        try:
+            with np.load(path, allow_pickle=False) as data:
+                values = {name: data[name] for name in cls.__dataclass_fields__}
+        except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+            raise ParameterError(
+                f"{path} must be the record of a march, got {error}. Start anew."
+            ) from error
+        return cls(**{k: v.item() if v.ndim == 0 else v for k, v in values.items()})

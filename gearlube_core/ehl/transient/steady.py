@@ -1,0 +1,128 @@
+"""Steady film at one time of a film that changes: nested grids from the dry contact."""
+
+from __future__ import annotations
+
+import time as clock
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.ehl.point.cavitation import refuse_rupture
+from gearlube_core.ehl.point.continuation import solve_level
+from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
+from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.nest import COARSE_TOLERANCE, bordered, carried
+from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord
+from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.problem import expected_film
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm, film_solution, impose
+from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.rows import RowCycle
+from gearlube_core.errors import ConvergenceError
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
+    """Return the dry contact on a grid, lifted by the film expected between."""
+    scales = level.scales
+    length = scales.length
+    # on a uniform grid of as many nodes
+    x = np.linspace(*film.x_limits, level.x.size)
+    gap = np.array([np.interp(x, level.x, row) for row in level.gap])
+    dry = dry_contact_of_gap(
+        gap.T * scales.film,
+        x[1] - x[0],
+        level.dy * length,
+        film.contact_modulus,
+        scales.load * scales.pressure * length**2,
+        tolerance=1e-3,
+    )
+    spread = [np.interp(level.x, x, column) for column in dry.pressure.T / scales.pressure]
+    pressure = bordered(np.array(spread))
+    pressure *= scales.load / level.integral(pressure)
+    lowest = float(level.film(pressure, 0.0).min())
+    approach = expected_film(film.reference()) / scales.film - lowest
+    level.open_where_thicker(level.film(pressure, approach), film.open_film)
+    return level.state(pressure, approach)
+
+
+def steady_state(
+    film: MovingFilm, grids: Hierarchy, settings: PointSolverSettings
+) -> tuple[FilmState, NewtonRecord]:
+    """Return the steady state on the finest grid under the conditions that the grids hold."""
+    refuse_rupture(settings, "that changes in time")
+    coarsest = grids.levels[0]
+    assert isinstance(coarsest, MovingLevel)
+    state = dry_start(film, coarsest)
+    record = NewtonRecord()
+    count = len(grids.levels)
+    for k in range(count):
+        part = grids.below(k + 1)
+        level = part.levels[-1]
+        assert isinstance(level, MovingLevel)
+        if k:
+            pressure = bordered(grids.transfers[k - 1].up_smoothly(state.pressure))
+            level.open_where_thicker(level.film(pressure, state.approach), film.open_film)
+            state = carried(level, pressure, state)
+        last = k == count - 1
+        goal = settings.tolerance if last else COARSE_TOLERANCE
+        build: Build = MultigridCycle
+        if last and film.grading is not None and film.long:
+            # rows that are solved in part lose their way where the spacing changes along them
+            part, build = film.with_rows_below(grids, settings.wedge), RowCycle
+        state = solve_level(part, state, settings, goal, record, not last, build)
+    return state, record
+
+
+def solve_steady_film(
+    film: MovingFilm,
+    time: float,
+    settings: PointSolverSettings | None = None,
+    *,
+    throw: bool = True,
+) -> FilmSolution:
+    """Return the film as if the conditions of a time had lasted.
+
+    Parameters
+    ----------
+    film
+        What changes.
+    time
+        [s].
+    settings
+        Stencil and tolerances.
+    throw
+        Raise where the solution does not converge; else return the last state.
+
+    Raises
+    ------
+    ConvergenceError
+        With the reason and a cure.
+    """
+    settings = PointSolverSettings() if settings is None else settings
+    begin = clock.perf_counter()
+    grids = film.grids(settings.wedge)
+    impose(film, grids, time)
+    state, record = steady_state(film, grids, settings)
+    level = grids.levels[-1]
+    assert isinstance(level, MovingLevel)
+    solution = film_solution(
+        film,
+        level,
+        state,
+        settings,
+        time=time,
+        newton_steps=len(record.residuals),
+        krylov_steps=record.krylov,
+        seconds=clock.perf_counter() - begin,
+        steady=True,
+    )
+    if solution.converged:
+        outcome = solution.outcome + record.fallen_back(settings.wedge)
+        solution = replace(solution, outcome=outcome)
+    if throw and not solution.converged:
+        raise ConvergenceError(solution.outcome)
+    return solution

@@ -1,0 +1,95 @@
+"""Tooth contact analysis from a gear file to its dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.contact_dataset import contact_dataset
+from gearlube_core.hypoid_contact.member_compliance import pair_stiffness
+from gearlube_core.hypoid_contact.mesh_cycle import (
+    SIDES,
+    CycleProgress,
+    CycleSettings,
+    run_cycle,
+)
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_geometry.flank.setting_check import reference_misfit, setting_report
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
+
+_LARGEST_MISFIT = 1e-3  # m, of a cutter's reference plane from the middle of the teeth
+
+
+def check_settings_meet(file: HypoidGearFile) -> None:
+    """Raise ParameterError, with the settings that would cure it, when the cutters miss the teeth.
+
+    Small misfits only shift the contact; `setting_report` names them.
+    """
+    misfits = [reference_misfit(file, role) for role in ("pinion", "gear")]
+    if not all(abs(misfit) <= _LARGEST_MISFIT for misfit in misfits):
+        raise ParameterError("The flanks cannot mesh. " + " ".join(setting_report(file)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactSettings:
+    """Loads and positions of an analysis, and the elastic bodies.
+
+    Parameters
+    ----------
+    cycle : CycleSettings
+    body : ToothBodySettings
+    """
+
+    cycle: CycleSettings = field(default_factory=CycleSettings)
+    body: ToothBodySettings = field(default_factory=ToothBodySettings)
+
+
+def analyse_contact(
+    file: HypoidGearFile,
+    settings: ContactSettings,
+    *,
+    store: Path | None = None,
+    cache: Path | None = None,
+    jobs: int | None = None,
+    announce: Callable[[str], None] = lambda text: None,
+    observer: Callable[[CycleProgress], None] | None = None,
+) -> xr.Dataset:
+    """Return the tooth contact of a gear file, unloaded and loaded, on both sides.
+
+    Parameters
+    ----------
+    file : HypoidGearFile
+    settings : ContactSettings
+    store : Path, optional
+        Folder that keeps finished positions, so that an interrupted analysis goes on.
+    cache : Path, optional
+        Folder of tooth compliances; default: the user's cache.
+    jobs : int, optional
+        Processes; default: all processors.
+    announce : callable, optional
+        Told what begins.
+    observer : callable, optional
+        Called after each position.
+
+    Raises
+    ------
+    ParameterError
+        When a flank is missing or the flanks do not meet.
+    ConvergenceError
+        When a position finds no equilibrium.
+    """
+    announce("cutting flanks")
+    check_settings_meet(file)
+    for side in SIDES:
+        FlankPair.from_file(file, side, settings.cycle.misalignment)
+    announce("tooth compliance")
+    stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)
+    announce("loaded contact")
+    cycle = run_cycle(file, stiffness, settings.cycle, store=store, jobs=jobs, observer=observer)
+    announce("unloaded contact")
+    return contact_dataset(file, settings.cycle, cycle)

@@ -1,0 +1,229 @@
+"""Everything a tooth contact analysis found, as one labelled dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.contact_kinematics import contact_kinematics
+from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.contact_pattern import contact_pattern
+from gearlube_core.hypoid_contact.ease_off import ease_off
+from gearlube_core.hypoid_contact.mesh_cycle import (
+    MAP_SHAPE,
+    PAIRS_BESIDE,
+    SIDES,
+    CycleSettings,
+    Record,
+)
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.touching_error import touching_error
+from gearlube_core.hypoid_contact.unloaded_error import contact_ratio
+from gearlube_core.hypoid_geometry.flank.flank import Side
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+
+Array = NDArray[np.float64]
+
+PATH_POSITIONS = 161  # of the unloaded path of contact, over four pitches
+ERROR_POSITIONS = 64  # of the unloaded transmission error, over one
+_EASE_GRID = (21, 41)
+_REACH = 2.0  # pitches to either side of the reference points
+
+_PAIR_DIMS = ("side", "phase", "torque", "pair")
+_STATE_DIMS = ("side", "phase", "torque")
+_UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "rotation": (_STATE_DIMS, "rad", "pinion rotation under load beyond the teeth ratio"),
+    "gear_torque": (_STATE_DIMS, "N.m", "torque on the gear"),
+    "strain_energy": (_STATE_DIMS, "J", "strain energy"),
+    "k_m": (_STATE_DIMS, "N/m", "secant mesh stiffness along the line of action"),
+    "k_t": (_STATE_DIMS, "N/m", "tangent mesh stiffness along the line of action"),
+    "R_p": (_STATE_DIMS, "m", "arm of the mesh force about the pinion axis"),
+    "R_g": (_STATE_DIMS, "m", "arm of the mesh force about the gear axis"),
+    "n": ((*_STATE_DIMS, "axis"), "1", "direction of the mesh force"),
+    "share": (_PAIR_DIMS, "1", "part of the pinion torque"),
+    "pressure_max": (_PAIR_DIMS, "Pa", "highest pressure of the pair"),
+    "gear_s": (_PAIR_DIMS, "1", "centre of force on the gear, root 0 to tip 1"),
+    "gear_t": (_PAIR_DIMS, "1", "centre of force on the gear, toe 0 to heel 1"),
+    "R_x": (_PAIR_DIMS, "m", "relative radius along the minor axis of the contact ellipse"),
+    "R_y": (_PAIR_DIMS, "m", "relative radius along the major axis"),
+    "R_sliding": (_PAIR_DIMS, "m", "relative radius along the sliding direction"),
+    "psi": (_PAIR_DIMS, "rad", "entrainment from the minor axis"),
+    "chi": (_PAIR_DIMS, "rad", "sliding direction from the minor axis"),
+    "entrainment_arm": (_PAIR_DIMS, "m", "mean surface speed per pinion speed"),
+    "sliding_arm": (_PAIR_DIMS, "m", "sliding speed per pinion speed"),
+    "friction_arm_p": (_PAIR_DIMS, "m", "arm of friction about the pinion axis"),
+    "friction_arm_g": (_PAIR_DIMS, "m", "arm of friction about the gear axis"),
+    "xi": ((*_PAIR_DIMS, "axis"), "1", "direction of the pinion's sliding over the gear"),
+    "pressure_map": (("side", "torque", "map_s", "map_t"), "Pa", "highest pressure over the mesh"),
+    "error": (("side", "fine_phase"), "rad", "unloaded transmission error, the gear lags"),
+    "e": (("side", "fine_phase"), "m", "the same along the line of action"),
+    "path_s": (("side", "path_phase"), "1", "unloaded path of contact, root 0 to tip 1"),
+    "path_t": (("side", "path_phase"), "1", "unloaded path of contact, toe 0 to heel 1"),
+    "path_error": (("side", "path_phase"), "rad", "transmission error of one pair"),
+    "ease_off": (("side", "ease_s", "ease_t"), "m", "gap to the conjugate gear flank"),
+    "closest": (("side", "ease_s", "ease_t"), "m", "least gap of the unloaded mesh"),
+    "path_contact_ratio": (("side",), "1", "pitches over which the unloaded path is on both teeth"),
+}
+
+
+def contact_dataset(
+    file: HypoidGearFile, settings: CycleSettings, cycle: Mapping[Side, Record]
+) -> xr.Dataset:
+    """Return the analysis as a dataset; every variable has `units` and `long_name`.
+
+    Parameters
+    ----------
+    file : HypoidGearFile
+    settings : CycleSettings
+        Those of `cycle`.
+    cycle : mapping of side to Record
+        From `run_cycle`.
+
+    Notes
+    -----
+    `torque` is the magnitude of the pinion torque on the side. Signs of `n`, `error` and `e` as in
+    docs/conventions.md. Where a pair carries nothing its data are NaN.
+    """
+    sides = [
+        _side(FlankPair.from_file(file, side, settings.misalignment), cycle[side], settings)
+        for side in SIDES
+    ]
+    data = {
+        name: (dims, np.stack([part[name] for part in sides]), {"units": unit, "long_name": text})
+        for name, (dims, unit, text) in _UNITS.items()
+    }
+    coords: dict[str, Any] = {
+        "side": list(SIDES),
+        "phase": ("phase", settings.phases, {"units": "1", "long_name": "mesh phase"}),
+        "torque": (
+            "torque",
+            list(settings.torques),
+            {"units": "N.m", "long_name": "pinion torque"},
+        ),
+        "pair": np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1),
+        "axis": ["x", "y", "z"],
+        "map_s": (np.arange(MAP_SHAPE[0]) + 0.5) / MAP_SHAPE[0],
+        "map_t": (np.arange(MAP_SHAPE[1]) + 0.5) / MAP_SHAPE[1],
+        "fine_phase": np.arange(ERROR_POSITIONS) / ERROR_POSITIONS,
+        "path_phase": np.linspace(-_REACH, _REACH, PATH_POSITIONS),
+        "ease_s": np.linspace(0.0, 1.0, _EASE_GRID[0]),
+        "ease_t": np.linspace(0.0, 1.0, _EASE_GRID[1]),
+    }
+    return xr.Dataset(
+        data,
+        coords=coords,
+        attrs={
+            "name": file.name,
+            "source": file.source,
+            "pinion_teeth": file.pinion.teeth,
+            "gear_teeth": file.gear.teeth,
+            "face_width": file.gear.face_width_mm * 1e-3,
+            "gear_file": file.model_dump_json(exclude_none=True),
+        },
+    )
+
+
+def _side(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, Array]:
+    unloaded = _unloaded(pair)
+    torque = np.array(settings.torques)
+    force = np.linalg.norm(cycle["force"], axis=-1)
+    R_p = torque / force
+    fine = np.append(unloaded["error"], unloaded["error"][0])
+    grid = np.linspace(0.0, 1.0, ERROR_POSITIONS + 1)
+    touching = pair.touching_sign * np.interp(settings.phases, grid, fine)
+    closing = cycle["rotation"] - touching[:, None]
+    if np.any(closing <= 0.0):
+        raise ParameterError(
+            f"The {pair.side} flanks close by {np.min(closing):.3g} rad under load, less than "
+            "nothing: unloaded and loaded contact disagree. Use more cells or higher torques."
+        )
+    share = cycle["pair_torque"] / torque[None, :, None]
+    share /= share.sum(axis=-1, keepdims=True)
+    result = {
+        "rotation": cycle["rotation"],
+        "gear_torque": cycle["gear_torque"],
+        "strain_energy": cycle["strain_energy"],
+        "k_m": torque / closing / R_p**2,
+        "k_t": cycle["tangent"] / R_p**2,
+        "R_p": R_p,
+        "R_g": cycle["gear_torque"] / force,
+        "n": pair.touching_sign * cycle["force"] / force[..., None],
+        "share": share,
+        "pressure_max": cycle["pressure_max"],
+        "gear_s": cycle["gear_position"][..., 0],
+        "gear_t": cycle["gear_position"][..., 1],
+        "pressure_map": cycle["pressure_map"].max(axis=0),
+        **_pair_kinematics(pair, cycle, settings),
+        **unloaded,
+    }
+    result["e"] = R_p[:, 0].mean() * unloaded["error"]
+    return result
+
+
+def _unloaded(pair: FlankPair) -> dict[str, Array]:
+    path_phases = np.linspace(-_REACH, _REACH, PATH_POSITIONS)
+    path = contact_path(pair, path_phases * pair.gear_pitch)
+    inside = path.inside
+    ease = ease_off(pair, s_count=_EASE_GRID[0], t_count=_EASE_GRID[1])
+    return {
+        "path_s": np.where(inside, path.gear_s, np.nan),
+        "path_t": np.where(inside, path.gear_t, np.nan),
+        "path_error": np.where(inside, path.transmission_error, np.nan),
+        "error": _mesh_error(pair),
+        "ease_off": ease.normal_gap(),
+        "closest": contact_pattern(ease).closest,
+        "path_contact_ratio": np.array(contact_ratio(pair).path),
+    }
+
+
+def _mesh_error(pair: FlankPair) -> Array:
+    """Return the error of the pair that touches first at each fine phase [rad]."""
+    phases = np.arange(ERROR_POSITIONS) / ERROR_POSITIONS
+    shifts = np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1)
+    angles = (phases[None, :] + shifts[:, None]) * pair.gear_pitch
+    error = touching_error(pair, angles.ravel()).error.reshape(angles.shape)
+    first = np.nanmin(pair.touching_sign * error, axis=0)
+    return np.asarray(pair.touching_sign * first)
+
+
+def _pair_kinematics(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, Array]:
+    """Return curvature and motion at each pair's centre of force."""
+    shape = cycle["pair_torque"].shape
+    offsets = np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1)
+    phase = np.broadcast_to(settings.phases[:, None, None] + offsets, shape)
+    rotation = np.broadcast_to(cycle["rotation"][..., None], shape)
+    loaded = (cycle["pair_torque"] > 0.0) & np.isfinite(cycle["gear_position"][..., 0])
+    gear = pair.gear.parameters(*np.moveaxis(cycle["gear_position"][loaded], -1, 0))
+    pinion = pair.pinion.parameters(*np.moveaxis(cycle["pinion_position"][loaded], -1, 0))
+    k = contact_kinematics(
+        pair,
+        phase[loaded] * pair.gear_pitch,
+        phase[loaded] * pair.pinion_pitch + pair.touching_sign * rotation[loaded],
+        gear,
+        pinion,
+    )
+    along = np.abs(np.einsum("ni,ni->n", k.xi, k.minor_axis))
+    across = np.abs(np.einsum("ni,ni->n", k.xi, k.major_axis))
+    values = {
+        "R_x": k.R_x,
+        "R_y": k.R_y,
+        "R_sliding": k.R_sliding,
+        "psi": k.psi,
+        "chi": np.arctan2(across, along),
+        "entrainment_arm": k.entrainment_arm,
+        "sliding_arm": np.linalg.norm(k.sliding, axis=1),
+        "friction_arm_p": k.friction_arm_p,
+        "friction_arm_g": k.friction_arm_g,
+        "xi": k.xi,
+    }
+    result = {}
+    for name, value in values.items():
+        full = np.full((*shape, *value.shape[1:]), np.nan)
+        full[loaded] = value
+        result[name] = full
+    return result

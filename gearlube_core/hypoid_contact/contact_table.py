@@ -1,0 +1,183 @@
+"""The mesh table that a tooth contact analysis writes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from gearlube_core.errors import TableError
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.mesh_table.table import PAIRS, MeshTable, Provenance
+
+Array = NDArray[np.float64]
+
+ORDERS = 5  # mesh orders kept of each series
+ZERO_PHASE = -0.5 * PAIRS  # of tooth pair 0 at pinion angle zero, so that it meets mid-window
+_FLATTEST = 20.0  # m, R_y where the ellipse is longer than any tooth
+_LOST = 0.02  # largest share of a pair outside its window that is dropped
+
+
+def contact_table(file: HypoidGearFile, dataset: xr.Dataset) -> MeshTable:
+    """Return the mesh table of a dataset from `contact_dataset`.
+
+    Raises
+    ------
+    TableError
+        When more than `PAIRS` tooth pairs carry at a time.
+
+    Notes
+    -----
+    Levels of the coast flanks carry negative torque. The loaded positions are those of the gear
+    angle; over a period they differ from the pinion angle by the transmission error alone, below
+    1e-3 of the period.
+    """
+    levels = [("coast", t) for t in dataset["torque"].values[::-1]]
+    levels += [("drive", t) for t in dataset["torque"].values]
+    series: dict[str, list[Array]] = {}
+    windows: dict[str, list[Array]] = {}
+    for side, torque in levels:
+        state = dataset.sel(side=side, torque=torque)
+        for key, values in _series(state).items():
+            series.setdefault(key, []).append(values)
+        for key, values in _windows(state, f"{side} {torque:g} N.m").items():
+            windows.setdefault(key, []).append(values)
+    loaded = np.stack(windows["share"]) > 0.0
+    return MeshTable(
+        name=file.name,
+        pinion_teeth=file.pinion.teeth,
+        gear_teeth=file.gear.teeth,
+        torque=np.array([-t if side == "coast" else t for side, t in levels]),
+        contact_ratio=float(np.clip(loaded[-1].sum() / loaded.shape[1] * PAIRS, 1.0, PAIRS)),
+        series={key: np.stack(values) for key, values in series.items()},
+        windows={key: np.stack(values) for key, values in windows.items()},
+        provenance=_provenance(file),
+        source=file.source,
+        settings={
+            "positions": float(dataset.sizes["phase"]),
+            "path_contact_ratio": float(dataset["path_contact_ratio"].sel(side="drive")),
+        },
+    )
+
+
+def fourier(samples: Array, orders: int = ORDERS) -> Array:
+    """Return the (orders + 1, 2) cosine and sine coefficients of samples over one mesh period.
+
+    The mesh phase of the first sample is zero; the series counts from the pinion angle at which
+    the phase is `ZERO_PHASE`.
+    """
+    spectrum = np.zeros(orders + 1, dtype=complex)
+    resolved = min(orders, (samples.size - 1) // 2)  # an order needs more than two samples
+    spectrum[: resolved + 1] = (np.fft.rfft(samples) / samples.size)[: resolved + 1]
+    order = np.arange(orders + 1)
+    # value(angle) = samples(phase = angle + ZERO_PHASE)
+    spectrum = spectrum * np.exp(2j * np.pi * order * ZERO_PHASE)
+    result = np.stack([2.0 * spectrum.real, -2.0 * spectrum.imag], axis=1)
+    result[0] = spectrum[0].real, 0.0
+    return result
+
+
+def _series(state: xr.Dataset) -> dict[str, Array]:
+    values = {key: fourier(state[key].values) for key in ("k_m", "R_p", "R_g", "k_t")}
+    for axis in ("x", "y", "z"):
+        values[f"n_{axis}"] = fourier(state["n"].sel(axis=axis).values)
+    values["e"] = fourier(state["e"].values)
+    # zero where the flanks are tightest: only its change is felt
+    side = 1.0 if str(state["side"].values) == "drive" else -1.0
+    values["e"][0, 0] -= side * float(np.min(side * state["e"].values))
+    return values
+
+
+_WINDOW_SOURCES: dict[str, Callable[[xr.Dataset], xr.DataArray]] = {
+    "R_x": lambda d: d["R_x"],
+    "R_y": lambda d: d["R_y"].where((d["R_y"] > 0.0) & (d["R_y"] < _FLATTEST), _FLATTEST),
+    "psi": lambda d: d["psi"],
+    "entrainment_arm": lambda d: d["entrainment_arm"],
+    "friction_arm_p": lambda d: d["friction_arm_p"],
+    "friction_arm_g": lambda d: d["friction_arm_g"],
+    "xi_x": lambda d: d["xi"].sel(axis="x"),
+    "xi_y": lambda d: d["xi"].sel(axis="y"),
+    "xi_z": lambda d: d["xi"].sel(axis="z"),
+    "chi": lambda d: d["chi"],
+    "pressure_max": lambda d: d["pressure_max"],
+}
+
+
+def _windows(state: xr.Dataset, where: str) -> dict[str, Array]:
+    positions = state.sizes["phase"]
+    nodes = PAIRS * positions
+    phase = state["phase"].values[:, None] + state["pair"].values
+    node = np.rint((phase - ZERO_PHASE) * positions).astype(int)
+    share = state["share"].values
+    first = _window_start(node, share, nodes, where)
+    inside = (node >= first) & (node < first + nodes)
+    kept = np.where(inside, share, 0.0)
+    kept /= kept.sum(axis=1, keepdims=True)
+    place = np.mod(node[inside], nodes)
+    result = {"share": np.zeros(nodes)}
+    result["share"][place] = kept[inside]
+    loaded = np.zeros(nodes, dtype=bool)
+    loaded[place] = (kept > 0.0)[inside] & np.isfinite(state["R_x"].values)[inside]
+    for key, source in _WINDOW_SOURCES.items():
+        values = np.zeros(nodes)
+        values[place] = source(state).values[inside]
+        result[key] = _held(values, loaded)
+    return result
+
+
+def _window_start(node: NDArray[np.int_], share: Array, nodes: int, where: str) -> int:
+    """Return the first node of the `nodes` consecutive ones that hold the most load."""
+    carried = np.bincount(
+        (node - node.min()).ravel(), share.ravel(), minlength=int(np.ptp(node)) + 1
+    )
+    within = np.convolve(carried, np.ones(nodes), "valid")
+    best = int(np.argmax(within))
+    outside = (node - node.min() < best) | (node - node.min() >= best + nodes)
+    lost = float(np.max(np.where(outside, share, 0.0)))
+    if lost > _LOST:
+        raise TableError(
+            f"{where}: a tooth pair still carries {lost:.1%} of the torque more than {PAIRS} mesh "
+            "periods after another position; the table holds that many pairs. Analyse smaller "
+            "torques, or relieve tips and ends."
+        )
+    return int(node.min()) + best
+
+
+def _held(values: Array, loaded: NDArray[np.bool_]) -> Array:
+    """Return values with unloaded nodes at those of the nearest loaded node, around the window."""
+    count = values.size
+    index = np.flatnonzero(loaded)
+    distance = np.abs(np.arange(count)[:, None] - index[None, :])
+    distance = np.minimum(distance, count - distance)
+    return values[index[np.argmin(distance, axis=1)]]
+
+
+_LOADED = (
+    "loaded contact of flanks cut from the machine settings: unilateral contact of half-space "
+    "cells on the true gap, finite-element teeth, torque equilibrium"
+)
+_AT_CENTRE = "at each pair's centre of force: " + (
+    "shape operators and rigid rotation of the flanks cut from the machine settings"
+)
+_DERIVATIONS = {
+    "k_m": f"secant, torque over closing and squared arm; {_LOADED}",
+    "k_t": f"tangent at fixed contact area; {_LOADED}",
+    "R_p": f"pinion torque over the resultant of the normal forces; {_LOADED}",
+    "R_g": f"gear torque over the resultant of the normal forces; {_LOADED}",
+    "n_x": f"direction of the resultant of the normal forces; {_LOADED}",
+    "n_y": f"direction of the resultant of the normal forces; {_LOADED}",
+    "n_z": f"direction of the resultant of the normal forces; {_LOADED}",
+    "e": "first touch of the unloaded flanks times the mean arm; its size follows the blade edge "
+    "radius, which was chosen for it",
+    "share": f"part of the pinion torque; {_LOADED}",
+    "pressure_max": f"highest cell pressure; sharp edges unless relieved; {_LOADED}",
+}
+
+
+def _provenance(file: HypoidGearFile) -> dict[str, Provenance]:
+    """Return the origin of each datum: `completed` as soon as a completed setting shapes it."""
+    kind = "completed" if file.completed else "inferred"
+    keys = (*_DERIVATIONS, *_WINDOW_SOURCES)
+    return {key: Provenance(kind, _DERIVATIONS.get(key, _AT_CENTRE)) for key in keys}  # type: ignore[arg-type]

@@ -1,0 +1,128 @@
+"""Ease-off of the gear flank: its gap to the flank that the pinion would cut.
+
+No equation of tangency enters, only how far the pinion turns until its flank passes through each
+point of the gear flank.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlube_core.checks import check_within
+from gearlube_core.hypoid_contact.first_touch import turning_map
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class EaseOff:
+    """Turning of the pinion to touch, over the gear flank and the gear angle.
+
+    Parameters
+    ----------
+    pair : FlankPair
+    s, t : ndarray of shape (m,), (n,)
+        Profile (root 0, tip 1) and face (toe 0, heel 1) positions on the gear [-].
+    gear_angle : ndarray of shape (K,)
+        [rad], evenly spaced.
+    error : ndarray of shape (K, m, n)
+        Pinion angle at touch less teeth ratio times gear angle [rad]; NaN where the pinion tooth
+        has no such point.
+    error_rate : ndarray of shape (K, m, n)
+        Its derivative by gear angle at fixed gear point [-].
+    R_p : ndarray of shape (K, m, n)
+        Arm of the pinion flank's normal about the pinion axis [m]: gap per unit rotation.
+    """
+
+    pair: FlankPair
+    s: Array
+    t: Array
+    gear_angle: Array
+    error: Array
+    error_rate: Array
+    R_p: Array
+
+    def conjugate_error(self) -> Array:
+        """Return the extreme over gear angle of the error at each gear point [rad], (m, n).
+
+        The gear flank that is conjugate to the pinion passes through a gear point where this is
+        constant. Cubic between angles; NaN where the extreme lies outside the angles.
+        """
+        return self._at_extreme()[0]
+
+    def normal_gap(self) -> Array:
+        """Return the ease-off: gap to the conjugate gear flank along the normal [m], (m, n).
+
+        Zero where the pair is tightest, positive elsewhere.
+        """
+        error, R_p = self._at_extreme()
+        height = self.pair.touching_sign * error
+        return np.asarray((height - np.nanmin(height)) * R_p)
+
+    def _at_extreme(self) -> tuple[Array, Array]:
+        """Return error [rad] and R_p [m] where the error is extreme over gear angle."""
+        sign = self.pair.touching_sign
+        value, slope = sign * self.error, sign * self.error_rate
+        with np.errstate(invalid="ignore"):
+            turns = (slope[:-1] < 0.0) & (slope[1:] >= 0.0)
+        k = np.argmax(turns, axis=0)
+        i, j = np.indices(k.shape)
+        step = float(self.gear_angle[1] - self.gear_angle[0])
+        v0, v1 = value[k, i, j], value[k + 1, i, j]
+        d0, d1 = step * slope[k, i, j], step * slope[k + 1, i, j]
+        # slope of the cubic through both ends: d0 + b x + c x^2, root nearest the secant's
+        b = 6.0 * (v1 - v0) - 4.0 * d0 - 2.0 * d1
+        c = 3.0 * (d0 + d1) - 6.0 * (v1 - v0)
+        root = np.sqrt(np.maximum(b * b - 4.0 * c * d0, 0.0))
+        x = -2.0 * d0 / (b + np.copysign(root, b))
+        extreme = v0 + x * (d0 + x * (0.5 * b + x * c / 3.0))
+        R_p = (1.0 - x) * self.R_p[k, i, j] + x * self.R_p[k + 1, i, j]
+        missing = ~turns.any(axis=0)
+        extreme[missing] = np.nan
+        R_p[missing] = np.nan
+        return sign * extreme, R_p
+
+
+def ease_off(
+    pair: FlankPair, *, s_count: int = 31, t_count: int = 61, gear_angles: Array | None = None
+) -> EaseOff:
+    """Return the ease-off on an even grid of the gear flank.
+
+    Parameters
+    ----------
+    pair : FlankPair
+    s_count, t_count : int
+        Points over the profile and over the face.
+    gear_angles : ndarray of shape (K,), optional
+        Evenly spaced [rad]; absent, two and a half pitches to each side, twelve a pitch.
+
+    References
+    ----------
+    Stadtfeld 1993 (ease-off); Litvin and Fuentes 2004, chapter 9 (tooth contact analysis).
+    """
+    check_within("s_count", s_count, 3, 1001, "", "Points over the profile.")
+    check_within("t_count", t_count, 3, 1001, "", "Points over the face.")
+    if gear_angles is None:
+        gear_angles = np.arange(-30, 31) / 12.0 * pair.gear_pitch
+    s, t = np.linspace(0.0, 1.0, s_count), np.linspace(0.0, 1.0, t_count)
+    gear = pair.gear.parameters(*np.meshgrid(s, t, indexing="ij"))
+    found = turning_map(pair, gear, gear_angles).on_tooth()
+    shape = found.pinion_angle.shape
+    surface = placed_sample(
+        pair.pinion,
+        pair.pinion_base,
+        pair.pinion_turn(found.pinion_angle.ravel()),
+        found.pinion_parameters.reshape(-1, 3),
+    )
+    axis_p, point_p = placed_axis(pair.pinion, pair.pinion_base)
+    axis_g, point_g = placed_axis(pair.gear, pair.gear_base)
+    normal = pair.touching_sign * surface.normal
+    R_p = np.einsum("ni,ni->n", np.cross(-axis_p, surface.r - point_p), normal).reshape(shape)
+    R_g = np.einsum("ni,ni->n", np.cross(axis_g, surface.r - point_g), normal).reshape(shape)
+    error = found.pinion_angle - pair.ratio * gear_angles[:, None, None]
+    return EaseOff(pair, s, t, gear_angles, error, R_g / R_p - pair.ratio, R_p)

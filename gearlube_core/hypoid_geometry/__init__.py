@@ -1,0 +1,1 @@
+"""Hypoid gears: gear files, blanks and the flanks that a machine cuts."""

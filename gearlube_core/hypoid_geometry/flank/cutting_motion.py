@@ -1,0 +1,192 @@
+"""Where a blade edge goes in the blank: points, derivatives and the equation of meshing.
+
+One description covers every case: a cutter with its blade edge, carried by a cradle, cuts a work
+piece that turns with the cutter (continuous indexing) and with the cradle (roll). Everything is
+expressed in the fixed frame of the assembled pair, work piece at rotation zero.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlube_core.hypoid_geometry.flank.vectors import (
+    Vector,
+    add,
+    combine,
+    cross,
+    dot,
+    norm,
+    rotate,
+    subtract,
+)
+from gearlube_core.kernels.jit import kernel
+
+
+class CuttingMotion(NamedTuple):
+    """Blade edge and motions that cut one flank.
+
+    The edge at height u [m] above the reference plane, towards the blade tip, stands at the radius
+    r_c + e(u) with e = slope u + bend u^2, along the direction turned by the blade offset angle
+    from the cutter radius. At cutter angle th [rad] and cradle angle ph [rad] the work piece has
+    turned by psi = -index_ratio th - roll_ratio ph about its axis.
+    """
+
+    radius: float  # r_c [m], cutter radius at the reference plane
+    slope: float  # tan(blade angle), positive where the radius grows towards the tip
+    bend: float  # [1/m]
+    cos_offset: float  # blade offset angle dl
+    sin_offset: float
+    cutter_centre: Vector  # in the reference plane [m], at cradle angle zero
+    cutter_axis: Vector  # unit, towards the blade tips
+    cutter_zero: Vector  # unit, normal to the axis: cutter angle zero
+    cradle_point: Vector  # [m]
+    cradle_axis: Vector
+    work_point: Vector  # [m]
+    work_axis: Vector
+    index_ratio: float  # blade groups / teeth; 0 for single indexing (face milling)
+    roll_ratio: float  # ratio of roll; unused without generation
+    generated: float  # 1: the cradle rolls; 0: form cut (Formate), ph = 0
+
+
+class CutState(NamedTuple):
+    """Point of the blade edge in the blank and all that its neighbourhood needs.
+
+    Derivatives with respect to u, th, ph; `meshing` is (r_u x r_th) . r_ph, zero on the envelope
+    (for a form-cut flank: ph itself).
+    """
+
+    r: Vector
+    r_u: Vector
+    r_th: Vector
+    r_ph: Vector
+    normal: Vector  # r_u x r_th, not normalised
+    normal_u: Vector
+    normal_th: Vector
+    normal_ph: Vector
+    meshing: float
+    meshing_u: float
+    meshing_th: float
+    meshing_ph: float
+
+
+@kernel
+def cut_state(motion: CuttingMotion, u: float, th: float, ph: float) -> CutState:
+    """Return the state of blade height `u` [m], cutter angle `th`, cradle angle `ph` [rad].
+
+    References
+    ----------
+    Litvin and Fuentes 2004, Gear Geometry and Applied Theory, chapters 6 and 8 (envelope,
+    equation of meshing); Karagiannis et al. 2012, Table 1 (machine settings).
+    """
+    cos_th = math.cos(th)
+    sin_th = math.sin(th)
+    side = cross(motion.cutter_axis, motion.cutter_zero)
+    radial = combine(cos_th, motion.cutter_zero, sin_th, side)
+    tangential = combine(-sin_th, motion.cutter_zero, cos_th, side)
+    e = u * (motion.slope + u * motion.bend)
+    e_u = motion.slope + 2.0 * u * motion.bend
+    e_uu = 2.0 * motion.bend
+    reach = motion.radius + e * motion.cos_offset
+    shift = e * motion.sin_offset
+    cos_e, sin_e = motion.cos_offset, motion.sin_offset
+    q = combine(1.0, combine(reach, radial, shift, tangential), u, motion.cutter_axis)
+    q = subtract(add(q, motion.cutter_centre), motion.cradle_point)
+    q_u = combine(
+        1.0, combine(e_u * cos_e, radial, e_u * sin_e, tangential), 1.0, motion.cutter_axis
+    )
+    q_uu = combine(e_uu * cos_e, radial, e_uu * sin_e, tangential)
+    q_th = combine(reach, tangential, -shift, radial)
+    q_thth = combine(-reach, radial, -shift, tangential)
+    q_uth = combine(e_u * cos_e, tangential, -e_u * sin_e, radial)
+
+    cradle = motion.cradle_axis
+    cos_ph = math.cos(ph)
+    sin_ph = math.sin(ph)
+    q = rotate(q, cradle, cos_ph, sin_ph)
+    q_u = rotate(q_u, cradle, cos_ph, sin_ph)
+    q_uu = rotate(q_uu, cradle, cos_ph, sin_ph)
+    q_th = rotate(q_th, cradle, cos_ph, sin_ph)
+    q_thth = rotate(q_thth, cradle, cos_ph, sin_ph)
+    q_uth = rotate(q_uth, cradle, cos_ph, sin_ph)
+    w = subtract(add(q, motion.cradle_point), motion.work_point)
+
+    # in axes that turn with the work piece, d/dk = partial d/dk + rate_k axis x
+    axis = motion.work_axis
+    index = motion.index_ratio
+    roll = motion.generated * motion.roll_ratio
+    by_cradle = motion.generated
+    r_u = q_u
+    r_th = combine(1.0, q_th, index, cross(axis, w))
+    swing = cross(cradle, q)
+    r_ph = combine(by_cradle, swing, roll, cross(axis, w))
+    r_uu = q_uu
+    r_uth = combine(1.0, q_uth, index, cross(axis, q_u))
+    r_uph = combine(by_cradle, cross(cradle, q_u), roll, cross(axis, q_u))
+    r_thth = combine(1.0, q_thth, index, cross(axis, add(q_th, r_th)))
+    r_thph = combine(
+        1.0,
+        combine(by_cradle, cross(cradle, q_th), by_cradle * index, cross(axis, swing)),
+        roll,
+        cross(axis, r_th),
+    )
+    r_phph = combine(
+        1.0,
+        combine(by_cradle, cross(cradle, swing), roll, cross(axis, swing)),
+        roll,
+        cross(axis, r_ph),
+    )
+
+    normal = cross(r_u, r_th)
+    normal_u = add(cross(r_uu, r_th), cross(r_u, r_uth))
+    normal_th = add(cross(r_uth, r_th), cross(r_u, r_thth))
+    normal_ph = add(cross(r_uph, r_th), cross(r_u, r_thph))
+    if motion.generated > 0.5:
+        meshing = dot(normal, r_ph)
+        meshing_u = dot(normal_u, r_ph) + dot(normal, r_uph)
+        meshing_th = dot(normal_th, r_ph) + dot(normal, r_thph)
+        meshing_ph = dot(normal_ph, r_ph) + dot(normal, r_phph)
+    else:
+        meshing, meshing_u, meshing_th, meshing_ph = ph, 0.0, 0.0, 1.0
+
+    psi = -index * th - roll * ph
+    c = math.cos(psi)
+    s = -math.sin(psi)
+    return CutState(
+        add(rotate(w, axis, c, s), motion.work_point),
+        rotate(r_u, axis, c, s),
+        rotate(r_th, axis, c, s),
+        rotate(r_ph, axis, c, s),
+        rotate(normal, axis, c, s),
+        rotate(normal_u, axis, c, s),
+        rotate(normal_th, axis, c, s),
+        rotate(normal_ph, axis, c, s),
+        meshing,
+        meshing_u,
+        meshing_th,
+        meshing_ph,
+    )
+
+
+@kernel
+def blade_offset_angle(motion: CuttingMotion, th: float, ph: float) -> float:
+    """Return the offset angle [rad] that sets the blade face normal to the cutting velocity.
+
+    Taken at the reference plane (u = 0), cutter angle `th` and cradle angle `ph` [rad]; it depends
+    on the slope of nothing: the point at u = 0 is the same for every offset angle.
+    """
+    state = cut_state(motion, 0.0, th, ph)
+    psi = -motion.index_ratio * th - motion.generated * motion.roll_ratio * ph
+    velocity = rotate(state.r_th, motion.work_axis, math.cos(psi), math.sin(psi))
+    velocity = rotate(velocity, motion.cradle_axis, math.cos(ph), -math.sin(ph))
+    side = cross(motion.cutter_axis, motion.cutter_zero)
+    radial = combine(math.cos(th), motion.cutter_zero, math.sin(th), side)
+    tangential = combine(-math.sin(th), motion.cutter_zero, math.cos(th), side)
+    return math.atan2(-dot(velocity, radial), dot(velocity, tangential))
+
+
+@kernel
+def unit_normal(state: CutState) -> Vector:
+    """Return the unit normal of the surface [-], in the direction r_u x r_th."""
+    scale = 1.0 / norm(state.normal)
+    return Vector(state.normal.x * scale, state.normal.y * scale, state.normal.z * scale)

@@ -1,0 +1,193 @@
+"""A lubricant: viscosity line, pressure coefficient, shear strength and thermal data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import NamedTuple
+
+from gearlube_core.checks import check_finite, check_positive, check_within
+from gearlube_core.errors import ParameterError
+from gearlube_core.oil.library import (
+    LIBRARY_PATH,
+    LOWEST_VISCOSITY,
+    lubricant_data,
+    read_library,
+)
+from gearlube_core.oil.viscosity_constants import (
+    roelands_exponent,
+    walther_coefficients,
+    walther_kinematic_viscosity,
+)
+
+
+class LubricantParameters(NamedTuple):
+    """What the kernels need to know of a lubricant; all floats, SI."""
+
+    walther_a: float  # [1]
+    walther_b: float  # [1]
+    density: float  # [kg/m3]
+    roelands_z: float  # [1]
+    tau0: float  # Eyring stress [Pa]
+    tau_l0: float  # limiting shear stress at zero pressure [Pa]
+    gamma: float  # boundary friction: slope of limiting shear stress with pressure [1]
+    conductivity: float  # at conductivity_temperature [W/(m K)]
+    conductivity_temperature: float  # [K]
+    conductivity_slope: float  # [W/(m K2)]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lubricant:
+    """A mineral or synthetic gear oil.
+
+    Parameters
+    ----------
+    name, source
+        Name in the library and the publication the data come from.
+    walther_a, walther_b
+        Line log10 log10 (nu + 0.7) = A - B log10 T, nu in mm2/s, T in K [1].
+    density
+        [kg/m3], taken as independent of temperature.
+    alpha
+        Pressure-viscosity coefficient [1/Pa] at `alpha_temperature` [K]. At other temperatures
+        it follows from a constant Roelands exponent.
+    eyring_stress
+        Stress where shear thinning begins [Pa].
+    limiting_shear_stress, boundary_friction
+        Strength of boundary junctions tau = tau_l0 + gamma p: tau_l0 [Pa] and gamma [1].
+    conductivity, conductivity_temperature, conductivity_slope
+        Thermal conductivity [W/(m K)] at a temperature [K], and its slope [W/(m K2)].
+    heat_capacity
+        [J/(kg K)].
+    temperature_low, temperature_high
+        Range of oil temperatures for which the data are meant [K].
+
+    Notes
+    -----
+    `Lubricant.named` reads the library of published oils, `with_two_viscosities` takes the two
+    numbers of an oil data sheet.
+    """
+
+    name: str
+    source: str
+    walther_a: float
+    walther_b: float
+    density: float
+    alpha: float
+    alpha_temperature: float
+    eyring_stress: float
+    limiting_shear_stress: float
+    boundary_friction: float
+    conductivity: float
+    conductivity_temperature: float
+    conductivity_slope: float
+    heat_capacity: float
+    temperature_low: float
+    temperature_high: float
+
+    def __post_init__(self) -> None:
+        check_within("walther_a", self.walther_a, 1.0, 30.0)
+        check_within("walther_b", self.walther_b, 0.3, 10.0)
+        check_within("density", self.density, 500.0, 2000.0, "kg/m3", "870 kg/m3 is 0.87 g/cm3.")
+        alpha_cure = f"{self.alpha:g} 1/GPa is {1e-9 * check_finite('alpha', self.alpha):g} 1/Pa."
+        check_within("alpha", self.alpha, 1e-10, 1e-6, "1/Pa", alpha_cure)
+        stress_cure = "2 MPa is 2e6 Pa."
+        check_within("eyring_stress", self.eyring_stress, 1e4, 1e9, "Pa", stress_cure)
+        check_within("limiting_shear_stress", self.limiting_shear_stress, 0, 1e9, "Pa", stress_cure)
+        check_within("boundary_friction", self.boundary_friction, 0.0, 1.0)
+        check_within("conductivity", self.conductivity, 0.02, 2.0, "W/(m K)")
+        check_within("conductivity_slope", self.conductivity_slope, -1e-2, 1e-2, "W/(m K2)")
+        check_within("heat_capacity", self.heat_capacity, 100.0, 1e4, "J/(kg K)")
+        check_positive("temperature_low", self.temperature_low, "K")
+        check_within("temperature_high", self.temperature_high, self.temperature_low, 1000.0, "K")
+        for name in ("alpha_temperature", "conductivity_temperature"):
+            self.check_temperature(getattr(self, name), name)
+
+    def with_two_viscosities(
+        self, nu_1: float, temperature_1: float, nu_2: float, temperature_2: float, *, name: str
+    ) -> Lubricant:
+        """Return a copy whose viscosity line passes through two data-sheet points.
+
+        Parameters
+        ----------
+        nu_1, nu_2
+            Kinematic viscosities [m2/s].
+        temperature_1, temperature_2
+            Their temperatures [K].
+        name
+            Name of the new lubricant.
+        """
+        cure = "109.1 mm2/s (cSt) is 1.091e-4 m2/s."
+        for label, nu in (("nu_1", nu_1), ("nu_2", nu_2)):
+            check_within(label, nu, LOWEST_VISCOSITY, 1.0, "m2/s", cure)
+        check_positive("temperature_1", temperature_1, "K", "40 degC is 313.15 K.")
+        check_positive("temperature_2", temperature_2, "K", "40 degC is 313.15 K.")
+        if (nu_1 - nu_2) * (temperature_2 - temperature_1) <= 0.0:
+            raise ParameterError(
+                f"Viscosity must fall with temperature, got {nu_1:g} m2/s at {temperature_1:g} K "
+                f"and {nu_2:g} m2/s at {temperature_2:g} K."
+            )
+        A, B = walther_coefficients(nu_1, temperature_1, nu_2, temperature_2)
+        return replace(self, name=name, walther_a=A, walther_b=B)
+
+    @classmethod
+    def from_toml(cls, path: str | Path, name: str) -> Lubricant:
+        """Return the lubricant `name` of a library file laid out like `lubricants.toml`."""
+        data = lubricant_data(read_library(Path(path)), name)
+        known = {field.name for field in fields(cls)}
+        unknown, missing = sorted(set(data) - known), sorted(known - set(data))
+        if unknown or missing:
+            raise ParameterError(
+                f"Lubricant {name} in {path}: missing {missing or 'nothing'}, "
+                f"unknown {unknown or 'nothing'}."
+            )
+        return cls(**data)
+
+    @classmethod
+    def named(cls, name: str) -> Lubricant:
+        """Return a lubricant of the library that comes with the package.
+
+        Examples
+        --------
+        >>> round(Lubricant.named("karagiannis_2012").dynamic_viscosity(313.15), 5)
+        0.09492
+        """
+        return cls.from_toml(LIBRARY_PATH, name)
+
+    def check_temperature(self, temperature: float, name: str = "temperature") -> float:
+        """Return `temperature` [K]; raise ParameterError outside the range of the data."""
+        cure = f"The data of {self.name} are meant for this range; 90 degC is 363.15 K."
+        return check_within(
+            name, temperature, self.temperature_low, self.temperature_high, "K", cure
+        )
+
+    def dynamic_viscosity(self, temperature: float) -> float:
+        """Return the viscosity at atmospheric pressure [Pa s] at a temperature [K]."""
+        self.check_temperature(temperature)
+        nu = walther_kinematic_viscosity(self.walther_a, self.walther_b, temperature)
+        return nu * self.density
+
+    @property
+    def roelands_z(self) -> float:
+        """Pressure exponent of the Roelands law [1]."""
+        return roelands_exponent(self.dynamic_viscosity(self.alpha_temperature), self.alpha)
+
+    def parameters(self) -> LubricantParameters:
+        """Return the data as the tuple of floats that kernels take."""
+        return LubricantParameters(
+            walther_a=float(self.walther_a),
+            walther_b=float(self.walther_b),
+            density=float(self.density),
+            roelands_z=float(self.roelands_z),
+            tau0=float(self.eyring_stress),
+            tau_l0=float(self.limiting_shear_stress),
+            gamma=float(self.boundary_friction),
+            conductivity=float(self.conductivity),
+            conductivity_temperature=float(self.conductivity_temperature),
+            conductivity_slope=float(self.conductivity_slope),
+        )
+
+
+def lubricant_names() -> tuple[str, ...]:
+    """Return the names that `Lubricant.named` knows."""
+    return tuple(read_library())

@@ -1,0 +1,62 @@
+"""Viscosity against pressure: the law of Roelands at constant temperature."""
+
+from __future__ import annotations
+
+import math
+
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY, ROELANDS_PRESSURE
+
+
+@kernel
+def pressure_viscosity_coefficient(eta0: float, Z: float) -> float:
+    """Return the slope of ln eta with pressure at atmospheric pressure.
+
+    alpha = 5.1e-9 Z (ln eta0 + 9.67)
+
+    Parameters
+    ----------
+    eta0
+        Viscosity at atmospheric pressure and the temperature of interest [Pa s].
+    Z
+        Pressure exponent [1], independent of temperature.
+
+    Returns
+    -------
+    float
+        alpha [1/Pa].
+
+    Notes
+    -----
+    Needs eta0 above 6.3e-5 Pa s. Source: Roelands 1966.
+    """
+    return ROELANDS_PRESSURE * Z * (math.log(eta0) + ROELANDS_LOG_VISCOSITY)
+
+
+@kernel
+def roelands_viscosity(eta0: float, Z: float, pressure: float) -> float:
+    """Return the viscosity under pressure.
+
+    eta = eta0 exp{(ln eta0 + 9.67) [(1 + 5.1e-9 p)^Z - 1]}
+
+    Parameters
+    ----------
+    eta0
+        Viscosity at atmospheric pressure [Pa s].
+    Z
+        Pressure exponent [1].
+    pressure
+        Gauge pressure p [Pa].
+
+    Returns
+    -------
+    float
+        Viscosity eta [Pa s].
+
+    Notes
+    -----
+    Fitted by Roelands to about 0.5 GPa; used in elastohydrodynamics to about 1 GPa.
+    Source: Roelands 1966; Karagiannis et al. 2012 eq. (16) at one temperature.
+    """
+    growth = (1.0 + ROELANDS_PRESSURE * pressure) ** Z - 1.0
+    return eta0 * math.exp((math.log(eta0) + ROELANDS_LOG_VISCOSITY) * growth)

@@ -1,1 +1,0 @@
-"""How viscosity depends on temperature, pressure and shear: kernels."""

@@ -1,0 +1,1 @@
+"""Files written whole, records of finished work, and the processes that do it."""

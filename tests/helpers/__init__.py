@@ -1,0 +1,1 @@
+"""Operating points, gears and hosts that several tests share."""

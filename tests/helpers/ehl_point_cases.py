@@ -1,0 +1,106 @@
+"""Point contacts of given Moes groups, for the tests of the film solver."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
+from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.solution import PointSolution
+from gearlube_core.oil.film_oil import EhlLubricant, density, ehl_lubricant, viscosity
+
+RADIUS = 0.01  # m
+REDUCED_MODULUS = 2.26e11  # Pa
+ALPHA = 2e-8  # 1/Pa
+ETA0 = 0.04  # Pa s
+EYRING_STRESS = 5e6  # Pa
+
+
+def radius_ratio(ellipticity: float) -> float:
+    """Return R_y/R_x of a dry contact with semi-axes a_y/a_x."""
+    exponent = log_curvature_ratio(abs(math.log(ellipticity)))
+    return math.exp(exponent if ellipticity >= 1.0 else -exponent)
+
+
+def moes_contact(
+    M: float,
+    L: float,
+    *,
+    nodes: tuple[int, int],
+    radius_ratio: float = 1.0,
+    angle: float = 0.0,
+    lubricant: EhlLubricant | None = None,
+    **domain: Any,
+) -> PointContactProblem:
+    """Return the contact with load M and material L of Moes; L = 0 is isoviscous."""
+    material = ALPHA * REDUCED_MODULUS
+    U = 0.5 * (L / material) ** 4 if L > 0.0 else 1e-11
+    speed = U * REDUCED_MODULUS * RADIUS / ETA0
+    load = M * (2.0 * U) ** 0.75 * REDUCED_MODULUS * RADIUS**2
+    if lubricant is None:
+        lubricant = ehl_lubricant(eta0=ETA0, alpha=ALPHA if L > 0.0 else 0.0)
+    return elliptical_contact(
+        R_x=RADIUS,
+        R_y=RADIUS * radius_ratio,
+        entrainment=(speed * math.cos(angle), speed * math.sin(angle)),
+        load=load,
+        contact_modulus=0.5 * REDUCED_MODULUS,
+        lubricant=lubricant,
+        nodes=nodes,
+        **domain,
+    )
+
+
+def sliding_along(problem: PointContactProblem, slide_roll: float) -> PointContactProblem:
+    """Return the contact with an Eyring oil whose surfaces slide along its entrainment."""
+    oil = ehl_lubricant(eta0=ETA0, alpha=ALPHA, eyring_stress=EYRING_STRESS)
+    u, v = problem.entrainment
+    return replace(problem, lubricant=oil, sliding=(slide_roll * u, slide_roll * v))
+
+
+def moes_film(problem: PointContactProblem, film: float) -> float:
+    """Return H = h/R (2 U)^(-1/2)."""
+    speed = math.hypot(*problem.entrainment)
+    U = problem.lubricant.eta0 * speed / (REDUCED_MODULUS * RADIUS)
+    return film / RADIUS / math.sqrt(2.0 * U)
+
+
+def flow_out(solution: PointSolution, i0: int, i1: int, j0: int, j1: int) -> float:
+    """Return what leaves a box of nodes over what enters it upstream, less one [1].
+
+    With central faces the flow is that of the printed equation, evaluated from SI fields.
+    """
+    problem = solution.problem
+    oil = problem.lubricant
+    p, h = solution.pressure, solution.film
+    rho = np.vectorize(lambda q: density(oil, q))(p)
+    eta = np.vectorize(lambda q: viscosity(oil, q))(p)
+    dx, dy = problem.x[1] - problem.x[0], problem.y[1] - problem.y[0]
+
+    def along_x(i: int) -> float:
+        a, b = slice(i, i + 1), slice(i + 1, i + 2)
+        rows = slice(j0, j1 + 1)
+        fluidity = 0.5 * (1.0 / eta[a, rows] + 1.0 / eta[b, rows])
+        rising = p[b, rows] > p[a, rows]
+        logarithmic = (1.0 / eta[b, rows] - 1.0 / eta[a, rows]) / np.where(
+            rising, np.log(eta[a, rows] / eta[b, rows]), 1.0
+        )
+        fluidity = np.where(rising, logarithmic, fluidity)
+        cubic = np.sqrt(rho[a, rows] * h[a, rows] ** 3 * rho[b, rows] * h[b, rows] ** 3)
+        couette = 0.5 * problem.entrainment[0] * (rho * h)[i : i + 2, rows].sum(axis=0)
+        poiseuille = cubic * fluidity / 12.0 * (p[b, rows] - p[a, rows]) / dx
+        return float((couette - poiseuille[0]).sum() * dy)
+
+    def along_y(j: int) -> float:
+        columns = slice(i0, i1 + 1)
+        a, b = (columns, j), (columns, j + 1)
+        cubic = np.sqrt(rho[a] * h[a] ** 3 * rho[b] * h[b] ** 3)
+        fluidity = 0.5 * (1.0 / eta[a] + 1.0 / eta[b])
+        return float(-(cubic * fluidity / 12.0 * (p[b] - p[a]) / dy).sum() * dx)
+
+    entering = along_x(i0 - 1)
+    return (along_x(i1) - entering + along_y(j1) - along_y(j0 - 1)) / entering

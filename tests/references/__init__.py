@@ -1,0 +1,1 @@
+"""Independent routes to a result, which tests hold the package against."""
