@@ -19,10 +19,10 @@ from typing import Any
 import numpy as np
 import pytest
 from numba import njit
-from numpy.typing import NDArray
 from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.integrate import solve_ivp
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh
@@ -36,8 +36,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.oil.lubricant_state import lubricant_state
-
-Array = NDArray[np.float64]
 
 _LOGGER = logging.getLogger("bench_axle")
 RATIO = 36 / 13

@@ -119,7 +119,7 @@ def stretch(mesh: Mesh, place: int) -> tuple[np.ndarray, FilmSolution]:
 
 
 def differences(one: FilmSolution, other: FilmSolution) -> tuple[float, float]:
-    """Return root mean square and largest of film over film less 1, under pressure [1].
+    """Return root mean square and largest of film over film less 1, under pressure [-].
 
     On the rows of the coarser mesh, so that its films are not interpolated along the line.
     """

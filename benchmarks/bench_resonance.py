@@ -16,16 +16,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.integrate import solve_ivp
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.parameters import Form, karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
 from gearlube_core.periodic import Branch, follow, solve_periodic
-
-Array = NDArray[np.float64]
 
 _LOGGER = logging.getLogger("bench_resonance")
 FORMS: tuple[Form, Form] = ("two_dof", "one_dof")

@@ -9,17 +9,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from docs.field_tables import field_tables
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import Placement
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.flank.tooth_solid import Solid, gear_solid
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-
-Array = NDArray[np.float64]
 
 STEEL, BRASS = np.array([0.62, 0.68, 0.75]), np.array([0.86, 0.62, 0.33])
 FOLDER = Path(__file__).parent

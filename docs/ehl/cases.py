@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from gearlube_core.ehl.gears.helical_film import HelicalFilm, jamali_2015_film
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 STEPS = 575  # of the thesis' cycle; positions are named by them whatever the time step
 CYCLE, LINE, FACETED = (97, 161), (97, 257), (193, 257)  # nodes across, along

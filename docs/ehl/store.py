@@ -45,7 +45,7 @@ class Steady:
     converged: bool
     outcome: str
     seconds: float  # of the processor
-    border_pressure: float = 0.0  # beside the border over the largest of all [1]
+    border_pressure: float = 0.0  # beside the border over the largest of all [-]
     solid_share: float = 0.0  # of the load
     solid_area: float = 0.0  # [m^2]
 

@@ -8,8 +8,8 @@ from functools import cache
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.gear_file_pair import constant_density_mesh
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
@@ -38,8 +38,6 @@ from gearlube_core.helical_geometry.contact_line import (
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.sample_pairs import named_pair
-
-Array = NDArray[np.float64]
 
 HE = named_pair("he_2007")
 LOW, HIGH = 0.01, 0.1  # mu of He et al. 2007, figures 6 to 8

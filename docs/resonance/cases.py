@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.resonance.measures import mesh_harmonics
 from gearlube.studies.resonance.response import Response, Segment
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.parameters import (
     HypoidTorsionalParameters,
     karagiannis_2012_pair,
@@ -17,8 +17,6 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import (
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.periodic import ContinuationSettings, follow
-
-Array = NDArray[np.float64]
 
 FIRST, LAST, SPACING = 0.2, 1.6, 0.005  # mesh over natural frequency
 MISMATCHES = (0.0, 0.002, 0.003, 0.004)

@@ -6,15 +6,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.resonance.flank_cycle import FlankCycle, flank_cycle
 from gearlube.studies.resonance.motions import motion_near
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.errors import ConvergenceError
-
-Array = NDArray[np.float64]
 
 COLD, HOT = 313.15, 373.15  # K
 STEPS = 256

@@ -6,14 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from docs.resonance.cases import E0, R_P0, TEETH, Curve, Point, reconstructed, respond
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
-
-Array = NDArray[np.float64]
 
 PERIODS = 100  # mesh periods after a disturbance
 DISTURBANCE = 0.03  # of the peak-to-peak motion

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from gearlube_core.arrays import Array
 
 LOADED = 1e-3  # share from which a pair counts as carrying
 LOAD = 50.0  # N.m, the pinion torque of Karagiannis et al. 2012

@@ -10,7 +10,7 @@ ROLLERS_MAX = 40  # largest number of rollers the trigonometric tables hold
 
 # The load of a film below which its load dependence is held constant, given as an approach [m].
 FILM_FLOOR_APPROACH = 0.5e-6
-# Above this multiple of FILM_FLOOR_APPROACH it is held constant again [1].
+# Above this multiple of FILM_FLOOR_APPROACH it is held constant again [-].
 FILM_RANGE = 256.0
 
 _ANGLES = (
@@ -27,19 +27,19 @@ class BearingParameters(NamedTuple):
     """
 
     kn: float  # inner race - roller - outer race stiffness [N/m^n]
-    n: float  # load-approach exponent [1], 10/9 for lines
-    n_rollers: float  # number of rollers, integral, 3 to ROLLERS_MAX [1]
-    sin_contact: float  # sine of the contact angle [1]
-    cos_contact: float  # cosine of the contact angle [1]
+    n: float  # load-approach exponent [-], 10/9 for lines
+    n_rollers: float  # number of rollers, integral, 3 to ROLLERS_MAX [-]
+    sin_contact: float  # sine of the contact angle [-]
+    cos_contact: float  # cosine of the contact angle [-]
     interference: float  # approach at zero displacement and zero film, < 0 clearance [m]
-    cage_ratio: float  # cage speed over shaft speed [1]
-    loss: float  # hysteresis coefficient of eq. (25), 0.009 [1]
-    approach_factor: float  # 1 full approach, 0.5 as printed in eq. (26) [1]
-    clip: float  # 1 no tension, 0 as printed [1]
+    cage_ratio: float  # cage speed over shaft speed [-]
+    loss: float  # hysteresis coefficient of eq. (25), 0.009 [-]
+    approach_factor: float  # 1 full approach, 0.5 as printed in eq. (26) [-]
+    clip: float  # 1 no tension, 0 as printed [-]
     film_constant: float  # film at the floor load / ((eta0 u)^0.647 alpha^0.46), 0 off
     film_speed_radius: float  # mean entraining speed over shaft speed [m]
-    squeeze: float  # 1 with the squeeze factor of eq. (27), 0 without [1]
+    squeeze: float  # 1 with the squeeze factor of eq. (27), 0 without [-]
     mean_diameter: float  # (bore + outside diameter)/2, for the drag [m]
-    f0: float  # viscous factor of the drag [1], 0 off
-    f1: float  # load factor of the drag [1], 0 off
-    axial_factor: float  # 2 Y = 0.8 cot(contact angle), load of the drag over axial load [1]
+    f0: float  # viscous factor of the drag [-], 0 off
+    f1: float  # load factor of the drag [-], 0 off
+    axial_factor: float  # 2 Y = 0.8 cot(contact angle), load of the drag over axial load [-]

@@ -45,7 +45,7 @@ def bearing_forces(
     r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p
         As in `shaft_bearing_forces`.
     side : float
-        +1 or -1, the axial direction of displacement that loads the bearing [1].
+        +1 or -1, the axial direction of displacement that loads the bearing [-].
 
     Returns
     -------

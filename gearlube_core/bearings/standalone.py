@@ -123,7 +123,7 @@ class RotorOnBearing:
         duration : float
             [s].
         samples_per_pass, steps_per_sample : int
-            Samples per passing of a roller [1]; Runge-Kutta steps between samples [1].
+            Samples per passing of a roller [-]; Runge-Kutta steps between samples [-].
         displacement, velocity : tuple of 2 floats
             At the start [m], [m/s].
         """

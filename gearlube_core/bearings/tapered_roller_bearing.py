@@ -47,11 +47,11 @@ class TaperedRollerBearing:
     stiffness_constant : float
         kn of inner race - roller - outer race [N/m^n].
     exponent : float
-        n; 10/9 for lines, 1.5 for points [1].
+        n; 10/9 for lines, 1.5 for points [-].
     contact_angle : float
         L, 0 for a cylindrical roller bearing [rad].
     loss : float
-        Coefficient of the hysteresis in eq. (25) [1].
+        Coefficient of the hysteresis in eq. (25) [-].
     approach : {"full", "as_printed"}
         "as_printed" halves the displacement in eq. (26) and lets rollers pull.
     film : {"squeeze", "steady", "off"}
@@ -59,7 +59,7 @@ class TaperedRollerBearing:
     solid : Solid
         Rollers and races.
     f0, f1 : float
-        Factors of the drag torque, see `palmgren_1959` [1].
+        Factors of the drag torque, see `palmgren_1959` [-].
     preload : float or None
         Axial force of either bearing of the pair at rest [N].
     interference : float or None
@@ -179,7 +179,7 @@ class TaperedRollerBearing:
 
     @property
     def cage_ratio(self) -> float:
-        """Cage speed over shaft speed without slip, ri/(ri + ro) [1]."""
+        """Cage speed over shaft speed without slip, ri/(ri + ro) [-]."""
         return self.inner_race_diameter / (self.inner_race_diameter + self.outer_race_diameter)
 
     @property

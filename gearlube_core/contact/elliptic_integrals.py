@@ -18,12 +18,12 @@ def complete_elliptic_k_d(axis_ratio: float) -> tuple[float, float]:
     Parameters
     ----------
     axis_ratio
-        Minor over major semi-axis b/a [1], above 0 and up to 1.
+        Minor over major semi-axis b/a [-], above 0 and up to 1.
 
     Returns
     -------
     tuple of float
-        K and D [1]; E = K - m D.
+        K and D [-]; E = K - m D.
 
     Notes
     -----

@@ -21,12 +21,12 @@ def log_curvature_ratio(log_ellipticity: float) -> float:
     Parameters
     ----------
     log_ellipticity
-        ln(a/b) [1], not negative.
+        ln(a/b) [-], not negative.
 
     Returns
     -------
     float
-        [1], between 1.5 and 2 times the argument for slender ellipses.
+        [-], between 1.5 and 2 times the argument for slender ellipses.
 
     Notes
     -----
@@ -45,12 +45,12 @@ def ellipticity(radius_ratio: float) -> float:
     Parameters
     ----------
     radius_ratio
-        R_y/R_x [1], at least 1: larger over smaller relative radius of curvature.
+        R_y/R_x [-], at least 1: larger over smaller relative radius of curvature.
 
     Returns
     -------
     float
-        a/b [1], at least 1.
+        a/b [-], at least 1.
 
     Notes
     -----

@@ -15,8 +15,8 @@ class SurfaceParameters(NamedTuple):
     """Roughness of a pair of surfaces; all floats, SI."""
 
     sigma: float  # composite root-mean-square roughness [m]
-    xi_beta_sigma: float  # asperity density x tip radius x roughness [1], 0.03 to 0.07
-    sigma_over_beta: float  # roughness over tip radius [1], 1e-4 to 1e-2
+    xi_beta_sigma: float  # asperity density x tip radius x roughness [-], 0.03 to 0.07
+    sigma_over_beta: float  # roughness over tip radius [-], 1e-4 to 1e-2
 
 
 def gear_flanks(sigma: float) -> SurfaceParameters:
@@ -74,12 +74,12 @@ def asperity_integrals(film_ratio: float) -> tuple[float, float]:
     Parameters
     ----------
     film_ratio
-        l = h/sigma [1]; negative values count as zero.
+        l = h/sigma [-]; negative values count as zero.
 
     Returns
     -------
     tuple of float
-        F_2 and F_5/2 [1], within 1e-8 relative of the integrals up to l = 5, zero beyond.
+        F_2 and F_5/2 [-], within 1e-8 relative of the integrals up to l = 5, zero beyond.
 
     Notes
     -----
@@ -103,7 +103,7 @@ def asperity_integrals(film_ratio: float) -> tuple[float, float]:
 
 @kernel
 def f_5_2(film_ratio: float) -> float:
-    """Return the load integral F_5/2 [1], see `asperity_integrals`."""
+    """Return the load integral F_5/2 [-], see `asperity_integrals`."""
     return asperity_integrals(film_ratio)[1]
 
 
@@ -116,12 +116,12 @@ def f_2(film_ratio: float) -> float:
     Parameters
     ----------
     film_ratio
-        l = h/sigma [1]; negative values count as zero.
+        l = h/sigma [-]; negative values count as zero.
 
     Returns
     -------
     float
-        [1], zero beyond l = 5, where the value has fallen to 1.93e-8.
+        [-], zero beyond l = 5, where the value has fallen to 1.93e-8.
 
     Notes
     -----
@@ -138,14 +138,14 @@ def f_2(film_ratio: float) -> float:
 
 @kernel
 def asperity_load_factor(surface: SurfaceParameters) -> float:
-    """Return (16 sqrt 2/15) pi (xi beta sigma)^2 sqrt(sigma/beta) [1], see `asperity_load`."""
+    """Return (16 sqrt 2/15) pi (xi beta sigma)^2 sqrt(sigma/beta) [-], see `asperity_load`."""
     squared = surface.xi_beta_sigma * surface.xi_beta_sigma
     return _LOAD_FACTOR * squared * math.sqrt(surface.sigma_over_beta)
 
 
 @kernel
 def asperity_area_factor(surface: SurfaceParameters) -> float:
-    """Return pi^2 (xi beta sigma)^2 [1], see `asperity_area`."""
+    """Return pi^2 (xi beta sigma)^2 [-], see `asperity_area`."""
     return _AREA_FACTOR * surface.xi_beta_sigma * surface.xi_beta_sigma
 
 
@@ -160,7 +160,7 @@ def asperity_load(
     Parameters
     ----------
     film_ratio
-        l = h/sigma [1].
+        l = h/sigma [-].
     area
         Apparent contact area A [m2].
     contact_modulus
@@ -191,7 +191,7 @@ def asperity_area(film_ratio: float, area: float, surface: SurfaceParameters) ->
     Parameters
     ----------
     film_ratio
-        l = h/sigma [1].
+        l = h/sigma [-].
     area
         Apparent contact area A [m2].
     surface

@@ -16,12 +16,12 @@ def f_5_2_as_printed(film_ratio: float) -> float:
     Parameters
     ----------
     film_ratio
-        l = h/sigma [1].
+        l = h/sigma [-].
 
     Returns
     -------
     float
-        [1].
+        [-].
 
     Notes
     -----
@@ -43,12 +43,12 @@ def f_2_as_printed(film_ratio: float) -> float:
     Parameters
     ----------
     film_ratio
-        l = h/sigma [1].
+        l = h/sigma [-].
 
     Returns
     -------
     float
-        [1], negative from about l = 2 to 3.
+        [-], negative from about l = 2 to 3.
 
     Notes
     -----

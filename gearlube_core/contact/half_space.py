@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 import pyfftw
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
 from gearlube_core.errors import ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _FAR = 8.0  # longer sides of a cell; there the closed mean and Gauss' rule agree to 1e-8
 _MOST_CELLS = 4096  # along one side; 8192 x 8192 padded cells are 0.5 GiB

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.contact.half_space import _love_integral
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 def graded_coefficients(

@@ -27,7 +27,7 @@ class Solid:
     youngs_modulus
         [Pa].
     poisson_ratio
-        [1].
+        [-].
     density
         [kg/m3].
     conductivity

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_array
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.half_space import HalfSpaceConvolution
 from gearlube_core.errors import ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _SYMMETRY = 1e-9  # of the largest entry: above the rounding of a solved influence matrix
 
@@ -30,7 +29,7 @@ class StripCompliance:
         One convolution a strip; cells are numbered strip by strip, each with y fastest. Strips
         may share one object.
     shapes : sparse array, shape (n_cells, n_shapes), optional
-        W [1]; left out together with `shape_compliance`.
+        W [-]; left out together with `shape_compliance`.
     shape_compliance : ndarray, shape (n_shapes, n_shapes), optional
         K [m/N], symmetric; may be indefinite as long as the sum with A is positive definite.
 

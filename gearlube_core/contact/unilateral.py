@@ -49,7 +49,7 @@ def solve_torque(
     torque
         T [N m], above zero.
     tolerance
-        Limit of `Outcome.residual` [1]; 1e-12 to 1e-2. The rotation is about as accurate, the
+        Limit of `Outcome.residual` [-]; 1e-12 to 1e-2. The rotation is about as accurate, the
         strain energy more so.
     max_iterations
         Where to stop without convergence.

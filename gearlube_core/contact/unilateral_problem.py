@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 Compliance = Callable[[Array], Array]
 
 
@@ -94,9 +94,9 @@ class Outcome:
         Conjugate-gradient iterations, and applications of the compliance.
     residual
         Larger of the load-weighted gap error and the deepest penetration, both over the
-        load-weighted displacement [1].
+        load-weighted displacement [-].
     history
-        Residual after each iteration [1].
+        Residual after each iteration [-].
     """
 
     status: Literal["converged", "iteration limit"]

@@ -29,7 +29,7 @@ def tangent_stiffness(
     problem, solution
         The contact and its converged state.
     tolerance
-        Limit of the root mean square of 1 - A y/R on loaded cells [1], 1e-12 to 1e-1; the
+        Limit of the root mean square of 1 - A y/R on loaded cells [-], 1e-12 to 1e-1; the
         stiffness is about as accurate.
     max_iterations
         Where to stop without convergence.

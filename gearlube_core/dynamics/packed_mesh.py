@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_G, R_P, E
 from gearlube_core.mesh_table.table import MeshTable
-
-Array = NDArray[np.float64]
 
 # the series whose mean is the linear stiffness of the mesh
 STIFFNESS_SERIES = {"tangent": "k_t", "secant": "k_m"}

@@ -7,14 +7,13 @@ from collections.abc import Callable, Mapping
 from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_within
 from gearlube_core.errors import ConvergenceError, StepError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.oil.lubricant import Lubricant
 
-Array = NDArray[np.float64]
 Control = TypeVar("Control", bound=tuple[float, ...])  # a NamedTuple of floats
 
 MAX_SPEED = 5e3  # rad/s

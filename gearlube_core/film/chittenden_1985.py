@@ -43,7 +43,7 @@ def film_geometry(R_x: float, R_y: float, psi: float) -> tuple[float, float]:
     Returns
     -------
     tuple of float
-        R_e [m] and the side-flow factor [1], 0 to 1.
+        R_e [m] and the side-flow factor [-], 0 to 1.
 
     Notes
     -----
@@ -97,7 +97,7 @@ def central_film_thickness(
     Parameters
     ----------
     R_e, side_flow
-        From `film_geometry` [m], [1].
+        From `film_geometry` [m], [-].
     eta0
         Viscosity at inlet temperature and atmospheric pressure [Pa s].
     alpha

@@ -30,7 +30,7 @@ _SLIDE_TERM, _SLIDE_POWER = 2.23, 0.83
 class GrubinConvention(NamedTuple):
     """Coefficient of the film and the modulus that belongs to it; floats."""
 
-    coefficient: float  # [1]
+    coefficient: float  # [-]
     modulus: float  # [Pa]
 
 
@@ -81,7 +81,7 @@ def grubin_geometry(R_x: float, R_y: float, angle: float) -> tuple[float, float]
     Returns
     -------
     tuple of float
-        R_e [m] and psi^(2/3) [1].
+        R_e [m] and psi^(2/3) [-].
 
     Notes
     -----
@@ -112,7 +112,7 @@ def grubin_film_thickness(
     Parameters
     ----------
     R_e, leakage
-        From `grubin_geometry` [m], [1].
+        From `grubin_geometry` [m], [-].
     eta0
         Viscosity at inlet temperature and atmospheric pressure [Pa s].
     alpha
@@ -122,7 +122,7 @@ def grubin_film_thickness(
     load
         W [N], positive.
     convention
-        C [1] and M [Pa] from `grubin_convention`.
+        C [-] and M [Pa] from `grubin_convention`.
 
     Returns
     -------
@@ -179,7 +179,7 @@ def inlet_heating_factor(
     Returns
     -------
     float
-        phi, 0 to 1 [1].
+        phi, 0 to 1 [-].
 
     Notes
     -----

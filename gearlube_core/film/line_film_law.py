@@ -9,7 +9,7 @@ from gearlube_core.kernels.jit import kernel
 
 
 class LineFilmLaw(NamedTuple):
-    """Coefficient and exponents of the dimensionless groups [1]."""
+    """Coefficient and exponents of the dimensionless groups [-]."""
 
     coefficient: float
     speed: float

@@ -15,12 +15,12 @@ def central_film_group(M: float, L: float) -> float:
     Parameters
     ----------
     M, L : float
-        Moes load, above zero, and material, not negative [1].
+        Moes load, above zero, and material, not negative [-].
 
     Returns
     -------
     float
-        H [1].
+        H [-].
 
     Notes
     -----

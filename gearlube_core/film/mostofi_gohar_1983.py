@@ -36,7 +36,7 @@ def squeeze_factor(v: float, u: float) -> float:
     Returns
     -------
     float
-        q [1]; 1/4 without squeeze.
+        q [-]; 1/4 without squeeze.
 
     Notes
     -----
@@ -72,7 +72,7 @@ def dimensionless_groups(
     Returns
     -------
     tuple of float
-        W, U, G [1].
+        W, U, G [-].
 
     Notes
     -----

@@ -28,9 +28,9 @@ def regime_films(M: float, L: float, radius_ratio: float = 1.0) -> RegimeFilms:
     Parameters
     ----------
     M, L
-        Load and material of Moes with R_x as the radius [1]; L is 0 for an isoviscous oil.
+        Load and material of Moes with R_x as the radius [-]; L is 0 for an isoviscous oil.
     radius_ratio
-        lam = R_x/R_y [1], R_x along the entrainment; 0.01 to 1, wide contacts.
+        lam = R_x/R_y [-], R_x along the entrainment; 0.01 to 1, wide contacts.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def central_film_group(M: float, L: float, radius_ratio: float = 1.0) -> float:
     Returns
     -------
     float
-        H [1].
+        H [-].
 
     Notes
     -----

@@ -73,7 +73,7 @@ def surface_heating_number(film_thickness: float, conductivity: float, resistanc
     Returns
     -------
     float
-        zeta [1].
+        zeta [-].
 
     Notes
     -----
@@ -111,12 +111,12 @@ def plateau_stress_ratio(
     conductivity
         Of the lubricant, K [W/(m K)].
     zeta
-        Surface heating number [1].
+        Surface heating number [-].
 
     Returns
     -------
     float
-        s [1], negative where the formula does not apply (thick film, low pressure).
+        s [-], negative where the formula does not apply (thick film, low pressure).
 
     Notes
     -----
@@ -143,16 +143,16 @@ def limited_stress_ratio(plateau: float, newtonian_ratio: float, exponent: float
     Parameters
     ----------
     plateau
-        s of `plateau_stress_ratio` [1].
+        s of `plateau_stress_ratio` [-].
     newtonian_ratio
-        eta0 |dU|/(h tau0) [1], not negative.
+        eta0 |dU|/(h tau0) [-], not negative.
     exponent
-        alpha p [1].
+        alpha p [-].
 
     Returns
     -------
     float
-        s [1]; vanishes linearly with sliding speed.
+        s [-]; vanishes linearly with sliding speed.
 
     Notes
     -----
@@ -194,7 +194,7 @@ def viscous_friction_coefficient(
     Returns
     -------
     float
-        mu [1], not negative.
+        mu [-], not negative.
 
     Notes
     -----

@@ -16,7 +16,7 @@ class ContactGeometry(NamedTuple):
     """Geometry of a flank contact at one position of mesh; all floats, SI."""
 
     R_e: float  # relative radius of curvature along entrainment [m]
-    side_flow: float  # side-flow factor of the central film [1]
+    side_flow: float  # side-flow factor of the central film [-]
     pressure_coefficient: float  # mean Hertz pressure over load^(1/3) [Pa/N^(1/3)]
 
 
@@ -24,10 +24,10 @@ class FlankState(NamedTuple):
     """Film and friction of one flank contact; all floats, SI, no negative number."""
 
     film_thickness: float  # central film [m]
-    film_ratio: float  # film over composite roughness [1]
+    film_ratio: float  # film over composite roughness [-]
     viscous_friction: float  # [N]
     boundary_friction: float  # [N]
-    friction_coefficient: float  # total friction over load [1]
+    friction_coefficient: float  # total friction over load [-]
     temperature_rise: float  # mean of the film over the oil [K]
     mean_pressure: float  # [Pa]
 

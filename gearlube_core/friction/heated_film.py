@@ -33,15 +33,15 @@ SEARCH_TOLERANCE = 1.0e-3  # K, of the last step; the error after a secant step 
 class FilmTraction(NamedTuple):
     """What the flank does at a given film."""
 
-    Y: float  # of the film [1]
+    Y: float  # of the film [-]
     log_viscosity: float  # ln eta at contact pressure and surface temperature
     beta: float  # [1/K]
-    stress_ratio: float  # [1]
-    viscosity_ratio: float  # [1]
+    stress_ratio: float  # [-]
+    viscosity_ratio: float  # [-]
     rise_centre: float  # [K]
     rise_effective: float  # [K]
     flash: float  # [K]
-    area_share: float  # A_a/A [1]
+    area_share: float  # A_a/A [-]
     load_share: float  # W_a/A [Pa]
     boundary_stress: float  # F_b/A [Pa]
     status: float
@@ -83,7 +83,7 @@ def film_traction(
     surface_resistance
         R, rise of both surfaces over heat flux [m2 K/W]; 0: surfaces at oil temperature.
     flash_start, Y_start
-        Where to begin the search: flash [K] and Y [1] of a similar film, or zeros.
+        Where to begin the search: flash [K] and Y [-] of a similar film, or zeros.
     oil
         At inlet temperature.
     surface

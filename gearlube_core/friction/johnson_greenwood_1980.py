@@ -30,9 +30,9 @@ _NO_FILM_HEAT = 1.0e-30  # Y of a film at rest
 class ThermalEyringFilm(NamedTuple):
     """State of a sheared film between surfaces of equal temperature; all floats, SI."""
 
-    Y: float  # asinh X, the parameter of the temperature profile [1]
-    stress_ratio: float  # tau/tau0 [1]
-    viscosity_ratio: float  # effective viscosity over that at the surfaces, X*/X [1]
+    Y: float  # asinh X, the parameter of the temperature profile [-]
+    stress_ratio: float  # tau/tau0 [-]
+    viscosity_ratio: float  # effective viscosity over that at the surfaces, X*/X [-]
     rise_centre: float  # temperature in the middle over the surfaces [K]
     rise_effective: float  # rise that lowers the viscosity to the effective one [K]
     status: float  # 0 converged, 1 not
@@ -74,7 +74,7 @@ def thermal_eyring_film_near(
     film_thickness: float,
     sliding_speed: float,
 ) -> ThermalEyringFilm:
-    """Return what `thermal_eyring_film` does, searching from Y = `start` [1]; 0: no idea of it."""
+    """Return what `thermal_eyring_film` does, searching from Y = `start` [-]; 0: no idea of it."""
     slip = abs(sliding_speed)
     if slip == 0.0:
         return ThermalEyringFilm(0.0, 0.0, 1.0, 0.0, 0.0, CONVERGED)

@@ -24,11 +24,11 @@ class LineState(NamedTuple):
     """Film and friction at a point of a contact line; all floats, SI."""
 
     film_thickness: float  # central film [m]
-    film_ratio: float  # film over composite roughness [1]
+    film_ratio: float  # film over composite roughness [-]
     viscous_friction: float  # [N/m], not negative
     boundary_friction: float  # [N/m], not negative
-    friction_coefficient: float  # total friction over line load [1], not negative
-    signed_coefficient: float  # the same with the sign of the sliding speed [1]
+    friction_coefficient: float  # total friction over line load [-], not negative
+    signed_coefficient: float  # the same with the sign of the sliding speed [-]
     temperature_rise: float  # mean of the film over the oil [K]
     mean_pressure: float  # [Pa]
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
@@ -20,7 +21,6 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 _QUANTITIES = 8
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import (
@@ -19,7 +19,6 @@ from gearlube_core.helical_geometry.contact_line import (
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 _SAME_PITCH = 1e-6  # relative; tables print the base pitch with fewer digits than a pair has
 
 

@@ -38,7 +38,7 @@ class MixedFriction(NamedTuple):
 
     viscous_friction: float  # [N] or [N/m]
     boundary_friction: float  # [N] or [N/m]
-    friction_coefficient: float  # total friction over load [1]
+    friction_coefficient: float  # total friction over load [-]
     temperature_rise: float  # mean of the film over the oil [K]
 
 

@@ -26,20 +26,20 @@ PRESSURES = {"elliptical": ELLIPTICAL, "circular": CIRCULAR}
 class ThermalEyringOil(NamedTuple):
     """A lubricant with the viscosity law of Houpert at one inlet temperature; all floats, SI."""
 
-    log_viscosity: float  # ln eta + 9.67 at inlet temperature and atmospheric pressure [1]
+    log_viscosity: float  # ln eta + 9.67 at inlet temperature and atmospheric pressure [-]
     temperature: float  # of the oil at the inlet [K]
-    S0: float  # temperature exponent [1]
-    Z: float  # pressure exponent [1]
+    S0: float  # temperature exponent [-]
+    Z: float  # pressure exponent [-]
     tau0: float  # Eyring stress [Pa]
     tau_l0: float  # shear strength of asperity junctions at zero pressure [Pa]
-    gamma: float  # boundary friction m: slope of that strength with pressure [1]
+    gamma: float  # boundary friction m: slope of that strength with pressure [-]
     conductivity: float  # [W/(m K)]
 
 
 class ThermalEyringOptions(NamedTuple):
     """What is left open by Karagiannis et al. 2012; floats."""
 
-    coefficient: float  # of the film, `grubin_convention` [1]
+    coefficient: float  # of the film, `grubin_convention` [-]
     modulus: float  # of the load group of the film [Pa]
     film_temperature: float  # INLET, EFFECTIVE or INLET_SHEAR_HEATING
     flash: float  # 0: surfaces at oil temperature; 1: heated by friction
@@ -49,7 +49,7 @@ class ThermalFlankState(NamedTuple):
     """Film and friction of one flank; all floats, SI, magnitudes except the two speeds."""
 
     film_thickness: float  # h [m]
-    film_ratio: float  # h over composite roughness [1]
+    film_ratio: float  # h over composite roughness [-]
     mean_pressure: float  # [Pa]
     inlet_viscosity: float  # of the film formula, atmospheric pressure [Pa s]
     effective_viscosity: float  # that of a uniform film with the same slip and tau* [Pa s]
@@ -63,7 +63,7 @@ class ThermalFlankState(NamedTuple):
     asperity_load: float  # W_a [N]
     viscous_friction: float  # F_v [N]
     boundary_friction: float  # F_b [N]
-    friction_coefficient: float  # (F_v + F_b)/W [1]
+    friction_coefficient: float  # (F_v + F_b)/W [-]
     sliding_speed: float  # dU [m/s]
     entrainment_speed: float  # mean speed of the surfaces [m/s]
     status: float  # 0 converged, 1 not

@@ -44,13 +44,13 @@ THERMAL_LOSS = 0.1  # above, a film counts as thermal
 class TractionRegime(NamedTuple):
     """Place of a film on the traction map; all floats."""
 
-    pressure_number: float  # ln(eta/eta0), alpha p of the map [1]
-    film_number: float  # ln{2 K eta0/[beta (tau0 h)^2]} [1]
-    slip_number: float  # dU* = eta |dU|/(tau0 h), Newtonian stress over Eyring stress [1]
-    largest_stress_ratio: float  # of this film at the best sliding speed, tau/tau0 [1]
-    thermal_loss: float  # share of the isothermal Eyring stress that heat takes at this speed [1]
+    pressure_number: float  # ln(eta/eta0), alpha p of the map [-]
+    film_number: float  # ln{2 K eta0/[beta (tau0 h)^2]} [-]
+    slip_number: float  # dU* = eta |dU|/(tau0 h), Newtonian stress over Eyring stress [-]
+    largest_stress_ratio: float  # of this film at the best sliding speed, tau/tau0 [-]
+    thermal_loss: float  # share of the isothermal Eyring stress that heat takes at this speed [-]
     thermal: float  # 1 where that share exceeds a tenth, else 0
-    deborah_number: float  # eta U/(G a) of this film, 0 for a rigid one [1]
+    deborah_number: float  # eta U/(G a) of this film, 0 for a rigid one [-]
     limit: float  # what limits traction at any speed: NEWTONIAN, EYRING or PLASTIC
     state: float  # NEWTONIAN, EYRING or PLASTIC at this sliding speed
 
@@ -64,12 +64,12 @@ def largest_stress_ratio(map_number: float) -> float:
     Parameters
     ----------
     map_number
-        L, pressure number and film number together [1].
+        L, pressure number and film number together [-].
 
     Returns
     -------
     float
-        s [1].
+        s [-].
 
     Notes
     -----
@@ -122,7 +122,7 @@ def traction_regime(
     sliding_speed
         dU [m/s], either sign.
     stress_ratio
-        tau/tau0 of this film, from `thermal_eyring_film` [1].
+        tau/tau0 of this film, from `thermal_eyring_film` [-].
     limiting_stress
         tau_L at this pressure [Pa]; infinite if unknown.
     shear_modulus

@@ -6,15 +6,13 @@ import math
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, line_numbers
 from gearlube_core.helical_geometry.contact_line import ContactPlane, clip_line, line_position
 from gearlube_core.helical_geometry.load_sharing import unrelieved_plane
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.storage.resumable_records import Record
-
-Array = NDArray[np.float64]
 
 _STATE, _LINE = ("phase", "torque"), ("phase", "torque", "line")
 _UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {

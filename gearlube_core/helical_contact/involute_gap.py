@@ -9,11 +9,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.helical_geometry.pair import HelicalPair
-
-Array = NDArray[np.float64]
 
 
 def roll_beside(x: ArrayLike, y: ArrayLike, base_radius: float) -> Array:

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array, hstack
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_contact.strips import (
@@ -30,8 +30,6 @@ from gearlube_core.tooth_compliance.coupled_strips import (
 )
 from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
 
-Array = NDArray[np.float64]
-
 _GROW = 1.5  # a strip that contact leaves is cut anew, this much larger
 _ATTEMPTS = 10
 _FIRST_DENSITY = 1.2e10  # N/m2 of contact line, only to size the first strips
@@ -46,7 +44,7 @@ class LoadedSettings:
     ----------
     strips : StripSettings
     tolerance : float
-        Of the unilateral contact's residual [1].
+        Of the unilateral contact's residual [-].
     """
 
     strips: StripSettings = field(default_factory=StripSettings)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
@@ -13,8 +12,6 @@ from gearlube_core.helical_geometry.contact_line import clip_line, line_position
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.storage.resumable_records import Record
-
-Array = NDArray[np.float64]
 
 
 def line_mesh(modified: ModifiedPair, settings: CycleSettings, cycle: Record) -> LineMesh:

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.loaded_contact import (
@@ -24,8 +25,6 @@ from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
 from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
-
-Array = NDArray[np.float64]
 
 _FORMAT = 1  # raise with every change of the model that changes results
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.involute_gap import (
@@ -22,8 +23,6 @@ from gearlube_core.helical_contact.involute_gap import (
 )
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
-
-Array = NDArray[np.float64]
 
 _SAMPLES = 801  # points across the face at which a line's gap is looked at
 _ON_EDGE = 1e-3  # cells: a centre on the tip edge counts as inside

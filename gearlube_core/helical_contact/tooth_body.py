@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, contact_modulus
 from gearlube_core.errors import ParameterError
@@ -23,8 +24,6 @@ from gearlube_core.tooth_compliance.tooth_body import (
     members_compliance,
 )
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
-
-Array = NDArray[np.float64]
 
 # 30e6 psi, the usual steel of the rig of He et al. 2007, who do not print theirs
 STEEL_HE_2007 = replace(STEEL_MOHAMMADPOUR_2015, youngs_modulus=206.8e9)

@@ -26,7 +26,7 @@ class ContactPlane(NamedTuple):
     W: float  # face width [m]
     x_g: float  # x of the gear's tangent point [m]
     pitch: float  # transverse base pitch [m]
-    sin_b: float  # of the base helix angle [1]
+    sin_b: float  # of the base helix angle [-]
     cos_b: float
     r_bp: float  # base radii [m]
     r_bg: float

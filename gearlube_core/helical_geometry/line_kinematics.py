@@ -18,7 +18,7 @@ class LineKinematics(NamedTuple):
     u_g: float
     entrainment: float  # (u_p + u_g)/2 [m/s]
     sliding: float  # u_p - u_g, negative before the pitch line [m/s]
-    slide_roll: float  # sliding over entrainment [1]
+    slide_roll: float  # sliding over entrainment [-]
 
 
 @kernel

@@ -10,8 +10,9 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.contact_line import (
@@ -26,7 +27,6 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.jit import kernel
 
 CONVENTIONS = ("normal", "thesis")
-Array = NDArray[np.float64]
 
 
 class SharedLoad(NamedTuple):

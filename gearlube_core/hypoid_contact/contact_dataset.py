@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import contact_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
@@ -26,8 +26,6 @@ from gearlube_core.hypoid_contact.touching_error import touching_error
 from gearlube_core.hypoid_contact.unloaded_error import contact_ratio
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-
-Array = NDArray[np.float64]
 
 PATH_POSITIONS = 161  # of the unloaded path of contact, over four pitches
 ERROR_POSITIONS = 64  # of the unloaded transmission error, over one

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_path import ContactPath
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample, shape_operator
-
-Array = NDArray[np.float64]
 
 _LARGEST_LEAN = 0.1  # rad, between normals that still count as opposite: edges lean
 _LARGEST_GAP = 1e-3  # m, between points that still count as opposite

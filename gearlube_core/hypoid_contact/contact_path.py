@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_point import (
     TOUCHING,
@@ -17,8 +18,6 @@ from gearlube_core.hypoid_contact.contact_point import (
 from gearlube_core.hypoid_contact.first_touch import FirstTouch, first_touch
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_sample, tooth_position
-
-Array = NDArray[np.float64]
 
 _LONGEST_STEP = 0.125  # of a pitch, between solutions that start from one another
 _DIFFERENCE = 1e-3  # of a pitch: errors of both difference and rounding below 1e-8 m

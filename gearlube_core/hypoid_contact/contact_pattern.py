@@ -8,11 +8,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.hypoid_contact.ease_off import EaseOff
 from gearlube_core.hypoid_contact.touching_error import touching_error
-
-Array = NDArray[np.float64]
 
 MARKING_COMPOUND = 6.35e-6  # m, a quarter of a thousandth of an inch: customary in bevel gear tests
 

@@ -8,11 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import TableError
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.table import PAIRS, MeshTable, Provenance
-
-Array = NDArray[np.float64]
 
 ORDERS = 5  # mesh orders kept of each series
 ZERO_PHASE = -0.5 * PAIRS  # of tooth pair 0 at pinion angle zero, so that it meets mid-window

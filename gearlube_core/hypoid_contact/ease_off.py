@@ -9,14 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.hypoid_contact.first_touch import turning_map
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
 from gearlube_core.hypoid_contact.turning_map import map_turning
-
-Array = NDArray[np.float64]
 
 _GRID = (9, 13)  # profile and face positions
 

@@ -8,6 +8,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
 from gearlube_core.hypoid_contact.placement import Placement, place_direction, place_point
@@ -15,8 +16,6 @@ from gearlube_core.hypoid_contact.rays import HIT, hit_along
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
-
-Array = NDArray[np.float64]
 
 _PROFILE = np.linspace(0.02, 1.0, 25)
 _FACE = np.linspace(0.0, 1.0, 49)

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array, hstack
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.contact.unilateral_problem import UnilateralSolution
 from gearlube_core.errors import ConvergenceError
@@ -23,8 +23,6 @@ from gearlube_core.tooth_compliance.coupled_strips import (
     solve_coupled,
 )
 from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
-
-Array = NDArray[np.float64]
 
 _GROW = 1.6  # a strip that contact leaves is cut anew, this much larger
 _ATTEMPTS = 8
@@ -42,7 +40,7 @@ class LoadedSettings:
     cells_across, cells_along : int
         Cells of a strip across and along the contact line.
     tolerance : float
-        Of the unilateral contact's residual [1].
+        Of the unilateral contact's residual [-].
     """
 
     cells_across: int = 32

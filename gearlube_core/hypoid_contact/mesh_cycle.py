@@ -8,8 +8,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.loaded_contact import (
@@ -24,8 +24,6 @@ from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
-
-Array = NDArray[np.float64]
 
 SIDES: tuple[Side, ...] = ("drive", "coast")
 PAIRS_BESIDE = 2  # tooth pairs looked at before and after the one at the mesh phase

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.placement import (
     ALIGNED,
     Misalignment,
@@ -26,7 +27,6 @@ from gearlube_core.hypoid_geometry.flank.flank import Flank, Side
 from gearlube_core.hypoid_geometry.flank.machine_frames import reference_point
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
-Array = NDArray[np.float64]
 Angle = TypeVar("Angle", float, NDArray[np.float64])
 
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.placement import Placement, place_direction
 from gearlube_core.hypoid_geometry.flank.flank import Flank, FlankSample
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
-
-Array = NDArray[np.float64]
 
 
 def placed_sample(flank: Flank, base: Placement, turns: Array, parameters: Array) -> FlankSample:

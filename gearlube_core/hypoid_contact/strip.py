@@ -9,14 +9,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.gap_map import GapMap, closing_arm, gear_arm, within_tooth
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import Placement
 from gearlube_core.hypoid_contact.rays import HIT, hit_along
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

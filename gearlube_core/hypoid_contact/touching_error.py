@@ -8,12 +8,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.first_touch import first_touch, turning_map
 from gearlube_core.hypoid_contact.pair import FlankPair
-
-Array = NDArray[np.float64]
 
 _STENCIL = np.linspace(-1.0, 1.0, 3)
 _FINE = np.linspace(-1.0, 1.0, 41)

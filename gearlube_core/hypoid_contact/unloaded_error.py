@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import ContactKinematics, path_kinematics
 from gearlube_core.hypoid_contact.contact_path import ContactPath, contact_path
 from gearlube_core.hypoid_contact.pair import FlankPair
-
-Array = NDArray[np.float64]
 
 _REACH = 2.5  # pitches to each side in which a pair is followed
 _SCAN = 32  # positions a pitch of the coarse path

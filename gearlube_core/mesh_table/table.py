@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import TableError
 
-Array = NDArray[np.float64]
 Kind = Literal["table", "inferred", "completed"]
 
 SERIES_UNITS: Mapping[str, str] = {

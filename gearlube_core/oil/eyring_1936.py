@@ -20,14 +20,14 @@ def eyring_stress_ratio(newtonian_ratio: float, exponent: float) -> float:
     Parameters
     ----------
     newtonian_ratio
-        x = eta0 shear_rate / tau0 [1], not negative.
+        x = eta0 shear_rate / tau0 [-], not negative.
     exponent
-        y = ln(eta/eta0) [1], for example alpha p.
+        y = ln(eta/eta0) [-], for example alpha p.
 
     Returns
     -------
     float
-        Shear stress over Eyring stress [1].
+        Shear stress over Eyring stress [-].
 
     Notes
     -----

@@ -34,17 +34,17 @@ class EhlLubricant(NamedTuple):
     """Oil of a film; all floats, SI. Build it with `ehl_lubricant` or `lubricant_from_library`."""
 
     eta0: float  # viscosity at ambient pressure and `temperature` [Pa s]
-    log_ratio: float  # A [1]
+    log_ratio: float  # A [-]
     chi: float  # [1/Pa]
-    Z: float  # [1]
+    Z: float  # [-]
     rho0: float  # density at ambient pressure and `temperature` [kg/m3]
     gamma: float  # of the density law [1/Pa]; 0 with `lam` 0: incompressible
     lam: float  # of the density law [1/Pa]
     tau0: float  # Eyring stress [Pa]; 0: Newtonian
     tau_limit: float  # limiting shear stress at ambient pressure [Pa]
-    limit_slope: float  # its slope with pressure [1]; both 0: no limit
+    limit_slope: float  # its slope with pressure [-]; both 0: no limit
     temperature: float  # T0 [K]
-    S0: float  # temperature exponent [1]; 0: isothermal
+    S0: float  # temperature exponent [-]; 0: isothermal
     expansion: float  # thermal expansion of volume [1/K]
     conductivity: float  # [W/(m K)]
     heat_capacity: float  # [J/(kg K)]
@@ -132,7 +132,7 @@ def thermal_viscosity(oil: EhlLubricant, p: float, temperature: float) -> float:
 
 @kernel
 def cooling_factor(oil: EhlLubricant, temperature: float) -> float:
-    """Return t^(-S0), t = (T - 138)/(T0 - 138), of the law of Houpert [1]; T [K]."""
+    """Return t^(-S0), t = (T - 138)/(T0 - 138), of the law of Houpert [-]; T [K]."""
     t = (temperature - GLASS_TEMPERATURE) / (oil.temperature - GLASS_TEMPERATURE)
     return math.exp(-oil.S0 * math.log(t))
 
@@ -155,12 +155,12 @@ def thermal_log_slope(oil: EhlLubricant, p: float, cooling: float) -> tuple[floa
     p
         Gauge pressure [Pa].
     cooling
-        `cooling_factor` of the temperature [1]; 1 at the reference temperature.
+        `cooling_factor` of the temperature [-]; 1 at the reference temperature.
 
     Returns
     -------
     tuple of float
-        ln(eta/eta0) [1] and d ln eta/dp [1/Pa], without the linear tail of `viscosity`.
+        ln(eta/eta0) [-] and d ln eta/dp [1/Pa], without the linear tail of `viscosity`.
     """
     growth = _pressure_exponent(oil, p)
     log_eta = oil.log_ratio * (cooling * growth + cooling - 1.0)
@@ -258,7 +258,7 @@ def fill_warm_properties(
     oil, p, eta, eta_slope, rho, rho_slope
         As in `fill_properties`.
     cooling, dilation
-        `cooling_factor` and the density's factor by heat, of the shape of `p` [1].
+        `cooling_factor` and the density's factor by heat, of the shape of `p` [-].
     """
     for i in range(p.size):
         y, slope = thermal_log_slope(oil, p[i], cooling[i])
@@ -306,11 +306,11 @@ def ehl_lubricant(
     eyring_stress : float, optional
         tau0 [Pa]; without it the oil is Newtonian.
     limiting_shear : tuple of float, optional
-        Limiting shear stress at ambient pressure [Pa] and its slope with pressure [1].
+        Limiting shear stress at ambient pressure [Pa] and its slope with pressure [-].
     temperature : float
         Of the oil at the inlet [K].
     temperature_exponent, expansion, conductivity, heat_capacity : float
-        S0 of Houpert [1], [1/K], [W/(m K)], [J/(kg K)]: used by thermal solutions only.
+        S0 of Houpert [-], [1/K], [W/(m K)], [J/(kg K)]: used by thermal solutions only.
 
     Returns
     -------

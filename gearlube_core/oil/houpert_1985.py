@@ -23,10 +23,10 @@ _COLD, _HOT = 313.15, 373.15  # K
 class HoupertParameters(NamedTuple):
     """Viscosity law of one oil; all floats, SI."""
 
-    log_viscosity: float  # ln eta + 9.67 at atmospheric pressure and `temperature` [1]
+    log_viscosity: float  # ln eta + 9.67 at atmospheric pressure and `temperature` [-]
     temperature: float  # [K]
-    S0: float  # temperature exponent [1]
-    Z: float  # pressure exponent [1]
+    S0: float  # temperature exponent [-]
+    Z: float  # pressure exponent [-]
 
 
 def fit_houpert(
@@ -132,7 +132,7 @@ def houpert_log_viscosity(law: HoupertParameters, pressure: float, temperature: 
     Returns
     -------
     float
-        [1].
+        [-].
 
     Notes
     -----
@@ -164,7 +164,7 @@ def houpert_temperature_coefficient(
     law
         Of one oil.
     log_viscosity
-        ln eta + 9.67 at the pressure and temperature of interest [1].
+        ln eta + 9.67 at the pressure and temperature of interest [-].
     temperature
         T [K].
 

@@ -24,13 +24,13 @@ from gearlube_core.oil.viscosity_constants import (
 class LubricantParameters(NamedTuple):
     """What the kernels need to know of a lubricant; all floats, SI."""
 
-    walther_a: float  # [1]
-    walther_b: float  # [1]
+    walther_a: float  # [-]
+    walther_b: float  # [-]
     density: float  # [kg/m3]
-    roelands_z: float  # [1]
+    roelands_z: float  # [-]
     tau0: float  # Eyring stress [Pa]
     tau_l0: float  # limiting shear stress at zero pressure [Pa]
-    gamma: float  # boundary friction: slope of limiting shear stress with pressure [1]
+    gamma: float  # boundary friction: slope of limiting shear stress with pressure [-]
     conductivity: float  # at conductivity_temperature [W/(m K)]
     conductivity_temperature: float  # [K]
     conductivity_slope: float  # [W/(m K2)]
@@ -45,7 +45,7 @@ class Lubricant:
     name, source
         Name in the library and the publication the data come from.
     walther_a, walther_b
-        Line log10 log10 (nu + 0.7) = A - B log10 T, nu in mm2/s, T in K [1].
+        Line log10 log10 (nu + 0.7) = A - B log10 T, nu in mm2/s, T in K [-].
     density
         [kg/m3], taken as independent of temperature.
     alpha
@@ -54,7 +54,7 @@ class Lubricant:
     eyring_stress
         Stress where shear thinning begins [Pa].
     limiting_shear_stress, boundary_friction
-        Strength of boundary junctions tau = tau_l0 + gamma p: tau_l0 [Pa] and gamma [1].
+        Strength of boundary junctions tau = tau_l0 + gamma p: tau_l0 [Pa] and gamma [-].
     conductivity, conductivity_temperature, conductivity_slope
         Thermal conductivity [W/(m K)] at a temperature [K], and its slope [W/(m K2)].
     heat_capacity
@@ -169,7 +169,7 @@ class Lubricant:
 
     @property
     def roelands_z(self) -> float:
-        """Pressure exponent of the Roelands law [1]."""
+        """Pressure exponent of the Roelands law [-]."""
         return roelands_exponent(self.dynamic_viscosity(self.alpha_temperature), self.alpha)
 
     def parameters(self) -> LubricantParameters:

@@ -19,7 +19,7 @@ class LubricantState(NamedTuple):
     nu: float  # kinematic viscosity [m2/s]
     tau0: float  # Eyring stress [Pa]
     tau_l0: float  # limiting shear stress at zero pressure [Pa]
-    gamma: float  # boundary friction [1]
+    gamma: float  # boundary friction [-]
     conductivity: float  # [W/(m K)]
 
 

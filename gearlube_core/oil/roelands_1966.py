@@ -19,7 +19,7 @@ def pressure_viscosity_coefficient(eta0: float, Z: float) -> float:
     eta0
         Viscosity at atmospheric pressure and the temperature of interest [Pa s].
     Z
-        Pressure exponent [1], independent of temperature.
+        Pressure exponent [-], independent of temperature.
 
     Returns
     -------
@@ -44,7 +44,7 @@ def roelands_viscosity(eta0: float, Z: float, pressure: float) -> float:
     eta0
         Viscosity at atmospheric pressure [Pa s].
     Z
-        Pressure exponent [1].
+        Pressure exponent [-].
     pressure
         Gauge pressure p [Pa].
 

@@ -30,7 +30,7 @@ def walther_coefficients(
     Returns
     -------
     tuple of float
-        A and B [1].
+        A and B [-].
 
     Notes
     -----
@@ -48,5 +48,5 @@ def walther_kinematic_viscosity(A: float, B: float, temperature: float) -> float
 
 
 def roelands_exponent(eta0: float, alpha: float) -> float:
-    """Return the pressure exponent Z = alpha / [5.1e-9 (ln eta0 + 9.67)] [1]."""
+    """Return the pressure exponent Z = alpha / [5.1e-9 (ln eta0 + 9.67)] [-]."""
     return alpha / (ROELANDS_PRESSURE * (math.log(eta0) + ROELANDS_LOG_VISCOSITY))

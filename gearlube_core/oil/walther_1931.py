@@ -19,7 +19,7 @@ def walther_viscosity(A: float, B: float, temperature: float) -> tuple[float, fl
     Parameters
     ----------
     A, B
-        Coefficients of the line [1].
+        Coefficients of the line [-].
     temperature
         Absolute temperature T [K].
 

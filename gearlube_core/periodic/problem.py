@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.errors import ParameterError
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 Residual = Callable[[Array, float], tuple[Array, Array, Array, Array]]
 PeriodMap = Callable[[Array, float], tuple[Array, Array, Array]]
 

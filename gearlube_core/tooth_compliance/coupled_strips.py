@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.contact.strip_compliance import StripCompliance
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem, UnilateralSolution
 from gearlube_core.contact.unilateral_stiffness import tangent_forces
 from gearlube_core.tooth_compliance.flank_compliance import FlankCompliance
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

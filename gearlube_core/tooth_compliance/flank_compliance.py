@@ -12,11 +12,11 @@ interpolates is not smoothed twice.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
 from gearlube_core.errors import ParameterError
@@ -30,8 +30,6 @@ from gearlube_core.tooth_compliance.tooth_fe import normal_hat_loads, tooth_mode
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity, tooth_mesh
 from gearlube_core.tooth_compliance.tooth_section import Flank
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 SIDES = ("left", "right")
 
@@ -75,7 +73,7 @@ class FlankCompliance:
     Parameters
     ----------
     s, t
-        Flank parameters of the hats' centres [1], (mh,) root to tip and (nh,) toe to heel.
+        Flank parameters of the hats' centres [-], (mh,) root to tip and (nh,) toe to heel.
     image
         B = M^-1 (C_fe - C_hs) M^-T, influence function between the hats' centres [m/N],
         (mh nh, mh nh).
@@ -138,7 +136,7 @@ def tooth_compliance(
 
 
 def interpolation_weights(s: Array, t: Array, compliance: FlankCompliance) -> csr_array:
-    """Return W, the weights of points on the hats, sparse (points, mh nh) [1].
+    """Return W, the weights of points on the hats, sparse (points, mh nh) [-].
 
     W^T f spreads point forces over hats, W u interpolates the hats' displacements. Points
     outside the grid are moved to its edge.
@@ -146,7 +144,7 @@ def interpolation_weights(s: Array, t: Array, compliance: FlankCompliance) -> cs
     Parameters
     ----------
     s, t
-        Flank parameters of the points [1], any shape that broadcasts; counted in C order.
+        Flank parameters of the points [-], any shape that broadcasts; counted in C order.
     compliance
         Its grid of hats.
     """

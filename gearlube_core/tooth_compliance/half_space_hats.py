@@ -7,17 +7,15 @@ elements leaves what a loaded contact with its own half-space solution still lac
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial.distance import cdist
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import Solid
 from gearlube_core.tooth_compliance.hat_grid import hat_values
 from gearlube_core.tooth_compliance.tooth_section import Flank
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 # cells between the centres of two hats along each parameter; the error falls with the square of
 # the cells' size, so two sizes extrapolate: 0.1 % is left inside, 0.5 % in the corners
@@ -116,7 +114,7 @@ def half_space_compliance(
     flank
         Surface; |x - x'| is the chord between its points.
     s_nodes, t_nodes
-        Parameters of the hats' centres [1].
+        Parameters of the hats' centres [-].
     solid
         Elastic constants.
     refinement

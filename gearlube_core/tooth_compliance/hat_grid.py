@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
+from gearlube_core.arrays import Array, Indices
 from gearlube_core.errors import ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Indices = np.ndarray[Any, np.dtype[np.intp]]
-
 
 _TIP_CLUSTER = 0.4  # steps at the tip are 0.6, at the root 1.4 of the mean
 
@@ -41,14 +36,14 @@ def bracket(x: Array, nodes: Array) -> tuple[Indices, Array]:
 
 
 def hat_values(s: Array, t: Array, s_nodes: Array, t_nodes: Array) -> csr_array:
-    """Return the values of all hats at points of the flank, sparse (points, mh nh) [1].
+    """Return the values of all hats at points of the flank, sparse (points, mh nh) [-].
 
     Parameters
     ----------
     s, t
-        Flank parameters of the points [1], any shape; counted in C order.
+        Flank parameters of the points [-], any shape; counted in C order.
     s_nodes, t_nodes
-        Rising parameters of the hats' centres [1], (mh,) and (nh,). Hat (i, j) is column
+        Rising parameters of the hats' centres [-], (mh,) and (nh,). Hat (i, j) is column
         i nh + j.
     """
     s, t = np.broadcast_arrays(np.asarray(s, dtype=float), np.asarray(t, dtype=float))

@@ -7,16 +7,12 @@ forward elimination only, so no factor is kept.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy.linalg import LinAlgError, cholesky, solve_triangular
 from scipy.sparse import csr_array
 
+from gearlube_core.arrays import Array, Indices
 from gearlube_core.errors import ConvergenceError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Indices = np.ndarray[Any, np.dtype[np.intp]]
 
 
 def energy_products(matrix: csr_array, loads: Array, layer: Indices) -> Array:

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 from skfem import Basis, ElementHexS2, FacetBasis
 
+from gearlube_core.arrays import Array, Indices
 from gearlube_core.contact.solid import Solid
 from gearlube_core.tooth_compliance.hat_grid import hat_values
 from gearlube_core.tooth_compliance.layer_elimination import energy_products
 from gearlube_core.tooth_compliance.tooth_mesh import ToothMesh
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Indices = np.ndarray[Any, np.dtype[np.intp]]
 
 _ELEMENT = ElementHexS2()
 _DEGREE = 4  # 27 points in an element, 9 on a facet: exact for quadratics on bricks
@@ -65,7 +62,7 @@ def normal_hat_loads(
     Returns
     -------
     forces
-        (3 nodes, mh nh) [1]: newtons per newton. Their transpose averages the displacement.
+        (3 nodes, mh nh) [-]: newtons per newton. Their transpose averages the displacement.
     gram
         Integral of hat_h hat_k dA [m2], (mh nh, mh nh); a row adds up to A_h.
     """

@@ -8,18 +8,16 @@ the cut through the rim, which is held. A lengthwise station is one layer of nod
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from skfem import MeshHex
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.tooth_compliance.hat_grid import lengthwise_nodes, profile_nodes
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
 from gearlube_core.tooth_compliance.tooth_section import HalfSection, half_section
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +31,7 @@ class MeshDensity:
     thickness
         Half the number through the tooth; they grow from both flanks to the middle.
     growth
-        Ratio of neighbouring elements through the tooth [1].
+        Ratio of neighbouring elements through the tooth [-].
     fillet, slot, rim
         Along a fillet, the flat of the half slot, and each pitch of plain rim.
     """
@@ -88,7 +86,7 @@ class ToothMesh:
         )
 
     def flank_parameters(self) -> tuple[Array, Array]:
-        """Return s and t at all nodes [1]; s is meant on the flanks only."""
+        """Return s and t at all nodes [-]; s is meant on the flanks only."""
         _, down, station = np.rint(self.logical.p).astype(int)
         return self.s[::-1][np.minimum(down, len(self.s) - 1)], self.t[station]
 
@@ -147,7 +145,7 @@ def _nodes(geometry: ToothGeometry, density: MeshDensity, s: Array, t: Array) ->
 
 
 def smallest_scaled_jacobian(mesh: MeshHex) -> float:
-    """Return the smallest scaled Jacobian at the elements' corners [1], 1 for bricks.
+    """Return the smallest scaled Jacobian at the elements' corners [-], 1 for bricks.
 
     Triple product of the unit edges at a corner; a trilinear element is invertible at its
     corners only where it is above zero.

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _MOST_OF_THE_SLOT = 0.85  # of the half slot; the rest stays flat so that no element vanishes
 
@@ -83,10 +81,10 @@ def half_section(
     side
         `left` or `right`.
     s, t
-        Flank parameters of the rows (from 1 down to 0) and of the stations [1].
+        Flank parameters of the rows (from 1 down to 0) and of the stations [-].
     fillet, slot, rim
         Fractions (0, 1] of the way along the fillet, the flat of the slot's bottom and the
-        plain rim at which rows lie [1]; `rim` may be empty.
+        plain rim at which rows lie [-]; `rim` may be empty.
 
     Raises
     ------

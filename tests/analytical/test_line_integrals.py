@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.friction.line_friction import line_friction
@@ -24,7 +25,6 @@ from gearlube_core.mesh_table.line_mesh import LineMesh, uniform_line_mesh
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 SURFACE = SurfaceParameters(sigma=0.5e-6, xi_beta_sigma=0.055, sigma_over_beta=0.001)
 OIL = Lubricant.named("mohammadpour_2015")

@@ -7,26 +7,25 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-
-Vector = NDArray[np.float64]
 
 
 class RelativeCurvature(NamedTuple):
     """Curvature across the line of contact [1/m] and its unit direction, shape (3,)."""
 
     curvature: float
-    across: Vector
+    across: Array
 
 
 def conjugate_relative_curvature(
     *,
     shape_operator: NDArray[np.float64],
-    normal: Vector,
-    velocity_1: Vector,
-    velocity_2: Vector,
-    omega_1: Vector,
-    omega_2: Vector,
+    normal: Array,
+    velocity_1: Array,
+    velocity_2: Array,
+    omega_1: Array,
+    omega_2: Array,
 ) -> RelativeCurvature:
     """Return the relative curvature of two conjugate (line contact) surfaces at a point.
 

@@ -70,7 +70,7 @@ def moes_film(problem: PointContactProblem, film: float) -> float:
 
 
 def flow_out(solution: PointSolution, i0: int, i1: int, j0: int, j1: int) -> float:
-    """Return what leaves a box of nodes over what enters it upstream, less one [1].
+    """Return what leaves a box of nodes over what enters it upstream, less one [-].
 
     With central faces the flow is that of the printed equation, evaluated from SI fields.
     """

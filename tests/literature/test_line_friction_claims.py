@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.line_hertz import LARGEST_OVER_MEAN, line_mean_pressure
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
@@ -68,7 +69,6 @@ def schlenk(
     return float(0.048 * (load / (speed * rho)) ** 0.2 * viscosity**-0.05 * Ra**0.25)
 
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 Local = Callable[..., Array]
 
 

@@ -7,16 +7,14 @@ from afar (as r^-1). A Poisson equation between known border values gives the de
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from scipy.fft import dstn, idstn, irfft, next_fast_len, rfft
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.errors import ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 def laplacian_coefficients(

@@ -9,10 +9,9 @@ import numpy as np
 import pyfftw
 from scipy.special import iti0k0, zeta
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
 from gearlube_core.errors import ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _REACH = 38.0  # K0 has fallen to e^-38 there
 _MOST_CELLS = 8192  # along one side

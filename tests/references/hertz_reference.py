@@ -45,7 +45,7 @@ class HertzContact:
 
     @property
     def ellipticity(self) -> float:
-        """Major over minor semi-axis [1]."""
+        """Major over minor semi-axis [-]."""
         ratio = max(self.R_x, self.R_y) / min(self.R_x, self.R_y)
         if ratio - 1.0 < 1e-6:
             return ratio ** (2.0 / 3.0)  # limit for nearly circular contacts

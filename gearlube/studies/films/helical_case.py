@@ -104,7 +104,7 @@ class HelicalLineCase:
         )
 
     def step_of(self, film: HelicalFilm) -> float:
-        """Return the step at which the line is looked at [1]."""
+        """Return the step at which the line is looked at [-]."""
         steps = film.steps
         if self.step is not None and self.position is not None:
             raise ParameterError(

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.studies.films.formulas import line_film_formulas
 from gearlube.studies.films.helical_case import HelicalLineCase, line_of_step
 from gearlube.studies.films.variables import formula_variables, unit_note
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.line.problem import LineProblem
 from gearlube_core.ehl.line.traction import fill_mean_stress
 from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.oil.film_oil import fill_properties
-
-Array = NDArray[np.float64]
 
 
 def helical_dataset(
@@ -30,7 +28,7 @@ def helical_dataset(
     film
         The line through its cycle.
     step
-        Where the line is looked at [1].
+        Where the line is looked at [-].
     solution
         Its film there.
 

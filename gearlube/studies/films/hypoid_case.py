@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from gearlube.studies.films.hypoid_drive import PairDrive, dynamic_drive, static_drive
 from gearlube.studies.films.hypoid_motion import contact_motion
+from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters, mohammadpour_2015_axle
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
@@ -18,8 +18,6 @@ from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 from gearlube_core.oil.named_film_oils import lubricant_from_library
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _FEWEST = 8  # samples of a cycle
 

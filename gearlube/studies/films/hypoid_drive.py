@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import (
     OUTPUT_INDEX,
     HypoidAxle,
@@ -13,8 +14,6 @@ from gearlube_core.dynamics.hypoid_axle import (
 )
 from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
 from gearlube_core.mesh_table.table import PAIRS
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 LOADS = ("dynamic", "static")
 _SETTLE = 0.8  # s until the motion repeats at the speed asked for
@@ -41,7 +40,7 @@ class PairDrive(NamedTuple):
     speed: Array  # of the pinion [rad/s]
     load: Array  # of the pair [N]
     axle_film: Array  # that the axle model finds [m]; nan without motion
-    axle_friction: Array  # its coefficient of friction [1]; nan without motion
+    axle_friction: Array  # its coefficient of friction [-]; nan without motion
 
 
 def dynamic_drive(

@@ -41,11 +41,11 @@ class FlankFormulas(NamedTuple):
     component_central: float  # Chittenden with the component along the minor axis alone [m]
     component_minimum: float
     grubin: float  # [m]
-    evans_johnson: float  # film's friction as the axle has it, with Chittenden's film [1]
-    evans_johnson_solved: float  # the same with the solved central film [1]
-    evans_johnson_roelands: float  # with the solved film and the solution's viscosity [1]
-    axle_friction: float  # film and asperities, with Chittenden's film [1]
-    asperity_share: float  # of that friction [1]
+    evans_johnson: float  # film's friction as the axle has it, with Chittenden's film [-]
+    evans_johnson_solved: float  # the same with the solved central film [-]
+    evans_johnson_roelands: float  # with the solved film and the solution's viscosity [-]
+    axle_friction: float  # film and asperities, with Chittenden's film [-]
+    asperity_share: float  # of that friction [-]
     regime: float  # of traction_regime: 0 Newtonian, 1 Eyring, 2 elastic-plastic
 
 

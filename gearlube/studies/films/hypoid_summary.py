@@ -55,7 +55,7 @@ class RatioRow(NamedTuple):
 
     quantity: str
     source: str
-    least: float  # of the solution, or of the source over the solution [1]
+    least: float  # of the solution, or of the source over the solution [-]
     largest: float
     load_weighted_mean: float
     unit: str

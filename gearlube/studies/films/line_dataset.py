@@ -6,15 +6,13 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.studies.films.formulas import line_film_formulas
 from gearlube.studies.films.variables import formula_variables, unit_note
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.case.contact_case import LineCase
 from gearlube_core.ehl.line.solution import LineSolution
 from gearlube_core.ehl.line.thermal import ThermalLineSolution
-
-Array = NDArray[np.float64]
 
 
 def line_dataset(

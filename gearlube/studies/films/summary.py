@@ -19,7 +19,7 @@ class Row(NamedTuple):
     source: str  # "solution", or whose formula
     value: float
     unit: str
-    deviation: float  # of the source from the solution [1]; nan for the solution itself
+    deviation: float  # of the source from the solution [-]; nan for the solution itself
 
 
 def summary_rows(dataset: xr.Dataset) -> list[Row]:

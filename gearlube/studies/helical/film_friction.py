@@ -6,15 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.studies.helical.labels import Variables
 from gearlube.studies.helical.settings import HelicalSettings
+from gearlube_core.arrays import Array
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
-Array = NDArray[np.float64]
 PHASES, NODES = 96, 16
 SPEED_STEPS = (0.1, 4.0, 17)  # of the operating point's speed, geometric
 

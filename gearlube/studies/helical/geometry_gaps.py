@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.helical.geometry_lines import (
     STATIONS,
@@ -15,6 +14,7 @@ from gearlube.studies.helical.geometry_lines import (
     described,
     relieved_lines_always_touch,
 )
+from gearlube_core.arrays import Array
 from gearlube_core.contact.line_hertz import line_mean_pressure
 from gearlube_core.helical_geometry.involute import involute_flank
 from gearlube_core.helical_geometry.lay_angle import equal_radius_line
@@ -23,8 +23,6 @@ from gearlube_core.helical_geometry.load_sharing import shared_load
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
 from gearlube_core.helical_geometry.tip_relief import TipRelief
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap, contact_line_gap
-
-Array = NDArray[np.float64]
 
 RELIEF_FORMS = (0.0, 0.5, 1.0)  # k of Jamali 2015 fig. 5.2 to 5.4
 CROWN_STARTS = (0.0, 0.1, 0.25, 0.4, 0.45)  # F_o over F, Jamali 2015 sec. 4.6

@@ -6,8 +6,8 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.helical_geometry.contact_line import clip_line
 from gearlube_core.helical_geometry.lay_angle import lay_angle_limits, lay_angles
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
@@ -16,7 +16,6 @@ from gearlube_core.helical_geometry.meshing_steps import line_at_position, posit
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
 
-Array = NDArray[np.float64]
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
 
 UNMODIFIED, RELIEVED = "unmodified", "with tip relief"

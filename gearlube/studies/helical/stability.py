@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.studies.helical.sweep_grid import parameters_key
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.linear.instability_map import Axis, instability_map
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
@@ -23,7 +23,6 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
 
-Array = NDArray[np.float64]
 LIGHT_DAMPING = 0.01  # [-], of welded bodies and rolling bearings, below the paper's 0.05
 VARIATION = 8.0  # of the mesh about its mean; spur gears of this size vary five times as much
 DAMPING = (0.001, 0.05)

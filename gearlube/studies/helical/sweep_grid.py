@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.studies.helical.labels import FORCES, LENGTHS, MOMENTS, TILTS, Variables, words_of
 from gearlube.studies.helical.operating_point import HARMONIC_LABEL, MU_LABEL
 from gearlube.studies.helical.settings import HARMONICS
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.linear.harmonic_grid import QUANTITIES, harmonic_grid
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
@@ -29,7 +29,6 @@ from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
 from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
 
-Array = NDArray[np.float64]
 _FORMAT = 1  # raise with every change of the model that changes results
 
 

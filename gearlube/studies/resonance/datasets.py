@@ -13,8 +13,8 @@ from gearlube.studies.resonance.measures import mesh_harmonics
 from gearlube.studies.resonance.response import HARMONICS, Response
 from gearlube.studies.resonance.settings import SWEPT
 from gearlube.studies.resonance.study import DIRECTIONS, ResonanceStudy
+from gearlube_core.arrays import Array
 
-Array = NDArray[np.float64]
 MULTIPLIERS = 3  # of the 2-DOF model; the 1-DOF model has two
 Variables = dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]
 

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.resonance.motions import Motion
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.flank_torques import thermal_pair
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import PAIRS_AT
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
@@ -16,8 +16,6 @@ from gearlube_core.dynamics.packed_mesh import ARM_G, ARM_P, N_CHANNELS, SHARE
 from gearlube_core.friction.friction_torques import flank_speeds, friction_torques
 from gearlube_core.friction.traction_regime import flank_regime
 from gearlube_core.mesh_table.table import PAIRS, MeshTable
-
-Array = NDArray[np.float64]
 
 # of the state of a flank, `ThermalFlankState`
 STATE = (

@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit
-
-Array = NDArray[np.float64]
 
 
 def mesh_harmonics(x: Array, periods: int, count: int) -> Array:

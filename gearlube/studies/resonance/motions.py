@@ -5,18 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.resonance.measures import rate_over_period
 from gearlube.studies.resonance.response import Response
 from gearlube.studies.resonance.settings import ResonanceSettings
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
 from gearlube_core.periodic import solve_periodic
-
-Array = NDArray[np.float64]
 
 ORBIT_STEPS = 256  # samples per mesh period
 STROBES = 240  # mesh periods of the section

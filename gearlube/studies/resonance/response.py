@@ -6,14 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.resonance.settings import ResonanceSettings
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.periodic import Branch, SpecialPoint, follow, switch_branch
 
-Array = NDArray[np.float64]
 Progress = Callable[[float], None]
 
 HARMONICS = 6

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.dynamics.hypoid_torsional.parameters import (
     HypoidTorsionalParameters,
@@ -15,8 +15,6 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.table import MeshTable
-
-Array = NDArray[np.float64]
 
 # in the order in which they are run; "dry" models are checked by sweeps in time
 MODELS = {

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from gearlube_core.arrays import Array
 
 _MOST_LISTED = 6
 _WRINKLE = 2e-3  # two folds in a row that are closer than this are one wrinkle

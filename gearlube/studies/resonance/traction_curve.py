@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.resonance.flank_cycle import FlankCycle
+from gearlube_core.arrays import Array
 from gearlube_core.friction.johnson_greenwood_1980 import (
     thermal_eyring_film,
     thermal_newtonian_stress,
@@ -18,8 +18,6 @@ from gearlube_core.oil.houpert_1985 import (
     houpert_temperature_coefficient,
 )
 from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
-
-Array = NDArray[np.float64]
 
 SHEAR_RATES = np.geomspace(1e2, 1e8, 121)  # 1/s
 CURVES = (

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
+from gearlube_core.arrays import Array
 from gearlube_core.helical_geometry.contact_line import ContactPlane
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 # generalised coordinates: three translations and three rotations of pinion, then gear
 COORDINATES = (

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_ODE, U_G, U_P, V_G, V_P, W_G, W_P, X
@@ -17,7 +18,6 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 if TYPE_CHECKING:
     from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 
-Array = NDArray[np.float64]
 
 ANGLE_STEP = 1e-8  # rad, of the central differences
 LENGTH_STEP = 1e-9  # m

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import root
 
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.communication import communication_step
@@ -43,8 +43,6 @@ from gearlube_core.errors import ConvergenceError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.kernels import N_SERIES, blend_levels, load_bracket
 from gearlube_core.oil.lubricant_state import lubricant_state
-
-Array = NDArray[np.float64]
 
 MAX_TORQUE = 1e4  # N.m at the pinion: far beyond any car axle
 MAX_WHEEL_TORQUE = 3e4  # N.m

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
 from gearlube_core.periodic.problem import PeriodicProblem
-
-Array = NDArray[np.float64]
 
 _STEP = 1e-5  # of the torque, in the central difference by it
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import contact_modulus, solid_parameters
@@ -49,8 +49,6 @@ from gearlube_core.mesh_table import kernels as series
 from gearlube_core.mesh_table.kernels import blend_levels, load_bracket
 from gearlube_core.oil.houpert_1985 import houpert_parameters
 from gearlube_core.oil.lubricant_state import lubricant_state
-
-Array = NDArray[np.float64]
 
 MAX_SPEED = 5e3  # rad/s
 

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, N_Y, OK, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
@@ -15,8 +15,6 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalPa
 from gearlube_core.dynamics.hypoid_torsional.period_map import N_COLUMNS, WORK, period_map
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
 from gearlube_core.periodic.problem import PeriodicProblem
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

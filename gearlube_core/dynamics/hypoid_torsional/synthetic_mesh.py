@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.mesh_table.table import PAIRS, SERIES_UNITS, WINDOW_UNITS, MeshTable, Provenance
 
-Array = NDArray[np.float64]
 Harmonics = Sequence[tuple[float, float]]
 
 _NODES = 60

@@ -9,6 +9,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
@@ -19,7 +20,6 @@ from gearlube_core.errors import StepError
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.spectra import AngleWindow, order_spectrum
 
-Array = NDArray[np.float64]
 Direction = Literal["up", "down"]
 
 ORDERS = 8  # mesh orders of the transmission error that a sweep keeps

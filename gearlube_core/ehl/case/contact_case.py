@@ -91,7 +91,7 @@ class EhlCase(InputFile):
         entrainment
             (u1 + u2)/2 [m/s]; None keeps it.
         slide_roll
-            2 (u1 - u2)/(u1 + u2) [1]; None keeps it.
+            2 (u1 - u2)/(u1 + u2) [-]; None keeps it.
 
         Raises
         ------

@@ -50,14 +50,14 @@ def eyring_flow_factor(sigma: float, a: float) -> tuple[float, float, float]:
     Parameters
     ----------
     sigma
-        Stress drop over half the film, h (dp/dx)/(2 tau0) [1], either sign.
+        Stress drop over half the film, h (dp/dx)/(2 tau0) [-], either sign.
     a
-        Newtonian shear stress over tau0, eta (u2 - u1)/(h tau0) [1], either sign.
+        Newtonian shear stress over tau0, eta (u2 - u1)/(h tau0) [-], either sign.
 
     Returns
     -------
     tuple of float
-        S [1], dS/dsigma, dS/da.
+        S [-], dS/dsigma, dS/da.
 
     Notes
     -----

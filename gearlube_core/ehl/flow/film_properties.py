@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.oil.film_oil import EhlLubricant, fill_properties, fill_warm_properties
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 def film_properties(
@@ -22,7 +19,7 @@ def film_properties(
         In the same units.
     warm
         `cooling_factor` of the temperature and the density's factor by heat, of the pressure's
-        shape [1]; None: at the oil's temperature.
+        shape [-]; None: at the oil's temperature.
 
     Returns
     -------

@@ -34,7 +34,7 @@ _WEIGHTS = np.concatenate([np.polynomial.legendre.leggauss(n)[1][n // 2 :] for n
 
 
 class EyringFlow(NamedTuple):
-    """Flow factors, mid-film stress and slopes of one point of a film; all floats [1]."""
+    """Flow factors, mid-film stress and slopes of one point of a film; all floats [-]."""
 
     along: float  # flow along s over its Newtonian value
     across: float  # flow along r over its Newtonian value
@@ -241,11 +241,11 @@ def eyring_flow(sigma_s: float, sigma_r: float, a: float, limit: float) -> Eyrin
     Parameters
     ----------
     sigma_s, sigma_r
-        Stress drop over half the film, h (dp/ds)/(2 tau0) and the like along r [1].
+        Stress drop over half the film, h (dp/ds)/(2 tau0) and the like along r [-].
     a
-        Newtonian shear stress of sliding over tau0, eta (u2 - u1)/(h tau0) [1], either sign.
+        Newtonian shear stress of sliding over tau0, eta (u2 - u1)/(h tau0) [-], either sign.
     limit
-        Limiting shear stress over tau0, above zero [1]; infinite where there is none.
+        Limiting shear stress over tau0, above zero [-]; infinite where there is none.
 
     Returns
     -------

@@ -5,16 +5,14 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import MILLIMETRE
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _MICROMETRE = 1e-6  # m
 _FEWEST = 4  # points of a cubic spline

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.errors import ParameterError
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 Heights = Callable[[Array, Array], Array]
 
 # fewest that show a shape and not the grid

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.point.equations.mesh import Grading
@@ -21,8 +21,6 @@ from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 from gearlube_core.oil.film_oil import EhlLubricant
 from gearlube_core.oil.named_film_oils import jamali_2015_oil
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 JAMALI_2015_MODULUS = 0.5 * 227.5e9  # E*, Pa; E 207 GPa and nu 0.3 follow from Jamali 2015 ch. 7
 _TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: Jamali 2015 ch. 4
@@ -62,7 +60,7 @@ class HelicalFilm:
     form
         Of the flanks, as in `UndeformedGap`.
     extent
-        Domain along x over the largest Hertz semi-width [1].
+        Domain along x over the largest Hertz semi-width [-].
     largest_gap
         The gap is cut there [m].
     open_film

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_traction import flank_traction
@@ -15,8 +15,6 @@ from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curve
 from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
 from gearlube_core.ehl.transient.steady import solve_steady_film
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 COLUMNS = (
     "time",

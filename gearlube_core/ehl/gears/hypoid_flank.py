@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.errors import ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 class FlankInstant(NamedTuple):

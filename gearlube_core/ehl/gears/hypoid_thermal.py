@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.point.settings import PointSolverSettings
@@ -15,8 +15,6 @@ from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
 from gearlube_core.ehl.transient.curves import FilmCurves
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 COLUMNS = (
     "time",

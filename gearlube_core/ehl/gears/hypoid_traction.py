@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,11 +14,9 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_oil import EhlLubricant
 from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
-
 
 class FlankTraction(NamedTuple):
-    """Coefficients of friction along sliding [1]."""
+    """Coefficients of friction along sliding [-]."""
 
     newtonian: float
     eyring: float  # at the oil's temperature throughout

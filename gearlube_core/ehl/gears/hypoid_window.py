@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.mesh_table.kernels import LoadBracket, load_bracket
 from gearlube_core.mesh_table.table import PAIRS, MeshTable
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _MIDDLE = 0.5 * PAIRS  # of a pair's window [mesh periods]
 
@@ -21,7 +20,7 @@ class PairContact(NamedTuple):
     points to larger x and y.
     """
 
-    share: Array  # of the mesh force [1], (N,)
+    share: Array  # of the mesh force [-], (N,)
     R_x: Array  # relative radii [m], (N,)
     R_y: Array
     entrainment: Array  # mean surface velocity over pinion speed [m], (N, 2)
@@ -86,7 +85,7 @@ def sliding_direction(psi: Array, chi: Array, along: Array) -> Array:
     psi, chi : ndarray, shape (N,)
         Angles of entrainment and of sliding from the minor axis [rad], both folded to 0..pi/2.
     along : ndarray, shape (N,)
-        Component of the entrainment along sliding, over the entrainment [1].
+        Component of the entrainment along sliding, over the entrainment [-].
 
     Notes
     -----

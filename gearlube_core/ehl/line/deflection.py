@@ -21,7 +21,7 @@ def hat_coefficients(step: float, count: int) -> np.ndarray:
     step : float
         Half width of the hat and node spacing D [any length].
     count : int
-        How many d = 0, 1, ... [1].
+        How many d = 0, 1, ... [-].
 
     Returns
     -------
@@ -51,7 +51,7 @@ class LineDeflection:
     Parameters
     ----------
     step : float
-        Node spacing over the Hertz half width [1].
+        Node spacing over the Hertz half width [-].
     count : int
         Nodes.
 
@@ -71,6 +71,6 @@ class LineDeflection:
         self._count = count
 
     def __call__(self, P: np.ndarray) -> np.ndarray:
-        """Return the deflection [1] under nodal pressures (count,) [1]."""
+        """Return the deflection [-] under nodal pressures (count,) [-]."""
         spectrum = rfft(P, self._length) * self._transform
         return irfft(spectrum, self._length)[: self._count]

@@ -271,7 +271,7 @@ def fill_thermal_oil(
     oil
         Lubricant data.
     cooling, dilation
-        Filled (n,) [1].
+        Filled (n,) [-].
     """
     m = T.shape[1]
     for i in range(p.size):

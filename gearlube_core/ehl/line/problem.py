@@ -151,7 +151,7 @@ class LineSettings:
         the void share of Jakobsson, Floberg and Olsson is solved as well.
     tolerance
         Largest sum of unbalanced flows over the flow through the contact, and of the load's
-        error [1]; never asked for beyond what rounding allows.
+        error [-]; never asked for beyond what rounding allows.
     max_iterations
         Newton steps on each grid.
     coarsest

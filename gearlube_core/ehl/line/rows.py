@@ -226,13 +226,13 @@ def fill_rows(
     Parameters
     ----------
     P, H
-        Pressure and film, (n,) [1].
+        Pressure and film, (n,) [-].
     void
-        Share of the gap without oil, (n,) [1]; zero where the film is full.
+        Share of the gap without oil, (n,) [-]; zero where the film is full.
     cooling, dilation
-        t^(-S0) and the density's factor by heat, (n,) [1]; ones for an isothermal film.
+        t^(-S0) and the density's factor by heat, (n,) [-]; ones for an isothermal film.
     source
-        s: older times, manufactured sources, (n,) [1].
+        s: older times, manufactured sources, (n,) [-].
     c, oil
         Numbers of the balance and of the oil.
     rows
@@ -278,7 +278,7 @@ def fill_jacobian(
     rows
         From `fill_rows`.
     influence
-        dH_i/dP_j as a function of abs(i - j), (n,) [1].
+        dH_i/dP_j as a function of abs(i - j), (n,) [-].
     nodes
         Interior nodes whose balance is solved, ascending, (m,).
     voids

@@ -25,7 +25,7 @@ class LineSolution:
     x: np.ndarray
     pressure: np.ndarray  # [Pa]
     film: np.ndarray  # [m]
-    void: np.ndarray  # share of the gap without oil [1]
+    void: np.ndarray  # share of the gap without oil [-]
     viscosity: np.ndarray  # [Pa s]
     density: np.ndarray  # [kg/m3]
     mean_stress: np.ndarray  # at mid-film [Pa]
@@ -33,8 +33,8 @@ class LineSolution:
     contact_flow: float  # oil made where a touching film is held open [kg/(m s)]
     mass_flow: np.ndarray  # (n - 1,) between nodes [kg/(m s)]
     approach: float  # h - h_u - deflection [m], deflection up to a constant
-    residual: float  # unbalanced flow over flow through the contact [1]
-    load_error: float  # [1]
+    residual: float  # unbalanced flow over flow through the contact [-]
+    load_error: float  # [-]
     records: tuple[tuple[int, NewtonRecord], ...]  # (nodes, iteration) of each grid tried
     converged: bool
     outcome: str
@@ -74,12 +74,12 @@ class LineSolution:
 
     @property
     def friction_coefficient(self) -> float:
-        """Mid-film shear force over load, with the sign of u2 - u1 [1]."""
+        """Mid-film shear force over load, with the sign of u2 - u1 [-]."""
         return _integral(self.x, self.mean_stress) / self.problem.line_load
 
     @property
     def mass_balance(self) -> float:
-        """Spread of the flow between full nodes over its mean [1]; 0 without flow."""
+        """Spread of the flow between full nodes over its mean [-]; 0 without flow."""
         full = (self.pressure[1:] > 0.0) & (self.pressure[:-1] > 0.0)
         flow = self.mass_flow[full]
         mean = float(np.abs(flow).mean()) if flow.size else 0.0

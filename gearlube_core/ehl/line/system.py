@@ -81,11 +81,11 @@ class LineSystem:
 
     @property
     def step(self) -> float:
-        """Node spacing over the Hertz half width [1]."""
+        """Node spacing over the Hertz half width [-]."""
         return self.coefficients.step
 
     def film(self, state: LineState) -> np.ndarray:
-        """Return the film H (n,) [1]."""
+        """Return the film H (n,) [-]."""
         return state.H0 + self.gap + self.deflection(state.P)
 
     def evaluate(self, state: LineState) -> None:
@@ -104,7 +104,7 @@ class LineSystem:
         )
 
     def load_error(self, state: LineState) -> float:
-        """Return carried load less the set one, over the set one [1]."""
+        """Return carried load less the set one, over the set one [-]."""
         return float(self.step * state.P.sum() / self.load - 1.0)
 
     def factorise(self, nodes: np.ndarray, voids: np.ndarray) -> Factors:

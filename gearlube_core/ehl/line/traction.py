@@ -29,7 +29,7 @@ def fill_mean_stress(
     Parameters
     ----------
     p, p_slope, h, void, eta
-        Pressure [Pa], its slope along x [Pa/m], film [m], void share [1], viscosity [Pa s], (n,).
+        Pressure [Pa], its slope along x [Pa/m], film [m], void share [-], viscosity [Pa s], (n,).
     sliding
         u2 - u1 [m/s].
     oil

@@ -57,7 +57,7 @@ def solve_level(
     settings
         Numbers of steps and the tolerance of the load.
     tolerance
-        Of the flow residual [1].
+        Of the flow residual [-].
     record
         Takes up what was done.
     only_start

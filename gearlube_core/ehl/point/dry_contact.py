@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import Outcome, UnilateralProblem
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.errors import ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -67,7 +65,7 @@ def dry_contact_of_gap(
     load
         [N], above zero.
     tolerance
-        Of complementarity, relative [1], 1e-12 to 1e-2.
+        Of complementarity, relative [-], 1e-12 to 1e-2.
     start : ndarray, shape (nx, ny), optional
         Pressure [Pa] of a similar contact.
     throw

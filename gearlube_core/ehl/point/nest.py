@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.state import FilmState
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 COARSE_TOLERANCE = 1e-3  # of the flow residual on all but the finest grid
 

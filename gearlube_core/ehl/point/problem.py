@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.point.border.far_field import FarField
@@ -18,7 +18,6 @@ from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geom
 from gearlube_core.film.nijenbanning_1994 import regime_films
 from gearlube_core.oil.film_oil import EhlLubricant, pressure_viscosity
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 Gap = Callable[[Array, Array], Array]
 
 _FLOODED = 20.0  # films of gap at the inlet
@@ -238,7 +237,7 @@ def elliptical_contact(
         As in `PointContactProblem`.
     inlet, outlet, side
         Extent of the domain upstream, downstream and to the sides, in semi-axes of the dry
-        contact along the same axis [1]. By default as far as the film needs.
+        contact along the same axis [-]. By default as far as the film needs.
     oil_beyond
         As in `PointContactProblem`. None: where the domain is the default one, flooded, and oil
         outside would carry more than 2.5 % of the load.

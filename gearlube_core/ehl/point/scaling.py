@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.oil.film_oil import EhlLubricant
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +24,8 @@ class PointScales:
     pressure: float  # [Pa]
     film: float  # [m]
     speed: float  # [m/s]
-    mobility: float  # Lambda = h^2 p/(12 eta0 u l) [1]
-    load: float  # int p dx dy that balances the load [1]
+    mobility: float  # Lambda = h^2 p/(12 eta0 u l) [-]
+    load: float  # int p dx dy that balances the load [-]
     flip_x: bool
     flip_y: bool
     swap: bool  # arrays (ny, nx) with x the direction of the larger entrainment over spacing

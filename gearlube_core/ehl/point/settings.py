@@ -37,9 +37,9 @@ class PointSolverSettings:
         Floberg and Olsson.
     tolerance
         Limit of the flow residual: sum over the nodes of what flows in but not out, over the
-        flow through the width of the dry contact at the central film [1].
+        flow through the width of the dry contact at the central film [-].
     load_tolerance
-        Limit of the relative error of the load [1].
+        Limit of the relative error of the load [-].
     fall_back
         Where the stencil has no solution with a film above zero on the grid, take that of
         `upwind-1`; the outcome says so.

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _STIFFEST = 0.05  # share of the layer below which its pressure rises along the tangent
 
@@ -88,7 +86,7 @@ class Touch:
     Parameters
     ----------
     share
-        Of the load that the solids carry [1].
+        Of the load that the solids carry [-].
     area
         Over which the film is thinner than the layer [m^2].
     largest

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.border.border_pressure import border_pressure
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.limiter import limited_faces
@@ -15,8 +15,6 @@ from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import Touch
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _CURE = "Take more nodes where the film is thin, upwind-1 to start from, or a lower load first."
 _LIMITED = 0.01  # share of first-order faces worth a word
@@ -31,23 +29,23 @@ class PointOutcome:
     converged
         All four within their limits.
     residual
-        Unbalanced flow over the flow through the dry width [1], flow that gathers where there
+        Unbalanced flow over the flow through the dry width [-], flow that gathers where there
         is no pressure included.
     load_error
-        Missing share of the load [1].
+        Missing share of the load [-].
     smallest_film
         Over the domain [m]; above zero if sound.
     wedge
         Stencil of the answer.
     limited
         Share of the faces under pressure where rho h falls by more than a factor of 2 in a cell
-        or so and the stencil is limited to first order [1]; 0 on grids that resolve the inlet.
+        or so and the stencil is limited to first order [-]; 0 on grids that resolve the inlet.
     sentence
         What happened and what to do, also where the domain cuts the contact.
     touch
         How far the solids touch.
     beyond
-        Share of the load that oil beyond the domain carries [1]; 0 where there is none.
+        Share of the load that oil beyond the domain carries [-]; 0 where there is none.
     """
 
     converged: bool
@@ -126,10 +124,10 @@ class PointSolution:
     problem: PointContactProblem
     pressure: Array  # of oil and solids [Pa]
     film: Array  # [m]
-    fill: Array  # share of the gap that holds oil [1]; 1 where cavitation conserves no mass
+    fill: Array  # share of the gap that holds oil [-]; 1 where cavitation conserves no mass
     approach: float  # h_0 [m]
     outcome: PointOutcome
-    residuals: tuple[float, ...]  # of every Newton step on all grids [1]
+    residuals: tuple[float, ...]  # of every Newton step on all grids [-]
     krylov_steps: int
     seconds: float
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
@@ -25,8 +24,6 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointOutcome, PointSolution
 from gearlube_core.ehl.point.starvation import Starvation
 from gearlube_core.errors import ConvergenceError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _DIRECT_NODES = 1300  # of the grid that is solved directly
 _SHORTEST = 12  # nodes of a side that is not halved any more

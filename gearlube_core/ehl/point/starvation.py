@@ -36,7 +36,7 @@ def thin_layer(
     start
         With the layer that the grid has.
     layer
-        That is asked for, over the unit of films [1].
+        That is asked for, over the unit of films [-].
     settings
         Most steps.
     record

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.line.traction import fill_mean_stress
 from gearlube_core.oil.film_oil import EhlLubricant, fill_properties
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 class PointTraction(NamedTuple):
@@ -46,7 +45,7 @@ def point_traction(
     oil
         Newtonian where its Eyring stress is zero.
     fill : ndarray, shape (nx, ny)
-        Share of the gap that holds oil [1], which sheared streaks fill; None: 1.
+        Share of the gap that holds oil [-], which sheared streaks fill; None: 1.
 
     Notes
     -----

@@ -5,18 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm, unpack_solutions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.errors import ConvergenceError, ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 Progress = Callable[[int, int, FilmSolution], None]
 Row = Callable[[int, FilmSolution], list[float]]

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.contact.half_space import HalfSpaceConvolution
 from gearlube_core.contact.half_space_graded import GradedConvolution
 from gearlube_core.ehl.point.equations.level import PointLevel
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Flags = np.ndarray[Any, np.dtype[np.bool_]]
 _Span = tuple[int, int]
 
 _REACH = 2  # nodes that a stencil reaches beyond those with pressure

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.border.border_pressure import border_pressure
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.mesh import Grading, cell_faces, x_nodes
@@ -24,8 +24,6 @@ from gearlube_core.ehl.point.solver import grid_shapes
 from gearlube_core.ehl.transient.level import Conditions, MovingLevel
 from gearlube_core.ehl.transient.rows import row_shapes
 from gearlube_core.oil.film_oil import EhlLubricant
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
 _CURE = "Take smaller time steps, or more nodes where the film is thin."
@@ -177,8 +175,8 @@ class FilmSolution:
     film: Array  # [m]
     approach: float  # h_0 [m]
     load: float  # that the pressure carries [N]
-    load_error: float  # missing share of the load [1]
-    residual: float  # unbalanced flow over the flow through the dry width [1]
+    load_error: float  # missing share of the load [-]
+    residual: float  # unbalanced flow over the flow through the dry width [-]
     converged: bool
     outcome: str  # what happened and what to do, also where the domain cuts the contact
     newton_steps: int
@@ -198,7 +196,7 @@ class FilmSolution:
 
     @property
     def border_pressure(self) -> float:
-        """Return the largest pressure one node from the border over the largest of all [1]."""
+        """Return the largest pressure one node from the border over the largest of all [-]."""
         return border_pressure(self.pressure, self.film).share
 
     @property

@@ -84,7 +84,7 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
     state
         After a Newton step.
     size
-        Its flow residual [1].
+        Its flow residual [-].
 
     Returns
     -------

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.mesh import Grading, x_nodes
@@ -15,8 +15,6 @@ from gearlube_core.ehl.point.equations.state import FilmState
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.errors import ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _STEEPEST = 20.0  # of entrainment against x
 _EVEN = 1e-9  # spread of sliding along x over that along y
@@ -36,7 +34,7 @@ class FilmConditions:
         Surface speeds along x [m/s]; their mean is above zero. They may vary across the motion,
         not along it.
     slope : float
-        Entrainment along y over that along x [1], not below zero.
+        Entrainment along y over that along x [-], not below zero.
     side_sliding : float
         Speed along y of surface 2 less that of surface 1 [m/s], on all rows; where it is not
         zero the sliding along x must not vary either. It acts in an Eyring film alone.

@@ -5,10 +5,10 @@ from __future__ import annotations
 import time as clock
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.point.cavitation import refuse_rupture
 from gearlube_core.ehl.point.equations.state import FilmState, Linearisation
@@ -29,8 +29,6 @@ from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.rows import RowCycle
 from gearlube_core.ehl.transient.steady import steady_state
 from gearlube_core.errors import ConvergenceError, ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 SCHEMES = ("bdf2", "crank_nicolson")
 # "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.state import FilmState, Linearisation
 from gearlube_core.ehl.point.equations.stencil import CENTRE
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
@@ -17,8 +18,6 @@ from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
 from gearlube_core.ehl.transient.front import advance_front
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.rows import Inverse
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _THINNEST = 0.2  # of the film before a step
 _GROWTH = 1.2  # of the residual that a step may cost
@@ -131,7 +130,7 @@ def step_newton(
     state
         Predicted.
     tolerance, load_tolerance
-        Limits of `flow_residual` and of the relative load error [1].
+        Limits of `flow_residual` and of the relative load error [-].
     most, most_krylov
         Most steps, and most iterations in one of them.
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.state import Linearisation
 from gearlube_core.ehl.point.newton.coarse import CoarseSolution
@@ -22,8 +22,6 @@ from gearlube_core.ehl.point.newton.wave import wave_deflection
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
 from gearlube_core.kernels.jit import kernel
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Flags = np.ndarray[Any, np.dtype[np.bool_]]
 Inverse = Callable[[Array, float], tuple[Array, float]]
 
 _DAMPING = 0.9

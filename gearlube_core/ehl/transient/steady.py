@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time as clock
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -21,8 +20,6 @@ from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm, film_solu
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.rows import RowCycle
 from gearlube_core.errors import ConvergenceError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:

@@ -6,12 +6,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 
-Vector = NDArray[np.float64]
 _METRES = "Give metres, not millimetres."
 
 
@@ -144,26 +143,26 @@ class HypoidBlank:
         )
 
     @property
-    def pinion_axis(self) -> Vector:
+    def pinion_axis(self) -> Array:
         """Unit vector of positive (driving) pinion rotation, shape (3,)."""
         return np.array([-1.0, 0.0, 0.0])
 
     @property
-    def gear_axis(self) -> Vector:
+    def gear_axis(self) -> Array:
         """Unit vector of positive (driven) gear rotation, shape (3,)."""
         return np.array([0.0, 0.0, 1.0])
 
     @property
-    def pinion_apex(self) -> Vector:
+    def pinion_apex(self) -> Array:
         """Apex of the pinion's pitch cone [m], shape (3,)."""
         return np.array([-self.pinion.pitch_apex, self.offset, 0.0])
 
     @property
-    def gear_apex(self) -> Vector:
+    def gear_apex(self) -> Array:
         """Apex of the gear's pitch cone [m], shape (3,)."""
         return np.array([0.0, 0.0, -self.gear.pitch_apex])
 
-    def mean_point(self) -> Vector:
+    def mean_point(self) -> Array:
         """Return the mid-face point of the gear pitch cone where the pinion's cone touches it.
 
         The common normal of two touching cones meets both axes: the gear cone normal leaves its
@@ -182,13 +181,13 @@ class HypoidBlank:
         theta = math.asin(sine)
         return np.array([r * math.cos(theta), r * math.sin(theta), z])
 
-    def pitch_normal(self) -> Vector:
+    def pitch_normal(self) -> Array:
         """Return the unit normal of the pitch plane at the mean point, from gear root to tip."""
         generator = self.gear_generator()
         outward = np.cross(np.cross(self.gear_axis, self.mean_point()), generator)
         return outward / np.linalg.norm(outward)
 
-    def gear_generator(self) -> Vector:
+    def gear_generator(self) -> Array:
         """Return the unit vector along the gear's pitch cone, apex to mean point, shape (3,)."""
         line = self.mean_point() - self.gear_apex
         return line / np.linalg.norm(line)

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
@@ -20,7 +20,6 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import Curve, gear_cut, 
 from gearlube_core.hypoid_geometry.flank.surface_point import regularity
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
-Array = NDArray[np.float64]
 Role = Literal["pinion", "gear"]
 Side = Literal["drive", "coast"]
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.surface_point import CONVERGED, locate, surface_point
-
-Array = NDArray[np.float64]
 
 
 @njit(cache=True, error_model="numpy")

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.flank.cutting_motion import (
@@ -22,7 +22,6 @@ from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.hypoid_geometry.gear_file import Cutter, Gear, HypoidGearFile, Pinion
 from gearlube_core.units import DEGREE, MILLIMETRE
 
-Array = NDArray[np.float64]
 Curve = Literal["convex", "concave"]
 
 _X, _Y, _Z = np.eye(3)

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
@@ -23,8 +22,6 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import (
 )
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import DEGREE, MILLIMETRE
-
-Array = NDArray[np.float64]
 
 REFERENCE_LIMIT = 1e-4  # m; a tenth of a millimetre is 60 times the misfit of the shipped pair
 MISMATCH_LIMIT = 0.5 * DEGREE  # over the working depth a gap of 60 um

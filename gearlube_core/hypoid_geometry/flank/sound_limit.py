@@ -7,11 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.grid import march
-
-Array = NDArray[np.float64]
 
 LOWEST = -0.1  # s, below the root line, where the search for the end of a flank gives up
 _STEP = 0.005  # s

@@ -9,12 +9,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role, Side
 from gearlube_core.hypoid_geometry.flank.sound_limit import SoundLimit, sound_limit
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-
-Array = NDArray[np.float64]
 
 _MARGIN = 0.05  # s above a fold, where the slope of the flank is still that of its sound part
 _SLOPE_STEP = 0.02  # s

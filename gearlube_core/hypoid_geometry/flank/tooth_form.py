@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side
 from gearlube_core.hypoid_geometry.flank.sound_limit import SoundLimit
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import MILLIMETRE
-
-Array = NDArray[np.float64]
 
 THIN_TOPLAND = 0.3  # of the mean normal module; this package's limit for a remark, not a standard's
 _STATIONS = 33

@@ -5,15 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array, Indices
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.units import MILLIMETRE
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _ACROSS = 9  # points across a topland, over a foot and along a slot: 0.01 % of the volume
 

@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION
+from gearlube_core.arrays import Array
 
-Array = NDArray[np.float64]
 RPM = np.pi / 30.0  # rad/s
 PERIODS = "time [mesh periods]"
 _COLOURS = (BLUE, VERMILLION)

@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.helical.figures.layout import closed
+from gearlube_core.arrays import Array
 
-Array = NDArray[np.float64]
 _MEGA = 1e-6  # N/um in N/m
 _SHOWN = 4  # torques in one panel
 

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.plotting.style import (
     BLUE,
@@ -21,8 +20,7 @@ from gearlube.plotting.style import (
 )
 from gearlube.studies.resonance.settings import MODELS
 from gearlube.studies.resonance.summary import main_special
-
-Array = NDArray[np.float64]
+from gearlube_core.arrays import Array
 
 COLOURS = {
     "two_dof": BLUE,

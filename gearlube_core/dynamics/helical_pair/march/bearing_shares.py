@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.parameters import Body
 from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     bearing_matrix,
     support_damping,
 )
-
-Array = NDArray[np.float64]
 
 
 def bearing_shares(body: Body, ratio: float) -> Array:

@@ -60,7 +60,7 @@ class MarchConstants(NamedTuple):
     motion: MotionConstants
     teeth: float  # of the pinion
     friction_form: float  # -1 off, 0 constant, 1 film
-    mu: float  # of the constant form [1]
+    mu: float  # of the constant form [-]
     refreshes: float  # of the film's friction in a mesh period
     surface: SurfaceParameters
     solid: SolidParameters

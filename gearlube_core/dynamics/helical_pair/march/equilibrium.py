@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import root
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import MarchMesh, mesh_at_torque
@@ -23,8 +24,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
 )
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.oil.lubricant_state import lubricant_state
-
-Array = NDArray[np.float64]
 
 _MICRO = 1e-6  # m and rad per unknown
 _FILM_PASSES = 4  # friction of the film depends on the loads, weakly

@@ -16,12 +16,12 @@ import numpy as np
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
-Array = NDArray[np.float64]
 LEAST_OFFSET = count_floats(MarchConstants)
 STATIONS_AT = LEAST_OFFSET + 1
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.bearing_shares import bearing_shares
 from gearlube_core.dynamics.helical_pair.march.communication import communication_step
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
@@ -33,8 +33,6 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_P,
 )
 from gearlube_core.dynamics.stepped_model import Kernels, SteppedModel, Words
-
-Array = NDArray[np.float64]
 
 MAX_TORQUE = 1e5  # N.m on either shaft
 _FULL_CONTACT = 1e-5  # m, compression at which all lines touch

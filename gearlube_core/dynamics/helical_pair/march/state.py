@@ -23,5 +23,5 @@ WORK_MARK = 32  # the energies at the start of the last communication step [J]
 REFRESHED = WORK_MARK + N_ENERGIES  # when friction was last computed [refreshes since phase 0]
 POINTS_PER_LINE = 4  # two Gauss points on either side of the pitch line
 FLANK_POINTS = LINES_MAX * POINTS_PER_LINE
-MU = REFRESHED + 1  # coefficients of friction: drive flank, then coast flank [1]
+MU = REFRESHED + 1  # coefficients of friction: drive flank, then coast flank [-]
 N_STATE = MU + 2 * FLANK_POINTS

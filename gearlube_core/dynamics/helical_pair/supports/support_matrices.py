@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import (
     Bearing,
     ShaftEnds,
     ShaftSupport,
 )
 
-Array = NDArray[np.float64]
 _X, _Y, _Z, _THX, _THY = range(5)
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
+from gearlube_core.arrays import Array
 
 _CUT = 0.01  # share of the largest pressure worth a word
 _OFF = 0.02  # likewise of what it is off the oil beyond; 1.7 % go with films 0.7 % off
@@ -19,7 +19,7 @@ class BorderPressure(NamedTuple):
     Parameters
     ----------
     share
-        Over the largest pressure of all [1].
+        Over the largest pressure of all [-].
     side
         Of the domain: "small x", "large x", "small y" or "large y".
     open

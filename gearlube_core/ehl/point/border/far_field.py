@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.oil.film_oil import EhlLubricant, pressure_viscosity
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _ANGLES = 240
 _ALONG, _OUTWARD = 16, 8  # Gauss points along a side of the domain and from it to infinity
@@ -136,7 +134,7 @@ class FarField:
         approach
             h_0 [m].
         thickening
-            Multiple of the viscosity [1].
+            Multiple of the viscosity [-].
         """
         r = np.hypot(x, y)
         undeformed = 0.5 * (x * x / self._radii[0] + y * y / self._radii[1])

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 
 class OpenBorder:
@@ -28,7 +24,7 @@ class OpenBorder:
     inside : ndarray of bool, shape (ny, nx)
         All nodes but those of the border.
     thickening : float
-        Multiple of the viscosity [1].
+        Multiple of the viscosity [-].
     """
 
     def __init__(

@@ -32,7 +32,7 @@ from gearlube_core.kernels.jit import kernel
 
 
 class CrossFlow(NamedTuple):
-    """Flow factors over those of the flow through a face; arrays of shape (ny, nx) [1]."""
+    """Flow factors over those of the flow through a face; arrays of shape (ny, nx) [-]."""
 
     ratio_x: np.ndarray  # xy/xx
     ratio_y: np.ndarray  # xy/yy
@@ -56,7 +56,7 @@ def add_cross_flow(
     parameters, metric, film_flow
         As in `reynolds_residual`.
     pressure : ndarray, shape (ny, nx)
-        p [1].
+        p [-].
     cross
         Of the nodes.
     residual : ndarray, shape (ny, nx)
@@ -133,7 +133,7 @@ def add_cross_derivatives(
     viscosity_slope, film, slopes, free
         As in `reynolds_derivatives`.
     by_pressure, by_film : ndarray, shape (11, ny, nx)
-        Result [1].
+        Result [-].
     """
     ny, nx = pressure.shape
     unit = 0.25 * math.sqrt(parameters.poiseuille_x * parameters.poiseuille_y)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.cross_flow import add_cross_derivatives
 from gearlube_core.ehl.point.equations.state import FilmState, Flags, Offsets
 from gearlube_core.ehl.point.equations.stencil import (
@@ -17,8 +16,6 @@ from gearlube_core.ehl.point.equations.stencil import (
     StencilParameters,
     reynolds_derivatives,
 )
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 def flow_derivatives(

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.finite_elements import (
     ELEMENT_CENTRE,
     ELEMENT_NEIGHBOURS,
@@ -19,8 +19,6 @@ from gearlube_core.ehl.point.equations.state import FilmState, Flags, Offsets
 from gearlube_core.ehl.point.equations.stencil import FlowSlopes, StencilParameters
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 class ElementLevel(PointLevel):

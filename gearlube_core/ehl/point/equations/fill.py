@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.rupture import (
     add_fill_derivatives,
     settle_oil,
 )
 from gearlube_core.ehl.point.equations.state import Carriage, FilmState, Flags
 from gearlube_core.ehl.point.equations.stencil import CENTRE, MeshMetric, StencilParameters
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 # pressure, over spacing in dry semi-axes, from which on a node at an exit has its own stencil: that
 # of a node or two before a film breaks
@@ -34,7 +31,7 @@ class BrokenFilm:
     shape
         Rows and columns.
     layer
-        Film on the upstream border [1]; infinite: full.
+        Film on the upstream border [-]; infinite: full.
 
     Attributes
     ----------

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.ehl.flow.flow_factors import eyring_factors
@@ -15,8 +15,6 @@ from gearlube_core.ehl.point.equations.cross_flow import CrossFlow
 from gearlube_core.ehl.point.equations.stencil import FilmFlow, FlowSlopes
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_oil import EhlLubricant
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 # below, series to the second order are right to 1e-8
 _SMALL_STRESS = 1.0e-2
@@ -46,20 +44,20 @@ def fill_shear_factors(
     Parameters
     ----------
     pressure, film, fluidity : ndarray, shape (ny, nx)
-        p, h and 1/eta [1].
+        p, h and 1/eta [-].
     couette : ndarray, shape (ny,)
-        Shear stress of sliding over tau0, times film and fluidity, of every row [1].
+        Shear stress of sliding over tau0, times film and fluidity, of every row [-].
     sigma_x, sigma_y
         Stress drop over half the film over tau0, over film and difference of pressure between the
-        nodes on both sides [1]; along x of every column, shape (nx,).
+        nodes on both sides [-]; along x of every column, shape (nx,).
     cosine, sine
         Of the angle from x to sliding.
     limit, limit_slope
-        Limiting shear stress over tau0 at ambient pressure and its slope with p [1]; both 0: none.
+        Limiting shear stress over tau0 at ambient pressure and its slope with p [-]; both 0: none.
     along, across : ndarray, shape (ny, nx)
-        Flow along and across sliding over its Newtonian value [1]; 1 on the border.
+        Flow along and across sliding over its Newtonian value [-]; 1 on the border.
     steepness, stiffness : ndarray, shape (ny, nx)
-        d ln(flow)/d ln(dp/ds) and -d ln(flow)/d ln(eta) along sliding, as without dp/dr [1].
+        d ln(flow)/d ln(dp/ds) and -d ln(flow)/d ln(eta) along sliding, as without dp/dr [-].
 
     Notes
     -----
@@ -106,7 +104,7 @@ def fill_shear_factors(
 
 @dataclass(frozen=True, slots=True)
 class ShearFactors:
-    """Tensor of the flow by pressure over its Newtonian value, and how it answers; (ny, nx) [1].
+    """Tensor of the flow by pressure over its Newtonian value, and how it answers; (ny, nx) [-].
 
     flow = -rho h^3/(12 eta) [[xx, xy], [xy, yy]] grad p
     """
@@ -161,7 +159,7 @@ class FilmShear:
     unit: float  # shear stress over tau0 of sliding at 1 m/s, times film and fluidity [s/m]
     sigma_x: float  # stress drop over tau0, over film and pressure between the nodes beside
     sigma_y: float
-    couette: Array  # shear stress of sliding over tau0, times film and fluidity, (rows,) [1]
+    couette: Array  # shear stress of sliding over tau0, times film and fluidity, (rows,) [-]
     cosine: float  # of the angle from x to sliding
     sine: float
     central: Array | None = None  # spacing along x over that of every column, (nx,); None: 1
@@ -197,7 +195,7 @@ class FilmShear:
             Units of the arrays: [m], [Pa], [Pa s].
         central
             Spacing along x over half the distance between the neighbours of each column of
-            nodes, shape (nx,) [1]; None: 1.
+            nodes, shape (nx,) [-]; None: 1.
 
         Raises
         ------

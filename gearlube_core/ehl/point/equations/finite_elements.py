@@ -41,12 +41,12 @@ def upwind_shares(
     parameters
         Of the grid.
     compliance
-        K: film per pressure that alternates from node to node [1]; zero for no upwinding beside
+        K: film per pressure that alternates from node to node [-]; zero for no upwinding beside
         that of the weights.
     flow_x, flow_y
-        Lambda s/dx^2 and the like along y [1].
+        Lambda s/dx^2 and the like along y [-].
     density
-        rho [1].
+        rho [-].
 
     Notes
     -----
@@ -116,11 +116,11 @@ def element_residual(
         nothing else counts.
     pressure, mass, cubic_x, cubic_xy, cubic_y, fluidity, source : ndarray, shape (ny, nx)
         p, rho h, rho h^3 times the components of the flow factor tensor, 1/eta, and what the
-        squeeze term takes from earlier times [1].
+        squeeze term takes from earlier times [-].
     compliance, density
-        For `upwind_shares`: K, and rho [1], shape (ny, nx).
+        For `upwind_shares`: K, and rho [-], shape (ny, nx).
     residual : ndarray, shape (ny, nx)
-        Result; zero on the border [1].
+        Result; zero on the border [-].
 
     Notes
     -----
@@ -190,7 +190,7 @@ def element_derivatives(
     parameters, pressure, cubic_x, cubic_xy, cubic_y, fluidity
         As in `element_residual`.
     viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
-        d ln eta/dp, rho, d rho/dp, h [1].
+        d ln eta/dp, rho, d rho/dp, h [-].
     slopes
         As in `reynolds_derivatives`.
     compliance
@@ -198,7 +198,7 @@ def element_derivatives(
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero, as on the border.
     by_pressure, by_film : ndarray, shape (9, ny, nx)
-        Result [1], neighbour 3 (j' - j + 1) + i' - i + 1.
+        Result [-], neighbour 3 (j' - j + 1) + i' - i + 1.
     """
     ny, nx = pressure.shape
     by_pressure[:] = 0.0

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
 from gearlube_core.ehl.flow.film_properties import film_properties
@@ -39,8 +39,6 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import WEDGE_WEIGHTS
 from gearlube_core.ehl.point.solid_contact import SolidLayer
 from gearlube_core.oil.film_oil import EhlLubricant
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 # rho h at a face over that of the node upstream of it; reached where the film halves in a cell
 _LEAST_FACE = 0.5
@@ -275,9 +273,9 @@ class PointLevel:
         Parameters
         ----------
         mobility
-            Multiple of the problem's; below 1 the film is thicker [1].
+            Multiple of the problem's; below 1 the film is thicker [-].
         order
-            1 the chosen wedge stencil, 0 the first-order one, linear between [1].
+            1 the chosen wedge stencil, 0 the first-order one, linear between [-].
         """
         here, upstream, downstream = (order * weight for weight in self._weights)
         poiseuille = mobility * self.scales.mobility

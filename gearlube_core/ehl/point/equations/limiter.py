@@ -19,7 +19,7 @@ def limited_faces(
     parameters
         Of the grid.
     pressure, mass : ndarray, shape (ny, nx)
-        p and rho h [1].
+        p and rho h [-].
 
     Returns
     -------

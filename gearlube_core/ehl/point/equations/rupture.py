@@ -45,7 +45,7 @@ def wedge_face(
     pressure, ruptured, carried : ndarray, shape (ny, nx)
         p, nodes that hold less than their gap, and rho h of full gaps times the share of the speed.
     blend
-        Pressure from which on a node passes on what the stencil says [1].
+        Pressure from which on a node passes on what the stencil says [-].
     j, i
         Node upstream of the face.
 
@@ -96,17 +96,17 @@ def settle_oil(
     parameters, metric
         Of the grid.
     pressure : ndarray, shape (ny, nx)
-        p [1].
+        p [-].
     blend
         Of `wedge_face`.
     rate : ndarray, shape (ny,)
-        Entrainment of every row over that of the problem [1].
+        Entrainment of every row over that of the problem [-].
     storage : ndarray, shape (ny, nx)
-        Rate at which oil is stored [1].
+        Rate at which oil is stored [-].
     full : ndarray, shape (ny, nx)
-        rho h of full gaps [1].
+        rho h of full gaps [-].
     mass : ndarray, shape (ny, nx)
-        rho h times the fill; upstream borders are given, inner nodes are written [1].
+        rho h times the fill; upstream borders are given, inner nodes are written [-].
     ruptured : ndarray of bool, shape (ny, nx)
         No pressure, and not more oil than the gap takes; upstream borders are given, inner
         nodes are written.
@@ -184,7 +184,7 @@ def add_fill_derivatives(
     parameters, metric, pressure, blend, ruptured, rate, mass
         As in `settle_oil`, after it.
     density, density_slope, film : ndarray, shape (ny, nx)
-        rho, d rho/dp, h [1].
+        rho, d rho/dp, h [-].
     rows : ndarray of bool, shape (ny, nx)
         Nodes whose derivatives are wanted.
     by_pressure, by_film : ndarray, shape (n, ny, nx)

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array, Flags, Offsets
 from gearlube_core.ehl.point.equations.stencil import apply_derivatives
 from gearlube_core.ehl.point.solid_contact import SolidLayer
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Flags = np.ndarray[Any, np.dtype[np.bool_]]
-Offsets = np.ndarray[Any, np.dtype[np.int64]]
 
 # pressure of oil between touching solids, as a flow, over what flows out of a node as it drains
 _DRAINING = 1.0e2
@@ -57,9 +53,9 @@ def solid_share(
     layer
         Of the solids.
     pressure, film : ndarray, shape (ny, nx)
-        p and h [1].
+        p and h [-].
     flow_rate
-        Flow through a cell over its film [1].
+        Flow through a cell over its film [-].
     """
     if layer is None or not float(film.min()) < layer.thickness:
         return None
@@ -87,7 +83,7 @@ def add_solids(
     solids
         At the state.
     residual : ndarray, shape (ny, nx)
-        Of the flow [1].
+        Of the flow [-].
     offsets : ndarray of int, shape (n, 2)
         Steps to the neighbours along y and x.
     by_pressure, by_film : ndarray, shape (n, ny, nx)

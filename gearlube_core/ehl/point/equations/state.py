@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from gearlube_core.arrays import Array, Flags, Offsets
 from gearlube_core.ehl.point.equations.cross_flow import CrossFlow
 from gearlube_core.ehl.point.equations.film_shear import ShearFactors
 from gearlube_core.ehl.point.equations.rupture import carried_entries, pass_on
 from gearlube_core.ehl.point.equations.solids import SolidShare
 from gearlube_core.ehl.point.equations.stencil import FilmFlow
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Flags = np.ndarray[Any, np.dtype[np.bool_]]
-Offsets = np.ndarray[Any, np.dtype[np.int64]]
 
 
 @dataclass(slots=True)

@@ -41,20 +41,20 @@ OFFSETS = np.array(
 class StencilParameters(NamedTuple):
     """Constants of the discrete equation; all floats."""
 
-    poiseuille_x: float  # Lambda/dx^2 [1]
-    poiseuille_y: float  # Lambda/dy^2 [1]
-    wedge_x: float  # u/(u_s dx) [1]
-    wedge_y: float  # v/(u_s dy) [1]
-    here: float  # weight of rho h upstream of a face [1]
-    upstream: float  # weight of rho h one node further upstream [1]
-    downstream: float  # weight of rho h downstream of a face [1]
-    squeeze: float  # factor of rho h at this time [1]
-    least: float = -math.inf  # of rho h at a face, over that of the node upstream of it [1]
+    poiseuille_x: float  # Lambda/dx^2 [-]
+    poiseuille_y: float  # Lambda/dy^2 [-]
+    wedge_x: float  # u/(u_s dx) [-]
+    wedge_y: float  # v/(u_s dy) [-]
+    here: float  # weight of rho h upstream of a face [-]
+    upstream: float  # weight of rho h one node further upstream [-]
+    downstream: float  # weight of rho h downstream of a face [-]
+    squeeze: float  # factor of rho h at this time [-]
+    least: float = -math.inf  # of rho h at a face, over that of the node upstream of it [-]
     most: float = math.inf  # likewise
 
 
 class MeshMetric(NamedTuple):
-    """Spacing along x against the dx of the parameters; arrays of shape (nx,) [1].
+    """Spacing along x against the dx of the parameters; arrays of shape (nx,) [-].
 
     Faces lie where the position as a smooth function of the index is at half an index, so that
     values there follow from nodes with the weights of a uniform grid, of the same order.
@@ -65,7 +65,7 @@ class MeshMetric(NamedTuple):
 
 
 class FilmFlow(NamedTuple):
-    """What pressure drives oil with at every node; arrays of shape (ny, nx) [1]."""
+    """What pressure drives oil with at every node; arrays of shape (ny, nx) [-]."""
 
     cubic: np.ndarray  # rho h^3
     fluidity_x: np.ndarray  # 1/eta times the flow factor along x
@@ -87,7 +87,7 @@ def face_weights(
     index
         Of the node upstream of the face along its row or column.
     far, here, there
-        rho h at the second node upstream, at the node upstream and at that downstream [1].
+        rho h at the second node upstream, at the node upstream and at that downstream [-].
 
     Returns
     -------
@@ -119,16 +119,16 @@ def mean_fluidity(
     Parameters
     ----------
     here, there
-        1/eta, times its flow factor in an Eyring film, at both nodes [1].
+        1/eta, times its flow factor in an Eyring film, at both nodes [-].
     rise
-        ln(there/here) [1].
+        ln(there/here) [-].
     steep
         Pressure rises along the entrainment.
 
     Returns
     -------
     tuple of float
-        Mean and its derivatives with respect to ln(here) and ln(there) [1].
+        Mean and its derivatives with respect to ln(here) and ln(there) [-].
 
     Notes
     -----
@@ -167,11 +167,11 @@ def reynolds_residual(
     parameters, metric
         Of the grid.
     pressure, mass, source : ndarray, shape (ny, nx)
-        p, rho h, and what the squeeze term takes from earlier times [1].
+        p, rho h, and what the squeeze term takes from earlier times [-].
     film_flow
         Of the nodes.
     residual : ndarray, shape (ny, nx)
-        Result; zero on the border [1].
+        Result; zero on the border [-].
 
     Notes
     -----
@@ -226,7 +226,7 @@ def reynolds_residual(
 
 
 class FlowSlopes(NamedTuple):
-    """How the flow by pressure answers at every node; arrays of shape (ny, nx) [1]."""
+    """How the flow by pressure answers at every node; arrays of shape (ny, nx) [-]."""
 
     slope_x: np.ndarray  # rho h^3 times what a change of dp/dx meets
     slope_y: np.ndarray
@@ -240,7 +240,7 @@ class FlowSlopes(NamedTuple):
 def node_slopes(
     slopes: FlowSlopes, viscosity_slope: np.ndarray, j: int, i: int
 ) -> tuple[float, float, float]:
-    """Return -d ln(f)/dp, d ln(f)/d ln(h) and d ln(rho)/dp of a node, f its fluidity [1]."""
+    """Return -d ln(f)/dp, d ln(f)/d ln(h) and d ln(rho)/dp of a node, f its fluidity [-]."""
     stiffness, thickening = slopes.stiffness[j, i], viscosity_slope[j, i]
     dense = slopes.by_pressure[j, i] - (1.0 - stiffness) * thickening
     return stiffness * thickening, slopes.film_power[j, i] - 3.0, dense
@@ -268,13 +268,13 @@ def reynolds_derivatives(
     parameters, metric, pressure, film_flow
         As in `reynolds_residual`.
     viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
-        d ln eta/dp, rho, d rho/dp, h [1].
+        d ln eta/dp, rho, d rho/dp, h [-].
     slopes
         Of the flow by pressure; `slope_x` and `slope_y` over their flow factors.
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero.
     by_pressure, by_film : ndarray, shape (7 or 11, ny, nx)
-        Result [1]; corners are zero.
+        Result [-]; corners are zero.
     """
     ny, nx = pressure.shape
     by_pressure[:] = 0.0
@@ -351,7 +351,7 @@ def apply_derivatives(
     film: np.ndarray,
     result: np.ndarray,
 ) -> None:
-    """Write the change of the residual under changes of pressure and film, shape (ny, nx) [1].
+    """Write the change of the residual under changes of pressure and film, shape (ny, nx) [-].
 
     Parameters
     ----------

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 class CoarseSolution:

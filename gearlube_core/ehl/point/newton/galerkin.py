@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.state import Linearisation
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.kernels.jit import kernel
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 _LEAST_FREE = 0.25  # share of free fine nodes around a free coarse node
 

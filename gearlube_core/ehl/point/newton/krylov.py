@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
+from gearlube_core.arrays import Array
+
 Operator = Callable[[Array, float], tuple[Array, float]]
 
 
@@ -33,16 +33,16 @@ def flexible_gmres(
     field, number
         Right-hand side.
     tolerance
-        Relative residual to stop at [1].
+        Relative residual to stop at [-].
     most
         Most iterations.
     weight
-        Of the number's residual beside those of the field [1].
+        Of the number's residual beside those of the field [-].
 
     Returns
     -------
     tuple
-        Field, number, relative residual [1], iterations.
+        Field, number, relative residual [-], iterations.
 
     Notes
     -----

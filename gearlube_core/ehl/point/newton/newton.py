@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.state import FilmState, Linearisation
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 Inverse = Callable[[Array, float], tuple[Array, float]]
 Build = Callable[[Hierarchy, Linearisation], Inverse]
 
@@ -47,7 +46,7 @@ class NewtonRecord:
 
 
 def flow_residual(level: PointLevel, state: FilmState) -> float:
-    """Return the sum of unbalanced flow over the flow through the dry width [1].
+    """Return the sum of unbalanced flow over the flow through the dry width [-].
 
     Nodes without pressure count only where flow gathers that no pressure drives away. What
     touching solids carry beyond the pressure counts as a flow.
@@ -80,7 +79,7 @@ def newton(
     state
         Start on it.
     tolerance, load_tolerance
-        Limits of `flow_residual` and of the relative load error [1].
+        Limits of `flow_residual` and of the relative load error [-].
     most, most_krylov
         Most steps, and most iterations in one of them.
     build

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.state import Linearisation
 from gearlube_core.ehl.point.newton.coarse import CoarseSolution
@@ -15,7 +15,6 @@ from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_oper
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
 from gearlube_core.ehl.point.newton.transfer import Transfer
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
 Lines = RowSmoother | ColumnSmoother
 
 _DAMPING = 0.5  # 0.8 and more amplify waves across narrow contacts at high L

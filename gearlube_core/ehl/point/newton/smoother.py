@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.linalg.lapack import sgbtrf, sgbtrs
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection, wave_deflection
 from gearlube_core.kernels.jit import kernel
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 REACH = 4  # nodes over which the local deflection acts to each side
 _BELOW = REACH + 2  # the far upstream neighbour

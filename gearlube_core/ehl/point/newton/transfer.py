@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy.sparse import csr_matrix, kron
 
-Array = np.ndarray[Any, np.dtype[np.float64]]
+from gearlube_core.arrays import Array
 
 _SPARSE = 5000  # entries, from which on a matrix with two or three a row is kept sparse
 

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from scipy.linalg import toeplitz
 from scipy.special import iti0k0
 
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.mesh import cell_faces
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
-
 
 _SPECTRUM = 512
 
@@ -40,7 +37,7 @@ def wave_deflection(level: PointLevel, wave_number: float | Array) -> Array:
     Returns
     -------
     ndarray, shape (nx, nx)
-        At node, under cell [1].
+        At node, under cell [-].
 
     Notes
     -----

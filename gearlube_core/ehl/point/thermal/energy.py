@@ -248,7 +248,7 @@ def sweep_film(
         Filled (3, n): what body 1's flux falls by with its temperature, what either flux rises by
         with the other body's, what body 2's falls by with its own [W/(m2 K)].
     shape
-        Filled (2, n, m): temperature by that of body 1 and of body 2 [1].
+        Filled (2, n, m): temperature by that of body 1 and of body 2 [-].
 
     Notes
     -----

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import scipy.fft
 from scipy.special import erf
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.contact.solid import Solid
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _POINTS = 4  # of Gauss and Legendre between two times
 _GROWTH = 1.6  # of the times where nothing else divides them

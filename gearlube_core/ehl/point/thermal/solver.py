@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.point.cavitation import check_cavitation, refuse_rupture
@@ -21,8 +21,6 @@ from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import nested_film, point_solution
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _FILM_SHARE = 0.3  # of the heat that is not balanced yet: what the film of a turn is solved to
 _FILM_STEPS = 1  # of Newton in a turn
@@ -37,7 +35,7 @@ class PointThermalSettings:
     heights
         Points across the film, both surfaces included.
     tolerance
-        Heat that is not balanced over the heat of shear [1].
+        Heat that is not balanced over the heat of shear [-].
     max_turns
         Of film and energy.
     """
@@ -63,7 +61,7 @@ class ThermalPointSolution:
     mean_stress: Array  # (nx, ny) at mid-film, along sliding [Pa]
     viscosity: Array  # (nx, ny) to flow by pressure [Pa s]
     density: Array  # (nx, ny) of the mean temperature [kg/m3]
-    balances: tuple[float, ...]  # heat not balanced over that of shear, of each turn [1]
+    balances: tuple[float, ...]  # heat not balanced over that of shear, of each turn [-]
     converged: bool
     outcome: str
     seconds: float
@@ -91,7 +89,7 @@ class ThermalPointSolution:
 
     @property
     def friction_coefficient(self) -> float:
-        """Mid-film shear force over load [1]."""
+        """Mid-film shear force over load [-]."""
         return self.friction_force / self.film.problem.load
 
 

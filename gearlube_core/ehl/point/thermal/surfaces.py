@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.line.energy import FilmFields, fill_thermal_oil
 from gearlube_core.ehl.point.equations.level import PointLevel
@@ -25,8 +25,6 @@ from gearlube_core.ehl.point.thermal.energy import (
 )
 from gearlube_core.ehl.point.thermal.moving_heat import MovingHeat
 from gearlube_core.oil.houpert_1985 import GLASS_TEMPERATURE
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 _SURFACES_TOLERANCE = 0.02  # of one solution for the surfaces: others follow
 _SURFACES_STEPS = 30
@@ -60,7 +58,7 @@ class FilmTemperature:
     heat : PointHeat
         Of shear.
     balance : float
-        Heat that is not balanced over the heat made [1].
+        Heat that is not balanced over the heat made [-].
     """
 
     def __init__(
