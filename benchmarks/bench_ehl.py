@@ -22,9 +22,9 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
-from tests.ehl_point_cases import moes_contact, moes_film, radius_ratio, sliding_along
 
 from gearlube_core.ehl.point.solver import solve_point_contact
+from tests.helpers.ehl_point_cases import moes_contact, moes_film, radius_ratio, sliding_along
 
 LOADS = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 MATERIALS = (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)

@@ -17,12 +17,12 @@ from itertools import product
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-from tests.ehl_point_cases import moes_contact, radius_ratio
 
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
+from tests.helpers.ehl_point_cases import moes_contact, radius_ratio
 
 REYNOLDS = PointSolverSettings()
 CONSERVING = PointSolverSettings(cavitation="mass_conserving")

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import dblquad
-from tests.ehl_point_cases import moes_contact
 
 from gearlube_core.ehl.point.border.far_field import FarField
 from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
@@ -16,6 +15,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.helpers.ehl_point_cases import moes_contact
 
 ISOVISCOUS = ehl_lubricant(eta0=0.02, alpha=0.0, density_law="incompressible")
 LIMITS = ((-3e-3, 2e-3), (-4e-3, 5e-3))

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hypoid_film_cases import BETA, flank_cycle, hypoid_film, lasting
 
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.gears.hypoid_cycle import march_flank, steady_films
@@ -16,6 +15,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
+from tests.helpers.hypoid_film_cases import BETA, flank_cycle, hypoid_film, lasting
 
 
 def test_a_turned_gap_under_straight_entrainment_is_the_oblique_contact():

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
-from tests.ehl_line_cases import thesis_line
 
 from gearlube_core.ehl.line.deflection import LineDeflection, hat_coefficients
 from gearlube_core.ehl.line.newton import newton
@@ -18,6 +17,7 @@ from gearlube_core.ehl.line.solver import hertz_start, solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.helpers.ehl_line_cases import thesis_line
 
 R = 0.01  # m
 ISOVISCOUS = ehl_lubricant(eta0=0.1, alpha=0.0, density_law="incompressible")

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
-from tests.ehl_line_cases import thesis_line
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.ehl.line.energy import (
@@ -25,6 +24,7 @@ from gearlube_core.ehl.line.thermal import ThermalSettings, solve_thermal_line
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.film_oil import ehl_lubricant, thermal_viscosity
 from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from tests.helpers.ehl_line_cases import thesis_line
 
 T0 = 363.15  # K
 OIL = ehl_lubricant(

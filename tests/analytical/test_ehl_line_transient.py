@@ -8,13 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.ehl_line_cases import thesis_line
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
 

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from tests.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, moes_contact, radius_ratio
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
@@ -17,6 +16,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil import density, ehl_lubricant, viscosity
+from tests.helpers.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, moes_contact, radius_ratio
 
 CONSERVING = PointSolverSettings(
     cavitation="mass_conserving", tolerance=1e-10, load_tolerance=1e-10

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from tests.helical_dynamics_cases import loaded_points, random_state
 
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
@@ -18,6 +17,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     Z,
 )
 from gearlube_core.helical_geometry.contact_line import ContactPlane
+from tests.helpers.helical_dynamics_cases import loaded_points, random_state
 
 
 def _constants(q: np.ndarray, plane: ContactPlane) -> tuple[float, float, float]:

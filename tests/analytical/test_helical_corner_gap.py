@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helical_contact_cases import HE_2007, SPUR
 
 from gearlube_core.helical_contact.involute_gap import engagement, roll_beside, tip_edge
 from gearlube_core.helical_contact.strips import line_gap
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from tests.helpers.helical_contact_cases import HE_2007, SPUR
 
 
 def turned(vector, angle):

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from tests.helical_dynamics_cases import estimated_pair, spur_pair
 
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.instability_map import instability_map
@@ -21,6 +20,7 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
 from gearlube_core.dynamics.helical_pair.linear.period_march import march_period
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.periodic.floquet import floquet_multipliers
+from tests.helpers.helical_dynamics_cases import estimated_pair, spur_pair
 
 
 def _state_matrix(system: LinearSystem, moments: np.ndarray) -> np.ndarray:

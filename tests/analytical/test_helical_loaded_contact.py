@@ -4,7 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from tests.helical_contact_cases import (
+
+from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
+from gearlube_core.helical_contact.strips import StripSettings
+from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.modification import ModifiedPair
+from tests.helpers.helical_contact_cases import (
     EQUAL,
     HE_2007,
     SPUR,
@@ -13,11 +18,6 @@ from tests.helical_contact_cases import (
     relieved,
     stiff_teeth,
 )
-
-from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
-from gearlube_core.helical_contact.strips import StripSettings
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
-from gearlube_core.helical_geometry.modification import ModifiedPair
 
 MODULUS = 113.6e9  # Pa, steel on steel
 HELICAL, STRAIGHT = ModifiedPair(pair=HE_2007), ModifiedPair(pair=SPUR)

@@ -9,17 +9,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from tests.helical_dynamics_cases import loaded_points
-from tests.helical_march_cases import (
-    PERIOD,
-    SPEED,
-    TORQUE,
-    he_march,
-    history,
-    output,
-    started,
-    wavy_mesh,
-)
 
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
@@ -46,6 +35,17 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_P,
 )
 from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.helical_dynamics_cases import loaded_points
+from tests.helpers.helical_march_cases import (
+    PERIOD,
+    SPEED,
+    TORQUE,
+    he_march,
+    history,
+    output,
+    started,
+    wavy_mesh,
+)
 from tests.references.helical_accelerations import points_damping
 
 MU = np.full(60, 0.1)

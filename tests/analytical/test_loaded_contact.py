@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from scipy.special import ellipk
-from tests.contact_cases import shipped_pair
-from tests.loaded_cases import MODULUS, stiffness
 
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
+from tests.helpers.contact_cases import shipped_pair
+from tests.helpers.loaded_cases import MODULUS, stiffness
 
 FINE = LoadedSettings(cells_across=48, cells_along=64, tolerance=1e-7)
 RIGID_TEETH = stiffness(0.0)

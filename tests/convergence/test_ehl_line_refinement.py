@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.ehl_line_cases import thesis_line
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.oil.film_oil import ehl_lubricant
 from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(lubricant=jamali_2015_oil(newtonian=True), domain=(-1.0e-3, 0.38e-3))
 # M 2, L 2.5: the spike is as wide as the contact and resolved from 250 nodes on

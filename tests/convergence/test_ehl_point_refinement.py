@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import pytest
-from tests.ehl_point_cases import moes_contact
 
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
+from tests.helpers.ehl_point_cases import moes_contact
 
 # at L = 5 the spike is small enough for 49 nodes to lie in the range of the order
 FIXED = {"inlet": 4.0, "outlet": 2.0, "side": 3.0}

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from tests.helical_contact_cases import HE_2007, TEETH_CACHE, TORQUE, coarse_stiffness, relieved
 
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
@@ -12,6 +11,13 @@ from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_s
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
+from tests.helpers.helical_contact_cases import (
+    HE_2007,
+    TEETH_CACHE,
+    TORQUE,
+    coarse_stiffness,
+    relieved,
+)
 
 PLAIN = ModifiedPair(pair=HE_2007)
 REFINED = LoadedSettings(strips=StripSettings(cells_across=61, cells_along=96))

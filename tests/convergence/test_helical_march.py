@@ -7,7 +7,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.helical_dynamics_cases import SPEED, spur_pair, state_rates
 
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
@@ -17,6 +16,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     periodic_response,
 )
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import N_COLUMNS, point_capacity
+from tests.helpers.helical_dynamics_cases import SPEED, spur_pair, state_rates
 
 
 @pytest.mark.parametrize("case", [he_2007_pair, spur_pair])

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.helical_march_cases import PERIOD, RATIO, TORQUE, he_march, history, started
 
 from gearlube_core.dynamics.helical_pair.march.state import N_ODE, PINION_WORK, PSI
+from tests.helpers.helical_march_cases import PERIOD, RATIO, TORQUE, he_march, history, started
 
 NAMES = ["mesh.dte", "mesh.load", "pinion.displacement.y", "pinion.tilt.x", "bearing[1].force.x"]
 

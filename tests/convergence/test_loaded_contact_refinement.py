@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.contact_cases import shipped_pair
-from tests.loaded_cases import stiffness
 
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
+from tests.helpers.contact_cases import shipped_pair
+from tests.helpers.loaded_cases import stiffness
 
 TEETH = stiffness()
 

@@ -7,7 +7,6 @@ import tomllib
 import numpy as np
 import pytest
 import xarray as xr
-from tests.ehl_command import run, written
 
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.studies.films import console as ehl_console
@@ -18,6 +17,7 @@ from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, jamali_2015_film
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from tests.helpers.ehl_command import run, written
 
 
 @pytest.fixture

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from tests.ehl_command import run, written
 
 from gearlube.studies.films.figures.catalogue import drawn_figures
+from tests.helpers.ehl_command import run, written
 
 
 def test_a_line_writes_dataset_summary_and_figures(tmp_path):

@@ -6,7 +6,6 @@ import logging
 import numpy as np
 import pytest
 import xarray as xr
-from tests.helical_dynamics_cases import estimated_pair
 from typer.testing import CliRunner
 
 from gearlube.cli import main as cli
@@ -22,6 +21,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import read_line_mesh
+from tests.helpers.helical_dynamics_cases import estimated_pair
 
 GEOMETRY = {"contact_plane", "contact_characteristics", "facet_gaps"}
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from tests.contact_cases import shipped_file
 
 from gearlube_core.hypoid_contact.loaded_contact import PairStiffness
 from gearlube_core.tooth_compliance.flank_compliance import FlankCompliance
+from tests.helpers.contact_cases import shipped_file
 
 MODULUS = 115.4e9  # Pa, steel on steel
 FILE = shipped_file()

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from tests.hypoid_film_cases import BETA, flank_cycle, hypoid_film
 
 from gearlube_core.ehl.gears.hypoid_cycle import steady_films
 from gearlube_core.film.chittenden_1985 import (
@@ -11,6 +10,7 @@ from gearlube_core.film.chittenden_1985 import (
     minimum_film_geometry,
     minimum_film_thickness,
 )
+from tests.helpers.hypoid_film_cases import BETA, flank_cycle, hypoid_film
 
 OIL = (0.0171, 2.383e-8)
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.ehl_line_cases import thesis_line
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
@@ -15,6 +14,7 @@ from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
 from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.helpers.ehl_line_cases import thesis_line
 
 MODULUS = 2.2e11
 

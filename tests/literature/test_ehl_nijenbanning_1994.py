@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from tests.ehl_point_cases import moes_contact, moes_film
 
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.moes_1992 import central_film_group as line_film_group
 from gearlube_core.film.nijenbanning_1994 import central_film_group, regime_films
 from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.helpers.ehl_point_cases import moes_contact, moes_film
 
 
 @pytest.mark.parametrize(

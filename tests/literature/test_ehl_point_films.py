@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import pytest
-from tests.ehl_point_cases import moes_contact, moes_film
 
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.helpers.ehl_point_cases import moes_contact, moes_film
 
 
 def test_the_film_of_mouriers_contact_is_that_of_a_published_solver() -> None:

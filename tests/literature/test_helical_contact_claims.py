@@ -6,15 +6,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from tests.helical_contact_cases import (
-    HE_2007,
-    SPUR,
-    TEETH_CACHE,
-    TORQUE,
-    coarse_stiffness,
-    relieved,
-    stiff_teeth,
-)
 
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
@@ -26,6 +17,15 @@ from gearlube_core.helical_geometry.load_sharing import shared_load
 from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
+from tests.helpers.helical_contact_cases import (
+    HE_2007,
+    SPUR,
+    TEETH_CACHE,
+    TORQUE,
+    coarse_stiffness,
+    relieved,
+    stiff_teeth,
+)
 
 SPUR_CELLS = LoadedSettings(strips=StripSettings(cells_along=16))
 

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.ehl_line_cases import thesis_line
 
 from gearlube_core.ehl.line.newton import newton
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
@@ -15,6 +14,7 @@ from gearlube_core.ehl.line.solver import hertz_start, solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.oil.film_oil import ehl_lubricant
 from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
 

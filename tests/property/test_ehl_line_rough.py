@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.ehl_line_cases import thesis_line
 
 from gearlube_core.ehl.line.problem import LineSettings
 from gearlube_core.ehl.line.rows import fill_rows, local_rows
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
+from tests.helpers.ehl_line_cases import thesis_line
 
 LENGTH = 2e-3  # of the profiles, which repeat [m]
 

@@ -7,11 +7,11 @@ import math
 
 import numpy as np
 import pytest
-from tests.ehl_point_cases import flow_out, moes_contact
 
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
+from tests.helpers.ehl_point_cases import flow_out, moes_contact
 
 TIGHT = PointSolverSettings(tolerance=1e-10, load_tolerance=1e-10, wedge="central")
 

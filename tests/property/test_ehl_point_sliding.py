@@ -7,7 +7,6 @@ import math
 
 import numpy as np
 import pytest
-from tests.ehl_point_cases import ALPHA, ETA0, moes_contact
 
 from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
@@ -15,6 +14,7 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.helpers.ehl_point_cases import ALPHA, ETA0, moes_contact
 
 OIL = ehl_lubricant(eta0=ETA0, alpha=ALPHA, eyring_stress=5e6)
 TIGHT = PointSolverSettings(tolerance=1e-9, load_tolerance=1e-9)

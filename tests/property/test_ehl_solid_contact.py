@@ -6,7 +6,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from tests.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, flow_out
 
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
@@ -19,6 +18,7 @@ from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import ehl_lubricant
+from tests.helpers.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, flow_out
 
 
 def _contact(speed: float, thickness: float | None) -> PointContactProblem:

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helical_dynamics_cases import SPEED
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
@@ -42,6 +41,7 @@ from gearlube_core.friction.line_integrals import friction_along_lines
 from gearlube_core.friction.line_points import line_points, uniform_line_load
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.oil.lubricant import Lubricant
+from tests.helpers.helical_dynamics_cases import SPEED
 
 _ROUGHNESS = 0.5e-6
 _FILM = FilmFriction(

@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from tests.helical_contact_cases import HE_2007, coarse_stiffness, relieved
 
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position, segment_length
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from tests.helpers.helical_contact_cases import HE_2007, coarse_stiffness, relieved
 
 ARM = HE_2007.pinion_base_radius * math.cos(HE_2007.base_helix_angle)
 SETTINGS = CycleSettings(torques=(140.0, 200.0), positions=24, stations=12)

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from tests.helical_march_cases import (
+
+from tests.helpers.helical_march_cases import (
     PERIOD,
     SPEED,
     TORQUE,

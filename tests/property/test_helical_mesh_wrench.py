@@ -9,13 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.helical_dynamics_cases import (
-    SPEED,
-    loaded_points,
-    random_state,
-    spur_pair,
-    summed_wrench,
-)
 
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
@@ -30,6 +23,13 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
 from gearlube_core.dynamics.helical_pair.mesh.mesh_moments import mesh_stiffness_matrix
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import friction_power
 from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.helical_dynamics_cases import (
+    SPEED,
+    loaded_points,
+    random_state,
+    spur_pair,
+    summed_wrench,
+)
 from tests.references.helical_accelerations import points_damping
 
 phases = st.floats(min_value=0.0, max_value=1.0, exclude_max=True)

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from tests.contact_cases import shipped_file
-from tests.loaded_cases import stiffness
 
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.pair import FlankPair
+from tests.helpers.contact_cases import shipped_file
+from tests.helpers.loaded_cases import stiffness
 
 # the printed blade angles with another pinion swivel mesh too, after 0.1 mm of backlash a side
 APART = shipped_file().varied(

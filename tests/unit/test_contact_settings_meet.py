@@ -3,10 +3,10 @@
 import re
 
 import pytest
-from tests.contact_cases import shipped_file
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from tests.helpers.contact_cases import shipped_file
 
 
 def test_a_wrong_sliding_base_is_refused_with_the_one_that_meshes(tmp_path):

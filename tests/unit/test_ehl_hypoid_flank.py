@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hypoid_film_cases import flank_cycle, hypoid_film
 
 from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of, sliding_direction
 from gearlube_core.errors import ParameterError
@@ -13,6 +12,7 @@ from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.table import MeshTable
+from tests.helpers.hypoid_film_cases import flank_cycle, hypoid_film
 
 TABLE = MeshTable.named("mohammadpour_2015")
 

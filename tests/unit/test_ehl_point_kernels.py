@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.ehl_point_cases import moes_contact
 
 from gearlube_core.ehl.point.equations import stencil as point_stencil
 from gearlube_core.ehl.point.equations.level import PointLevel
@@ -16,6 +15,7 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import build_hierarchy, grid_shapes, solve_point_contact
 from gearlube_core.errors import ConvergenceError, ParameterError
+from tests.helpers.ehl_point_cases import moes_contact
 
 SHAPE = (19, 23)
 

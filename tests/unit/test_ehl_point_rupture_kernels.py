@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.ehl_point_cases import moes_contact, sliding_along
 
 from gearlube_core.ehl.point.cavitation import let_rupture, refuse_rupture
 from gearlube_core.ehl.point.equations.level import PointLevel
@@ -19,6 +18,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
+from tests.helpers.ehl_point_cases import moes_contact, sliding_along
 
 CONSERVING = PointSolverSettings(cavitation="mass_conserving")
 SHAPE = (17, 19)

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helical_dynamics_cases import SPEED, random_state
 
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.harmonic_grid import QUANTITIES, harmonic_grid
@@ -30,6 +29,7 @@ from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.sample_pairs import named_pair
+from tests.helpers.helical_dynamics_cases import SPEED, random_state
 
 
 @pytest.mark.parametrize(

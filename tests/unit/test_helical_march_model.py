@@ -5,7 +5,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helical_march_cases import (
+
+from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.helical_pair.march.output_names import (
+    LINES_MAX,
+    OUTPUT_INDEX,
+    OUTPUT_NAMES,
+)
+from gearlube_core.errors import ParameterError, StepError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.helical_march_cases import (
     OIL,
     PERIOD,
     RATIO,
@@ -19,18 +31,6 @@ from tests.helical_march_cases import (
     unaccounted,
     wavy_mesh,
 )
-
-from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
-from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.output_names import (
-    LINES_MAX,
-    OUTPUT_INDEX,
-    OUTPUT_NAMES,
-)
-from gearlube_core.errors import ParameterError, StepError
-from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 
 NAN = float("nan")
 LINES = [f"line[{i}].load" for i in range(1, LINES_MAX + 1)]

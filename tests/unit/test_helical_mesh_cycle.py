@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from tests.helical_contact_cases import HE_2007, relieved, stiff_teeth
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
@@ -11,6 +10,7 @@ from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.storage import resumable_records
+from tests.helpers.helical_contact_cases import HE_2007, relieved, stiff_teeth
 
 CELLS = LoadedSettings(strips=StripSettings(cells_across=11, cells_along=12))
 SMALL = CycleSettings(torques=(50.0, 200.0), positions=5, stations=4, loaded=CELLS)

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helical_contact_cases import HE_2007, SPUR, coarse_stiffness
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
@@ -20,6 +19,7 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.sample_pairs import PAIRS, named_pair
+from tests.helpers.helical_contact_cases import HE_2007, SPUR, coarse_stiffness
 
 
 @pytest.mark.parametrize("name", PAIRS)

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from tests.loaded_cases import FILE, stiffness
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact import mesh_cycle
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES, CycleSettings, run_cycle
+from tests.helpers.loaded_cases import FILE, stiffness
 
 SMALL = CycleSettings(
     positions=4, torques=(30.0,), loaded=LoadedSettings(cells_across=12, cells_along=16)
