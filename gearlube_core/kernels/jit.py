@@ -13,9 +13,11 @@ from typing import Any, TypeVar
 
 from numba import njit
 
+from gearlube_core.kernels.foreign_types import keep_own_types
+
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def kernel(function: _Function) -> _Function:
     """Compile `function` with numba on first call and keep the machine code on disk."""
-    return njit(cache=True, error_model="numpy")(function)  # type: ignore[return-value, no-any-return]
+    return keep_own_types(njit(error_model="numpy")(function), function)  # type: ignore[no-any-return]

@@ -23,7 +23,7 @@ from gearlube_core.ehl.point.solid_contact import NO_TOUCH, SolidContact, Touch
 from gearlube_core.ehl.point.solver import grid_shapes
 from gearlube_core.ehl.transient.level import Conditions, MovingLevel
 from gearlube_core.ehl.transient.rows import row_shapes
-from gearlube_core.oil.film_oil import EhlLubricant
+from gearlube_core.oil.film_oil import FilmOil
 
 _LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
 _CURE = "Take smaller time steps, or more nodes where the film is thin."
@@ -68,7 +68,7 @@ class MovingFilm:
     """
 
     conditions: Conditions
-    lubricant: EhlLubricant
+    lubricant: FilmOil
     contact_modulus: float
     x_limits: tuple[float, float]
     y_limits: tuple[float, float]

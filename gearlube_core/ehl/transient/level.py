@@ -78,7 +78,7 @@ class MovingLevel(PointLevel):
         self.y: Array = np.linspace(*problem.y_limits, ny)
         self.rate = np.ones((ny, 1))
         self.storage = np.zeros(shape)
-        if problem.lubricant.tau0 > 0.0:
+        if problem.lubricant.shear.tau0 > 0.0:
             self.shear = self._film_shear(problem, (0.0, 0.0))
 
     def impose(self, conditions: FilmConditions) -> None:

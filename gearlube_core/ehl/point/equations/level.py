@@ -11,7 +11,6 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
-from gearlube_core.ehl.flow.film_properties import film_properties
 from gearlube_core.ehl.point.border.open_border import OpenBorder
 from gearlube_core.ehl.point.equations.cross_flow import add_cross_flow
 from gearlube_core.ehl.point.equations.derivatives import flow_derivatives
@@ -38,7 +37,8 @@ from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import WEDGE_WEIGHTS
 from gearlube_core.ehl.point.solid_contact import SolidLayer
-from gearlube_core.oil.film_oil import EhlLubricant
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_properties import film_properties
 
 # rho h at a face over that of the node upstream of it; reached where the film halves in a cell
 _LEAST_FACE = 0.5
@@ -116,7 +116,7 @@ class PointLevel:
             else math.hypot(u * semi_x, v * semi_y)
         )
         self.half_width = across / scales.length
-        self.oil: EhlLubricant = scales.oil(problem.lubricant)
+        self.oil: FilmOil = scales.oil(problem.lubricant)
         self.modulus = problem.contact_modulus * scales.film / (scales.pressure * scales.length)
         self.positions = x / scales.length if grading else np.arange(nx) * self.dx
         self.graded = grading is not None
@@ -153,7 +153,7 @@ class PointLevel:
         # powers of film and fluidity in the flow by pressure
         self._newtonian = np.full(shape, 3.0), np.ones(shape)
         self._aligned = np.zeros(shape)  # no cross flow
-        if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
+        if problem.lubricant.shear.tau0 > 0.0 and problem.sliding is not None:
             self.shear = self._film_shear(problem, scales.turned(problem.sliding))
         self.warm: tuple[Array, Array] | None = None
         self.broken: BrokenFilm | None = None

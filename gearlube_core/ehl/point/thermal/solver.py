@@ -21,6 +21,7 @@ from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import nested_film, point_solution
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.oil.film_oil import viscosity_cooling
 
 _FILM_SHARE = 0.3  # of the heat that is not balanced yet: what the film of a turn is solved to
 _FILM_STEPS = 1  # of Newton in a turn
@@ -122,7 +123,7 @@ def solve_thermal_point(
     Raises
     ------
     ParameterError
-        When sliding is not given or the oil does not know temperature.
+        When sliding is not given or the viscosity law is isothermal.
     ConvergenceError
         When film or temperature fail, unless `throw` is False.
 
@@ -197,9 +198,9 @@ def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -
             "A thermal film needs `sliding`: the velocity of body 2 against body 1, (0, 0) where "
             "the surfaces roll."
         )
-    if problem.lubricant.S0 == 0.0:
+    if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
         raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity does not know temperature. "
+            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. "
             "Take law houpert."
         )
 
