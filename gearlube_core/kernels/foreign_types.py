@@ -1,7 +1,8 @@
 """Disk cache of kernels that leaves out specialisations for classes from outside the package.
 
 numba keeps the argument types of all specialisations of a kernel in one file. With a class that
-another process cannot import that file could not be read any more, whatever was asked for.
+another process cannot import that file could not be read any more, whatever was asked for. It
+also would not notice that the file of such a class was edited.
 """
 
 from __future__ import annotations
