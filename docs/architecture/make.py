@@ -1,7 +1,7 @@
 """Write docs/architecture.md and docs/images/house.svg: `python -m docs.architecture.make`.
 
-Rooms and their floors are read from the import contracts in pyproject.toml, which CI enforces. What a
-room holds is the first sentence of its package's docstring.
+Rooms and their floors are read from the import contracts in pyproject.toml, which CI enforces.
+What a room holds is the first sentence of its package's docstring.
 """
 
 from __future__ import annotations
