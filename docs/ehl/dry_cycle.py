@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from docs.ehl.cases import Array, FilmCase
+from docs.ehl.cases import FilmCase
 from docs.ehl.lines import write_arrays
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 
 

@@ -18,7 +18,7 @@ from fmu_src.archive import write_archive
 from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
 from fmu_src.hypoid_axle import DEFINITION, definition_with_table
-from gearlube.cli import main as cli
+from gearlube import command as cli
 from gearlube.studies.sweep import SweepSettings, run_point
 from gearlube.studies.sweep import console as sweep_console
 from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of

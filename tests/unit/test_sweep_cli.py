@@ -3,7 +3,7 @@
 import pytest
 from typer.testing import CliRunner
 
-from gearlube.cli import main as cli
+from gearlube import command as cli
 from gearlube.cli.arguments import speeds_from
 from gearlube.cli.spread_values import spread
 from gearlube.studies.sweep import console as sweep_console

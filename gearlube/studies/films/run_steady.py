@@ -51,7 +51,7 @@ def run_line(
     >>> case = LineCase.named("jamali_2015").varied({"solver.nodes": 201})
     >>> film = run_line(case)
     >>> f"{1e6 * film.attrs['minimum_film']:.2f} um"
-    '0.72 um'
+    '0.20 um'
     """
     _warn_of_heights(case)
     _begin(folder, progress, f"film on {case.solver.nodes} nodes")
