@@ -1,1 +1,1 @@
-"""Files written whole, records of finished work, and the processes that do it."""
+"""Files written whole, results kept by key, and processes that share work."""

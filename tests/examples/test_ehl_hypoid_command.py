@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
-from gearlube.cli import main as cli
+from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
 from gearlube.studies.films import hypoid_console as ehl_hypoid_console
 from gearlube.studies.films.figures.catalogue import drawn_figures

@@ -18,18 +18,18 @@ from fmu_src.archive import write_archive
 from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
 from fmu_src.hypoid_axle import DEFINITION, definition_with_table
-from gearlube.cli import main as cli
+from gearlube import command as cli
 from gearlube.studies.sweep import SweepSettings, run_point
 from gearlube.studies.sweep import console as sweep_console
 from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from tests.helpers.axle_cases import with_coast_flanks
 from tests.helpers.fmu_host import FATAL, OK, Host
 
-SHIPPED = MeshTable.named("mohammadpour_2015")
+SHIPPED = shipped_mesh_table("mohammadpour_2015")
 # other teeth, and coast flanks that differ from the drive flanks
 OTHER = replace(
     with_coast_flanks(SHIPPED), name="pair_11_43", pinion_teeth=11, gear_teeth=43, source="my.toml"

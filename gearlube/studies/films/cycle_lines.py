@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +14,8 @@ from gearlube.studies.films.variables import unit_note
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.transient.film import FilmSolution
-from gearlube_core.errors import ParameterError
-from gearlube_core.storage.atomic_file import whole_file
+from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.storage.atomic_file import read_arrays, write_arrays
 
 
 class CycleLines:
@@ -42,11 +41,11 @@ class CycleLines:
 
     def _read(self) -> None:
         try:
-            with np.load(self._path, allow_pickle=False) as stored:
-                self._y = stored["y"]
-                rows = zip(stored["step"], stored["pressure"], stored["film"], strict=True)
-                self._rows = {int(step): (pressure, film) for step, pressure, film in rows}
-        except (OSError, ValueError, KeyError, zipfile.BadZipFile) as reason:
+            stored = read_arrays(self._path)
+            self._y = stored["y"]
+            rows = zip(stored["step"], stored["pressure"], stored["film"], strict=True)
+            self._rows = {int(step): (pressure, film) for step, pressure, film in rows}
+        except (FileError, ValueError, KeyError) as reason:
             raise ParameterError(
                 f"{self._path} must hold the lines of a march, got {reason}. Remove it."
             ) from None
@@ -59,8 +58,8 @@ class CycleLines:
     def write(self) -> None:
         """Write what is kept; an older file stays whole until the new one is complete."""
         pressure, film = (np.array([row[k] for row in self._rows.values()]) for k in (0, 1))
-        with whole_file(self._path) as partial, partial.open("wb") as stream:
-            np.savez(stream, y=self._y, step=list(self._rows), pressure=pressure, film=film)
+        arrays = {"y": self._y, "step": list(self._rows), "pressure": pressure, "film": film}
+        write_arrays(self._path, arrays)
 
     def variables(self, steps: Array) -> dict[str, Any]:
         """Return variables over `steps` and y; not a number at steps that are not kept."""
