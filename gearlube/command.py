@@ -1,4 +1,7 @@
-"""The command `gearlube`: a table of commands, and the options that all of them share."""
+"""The command `gearlube`.
+
+The table of commands, and the options that all of them share.
+"""
 
 from __future__ import annotations
 

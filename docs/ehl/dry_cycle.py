@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from docs.ehl.cases import Array, FilmCase
+from docs.ehl.cases import FilmCase
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.storage.atomic_file import write_arrays
 

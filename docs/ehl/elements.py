@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase
+from docs.ehl.cases import CYCLE, FACETED, FilmCase
 from docs.ehl.store import SETTINGS, MissingFilmError, Store
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact

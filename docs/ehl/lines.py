@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from docs.ehl.cases import Array
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.storage.atomic_file import write_arrays
 

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from docs.ehl.cases import Array
 from docs.ehl.store import MissingFilmError, Store
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.transient.film import MovingFilm
 from gearlube_core.ehl.transient.level import FilmConditions

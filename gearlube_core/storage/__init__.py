@@ -1,1 +1,1 @@
-"""Files written whole, results kept by key, and processes that share work."""
+"""Files written whole or not at all, stored results, worker processes."""
