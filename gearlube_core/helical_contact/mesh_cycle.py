@@ -23,7 +23,9 @@ from gearlube_core.helical_contact.loaded_contact import (
 from gearlube_core.helical_geometry.contact_line import clip_line, line_count
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
+from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
+from gearlube_core.storage.resumable import resumable_results
 from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
 
 _FORMAT = 1  # raise with every change of the model that changes results
@@ -195,21 +197,18 @@ def run_cycle(
         When a position finds no equilibrium.
     """
     phases = [float(phase) for phase in settings.phases]
-
-    def tell(phase: float, done: int) -> None:
-        if observer is not None:
-            observer(CycleProgress(done, len(phases), phase))
-
-    found = dict(
-        resumable_records(
-            phases,
-            "{:.6f}".format,
-            partial(position_record, modified, stiffness, settings),
-            RecordStore(store, _key(modified, stiffness, settings)),
-            jobs=jobs,
-            new=tell,
-        )
-    )
+    key = _key(modified, stiffness, settings)
+    found: dict[float, Record] = {}
+    for phase, record, stored in resumable_results(
+        phases,
+        lambda phase: f"{key}_{phase:.6f}",
+        partial(position_record, modified, stiffness, settings),
+        ResultStore(store, ARRAYS),
+        ProcessPool(jobs=jobs),
+    ):
+        found[phase] = record
+        if observer is not None and not stored:
+            observer(CycleProgress(len(found), len(phases), phase))
     return {name: np.stack([found[phase][name] for phase in phases]) for name in found[phases[0]]}
 
 

@@ -23,7 +23,9 @@ from gearlube_core.hypoid_contact.placed_flank import tooth_position
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
+from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
+from gearlube_core.storage.resumable import resumable_results
 
 SIDES: tuple[Side, ...] = ("drive", "coast")
 PAIRS_BESIDE = 2  # tooth pairs looked at before and after the one at the mesh phase
@@ -174,17 +176,17 @@ def run_cycle(
     """
     tasks = [(side, float(phase)) for side in SIDES for phase in settings.phases]
     found: dict[tuple[Side, float], Record] = {}
-    for task, record in resumable_records(
+    key = _key(file, stiffness, settings)
+    for task, record, stored in resumable_results(
         tasks,
-        _name,
+        lambda task: f"{key}_{task[0]}_{task[1]:.6f}",
         _position,
-        RecordStore(store, _key(file, stiffness, settings)),
-        prepare=_prepare,
-        arguments=(file, stiffness, settings),
-        jobs=jobs,
-        new=lambda task, done: observer and observer(CycleProgress(done, len(tasks), *task)),
+        ResultStore(store, ARRAYS),
+        ProcessPool(jobs=jobs, prepare=_prepare, arguments=(file, stiffness, settings)),
     ):
         found[task] = record
+        if observer is not None and not stored:
+            observer(CycleProgress(len(found), len(tasks), *task))
     return {
         side: {
             name: np.stack([found[side, float(phase)][name] for phase in settings.phases])
@@ -224,7 +226,3 @@ def _key(
         for part in (stiffness[side].pinion, stiffness[side].gear):
             digest.update(np.ascontiguousarray(part.image).tobytes())
     return digest.hexdigest()[:16]
-
-
-def _name(task: tuple[Side, float]) -> str:
-    return f"{task[0]}_{task[1]:.6f}"

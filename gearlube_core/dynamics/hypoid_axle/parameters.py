@@ -12,6 +12,7 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_pa
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -220,7 +221,7 @@ def mohammadpour_2015_axle(
         "Preload cannot pull; give 0 N for line-to-line bearings.",
     )
     return HypoidAxleParameters(
-        mesh=mesh or MeshTable.named("mohammadpour_2015"),
+        mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
         bearing=TaperedRollerBearing.mohammadpour_2015(approach=bearing_approach).with_preload(
             bearing_preload
         ),

@@ -15,6 +15,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     TWO_DOF,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -211,7 +212,7 @@ def karagiannis_2012_pair(
     used. Its normal backlash of 150 um is the total.
     """
     return HypoidTorsionalParameters(
-        mesh=mesh or MeshTable.named("mohammadpour_2015"),
+        mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
         pinion_inertia=1734e-6,
         gear_inertia=5.81e-2,
         pinion_torque=pinion_torque,
