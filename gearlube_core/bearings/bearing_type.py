@@ -108,7 +108,8 @@ def _compile_method(name: str) -> None:
 
     # numba compares the names of the arguments with those of the method that it compiles
     method.__signature__ = signature(getattr(ShaftBearings, name))  # type: ignore[attr-defined]
-    overload_method(types.BaseNamedTuple, name, jit_options={"error_model": "numpy"})(method)
+    compiled: Any = overload_method  # its stub lacks jit_options
+    compiled(types.BaseNamedTuple, name, jit_options={"error_model": "numpy"})(method)
 
 
 for _name in (

@@ -76,8 +76,8 @@ def _tuple_type(tuple_class: type, variant: type | None) -> Type:
     return types.BaseTuple.from_types(parts, tuple_class)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
 def _load_tuple(typingctx: Any, array: Any, tuple_class: Any, variant: Any) -> Any:
+    """Return the code that loads a tuple; see `tuple_from_array`."""
     result = _tuple_type(tuple_class.instance_class, getattr(variant, "instance_class", None))
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -100,9 +100,12 @@ def _load_tuple(typingctx: Any, array: Any, tuple_class: Any, variant: Any) -> A
     return result(array, tuple_class, variant), generate
 
 
+_load_kernel: Any = intrinsic(_load_tuple)
+
+
 @overload(tuple_from_array)
 def _tuple_from_array(array: Any, tuple_class: Any, variant: Any = None) -> Any:
     def load(array: Any, tuple_class: Any, variant: Any = None) -> Any:
-        return _load_tuple(array, tuple_class, variant)
+        return _load_kernel(array, tuple_class, variant)
 
     return load
