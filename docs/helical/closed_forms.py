@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from docs.helical.cases import Array, pressed_points, random_state
+from docs.helical.cases import pressed_points, random_state
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,

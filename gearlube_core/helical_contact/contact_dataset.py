@@ -12,7 +12,7 @@ from gearlube_core.helical_contact.mesh_cycle import CycleSettings, line_numbers
 from gearlube_core.helical_geometry.contact_line import ContactPlane, clip_line, line_position
 from gearlube_core.helical_geometry.load_sharing import unrelieved_plane
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.storage.resumable_records import Record
+from gearlube_core.storage.result_store import Record
 
 _STATE, _LINE = ("phase", "torque"), ("phase", "torque", "line")
 _UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
-from gearlube.cli import main as cli
+from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.studies.contact import console as contact_console
 from gearlube.studies.contact.figures import CONTACT_CATALOGUE

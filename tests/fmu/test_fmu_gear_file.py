@@ -19,7 +19,7 @@ from fmu_src import identity
 from fmu_src.build import build_helical_pair, build_models
 from fmu_src.check import problems
 from fmu_src.helical_pair import DEFINITION, GEAR_FILE, LINE_MESH_FILE, definition_with
-from gearlube.cli import main as cli
+from gearlube import command as cli
 from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.errors import ParameterError, TableError

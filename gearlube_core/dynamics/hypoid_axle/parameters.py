@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
@@ -12,6 +13,7 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_pa
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -36,8 +38,9 @@ class HypoidAxleParameters:
     Parameters
     ----------
     mesh : MeshTable
-    bearing : TaperedRollerBearing
-        One type, two opposed on either shaft, with preload, interference or clearance set.
+    bearing : Bearing
+        One type, two opposed on either shaft, e.g. a `TaperedRollerBearing` with preload,
+        interference or clearance set.
     oil : Lubricant
     solid : Solid
         Both flanks.
@@ -77,7 +80,7 @@ class HypoidAxleParameters:
     """
 
     mesh: MeshTable
-    bearing: TaperedRollerBearing
+    bearing: Bearing
     oil: Lubricant
     solid: Solid
     pinion_inertia: float
@@ -220,7 +223,7 @@ def mohammadpour_2015_axle(
         "Preload cannot pull; give 0 N for line-to-line bearings.",
     )
     return HypoidAxleParameters(
-        mesh=mesh or MeshTable.named("mohammadpour_2015"),
+        mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
         bearing=TaperedRollerBearing.mohammadpour_2015(approach=bearing_approach).with_preload(
             bearing_preload
         ),
