@@ -67,15 +67,22 @@ def _python_tags(path: Path) -> list[Tag]:
         return []
     scopes = _scopes(ast.parse(text), text.splitlines())
     found = []
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        words = token.type == tokenize.STRING and token.string.startswith(('"""', 'r"""'))
-        if not words and token.type != tokenize.COMMENT:
-            continue
-        for match in _TAG.finditer(token.string):
-            line = token.start[0] + token.string.count("\n", 0, match.start())
+    for start, words in prose(text):
+        for match in _TAG.finditer(words):
+            line = start + words.count("\n", 0, match.start())
             inside = [name for first, last, name in scopes if first <= line <= last]
             found.append(_tag(match, path, inside[-1] if inside else ""))
     return found
+
+
+def prose(text: str) -> list[tuple[int, str]]:
+    """Return line and text of every docstring and comment of Python code."""
+    return [
+        (token.start[0], token.string)
+        for token in tokenize.generate_tokens(io.StringIO(text).readline)
+        if token.type == tokenize.COMMENT
+        or (token.type == tokenize.STRING and token.string.startswith(('"""', 'r"""')))
+    ]
 
 
 def _tag(match: re.Match[str], path: Path, scope: str) -> Tag:

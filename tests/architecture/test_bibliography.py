@@ -6,7 +6,14 @@ from collections import Counter
 import pytest
 
 from docs import equations as page
-from docs.source_tags import ROOT, bibliography_keys, equations, package_tags
+from docs.source_tags import (
+    PACKAGES,
+    ROOT,
+    bibliography_keys,
+    equations,
+    package_tags,
+    prose,
+)
 
 FORMS = {"printed", "corrected", "other form", "not implemented"}
 BIBLIOGRAPHY = (ROOT / "docs" / "bibliography.bib").read_text(encoding="utf-8")
@@ -20,6 +27,18 @@ def tags():
 def test_every_source_that_the_code_names_is_in_the_bibliography(tags):
     keys = set(bibliography_keys())
     assert not {f"{tag.key} in {tag.file}" for tag in tags if tag.key not in keys}
+
+
+def test_equations_are_cited_in_one_form():
+    """Write [he_2007 (4)], one equation a tag; "He et al. 2007 eq. (4)" is found by no search."""
+    other = re.compile(r"\b[Ee]qs?\.? \(|\b(?:1[5-9]|20)\d\d\)?,?\s+(?:equations?|formulas?)\s+\(")
+    texts = [path for package in PACKAGES for path in (ROOT / package).rglob("*.py")]
+    assert not [
+        f"{path}:{line}"
+        for path in texts
+        for line, words in prose(path.read_text(encoding="utf-8"))
+        if other.search(words)
+    ]
 
 
 def test_every_entry_of_the_bibliography_is_cited(tags):
