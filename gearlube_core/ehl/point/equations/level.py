@@ -181,6 +181,7 @@ class PointLevel:
         own = self.coefficients[0].diagonal() if self.graded else self.coefficients[0, 0]
         return np.broadcast_to(own, self.shape)
 
+    # of the pressure: the load [jamali_2015 (4.5)]
     def integral(self, values: Array) -> float:
         """Return the sum of values times the areas of their cells; shape (ny, nx)."""
         return float(values.sum(axis=0) @ self.cells)
