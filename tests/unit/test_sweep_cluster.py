@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from gearlube.studies.sweep import SweepModel, SweepSettings, run_sweep
+from gearlube.studies.sweep.run import SweepModel, run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
 from tests.helpers import sweep_stand_in as stand_in
 
 DEADLINE = 60.0  # s, for anything that has to come up

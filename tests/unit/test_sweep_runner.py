@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube.studies.sweep import SweepModel, SweepSettings, load_sweep, run_sweep
-from gearlube.studies.sweep.merge import merge
+from gearlube.studies.sweep.merge import load_sweep, merge
+from gearlube.studies.sweep.run import SweepModel, run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
 from gearlube_core.storage.interrupts import deferred_interrupts
 from tests.helpers import sweep_stand_in as stand_in

@@ -85,8 +85,8 @@ def sweep(
     from gearlube.studies.sweep import run
     from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
     from gearlube.studies.sweep.progress import Progress
-    from gearlube.studies.sweep.report import write_report
-    from gearlube.studies.sweep.settings import SweepSettings, quick_settings
+    from gearlube.studies.sweep.report import write_sweep_report
+    from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
     from gearlube_core.checks import check_within
     from gearlube_core.errors import ParameterError
     from gearlube_core.units import celsius_to_kelvin
@@ -120,7 +120,7 @@ def sweep(
                 bar.update(task, completed=progress.done, total=progress.total, description=where)
 
             dataset = run.run_sweep(
-                quick_settings(settings) if quick else settings,
+                quick_sweep_settings(settings) if quick else settings,
                 speeds_kmh=speeds_kmh,
                 preloads=preload or _DEFAULT_PRELOADS,
                 fmu=fmu,
@@ -132,7 +132,7 @@ def sweep(
                 command_line=shlex.join(["gearlube", *sys.argv[1:]]),
             )
             bar.update(task, description="report")
-            report = write_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
+            report = write_sweep_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
         computed = dataset.attrs["computed_points"]
         logger.info("%d points computed in %.1f s.", computed, dataset.attrs["wall_time"])
         logger.info("Results: %s, %s, %s", report, out / "sweep.nc", out / "summary.csv")
