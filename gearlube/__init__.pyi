@@ -6,7 +6,7 @@ from fmu_src.build import build_helical_pair as build_helical_pair
 from fmu_src.build import build_hypoid_axle as build_hypoid_axle
 
 # speed sweeps of an axle FMU
-from gearlube.studies.sweep.merge import load_sweep as load_sweep
+from gearlube.studies.sweep.datasets import load_sweep as load_sweep
 from gearlube.studies.sweep.report import write_sweep_report as write_sweep_report
 from gearlube.studies.sweep.run import run_sweep as run_sweep
 from gearlube.studies.sweep.settings import SweepSettings as SweepSettings

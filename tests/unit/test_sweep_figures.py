@@ -8,10 +8,10 @@ import pytest
 import xarray as xr
 
 from gearlube.plotting.style import cell_edges
+from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.figures import CATALOGUE, spectrum_map
 from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
 from gearlube.studies.sweep.figures.spectrum_map import DTE, default_top
-from gearlube.studies.sweep.merge import merge
 from gearlube.studies.sweep.point import failed_point
 from gearlube.studies.sweep.report import report_html, write_sweep_report
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings

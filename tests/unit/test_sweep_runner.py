@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube.studies.sweep.merge import load_sweep, merge
+from gearlube.studies.sweep.datasets import load_sweep, merge
 from gearlube.studies.sweep.run import SweepModel, run_sweep
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError

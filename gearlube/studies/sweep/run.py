@@ -12,8 +12,8 @@ from pathlib import Path
 
 import xarray as xr
 
+from gearlube.studies.sweep.datasets import merge, save
 from gearlube.studies.sweep.gear_pair import mesh_table_of
-from gearlube.studies.sweep.merge import merge, save
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.progress import Progress, ProgressCallback
