@@ -52,7 +52,7 @@ def contact_dataset(modified: ModifiedPair, settings: CycleSettings, cycle: Reco
 
     Notes
     -----
-    K_line = (T_i/r_bp)/(r_bp Theta): N_i of He et al. 2007 eq. (1) is taken along the line of
+    K_line = (T_i/r_bp)/(r_bp Theta): N_i of [he_2007 (1)] is taken along the line of
     action, so that the sum is the mesh stiffness felt by the rotation. Theta counts from where
     unmodified rigid flanks touch; with modified flanks K therefore contains their removal.
     """

@@ -14,7 +14,7 @@ from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 
-_FIRST_POSITION, _STEP, _COUNT = -18.7e-3, 0.04e-3, 575  # m, m: Jamali 2015 sec. 4.4, 23 mm
+_FIRST_POSITION, _STEP, _COUNT = -18.7e-3, 0.04e-3, 575  # m, m: [jamali_2015 sec. 4.4]
 
 
 def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> NDArray[np.float64]:
@@ -25,7 +25,7 @@ def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> NDArray[np.float64]:
     Parameters
     ----------
     s_i
-        From the pitch line along the line of action [m], any shape: Jamali 2015 sec. 2.2.1.
+        From the pitch line along the line of action [m], any shape: [jamali_2015 sec. 2.2.1].
     pair
         Gear pair.
 
@@ -117,7 +117,7 @@ def meshing_steps(modified: ModifiedPair, step: float, smallest_share: float) ->
     step
         Advance along the line of action [m].
     smallest_share
-        L/w at both ends of the analysed cycle [-]; Jamali 2015 sec. 4.4 takes 0.16.
+        L/w at both ends of the analysed cycle [-]; [jamali_2015 sec. 4.4] takes 0.16.
 
     Returns
     -------

@@ -104,9 +104,10 @@ class MeshTable:
 
     References
     ----------
-    Mohammadpour et al. 2015, eq. (5) and (23); Karagiannis et al. 2012, eq. (26)-(29). The papers'
-    flank functions of period contact_ratio do not repeat with the mesh for non-integer contact
-    ratios; windows in a period of `PAIRS` mesh periods do.
+    [mohammadpour_2015 (5)] [mohammadpour_2015 (23)]
+    [karagiannis_2012 (26)] [karagiannis_2012 (27)] [karagiannis_2012 (28)] [karagiannis_2012 (29)]
+    The papers' flank functions of period contact_ratio do not repeat with the mesh for non-integer
+    contact ratios; windows in a period of `PAIRS` mesh periods do.
     """
 
     name: str

@@ -75,7 +75,7 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     References
     ----------
-    Mohammadpour et al. 2015.
+    [mohammadpour_2015]
     """
 
     def __init__(self, parameters: HypoidAxleParameters) -> None:

@@ -226,7 +226,7 @@ def write_losses(
 
     References
     ----------
-    Mohammadpour et al. 2015, eq. (20), (21).
+    [mohammadpour_2015 (20)] [mohammadpour_2015 (21)]
     """
     duration = s[TIME_IN_STEP]
     averaged = duration > 0.0

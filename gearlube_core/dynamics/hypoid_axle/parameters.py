@@ -24,8 +24,8 @@ Friction = Literal["consistent", "as_printed", "off"]
 Approach = Literal["full", "as_printed"]
 TorqueLoss = Literal["none", "palmgren"]
 
-HYSTERETIC_LOSS = 0.009  # [-], Mohammadpour et al. 2015 eq. (4) and (25)
-FREQUENCY_FLOOR = 50.0  # Hz; eq. (4) diverges at rest; the sweep starts at 100 Hz
+HYSTERETIC_LOSS = 0.009  # [-], [mohammadpour_2015 (4)], [mohammadpour_2015 (25)]
+FREQUENCY_FLOOR = 50.0  # Hz; [mohammadpour_2015 (4)] diverges at rest; the sweep starts at 100 Hz
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 FRICTION_FORMS = {"consistent": 0.0, "as_printed": 1.0, "off": -1.0}
 
@@ -59,7 +59,7 @@ class HypoidAxleParameters:
     mesh_stiffness : {"tangent", "secant"}
         Spring of the mesh about its load, see `pack_mesh`.
     mesh_damping : {"hysteretic", "modal"}
-        Eq. (4), or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
+        [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
     friction : {"consistent", "as_printed", "off"}
@@ -68,13 +68,13 @@ class HypoidAxleParameters:
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
     frequency_floor : float
-        Lower clamp of the frequency in eq. (4) and (25) [Hz].
+        Lower clamp of the frequency in [mohammadpour_2015 (4)] and [mohammadpour_2015 (25)] [Hz].
     hysteretic_loss : float
-        Coefficient of eq. (4) [-].
+        Coefficient of [mohammadpour_2015 (4)] [-].
 
     References
     ----------
-    Mohammadpour et al. 2015, Tables 1, A1-A4.
+    [mohammadpour_2015 Table 1] and its Tables A1 to A4.
     """
 
     mesh: MeshTable
@@ -132,14 +132,14 @@ class HypoidAxleParameters:
 
     @property
     def equivalent_mass(self) -> float:
-        """Mass of the torsional mesh mode [kg], Karagiannis et al. 2012 eq. (30)."""
+        """Mass of the torsional mesh mode [kg], [karagiannis_2012 (30)]."""
         R_p = self.mesh.mean("R_p", 0.0)
         R_g = R_p * self.mesh.ratio
         return 1.0 / (R_p**2 / self.pinion_inertia + R_g**2 / self.gear_inertia)
 
     @property
     def modal_damping(self) -> float:
-        """Coefficient c of the modal option [N s/m], zero for eq. (4)."""
+        """Coefficient c of the modal option [N s/m], zero for [mohammadpour_2015 (4)]."""
         if self.mesh_damping == "hysteretic":
             return 0.0
         stiffness = self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
@@ -207,7 +207,7 @@ def mohammadpour_2015_axle(
     oil : str
         Name in the lubricant library.
     bearing_approach : {"full", "as_printed"}
-        Eq. (26) with the full approach, or halved as printed.
+        [mohammadpour_2015 (26)] with the full approach, or halved as printed.
 
     See `HypoidAxleParameters` for the other parameters and for the errors.
     """

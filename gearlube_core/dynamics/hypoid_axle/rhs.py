@@ -147,14 +147,15 @@ def axle_rhs(
 
     Notes
     -----
-    The printed eq. (1) c-h has the opposite sign of n F to the one that eq. (2) implies, and no
-    flank friction in the lateral equations: p.lateral_sign = -1, p.consistent = 0. The moment that
-    the loaded rollers exert on the orbiting cage is carried by its shaft in the consistent form;
-    the paper has none, and its rollers then do work on nothing.
+    The printed [mohammadpour_2015 (1)] c-h has the opposite sign of n F to the one that
+    [mohammadpour_2015 (2)] implies, and no flank friction in the lateral equations: p.lateral_sign
+    = -1, p.consistent = 0. The moment that the loaded rollers exert on the orbiting cage is carried
+    by its shaft in the consistent form; the paper has none, and its rollers then do work on
+    nothing.
 
     References
     ----------
-    Mohammadpour et al. 2015, eq. (1), (2), (6), (24).
+    [mohammadpour_2015 (1)] [mohammadpour_2015 (6)]
     """
     mesh = mesh_force(s, series, n_orders, p)
     friction = flank_sum(

@@ -38,7 +38,7 @@ FRICTION_FORMS = {
     "evans_johnson": EVANS_JOHNSON,
     "thermal_eyring": THERMAL_EYRING,
 }
-KARAGIANNIS_DAMPING = 2278.1  # N s/m, Karagiannis et al. 2012 Table 1
+KARAGIANNIS_DAMPING = 2278.1  # N s/m, [karagiannis_2012 Table 1]
 KARAGIANNIS_DAMPING_RATIO = 0.03  # [-], ditto
 
 
@@ -96,7 +96,7 @@ class HypoidTorsionalParameters:
 
     References
     ----------
-    Karagiannis et al. 2012, eq. (1)-(6), (31), (32), Tables 1 and 2.
+    [karagiannis_2012 Table 1] [karagiannis_2012 Table 2]
     """
 
     mesh: MeshTable
@@ -198,7 +198,7 @@ def karagiannis_2012_pair(
     mesh : MeshTable, optional
         By default the table that ships; `synthetic_mesh` gives the paper's reconstructed numbers.
     torque_ripple : float
-        0.1 in eq. (31) [-].
+        0.1 in [karagiannis_2012 (31)] [-].
     oil : str
         Name in the lubricant library.
     oil_temperature : float
@@ -208,8 +208,8 @@ def karagiannis_2012_pair(
 
     Notes
     -----
-    The paper prints no inertias; those of the same gear pair in Mohammadpour et al. 2015,
-    Table 1, are used. Its normal backlash of 150 um is the total.
+    The paper prints no inertias; those of the same gear pair in [mohammadpour_2015 Table 1] are
+    used. Its normal backlash of 150 um is the total.
     """
     return HypoidTorsionalParameters(
         mesh=mesh or shipped_mesh_table("mohammadpour_2015"),

@@ -195,6 +195,18 @@ class FilmSolution:
         return float(self.film.min())
 
     @property
+    def maximum_pressure_place(self) -> tuple[float, float]:
+        """Return x and y of the largest pressure [m]."""
+        i, j = np.unravel_index(int(self.pressure.argmax()), self.pressure.shape)
+        return float(self.x[i]), float(self.y[j])
+
+    @property
+    def minimum_film_place(self) -> tuple[float, float]:
+        """Return x and y of the smallest film [m]."""
+        i, j = np.unravel_index(int(self.film.argmin()), self.film.shape)
+        return float(self.x[i]), float(self.y[j])
+
+    @property
     def border_pressure(self) -> float:
         """Return the largest pressure one node from the border over the largest of all [-]."""
         return border_pressure(self.pressure, self.film).share

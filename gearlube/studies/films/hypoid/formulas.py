@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube.studies.films.hypoid_case import HypoidFlank
+from gearlube.studies.films.hypoid.flank import HypoidFlank
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import solid_parameters
 from gearlube_core.ehl.gears.hypoid_flank import FlankInstant

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlube.studies.films.hypoid_drive import PairDrive, dynamic_drive, static_drive
-from gearlube.studies.films.hypoid_motion import contact_motion
+from gearlube.studies.films.hypoid.contact_motion import contact_motion
+from gearlube.studies.films.hypoid.drive import PairDrive, dynamic_drive, static_drive
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters, mohammadpour_2015_axle

@@ -6,13 +6,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from gearlube.cli.options import CaseArgument, ExampleOption
-from gearlube.studies.films.outcome import told, verdict
+from gearlube.studies.films.commands.console import errors_ended, solve_and_show
 from gearlube_core.errors import ParameterError
-
-console = Console(stderr=True)
 
 _QUICK = {
     "solver.nodes_minor": 97,
@@ -98,10 +95,10 @@ def hypoid(
     Writes hypoid.nc, summary.csv and figures. Options replace what the case says. A stopped march
     goes on from its record in OUT when the same command runs again.
     """
-    from gearlube.studies.films.hypoid_console import console_hypoid
+    from gearlube.studies.films import run_hypoid
     from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
-    with told(out):
+    with errors_ended(out):
         if example:
             typer.echo(HypoidCase.shipped_text(case), nl=False)
             return
@@ -128,7 +125,12 @@ def hypoid(
         if quick:
             changes = _QUICK | changes
         changed = file.varied(changes) if changes else file
-        verdict(console_hypoid(console, case=changed, march=not no_march, out=out))
+        solve_and_show(
+            lambda progress: run_hypoid.run_hypoid(
+                changed, march=not no_march, folder=out, progress=progress
+            ),
+            out,
+        )
 
 
 def _phases(text: str) -> tuple[float, float]:

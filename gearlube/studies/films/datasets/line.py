@@ -2,32 +2,42 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.films.formulas import line_film_formulas
-from gearlube.studies.films.variables import formula_variables, unit_note
+from gearlube.studies.films.datasets.variables import (
+    Variable,
+    film_heights,
+    formula_variables,
+    heat_fluxes,
+    noted,
+)
+from gearlube.studies.films.film_formulas import line_film_formulas
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.case.contact_case import LineCase
 from gearlube_core.ehl.line.solution import LineSolution
 from gearlube_core.ehl.line.thermal import ThermalLineSolution
 
 
 def line_dataset(
-    case: LineCase, solution: LineSolution | ThermalLineSolution, seconds: float
+    solution: LineSolution | ThermalLineSolution,
+    *,
+    name: str = "line",
+    source: str = "",
+    seconds: float = math.nan,
 ) -> xr.Dataset:
     """Return pressure, film, shear and history of a line contact, each with units.
 
     Parameters
     ----------
-    case
-        What was solved.
     solution
         Isothermal or thermal.
+    name, source
+        What figures call the contact, and where its numbers are from.
     seconds
-        What the solution took.
+        Time that the solution took [s].
 
     Returns
     -------
@@ -36,52 +46,45 @@ def line_dataset(
         Films of published formulas lie along `formula`. Attributes hold scalars in SI and the
         outcome.
     """
-    warm = solution if isinstance(solution, ThermalLineSolution) else None
+    thermal = solution if isinstance(solution, ThermalLineSolution) else None
     film = solution.film if isinstance(solution, ThermalLineSolution) else solution
     problem = film.problem
     dry_pressure, dry_gap = hertz_line(film.x, problem.half_width, problem.hertz_pressure,
                                        problem.radius)  # fmt: skip
     variables: dict[str, Any] = {
-        "pressure": ("x", film.pressure, unit_note("Pa", "pressure")),
-        "film": ("x", film.film, unit_note("m", "film thickness")),
-        "void": ("x", film.void, unit_note("1", "share of the gap without oil")),
-        "viscosity": ("x", film.viscosity, unit_note("Pa s", "viscosity")),
-        "density": ("x", film.density, unit_note("kg/m3", "density")),
-        "mean_stress": ("x", film.mean_stress, unit_note("Pa", "shear stress at mid-film")),
-        "stress_1": ("x", film.stress_1, unit_note("Pa", "shear stress on body 1")),
-        "stress_2": ("x", film.stress_2, unit_note("Pa", "shear stress on body 2")),
-        "mass_flow": (
-            "x_face",
-            film.mass_flow,
-            unit_note("kg/(m s)", "mass flow"),
-        ),
-        "hertz_pressure": ("x", dry_pressure, unit_note("Pa", "pressure of the dry contact")),
-        "hertz_gap": ("x", dry_gap, unit_note("m", "gap beside the dry contact")),
+        "pressure": noted("x", film.pressure, "Pa", "pressure"),
+        "film": noted("x", film.film, "m", "film thickness"),
+        "void": noted("x", film.void, "1", "share of the gap without oil"),
+        "viscosity": noted("x", film.viscosity, "Pa s", "viscosity"),
+        "density": noted("x", film.density, "kg/m3", "density"),
+        "mean_stress": noted("x", film.mean_stress, "Pa", "shear stress at mid-film"),
+        "stress_1": noted("x", film.stress_1, "Pa", "shear stress on body 1"),
+        "stress_2": noted("x", film.stress_2, "Pa", "shear stress on body 2"),
+        "mass_flow": noted("x_face", film.mass_flow, "kg/(m s)", "mass flow"),
+        "hertz_pressure": noted("x", dry_pressure, "Pa", "pressure of the dry contact"),
+        "hertz_gap": noted("x", dry_gap, "m", "gap beside the dry contact"),
     }
+    between = 0.5 * (film.x[1:] + film.x[:-1])
     coordinates = {
-        "x": ("x", film.x, unit_note("m", "place along the motion")),
-        "x_face": (
-            "x_face", 0.5 * (film.x[1:] + film.x[:-1]), unit_note("m", "place between two nodes"),
-        ),
-    }  # fmt: skip
-    if warm is not None:
-        heights = np.linspace(0.0, 1.0, warm.temperature.shape[1])
-        coordinates["height"] = ("height", heights, unit_note("1", "height over film, body 1 to 2"))
+        "x": noted("x", film.x, "m", "place along the motion"),
+        "x_face": noted("x_face", between, "m", "place between two nodes"),
+    }
+    if thermal is not None:
+        coordinates["height"] = film_heights(thermal.temperature)
         variables |= {
-            "temperature": (("x", "height"), warm.temperature, unit_note("K", "temperature")),
-            "heat_flux_1": ("x", warm.flux[:, 0], unit_note("W/m2", "heat into body 1")),
-            "heat_flux_2": ("x", warm.flux[:, 1], unit_note("W/m2", "heat into body 2")),
-            "temperature_change": (
-                "turn", np.array(warm.changes), unit_note("K", "largest change of temperature"),
+            "temperature": noted(("x", "height"), thermal.temperature, "K", "temperature"),
+            **heat_fluxes("x", thermal.flux[:, 0], thermal.flux[:, 1]),
+            "temperature_change": noted(
+                "turn", np.array(thermal.changes), "K", "largest change of temperature"
             ),
-        }  # fmt: skip
+        }
     return xr.Dataset(
         variables | _history(film) | formula_variables(line_film_formulas(problem)),
         coords=coordinates,
         attrs={
             "contact": "line",
-            "name": case.name,
-            "source": case.source,
+            "name": name,
+            "source": source,
             "radius": problem.radius,
             "line_load": problem.line_load,
             "reduced_modulus": problem.reduced_modulus,
@@ -96,9 +99,9 @@ def line_dataset(
             "friction_coefficient": film.friction_coefficient,
             "friction_1": film.friction[0],
             "friction_2": film.friction[1],
-            "temperature_max": float("nan") if warm is None else warm.max_temperature,
+            "temperature_max": math.nan if thermal is None else thermal.max_temperature,
             "temperature_inlet": problem.lubricant.temperature,
-            "turns": 0 if warm is None else len(warm.changes),
+            "turns": 0 if thermal is None else len(thermal.changes),
             "residual": film.residual,
             "load_error": film.load_error,
             "iterations": sum(len(record.residual) for _, record in film.records),
@@ -121,13 +124,13 @@ def hertz_line(x: Array, half_width: float, largest: float, radius: float) -> tu
     return pressure, half_width**2 / (2.0 * radius) * gap
 
 
-def _history(film: LineSolution) -> dict[str, tuple[str, Array, dict[str, str]]]:
+def _history(film: LineSolution) -> dict[str, Variable]:
     records = [(nodes, one) for nodes, one in film.records if one.residual]
     nodes = np.concatenate([np.full(len(one.residual), float(n)) for n, one in records])
     residual = np.concatenate([one.residual for _, one in records])
     load_error = np.concatenate([one.load_error for _, one in records])
     return {
-        "residual_history": ("iteration", residual, unit_note("1", "unbalanced flow over flow")),
-        "load_error_history": ("iteration", load_error, unit_note("1", "error of the load")),
-        "nodes_history": ("iteration", nodes, unit_note("1", "nodes of the grid")),
+        "residual_history": noted("iteration", residual, "1", "unbalanced flow over flow"),
+        "load_error_history": noted("iteration", load_error, "1", "error of the load"),
+        "nodes_history": noted("iteration", nodes, "1", "nodes of the grid"),
     }

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.films.formulas import line_film_formulas
-from gearlube.studies.films.helical_case import HelicalLineCase, line_of_step
-from gearlube.studies.films.variables import formula_variables, unit_note
+from gearlube.studies.films.datasets.variables import formula_variables, noted
+from gearlube.studies.films.film_formulas import line_film_formulas
+from gearlube.studies.films.helical_case import line_of_step
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.line.problem import LineProblem
@@ -17,20 +17,25 @@ from gearlube_core.oil.film_oil import fill_properties
 
 
 def helical_dataset(
-    case: HelicalLineCase, film: HelicalFilm, step: float, solution: FilmSolution
+    film: HelicalFilm,
+    step: float,
+    solution: FilmSolution,
+    *,
+    name: str = "helical pair",
+    source: str = "",
 ) -> xr.Dataset:
     """Return pressure, film, gap and shear of a contact line, each with units.
 
     Parameters
     ----------
-    case
-        What was asked for.
     film
         The line through its cycle.
     step
         Where the line is looked at [-].
     solution
         Its film there.
+    name, source
+        What figures call the pair, and where its numbers are from.
 
     Returns
     -------
@@ -46,26 +51,27 @@ def helical_dataset(
     across = np.trapezoid(stress, x, axis=0)  # N/m; changes sign at the pitch line
     load = film.load(X)
     middle = _middle_line(film, X, load, solution.loaded_length)
-    top = np.unravel_index(int(solution.pressure.argmax()), solution.pressure.shape)
-    thin = np.unravel_index(int(solution.film.argmin()), solution.film.shape)
+    pressure_x, pressure_y = solution.maximum_pressure_place
+    film_x, film_y = solution.minimum_film_place
+    plane = ("x", "y")
     return xr.Dataset(
         {
-            "pressure": (("x", "y"), solution.pressure, unit_note("Pa", "pressure")),
-            "film": (("x", "y"), solution.film, unit_note("m", "film thickness")),
-            "gap": (("x", "y"), film.gap(x, y, X), unit_note("m", "gap of the bare flanks")),
-            "mean_stress": (("x", "y"), stress, unit_note("Pa", "shear stress at mid-film")),
-            "speed_1": ("y", speed_1, unit_note("m/s", "surface speed of the pinion")),
-            "speed_2": ("y", speed_2, unit_note("m/s", "surface speed of the gear")),
+            "pressure": noted(plane, solution.pressure, "Pa", "pressure"),
+            "film": noted(plane, solution.film, "m", "film thickness"),
+            "gap": noted(plane, film.gap(x, y, X), "m", "gap of the bare flanks"),
+            "mean_stress": noted(plane, stress, "Pa", "shear stress at mid-film"),
+            "speed_1": noted("y", speed_1, "m/s", "surface speed of the pinion"),
+            "speed_2": noted("y", speed_2, "m/s", "surface speed of the gear"),
             **formula_variables(line_film_formulas(middle)),
         },
         coords={
-            "x": ("x", x, unit_note("m", "place across the line")),
-            "y": ("y", y, unit_note("m", "place along the line")),
+            "x": noted("x", x, "m", "place across the line"),
+            "y": noted("y", y, "m", "place along the line"),
         },
         attrs={
             "contact": "helical",
-            "name": case.file.name,
-            "source": case.file.source,
+            "name": name,
+            "source": source,
             "step": step,
             "position": position,
             "line": X,
@@ -77,12 +83,12 @@ def helical_dataset(
             "half_width": middle.half_width,
             "hertz_pressure_max": middle.hertz_pressure,
             "pressure_max": solution.maximum_pressure,
-            "pressure_max_x": float(x[top[0]]),
-            "pressure_max_y": float(y[top[1]]),
+            "pressure_max_x": pressure_x,
+            "pressure_max_y": pressure_y,
             "central_film": float(solution.film[np.abs(x).argmin(), _mid(solution)]),
             "minimum_film": solution.minimum_film,
-            "minimum_film_x": float(x[thin[0]]),
-            "minimum_film_y": float(y[thin[1]]),
+            "minimum_film_x": film_x,
+            "minimum_film_y": film_y,
             "loaded_length": solution.loaded_length,
             "friction_coefficient": float(np.trapezoid(np.abs(across), y)) / load,
             "friction_force": float(np.trapezoid(across, y)),

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.films.hypoid_case import HypoidFlank
-from gearlube.studies.films.hypoid_formulas import flank_formulas
-from gearlube.studies.films.variables import unit_note
+from gearlube.studies.films.datasets.variables import Variable, noted, noted_curves
+from gearlube.studies.films.hypoid.flank import HypoidFlank
+from gearlube.studies.films.hypoid.formulas import flank_formulas
 from gearlube_core.ehl.transient.curves import FilmCurves
 from gearlube_core.ehl.transient.film import FilmSolution
 
@@ -44,7 +43,7 @@ _FORMULA_NOTES = {
     "asperity_share": ("1", "share of asperities in it"),
     "regime": ("1", "traction: 0 Newtonian, 1 Eyring, 2 elastic-plastic"),
 }
-_WARM_NOTES = {
+_THERMAL_NOTES = {
     "central_film": ("m", "film in the centre of the dry contact, thermal"),
     "minimum_film": ("m", "smallest film, thermal"),
     "cold_central_film": ("m", "central film on the same grid, isothermal"),
@@ -74,7 +73,7 @@ def hypoid_dataset(
     flank: HypoidFlank,
     steady: FilmCurves,
     march: FilmCurves | None = None,
-    warm: FilmCurves | None = None,
+    thermal: FilmCurves | None = None,
 ) -> xr.Dataset:
     """Return films, formulas and what acts, over `position` (steady) and `step` (in time).
 
@@ -86,41 +85,36 @@ def hypoid_dataset(
         Films as if each position had lasted; those kept whole lie along `instant`.
     march
         Films in time; None: left out.
-    warm
+    thermal
         Thermal films of the positions; None: left out.
     """
-    variables: dict[str, Any] = _curves(flank, steady, "position", "steady_")
+    variables = _curves(flank, steady, "position", "steady_")
     if march is not None:
         variables |= _curves(flank, march, "step", "")
-        for name in ("central_film", "minimum_film", "pressure_max", "traction_heated"):
-            there = np.interp(steady["time"], march["time"], march[name])
-            variables[f"squeeze_{name}"] = (
-                "position",
-                there / steady[name],
-                unit_note("1", f"{_FILM_NOTES[name][1]}, in time over steady"),
-            )
+        variables |= _squeeze(steady, march)
     formulas = [
         flank_formulas(flank, flank.film.cycle.at(time), film)
         for time, film in zip(steady["time"], steady["central_film"], strict=True)
     ]
     for name, note in _FORMULA_NOTES.items():
         values = np.array([getattr(one, name) for one in formulas])
-        variables[name] = ("position", values, unit_note(*note))
+        variables[name] = noted("position", values, *note)
     if np.isfinite(flank.drive.axle_film).all():
         for name, values, note in (
             ("axle_film", flank.drive.axle_film, ("m", "film in the running axle model")),
             ("running_friction", flank.drive.axle_friction, ("1", "friction in the running axle")),
         ):
             there = np.interp(steady["time"], flank.film.cycle.time, values)
-            variables[name] = ("position", there, unit_note(*note))
+            variables[name] = noted("position", there, *note)
     variables |= _whole_films(flank, steady)
-    if warm is not None:
-        variables |= {
-            f"warm_{name}": ("position", warm[name], unit_note(*note))
-            for name, note in _WARM_NOTES.items()
-        }
+    if thermal is not None:
+        variables |= noted_curves(_THERMAL_NOTES, thermal, "position", "warm_")
     case = flank.case
-    failures = sum(curves.failures for curves in (steady, march, warm) if curves is not None)
+    solved = [curves for curves in (steady, march, thermal) if curves is not None]
+    failures = sum(curves.failures for curves in solved)
+    outcome = f"All {sum(len(curves.table) for curves in solved)} films converged."
+    if failures:
+        outcome = f"{failures} films did not converge. Take more nodes, or smaller time steps."
     return xr.Dataset(
         variables,
         attrs={
@@ -142,48 +136,53 @@ def hypoid_dataset(
             "nodes_major": flank.film.nodes[1],
             "failures": failures,
             "converged": int(failures == 0),
+            "outcome": outcome,
         },
     )
 
 
-def _curves(flank: HypoidFlank, curves: FilmCurves, dim: str, prefix: str) -> dict[str, Any]:
+def _curves(
+    flank: HypoidFlank, curves: FilmCurves, dimension: str, prefix: str
+) -> dict[str, Variable]:
     of = [flank.film.cycle.at(float(time)) for time in curves["time"]]
     contact = np.array(
         [[n.phase, n.load, n.R_x, n.R_y, n.speed, n.psi, n.slip, n.chi] for n in of]
     ).T
-    found: dict[str, Any] = {
-        prefix + "time": (dim, curves["time"], unit_note("s", "from the first loaded sample"))
-    }
-    for name, note in _FILM_NOTES.items():
-        found[prefix + name] = (dim, curves[name], unit_note(*note))
+    found = {prefix + "time": noted(dimension, curves["time"], "s", "from the first loaded sample")}
+    found |= noted_curves(_FILM_NOTES, curves, dimension, prefix)
     for (name, note), values in zip(_CONTACT_NOTES.items(), contact, strict=True):
-        found[prefix + name] = (dim, values, unit_note(*note))
+        found[prefix + name] = noted(dimension, values, *note)
     return found
 
 
-def _whole_films(flank: HypoidFlank, steady: FilmCurves) -> dict[str, Any]:
+def _squeeze(steady: FilmCurves, march: FilmCurves) -> dict[str, Variable]:
+    """Return films, pressure and friction in time over those of steady films."""
+    found = {}
+    for name in ("central_film", "minimum_film", "pressure_max", "traction_heated"):
+        there = np.interp(steady["time"], march["time"], march[name])
+        found[f"squeeze_{name}"] = noted(
+            "position", there / steady[name], "1", f"{_FILM_NOTES[name][1]}, in time over steady"
+        )
+    return found
+
+
+def _whole_films(flank: HypoidFlank, steady: FilmCurves) -> dict[str, Variable]:
     if not steady.kept:
         return {}
     rows = sorted(steady.kept)
     films: list[FilmSolution] = [steady.kept[row] for row in rows]
     dims = ("instant", "x", "y")
-    axes = [flank.film.problem(flank.film.cycle.at(one.time)).hertz_contact for one in films]
+    axes = np.array(
+        [flank.film.problem(flank.film.cycle.at(one.time)).hertz_contact for one in films]
+    )
     return {
-        "instant_position": ("instant", np.array(rows), unit_note("1", "its row of positions")),
-        "x": ("x", films[0].x, unit_note("m", "place along the minor axis")),
-        "y": ("y", films[0].y, unit_note("m", "place along the major axis")),
-        "pressure": (dims, np.array([one.pressure for one in films]), unit_note("Pa", "pressure")),
-        "film": (dims, np.array([one.film for one in films]), unit_note("m", "film thickness")),
-        "semi_axis_x": (
-            "instant",
-            np.array([one[0] for one in axes]),
-            unit_note("m", "minor semi-axis of the dry contact"),
-        ),
-        "semi_axis_y": (
-            "instant",
-            np.array([one[1] for one in axes]),
-            unit_note("m", "major semi-axis of the dry contact"),
-        ),
+        "instant_position": noted("instant", np.array(rows), "1", "its row of positions"),
+        "x": noted("x", films[0].x, "m", "place along the minor axis"),
+        "y": noted("y", films[0].y, "m", "place along the major axis"),
+        "pressure": noted(dims, np.array([one.pressure for one in films]), "Pa", "pressure"),
+        "film": noted(dims, np.array([one.film for one in films]), "m", "film thickness"),
+        "semi_axis_x": noted("instant", axes[:, 0], "m", "minor semi-axis of the dry contact"),
+        "semi_axis_y": noted("instant", axes[:, 1], "m", "major semi-axis of the dry contact"),
     }
 
 
