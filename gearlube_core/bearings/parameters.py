@@ -23,7 +23,7 @@ SIN_TABLE = np.sin(_ANGLES)  # sine likewise
 class BearingParameters(NamedTuple):
     """One roller bearing; the two opposed bearings of a shaft share it.
 
-    Built by `TaperedRollerBearing.parameters`; the kernels take no other form.
+    The floats of `TaperedRollerParameters`, which `TaperedRollerBearing.parameters` builds.
     """
 
     kn: float  # inner race - roller - outer race stiffness [N/m^n]

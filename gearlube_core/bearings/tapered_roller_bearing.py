@@ -10,9 +10,9 @@ from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.parameters import (
     FILM_FLOOR_APPROACH,
     ROLLERS_MAX,
-    BearingParameters,
 )
 from gearlube_core.bearings.roller_contact import N_LINE
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, pi_contact_modulus
 from gearlube_core.errors import ParameterError
@@ -222,10 +222,10 @@ class TaperedRollerBearing:
         rest = (1.0 / (E_r * r)) ** SPEED_EXPONENT * E_r**MATERIAL_EXPONENT
         return float(r * COEFFICIENT * (1.0 - SQUEEZE_SHARE) * load * rest)
 
-    def parameters(self) -> BearingParameters:
+    def parameters(self) -> TaperedRollerParameters:
         """Return the floats for the kernels."""
         angle = self.contact_angle
-        return BearingParameters(
+        return TaperedRollerParameters(
             kn=float(self.stiffness_constant),
             n=float(self.exponent),
             n_rollers=float(self.n_rollers),

@@ -12,7 +12,7 @@ import xarray as xr
 
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
-from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
+from gearlube_core.helical_contact.line_mesh import line_mesh
 from gearlube_core.helical_contact.mesh_cycle import CycleProgress, run_cycle
 from gearlube_core.helical_contact.tooth_body import pair_stiffness
 from gearlube_core.helical_geometry.contact_line import (

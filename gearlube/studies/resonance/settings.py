@@ -118,8 +118,8 @@ class ResonanceSettings:
         self, model: str, oil_temperature: float | None = None
     ) -> HypoidTorsionalParameters:
         """Return the gear pair of a model, at another oil temperature [K] if given."""
-        return karagiannis_2012_pair(
-            mesh=self.mesh,
+        return replace(
+            karagiannis_2012_pair(self.mesh),
             form="one_dof" if model == "one_dof" else "two_dof",
             radii="mean" if model == "two_dof_mean_radii" else self.radii,
             pinion_torque=self.pinion_torque,

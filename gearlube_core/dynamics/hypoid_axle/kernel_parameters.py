@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from gearlube_core.bearings.parameters import BearingParameters
+from gearlube_core.bearings.bearing_type import ShaftBearings
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.oil.lubricant import LubricantParameters
 
 
 class AxleParameters(NamedTuple):
-    """Constants of one axle; built by `HypoidAxleParameters.kernel_parameters`."""
+    """Constants of one axle; built by `HypoidAxleParameters.kernel_parameters`.
+
+    The bearings are a NamedTuple of floats of any bearing type.
+    """
 
     I_p: float  # kg m2
     I_g: float  # kg m2
@@ -27,8 +30,8 @@ class AxleParameters(NamedTuple):
     friction_form: float  # 0 consistent, 1 as printed, -1 off
     drag: float  # 1 with bearing drag torque, 0 without
     preload: float  # axial preload of a bearing, for its drag [N]
-    bearing_p: BearingParameters
-    bearing_g: BearingParameters
+    bearing_p: ShaftBearings
+    bearing_g: ShaftBearings
     surface: SurfaceParameters
     solid: SolidParameters
     oil: LubricantParameters

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
@@ -37,8 +38,9 @@ class HypoidAxleParameters:
     Parameters
     ----------
     mesh : MeshTable
-    bearing : TaperedRollerBearing
-        One type, two opposed on either shaft, with preload, interference or clearance set.
+    bearing : Bearing
+        One type, two opposed on either shaft, e.g. a `TaperedRollerBearing` with preload,
+        interference or clearance set.
     oil : Lubricant
     solid : Solid
         Both flanks.
@@ -78,7 +80,7 @@ class HypoidAxleParameters:
     """
 
     mesh: MeshTable
-    bearing: TaperedRollerBearing
+    bearing: Bearing
     oil: Lubricant
     solid: Solid
     pinion_inertia: float
