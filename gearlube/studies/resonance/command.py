@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -13,8 +13,10 @@ from gearlube.cli.exit_codes import INTERRUPTED, told
 from gearlube.cli.options import OilTemperatureOption, RoughnessOption
 from gearlube_core.checks import check_finite, check_option, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import celsius_to_kelvin
+
+if TYPE_CHECKING:
+    from gearlube_core.mesh_table.table import MeshTable
 
 logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
