@@ -56,7 +56,7 @@ The default (consistent equations, coupled to the driveline) shows mesh orders a
 
 def sweep(fmu: Path, folder: Path, speeds: list[float], settings: SweepSettings) -> xr.Dataset:
     """Run or resume one sweep and return its merged results."""
-    results = run_sweep(fmu, speeds_kmh=speeds, preloads=PRELOADS, settings=settings, out=folder)
+    results = run_sweep(settings, speeds_kmh=speeds, preloads=PRELOADS, fmu=fmu, out=folder)
     failed = int((results["status"] != 1).sum())
     if failed:
         raise SystemExit(f"{failed} points failed in {folder}; see its summary.csv")

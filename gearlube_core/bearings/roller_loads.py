@@ -54,7 +54,8 @@ def bearing_forces(
 
     References
     ----------
-    Mohammadpour et al. 2015 eq. (24)-(27).
+    [mohammadpour_2015 (24)] [mohammadpour_2015 (25)] [mohammadpour_2015 (26)]
+    [mohammadpour_2015 (27)]
     """
     film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)
     cos_c = math.cos(cage_angle)
@@ -122,7 +123,7 @@ def roller_loads(
 
     References
     ----------
-    Mohammadpour et al. 2015 eq. (25), (26).
+    [mohammadpour_2015 (25)], [mohammadpour_2015 (26)].
     """
     count = int(p.n_rollers)
     if out.shape[0] < count:

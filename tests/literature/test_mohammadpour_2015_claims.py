@@ -19,7 +19,7 @@ def fmu(tmp_path_factory):
 
 def sweep(fmu, folder, **changes):
     settings = replace(quick_settings(SweepSettings(driver="hold")), **changes)
-    return run_sweep(fmu, speeds_kmh=SPEEDS, preloads=PRELOADS, settings=settings, out=folder)
+    return run_sweep(settings, speeds_kmh=SPEEDS, preloads=PRELOADS, fmu=fmu, out=folder)
 
 
 @pytest.fixture(scope="module")

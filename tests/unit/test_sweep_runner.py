@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube.studies.sweep import SweepInterruptedError, SweepSettings, load_sweep, run_sweep
-from gearlube.studies.sweep.interrupts import deferred_interrupts
+from gearlube.studies.sweep import SweepModel, SweepSettings, load_sweep, run_sweep
 from gearlube.studies.sweep.merge import merge
-from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
+from gearlube_core.storage.interrupts import deferred_interrupts
 from tests.helpers import sweep_stand_in as stand_in
 
 SETTINGS = SweepSettings()
@@ -27,13 +27,11 @@ def sweep(fmu, out, point, **options):
     seen = []
     arguments = {"speeds_kmh": SPEEDS, "preloads": (2500.0, 6000.0), "jobs": 1} | options
     dataset = run_sweep(
-        fmu,
-        settings=SETTINGS,
+        SETTINGS,
+        fmu=fmu,
         out=out,
-        observer=seen.append,
-        point=point,
-        prepare=None,
-        modes=None,
+        progress=seen.append,
+        model=SweepModel(point=point, warm_up=None, natural_frequencies=None),
         **arguments,
     )
     return dataset, seen
@@ -101,7 +99,7 @@ def test_a_point_whose_process_died_is_computed_by_another_process(fmu, tmp_path
 
 
 def test_ctrl_c_keeps_finished_points_and_says_how_to_go_on(fmu, tmp_path):
-    with pytest.raises(SweepInterruptedError, match="Run the same command again"):
+    with pytest.raises(InterruptedRunError, match="Run the same command again"):
         sweep(
             fmu, tmp_path / "out", stand_in.interrupting_point, speeds_kmh=MANY, preloads=[2500.0]
         )

@@ -22,7 +22,7 @@ from gearlube_core.oil.named_film_oils import lubricant_from_library
 from gearlube_core.units import rpm_to_rads
 
 _STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
-_STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: Jamali 2015 sec. 4.4
+_STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: [jamali_2015 sec. 4.4]
 # the thesis' own steps and E*, so that its step numbers name its positions
 _THESIS = {"jamali_2015_a": "a", "jamali_2015_b": "b"}
 

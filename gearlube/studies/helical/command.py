@@ -20,8 +20,8 @@ from gearlube.cli.options import (
     SpeedOfFileOption,
     TorqueOfFileOption,
 )
+from gearlube.cli.ranges import numbers_from
 from gearlube.cli.spread_values import SpreadingCommand
-from gearlube.cli.value_range import values_from
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin
@@ -131,12 +131,14 @@ def helical(
         check_within("--speed-rpm", speed_rpm, 0.1, 1e6, "rpm", "Give its magnitude.")
         if density is not None:
             check_within("--density", density, 1e-2, 1e4, "N/(um mm)", "13 is usual for steel.")
-        speeds = values_from("--speeds-rpm", speeds_rpm or (), "rpm", 0.1, 1e6)
+        speeds = numbers_from(
+            "--speeds-rpm", speeds_rpm or (), "rpm", 0.1, 1e6, example="100:3000:100"
+        )
         settings = HelicalSettings(
             file=file,
             pinion_torque=torque,
             pinion_speed=speed_rpm * _RPM,
-            mu=values_from("--mu", mu or ("0:0.3:0.01",), "", 0.0, 1.0),
+            mu=numbers_from("--mu", mu or ("0:0.3:0.01",), "", 0.0, 1.0, example="0:0.3:0.01"),
             speeds=tuple(speed * _RPM for speed in speeds),
             friction=friction,
             mesh=mesh,

@@ -12,7 +12,7 @@ import xarray as xr
 
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
-from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
+from gearlube_core.helical_contact.line_mesh import line_mesh
 from gearlube_core.helical_contact.mesh_cycle import CycleProgress, run_cycle
 from gearlube_core.helical_contact.tooth_body import pair_stiffness
 from gearlube_core.helical_geometry.contact_line import (
@@ -90,7 +90,7 @@ def analyse_loaded_contact(
 
 
 def constant_density_stiffness(settings: HelicalSettings, density: float) -> xr.Dataset:
-    """Return the stiffness of each line and of all with one density: He et al. 2007 fig. 4.
+    """Return the stiffness of each line and of all with one density: [he_2007 fig. 4].
 
     Parameters
     ----------

@@ -120,6 +120,7 @@ def resonance(
 def _mesh(name: str, mismatch: float, radii: str, torque: float) -> MeshTable:
     from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
     from gearlube_core.mesh_table.netcdf import read_mesh_table
+    from gearlube_core.mesh_table.shipped import shipped_mesh_table
 
     check_within("--mismatch", mismatch, -5.0, 5.0, "percent", "0.3 is usual.")
     if mismatch != 0.0 and (name != "synthetic" or radii != "paper"):
@@ -128,7 +129,7 @@ def _mesh(name: str, mismatch: float, radii: str, torque: float) -> MeshTable:
             "It is of use with --mesh synthetic and --radii paper."
         )
     if name == "shipped":
-        return MeshTable.named("mohammadpour_2015")
+        return shipped_mesh_table("mohammadpour_2015")
     if name == "synthetic":
         return synthetic_mesh(radius_mismatch=0.01 * mismatch, torque=torque)
     return read_mesh_table(name)

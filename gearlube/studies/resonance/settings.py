@@ -24,7 +24,7 @@ MODELS = {
     "two_dof_lubricated": "2-DOF, lubricated",
 }
 SWEPT = ("two_dof", "one_dof")
-ORBITS_AT = (0.3, 0.65, 1.0)  # mesh over natural frequency, Karagiannis et al. 2012 fig. 8-14
+ORBITS_AT = (0.3, 0.65, 1.0)  # mesh over natural frequency, [karagiannis_2012 fig. 8] to 14
 HOT = 373.15  # K, ditto fig. 21
 
 
@@ -118,8 +118,8 @@ class ResonanceSettings:
         self, model: str, oil_temperature: float | None = None
     ) -> HypoidTorsionalParameters:
         """Return the gear pair of a model, at another oil temperature [K] if given."""
-        return karagiannis_2012_pair(
-            mesh=self.mesh,
+        return replace(
+            karagiannis_2012_pair(self.mesh),
             form="one_dof" if model == "one_dof" else "two_dof",
             radii="mean" if model == "two_dof_mean_radii" else self.radii,
             pinion_torque=self.pinion_torque,

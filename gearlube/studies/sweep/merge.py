@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.studies.sweep.quantities import described
-from gearlube.studies.sweep.store import write_atomically
+from gearlube_core.storage.atomic_file import read_compressed_dataset, write_compressed_dataset
 from gearlube_core.units import kmh_to_ms
 
 GRID = ("preload", "speed")
@@ -91,7 +91,7 @@ def save(dataset: xr.Dataset, directory: Path) -> Path:
     """Write DIR/sweep.nc and DIR/summary.csv; return the NetCDF path."""
     directory.mkdir(parents=True, exist_ok=True)
     path = directory / "sweep.nc"
-    write_atomically(dataset, path)
+    write_compressed_dataset(dataset, path)
     summary_table(dataset).to_csv(directory / "summary.csv", index=False)
     return path
 
@@ -99,7 +99,7 @@ def save(dataset: xr.Dataset, directory: Path) -> Path:
 def load_sweep(path: Path | str) -> xr.Dataset:
     """Read sweep.nc (or the folder it is in); `.sel(speed_kmh=60, preload=2500)` works on it."""
     path = Path(path)
-    dataset = xr.load_dataset(path / "sweep.nc" if path.is_dir() else path, engine="netcdf4")
+    dataset = read_compressed_dataset(path / "sweep.nc" if path.is_dir() else path)
     return dataset.set_xindex("speed_kmh") if "speed_kmh" not in dataset.xindexes else dataset
 
 

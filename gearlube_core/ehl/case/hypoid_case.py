@@ -11,6 +11,7 @@ from gearlube_core.ehl.case.film_case import FilmCase, Heat, Text, Wedge
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.input_file.input_file import Section
 from gearlube_core.mesh_table.netcdf import read_mesh_table
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
@@ -90,7 +91,7 @@ class HypoidCase(FilmCase):
     def table(self) -> MeshTable:
         """Return the mesh table."""
         is_file = self.mesh_table.endswith(".nc") or Path(self.mesh_table).exists()
-        return read_mesh_table(self.mesh_table) if is_file else MeshTable.named(self.mesh_table)
+        return read_mesh_table(self.mesh_table) if is_file else shipped_mesh_table(self.mesh_table)
 
     def settings(self) -> PointSolverSettings:
         """Return how the films are solved."""

@@ -148,7 +148,7 @@ class LineSettings:
         elements of Jamali 2015.
     cavitation
         "reynolds": pressure and its gradient vanish where the film breaks. "mass_conserving":
-        the void share of Jakobsson, Floberg and Olsson is solved as well.
+        the void share of [jakobsson_floberg_1957] and [olsson_1965] is solved as well.
     tolerance
         Largest sum of unbalanced flows over the flow through the contact, and of the load's
         error [-]; never asked for beyond what rounding allows.

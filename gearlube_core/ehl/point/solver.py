@@ -79,7 +79,8 @@ def build_hierarchy(
 def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     """Return an ellipse of pressure with the film expected between, on the coarsest grid.
 
-    The dry ellipse, widened to where a rigid film carries and to what the grid can show.
+    The dry ellipse, widened to where a rigid film carries and to what the grid can show. The
+    approach leaves the expected film: [jamali_2015 (3.46)] [jamali_2015 (3.47)].
     """
     a_x, a_y, _ = problem.hertz_contact
     film = expected_film(problem)
@@ -128,8 +129,8 @@ def solve_point_contact(
     Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
     flexible GMRES with a multigrid cycle of line solutions; start on nested grids from the dry
     contact. Mass-conserving cavitation keeps these unknowns: what broken film holds follows from
-    them, node after node downstream. References: Venner and Lubrecht 2000 for the equations and
-    the hybrid relaxation; Saad 1993 for GMRES.
+    them, node after node downstream. References: [venner_lubrecht_2000] for the equations and
+    the hybrid relaxation; [saad_1993] for GMRES.
     """
     settings = PointSolverSettings() if settings is None else settings
     check_cavitation(problem, settings)

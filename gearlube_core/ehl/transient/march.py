@@ -81,7 +81,8 @@ class FilmMarch:
     Notes
     -----
     d(rho h)/dt = [1.5 (rho h)^q - 2 (rho h)^(q-1) + 0.5 (rho h)^(q-2)]/dt or the mean of the
-    flows at both times. Jamali 2015 eq. (3.23); (3.24) prints its right side with the wrong sign.
+    flows at both times. [jamali_2015 (3.23)]; [jamali_2015 (3.24)] prints its right
+    side with the wrong sign.
     Nodes without pressure hold what the gap holds. A step that is not found as a whole is taken in
     2 or 4 parts by backward Euler, and its outcome says so; solutions read again
     from a record do not.

@@ -143,8 +143,8 @@ def step_newton(
     -----
     As the steady iteration: active set, negative pressure cut, steps shortened where the film
     would collapse or the residual grow. Storage makes a fictitious squeeze term superfluous.
-    Linear solutions are as exact as the step before suggests that the film is linear (Eisenstat
-    and Walker 1996), with deflection in single precision.
+    Linear solutions are as exact as the step before suggests that the film is linear
+    ([eisenstat_walker_1996]), with deflection in single precision.
     """
     level = kept.hierarchy.levels[-1]
     assert isinstance(level, MovingLevel)

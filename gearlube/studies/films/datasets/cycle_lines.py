@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,8 @@ import xarray as xr
 from gearlube.studies.films.datasets.variables import Variable, noted
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.transient.film import FilmSolution
-from gearlube_core.errors import ParameterError
-from gearlube_core.storage.atomic_file import whole_file
+from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.storage.atomic_file import read_arrays, write_arrays
 
 
 class CycleLines:
@@ -39,11 +38,11 @@ class CycleLines:
 
     def _read(self, path: Path) -> None:
         try:
-            with np.load(path, allow_pickle=False) as stored:
-                self._y = stored["y"]
-                rows = zip(stored["step"], stored["pressure"], stored["film"], strict=True)
-                self._rows = {int(step): (pressure, film) for step, pressure, film in rows}
-        except (OSError, ValueError, KeyError, zipfile.BadZipFile) as reason:
+            stored = read_arrays(path)
+            self._y = stored["y"]
+            rows = zip(stored["step"], stored["pressure"], stored["film"], strict=True)
+            self._rows = {int(step): (pressure, film) for step, pressure, film in rows}
+        except (FileError, ValueError, KeyError) as reason:
             raise ParameterError(
                 f"{path} must hold the lines of a march, got {reason}. Remove it."
             ) from None
@@ -58,8 +57,8 @@ class CycleLines:
         if self._path is None:
             return
         pressure, film = (np.array([row[k] for row in self._rows.values()]) for k in (0, 1))
-        with whole_file(self._path) as partial, partial.open("wb") as stream:
-            np.savez(stream, y=self._y, step=list(self._rows), pressure=pressure, film=film)
+        arrays = {"y": self._y, "step": list(self._rows), "pressure": pressure, "film": film}
+        write_arrays(self._path, arrays)
 
     def variables(self, steps: Array) -> dict[str, Variable]:
         """Return variables over `steps` and y; not a number at steps that are not kept."""

@@ -86,7 +86,7 @@ class FarField:
     -----
     Between rigid solids with h = h_0 + kappa(theta) r^2 pressure is 12 eta0 G(theta) r/h^2, with
     the Reynolds condition where the film breaks: exact towards the inlet, where it is that of
-    Kapitza 1955, elsewhere where h_0 is small beside h. Solids that flatten add to h what a
+    [kapitza_1955], elsewhere where h_0 is small beside h. Solids that flatten add to h what a
     point force displaces, W/(pi E* r). The reduced pressure of oil that thickens as
     exp(alpha p) is the same. What else comes from the middle of the contact falls by three more
     powers of distance.

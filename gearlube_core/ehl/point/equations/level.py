@@ -208,6 +208,7 @@ class PointLevel:
             self._dense = self.coefficients[(abs(rows[:, None] - rows), *along)]
         return self._dense
 
+    # film: [jamali_2015 (3.2)] [jamali_2015 (3.15)]
     def film(self, pressure: Array, approach: float) -> Array:
         """Return h = h_0 + h_u + deflection, shape (ny, nx)."""
         return self.deflection(pressure) + self.gap + approach

@@ -116,8 +116,8 @@ def settle_oil(
     Notes
     -----
     Nodes without pressure that cannot take what comes keep the rest as their residual, which
-    calls for pressure. Jakobsson and Floberg 1957, Olsson 1965; Elrod 1981; as a complementarity
-    of pressure and void Giacopini et al. 2010.
+    calls for pressure. [jakobsson_floberg_1957], [olsson_1965]; [elrod_1981]; as a complementarity
+    of pressure and void [giacopini_2010].
     """
     ny, nx = pressure.shape
     carried = rate.reshape(ny, 1) * full

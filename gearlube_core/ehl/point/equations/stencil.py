@@ -178,6 +178,9 @@ def reynolds_residual(
     Fluxes are differences between faces, so mass is balanced to rounding over any set of nodes.
     rho h^3 of a face is the geometric mean of both nodes: nothing is pumped out of a node as its
     film vanishes, and the error in steep gaps is half that of the plain mean.
+    Source: [jamali_2015 (3.1)] [jamali_2015 (3.1a)] [jamali_2015 (3.8)] [jamali_2015 (3.10)]
+    [jamali_2015 (3.11)] [jamali_2015 (3.12)]
+    (3.11) and (3.12) in the form that carries mass and not split by the product rule.
     """
     ny, nx = pressure.shape
     residual[:] = 0.0

@@ -129,9 +129,9 @@ def solve_thermal_point(
     Notes
     -----
     Entrainment and sliding point anywhere; either surface may stand or move against the other.
-    The bodies are half-spaces that warm as Carslaw and Jaeger's under moving heat, at any Peclet
-    number (`moving_heat_coefficients`), bulk temperatures given. The oil carries heat at every
-    height along the film as it flows, back out of the inlet as well, and enters at its own
+    The bodies are half-spaces that warm as those of [carslaw_jaeger_1959] under moving heat, at any
+    Peclet number (`moving_heat_coefficients`), bulk temperatures given. The oil carries heat at
+    every height along the film as it flows, back out of the inlet as well, and enters at its own
     temperature; along the film it does not conduct, which asks for a film far thinner than the
     contact. Reduced form, as for lines: flow by pressure has a parabolic profile and one
     viscosity, the mean of the fluidity weighted with z^2; the skewing of the carried flow by

@@ -10,10 +10,10 @@ from numba import njit
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
+from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_line
 from gearlube_core.hypoid_contact.gap_map import GapMap, closing_arm, gear_arm, within_tooth
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import Placement
-from gearlube_core.hypoid_contact.rays import HIT, hit_along
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 
@@ -194,7 +194,10 @@ def _facing_parameters(
             elif j != my and not np.isnan(found[i, inner_j, 0]):
                 parameters[:] = found[i, inner_j]
             o = frame[0] + x[i] * frame[1] + y[j] * frame[2]
-            if hit_along(motion, placement, Vector(o[0], o[1], o[2]), direction, parameters) == HIT:
+            if (
+                intersect_line(motion, placement, Vector(o[0], o[1], o[2]), direction, parameters)
+                == HIT
+            ):
                 found[i, j] = parameters
                 last = parameters
     return found

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.hypoid_contact.loaded_contact import PairStiffness
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side, tooth_region
 from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_grids
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -20,6 +19,7 @@ from gearlube_core.tooth_compliance.tooth_body import (
     members_compliance,
 )
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
+from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
 
 def lowest_profile_position(file: HypoidGearFile, role: Role) -> float:

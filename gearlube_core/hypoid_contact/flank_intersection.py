@@ -1,4 +1,4 @@
-"""Where a straight line or a turning tooth meets a flank."""
+"""Where a straight line meets a flank, and the rotation that brings a flank to a point."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def _scaled_step(
 
 
 @kernel
-def hit_along(
+def intersect_line(
     motion: CuttingMotion,
     placement: Placement,
     origin: Vector,
@@ -108,7 +108,7 @@ def hit_along(
 
 
 @kernel
-def hit_by_turning(
+def intersect_rotation(
     motion: CuttingMotion,
     placement: Placement,
     target: Vector,

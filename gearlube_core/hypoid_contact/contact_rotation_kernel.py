@@ -1,4 +1,4 @@
-"""Rotation of the pinion to touch, over many points of the gear flank and many gear angles."""
+"""Rotation of the pinion to contact, at many points of the gear flank and many gear angles."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import math
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_rotation
 from gearlube_core.hypoid_contact.placement import Placement, place_point, turned
-from gearlube_core.hypoid_contact.rays import HIT, hit_by_turning
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.kernels.jit import kernel
@@ -29,7 +29,7 @@ def _try_from(
     for i in range(4):
         found[i] = start[i]
     found[3] += extra_turn
-    if hit_by_turning(pinion, base, target, found) == HIT:
+    if intersect_rotation(pinion, base, target, found) == HIT:
         return True
     for i in range(4):
         found[i] = math.nan
@@ -37,7 +37,7 @@ def _try_from(
 
 
 @kernel
-def map_turning(
+def find_contact_rotations(
     pinion: CuttingMotion,
     pinion_base: Placement,
     gear_base: Placement,
