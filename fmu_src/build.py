@@ -88,6 +88,13 @@ def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None)
     Notes
     -----
     The same sources give the same bytes. The file appears in one atomic move.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     build_hypoid_axle(folder).name
+    'HypoidAxle.fmu'
     """
     definition = (
         hypoid_axle.DEFINITION
@@ -116,6 +123,13 @@ def build_helical_pair(
     ------
     GearLubeError
         When a file is missing or wrong, or the two do not fit together.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     build_helical_pair(folder).name
+    'HelicalPair.fmu'
     """
     definition = helical_pair.definition_with(gear, line_mesh)
     return _build(definition, _HELICAL_PAIR_SCRIPT, Path(out_dir))

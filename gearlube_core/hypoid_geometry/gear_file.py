@@ -174,6 +174,13 @@ class HypoidGearFile(InputFile):
     References
     ----------
     [karagiannis_2012 Table 1], for the names of the settings.
+
+    Examples
+    --------
+    >>> HypoidGearFile.shipped()
+    ('mohammadpour_2015',)
+    >>> HypoidGearFile.named("mohammadpour_2015").pinion.teeth
+    13
     """
 
     package: ClassVar[str] = "gearlube_core.hypoid_geometry"

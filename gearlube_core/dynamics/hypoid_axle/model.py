@@ -19,7 +19,7 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
-from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -75,6 +75,17 @@ class HypoidAxle(SteppedModel[StepControl]):
     References
     ----------
     [mohammadpour_2015]
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> axle = HypoidAxle(mohammadpour_2015_axle())
+    >>> axle.initialise(
+    ...     pinion_speed=209.4, pinion_torque=50.0, wheel_torque=140.0, oil_temperature=333.15
+    ... )
+    >>> axle.step(1e-4, 50.0, 140.0, 333.15)
+    >>> round(axle.output("mesh.force"), 1)  # N
+    2400.1
     """
 
     def __init__(self, parameters: HypoidAxleParameters) -> None:
@@ -88,7 +99,7 @@ class HypoidAxle(SteppedModel[StepControl]):
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         super().__init__(
             states=N_STATE,
-            outputs=N_OUTPUTS,
+            output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0, 1.0, 0.0),
             oil=parameters.oil,
             torque_limits=(MAX_TORQUE, MAX_WHEEL_TORQUE),

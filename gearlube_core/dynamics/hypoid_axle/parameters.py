@@ -77,6 +77,13 @@ class HypoidAxleParameters:
     References
     ----------
     [mohammadpour_2015 Table 1] and its Tables A1 to A4.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> dry = replace(mohammadpour_2015_axle(), friction="off")
+    >>> round(dry.equivalent_mass, 2)  # kg
+    3.39
     """
 
     mesh: MeshTable
@@ -212,6 +219,11 @@ def mohammadpour_2015_axle(
         [mohammadpour_2015 (26)] with the full approach, or halved as printed.
 
     See `HypoidAxleParameters` for the other parameters and for the errors.
+
+    Examples
+    --------
+    >>> mohammadpour_2015_axle(bearing_preload=6000.0).gear_mass  # kg
+    49.9
     """
     check_option("bearing_approach", bearing_approach, get_args(Approach))
     check_within(

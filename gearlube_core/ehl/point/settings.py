@@ -47,6 +47,11 @@ class PointSolverSettings:
         Most Newton steps on one grid.
     krylov_steps
         Most iterations of one linear solution.
+
+    Examples
+    --------
+    >>> PointSolverSettings(cavitation="mass_conserving").wedge
+    'upwind-2'
     """
 
     wedge: str = "upwind-2"
