@@ -81,7 +81,7 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     torque : float
         Pinion torque at which the mesh table is read [N.m].
     """
-    p = axle.kernel_parameters._replace(friction_form=-1.0)
+    p = axle.kernel_parameters._replace(friction=0.0)
     elastic = p._replace(
         loss=0.0,
         bearing_p=p.bearing_p.without_loss(),
