@@ -117,7 +117,8 @@ class HypoidAxle(SteppedModel[StepControl]):
             flatten(self.kernel_parameters),
         )
         work, rollers = np.zeros(work_size(mesh.orders, mesh.nodes)), np.zeros(ROLLERS_MAX)
-        kernels = axle_kernels(type(self.kernel_parameters.bearing_p))
+        p = self.kernel_parameters
+        kernels = axle_kernels(type(p.bearing_p), type(p.flank_law))
         return Kernels(
             kernels.communication_step,
             (*data, self._control_values, work, rollers, self._outputs),
@@ -168,7 +169,7 @@ class HypoidAxle(SteppedModel[StepControl]):
     def _settle(self, pinion_torque: float, oil_temperature: float) -> None:
         """Solve the six displacements and the transmission error for static equilibrium."""
         s = self._state
-        p = self.kernel_parameters._replace(friction_form=-1.0)
+        p = self.kernel_parameters._replace(friction=0.0)
         mesh = self.packed
         oil = lubricant_state(p.oil, oil_temperature)
         series = self._series_at(pinion_torque)
