@@ -28,7 +28,6 @@ class Case:
 
     definition: Definition
     build: Callable[..., Path]
-    script: str
     snapshot: str
     arguments: dict[str, str]
     parameters: Callable[..., Any]
@@ -41,6 +40,10 @@ class Case:
     torque_limits: tuple[float, float]  # N.m
     display: dict[str, str]
     units_unused: set[str] = field(default_factory=set)
+
+    @property
+    def script(self) -> str:
+        return f"{self.definition.slave}.py"
 
     @property
     def name(self) -> str:
@@ -98,7 +101,6 @@ def helical(gear_name: str = "he_2007", stiffness_model: str = "uniform", **sett
 HYPOID_AXLE = Case(
     definition=hypoid_axle.DEFINITION,
     build=build.build_hypoid_axle,
-    script="hypoid_axle_slave.py",
     snapshot="value_references.json",
     arguments=hypoid_axle.ARGUMENTS,
     parameters=mohammadpour_2015_axle,
@@ -139,7 +141,6 @@ HYPOID_AXLE = Case(
 HELICAL_PAIR = Case(
     definition=helical_pair.DEFINITION,
     build=build.build_helical_pair,
-    script="helical_pair_slave.py",
     snapshot="helical_value_references.json",
     arguments=helical_pair.ARGUMENTS
     | {"gear.name": "gear_name", "mesh.stiffness_model": "stiffness_model"},
