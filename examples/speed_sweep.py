@@ -6,15 +6,15 @@ from pathlib import Path
 
 import xarray as xr
 
-from gearlube.studies.sweep import SweepSettings, quick_settings, run_sweep, write_report
+import gearlube as gl
 
 
 def sweep(out: Path) -> xr.Dataset:
     """Run three speeds and two preloads, write the report into `out`, return all results."""
-    settings = quick_settings(SweepSettings())
+    settings = gl.quick_sweep_settings(gl.SweepSettings())
     speeds, preloads = [20.0, 60.0, 100.0], [2500.0, 6000.0]
-    results = run_sweep(settings, speeds_kmh=speeds, preloads=preloads, out=out)
-    write_report(results, out)
+    results = gl.run_sweep(settings, speeds_kmh=speeds, preloads=preloads, out=out)
+    gl.write_sweep_report(results, out)
     return results
 
 

@@ -4,6 +4,13 @@
 # FMUs
 from fmu_src.build import build_helical_pair as build_helical_pair
 from fmu_src.build import build_hypoid_axle as build_hypoid_axle
+
+# speed sweeps of an axle FMU
+from gearlube.studies.sweep.datasets import load_sweep as load_sweep
+from gearlube.studies.sweep.report import write_sweep_report as write_sweep_report
+from gearlube.studies.sweep.run import run_sweep as run_sweep
+from gearlube.studies.sweep.settings import SweepSettings as SweepSettings
+from gearlube.studies.sweep.settings import quick_sweep_settings as quick_sweep_settings
 from gearlube_core.bearings.tapered_roller_bearing import (
     TaperedRollerBearing as TaperedRollerBearing,
 )
@@ -45,6 +52,7 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile as HelicalG
 # gear files and mesh data
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile as HypoidGearFile
 from gearlube_core.mesh_table.netcdf import read_mesh_table as read_mesh_table
+from gearlube_core.mesh_table.shipped import shipped_mesh_table as shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable as MeshTable
 
 # oils

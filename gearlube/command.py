@@ -19,26 +19,42 @@ COMMANDS = (
     LazyCommand(
         name="sweep",
         target="gearlube.studies.sweep.command:sweep",
+        summary="Sweep vehicle speed and bearing preload of the hypoid axle.",
         command_class="SweepCommand",
     ),
-    LazyCommand(name="build-fmu", target="gearlube.cli.build_fmu:build_fmu"),
+    LazyCommand(
+        name="build-fmu",
+        target="gearlube.cli.build_fmu:build_fmu",
+        summary="Build HypoidAxle.fmu and HelicalPair.fmu (FMI 2.0 co-simulation).",
+    ),
     LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
+        summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",
         command_class="ContactCommand",
     ),
-    LazyCommand(name="resonance", target="gearlube.studies.resonance.command:resonance"),
+    LazyCommand(
+        name="resonance",
+        target="gearlube.studies.resonance.command:resonance",
+        summary="Follow the resonance of the torsional hypoid pair.",
+    ),
     LazyCommand(
         name="helical",
         target="gearlube.studies.helical.command:helical",
+        summary="Study a helical or spur pair: contact, vibration, stability.",
         command_class="HelicalCommand",
     ),
     LazyCommand(
         name="native",
         target="gearlube.cli.native:native",
+        summary="Run a program that is not Python so that it can load the FMUs.",
         context_settings={"allow_interspersed_args": False},
     ),
-    LazyCommand(name="ehl", target="gearlube.studies.films.command:ehl"),
+    LazyCommand(
+        name="ehl",
+        target="gearlube.studies.films.command:ehl",
+        summary="Solve lubricated contacts: film, pressure and friction.",
+    ),
 )
 
 

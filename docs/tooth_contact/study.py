@@ -11,7 +11,8 @@ import numpy as np
 import xarray as xr
 
 from fmu_src.build import build_hypoid_axle
-from gearlube.studies.sweep import SweepModel, SweepSettings, run_sweep
+from gearlube.studies.sweep.run import SweepModel, run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core import __version__
 from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table

@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import Any, Literal
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 from typer.main import get_group
 
 MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would swallow [units]
@@ -25,6 +25,8 @@ class LazyCommand:
     target : str
         "module:name" of a function with typer options, or of a `typer.Typer` with commands of
         its own.
+    summary : str
+        One sentence for the list of commands, which is shown without importing them.
     command_class : str
         Name of a class of commands in the same module; typer's own if empty.
     context_settings : mapping
@@ -33,6 +35,7 @@ class LazyCommand:
 
     name: str
     target: str
+    summary: str
     command_class: str = ""
     context_settings: Mapping[str, Any] = field(default_factory=dict)
 
@@ -56,11 +59,23 @@ def lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
     table = {command.name: command for command in commands}
 
     class LazyGroup(TyperGroup):
+        listing = False  # whether the help is being written
+
         def list_commands(self, ctx: Any) -> list[str]:
             return list(table)
 
         def get_command(self, ctx: Any, cmd_name: str) -> Any:
-            return table[cmd_name].load() if cmd_name in table else None
+            found = table.get(cmd_name)
+            if found is None:
+                return None
+            return TyperCommand(cmd_name, help=found.summary) if self.listing else found.load()
+
+        def format_help(self, ctx: Any, formatter: Any) -> None:
+            self.listing = True
+            try:
+                super().format_help(ctx, formatter)
+            finally:
+                self.listing = False
 
     return LazyGroup
 

@@ -20,9 +20,10 @@ from fmu_src.check import problems
 from fmu_src.hypoid_axle import DEFINITION, definition_with_table
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
-from gearlube.studies.sweep import SweepSettings, run_point
 from gearlube.studies.sweep import run as sweep_run
 from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
+from gearlube.studies.sweep.point import run_point
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.errors import InterruptedRunError, ParameterError, TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table

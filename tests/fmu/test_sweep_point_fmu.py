@@ -5,10 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from gearlube.studies.sweep import SweepSettings, run_point
 from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
+from gearlube.studies.sweep.point import run_point
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 

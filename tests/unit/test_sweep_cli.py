@@ -31,7 +31,7 @@ def calls(monkeypatch):
         return result_with([1, 1])
 
     monkeypatch.setattr(sweep_run, "run_sweep", run_sweep)
-    monkeypatch.setattr(sweep_report, "write_report", lambda dataset, out, entries: out)
+    monkeypatch.setattr(sweep_report, "write_sweep_report", lambda dataset, out, entries: out)
     return seen
 
 

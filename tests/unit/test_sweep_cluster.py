@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from gearlube.studies.sweep import SweepModel, SweepSettings, run_sweep
+from gearlube.studies.sweep.run import SweepModel, run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
 from tests.helpers import sweep_stand_in as stand_in
 
 DEADLINE = 60.0  # s, for anything that has to come up
@@ -73,7 +74,7 @@ def cluster(tmp_path):
 
 
 def model_of(point):
-    return SweepModel(point=point, warm_up=None, natural_frequencies=None)
+    return SweepModel(point=point, compile_first=None, natural_frequencies=None)
 
 
 def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(cluster, tmp_path):
@@ -85,8 +86,8 @@ def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(
     }
     killed = threading.Event()
 
-    def kill_one_worker_after_two_points(progress):
-        if progress.done == 2 and not killed.is_set():
+    def kill_one_worker_after_two_points(share, sentence):
+        if share >= 2 / 12 and not killed.is_set():
             workers["first"].send_signal(signal.SIGKILL)
             killed.set()
 

@@ -80,13 +80,12 @@ def sweep(
     Finished points are kept in OUT/points: run the same command again to go on after a stop.
     """
     from gearlube.cli.console import console
-    from gearlube.cli.progress_bar import progress_bar
+    from gearlube.cli.progress_report import progress_on
     from gearlube.cli.ranges import numbers_from
     from gearlube.studies.sweep import run
     from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
-    from gearlube.studies.sweep.progress import Progress
-    from gearlube.studies.sweep.report import write_report
-    from gearlube.studies.sweep.settings import SweepSettings, quick_settings
+    from gearlube.studies.sweep.report import write_sweep_report
+    from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
     from gearlube_core.checks import check_within
     from gearlube_core.errors import ParameterError
     from gearlube_core.units import celsius_to_kelvin
@@ -112,15 +111,9 @@ def sweep(
             "--speeds", ranges, "km/h", 1.0, 300.0, example="20:100:5", most=500
         )
         logger.info("Preparing the axle; the first time this compiles it, about 20 s.")
-        with progress_bar(console) as bar:
-            task = bar.add_task("sweep", total=None)
-
-            def show(progress: Progress) -> None:
-                where = f"{progress.speed_kmh:g} km/h, {progress.preload:g} N"
-                bar.update(task, completed=progress.done, total=progress.total, description=where)
-
+        with progress_on(console, "sweep") as progress:
             dataset = run.run_sweep(
-                quick_settings(settings) if quick else settings,
+                quick_sweep_settings(settings) if quick else settings,
                 speeds_kmh=speeds_kmh,
                 preloads=preload or _DEFAULT_PRELOADS,
                 fmu=fmu,
@@ -128,11 +121,11 @@ def sweep(
                 out=out,
                 jobs=jobs,
                 scheduler=scheduler,
-                progress=show,
+                progress=progress,
                 command_line=shlex.join(["gearlube", *sys.argv[1:]]),
             )
-            bar.update(task, description="report")
-            report = write_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
+            progress(1.0, "report")
+            report = write_sweep_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
         computed = dataset.attrs["computed_points"]
         logger.info("%d points computed in %.1f s.", computed, dataset.attrs["wall_time"])
         logger.info("Results: %s, %s, %s", report, out / "sweep.nc", out / "summary.csv")

@@ -12,19 +12,19 @@ from pathlib import Path
 
 import xarray as xr
 
+from gearlube.studies.sweep.compile_axle import compile_axle
+from gearlube.studies.sweep.datasets import merge, save
 from gearlube.studies.sweep.gear_pair import mesh_table_of
-from gearlube.studies.sweep.merge import merge, save
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
-from gearlube.studies.sweep.progress import Progress, ProgressCallback
 from gearlube.studies.sweep.provenance import code_version
 from gearlube.studies.sweep.quantities import described
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube.studies.sweep.unpack import fmu_guid, unpacked
-from gearlube.studies.sweep.warm_up import warm_up
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import Pool, ProcessPool
 from gearlube_core.storage.result_store import DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results
@@ -43,14 +43,14 @@ class SweepModel:
     ----------
     point : callable
         Computes one point; the workers must be able to import it.
-    warm_up : callable, optional
+    compile_first : callable, optional
         Compiles the axle before local processes start, so that they do not all do it.
     natural_frequencies : callable, optional
         Gives the natural frequencies that the figures mark, at the middle speed.
     """
 
     point: PointFunction = run_point
-    warm_up: Callable[[Path, SweepSettings], None] | None = warm_up
+    compile_first: Callable[[Path, SweepSettings], None] | None = compile_axle
     natural_frequencies: (
         Callable[[Sequence[float], float, SweepSettings, MeshTable], xr.DataArray] | None
     ) = natural_frequencies
@@ -69,7 +69,7 @@ def run_sweep(
     out: Path | str | None = None,
     jobs: int | None = None,
     scheduler: str | None = None,
-    progress: ProgressCallback | None = None,
+    progress: Progress = no_progress,
     command_line: str = "",
     model: SweepModel = AXLE_MODEL,
 ) -> xr.Dataset:
@@ -94,7 +94,7 @@ def run_sweep(
     scheduler : str
         Address of a running Dask scheduler, "tcp://host:port".
     progress : callable
-        Called with a `Progress` after every point.
+        Called after every point with the share done [-] and a sentence on the point.
     command_line : str
         Noted in the dataset.
     model : SweepModel
@@ -183,8 +183,9 @@ def _workers(
         return partial(run_on_worker, plugin.name, model.point, settings), DaskPool(
             scheduler, plugin
         )
-    compile_axle = None if model.warm_up is None else partial(model.warm_up, directory, settings)
-    pool = ProcessPool(jobs=jobs, prepare=_mute_fmu, always_spawn=True, before=compile_axle)
+    first = model.compile_first
+    before = None if first is None else partial(first, directory, settings)
+    pool = ProcessPool(jobs=jobs, prepare=_mute_fmu, always_spawn=True, before=before)
     return partial(_run_here, model.point, directory, settings), pool
 
 
@@ -204,7 +205,7 @@ def _points(
     compute: Callable[[Place], xr.Dataset],
     pool: Pool,
     folder: Path | None,
-    progress: ProgressCallback | None,
+    progress: Progress,
 ) -> tuple[dict[Place, xr.Dataset], int]:
     """Return all points, failed ones too, and how many of them were computed now."""
     store = ResultStore(None if folder is None else folder / "points", DATASETS)
@@ -224,9 +225,8 @@ def _points(
             computed += not stored
             if not _is_finished(dataset):
                 logger.warning("%g km/h, %g N failed: %s", *place, str(dataset["message"].values))
-            if progress is not None:
-                finished = _is_finished(dataset)
-                progress(Progress(len(points), len(keys), *place, finished, stored))
+            point = f"{place[0]:g} km/h, {place[1]:g} N"
+            progress(len(points) / len(keys), f"{point} (stored)" if stored else point)
     except KeyboardInterrupt:
         count = sum(map(_is_finished, points.values()))
         where = (

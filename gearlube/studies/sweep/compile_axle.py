@@ -14,7 +14,7 @@ from gearlube.studies.sweep.unpack import unpacked
 _SPEED_KMH = 50.0
 
 
-def warm_up(fmu: Path, settings: SweepSettings) -> None:
+def compile_axle(fmu: Path, settings: SweepSettings) -> None:
     """Initialise the FMU and take two steps.
 
     The machine code stays in numba's cache on disk, from where the workers load it.

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sweep.quantities import described
+from gearlube.studies.sweep.quantities import GRID, described
+from gearlube.studies.sweep.summary import summary_table
 from gearlube_core.storage.atomic_file import read_compressed_dataset, write_compressed_dataset
 from gearlube_core.units import kmh_to_ms
 
-GRID = ("preload", "speed")
 _POINT_COORDINATES = ("speed", "speed_kmh", "preload")
 
 Points = Mapping[tuple[float, float], xr.Dataset]
@@ -101,16 +101,3 @@ def load_sweep(path: Path | str) -> xr.Dataset:
     path = Path(path)
     dataset = read_compressed_dataset(path / "sweep.nc" if path.is_dir() else path)
     return dataset.set_xindex("speed_kmh") if "speed_kmh" not in dataset.xindexes else dataset
-
-
-def summary_table(dataset: xr.Dataset) -> Any:
-    """Return the scalars of every point as a pandas table, one row a point."""
-    scalars = {
-        name: variable
-        for name, variable in dataset.data_vars.items()
-        if set(variable.dims) == set(GRID)
-    }
-    columns = xr.Dataset(scalars, coords={k: dataset[k] for k in ("preload", "speed_kmh")})
-    for source in dataset["source"].values if "loss" in dataset else ():
-        columns[f"loss_{source}"] = dataset["loss"].sel(source=source, drop=True)
-    return columns.to_dataframe().reset_index().drop(columns="speed", errors="ignore")
