@@ -32,14 +32,13 @@ HYPOID = {"": "Hypoid flank: the file", "solver": "[solver]"}
 
 HEAD = """# The case files of lubricated line and point contacts and of hypoid flanks
 
-The tables are written by `python -m docs.ehl_case_file` from the data models
-(`gearlube_core/ehl/case/`), the text with them;
-not edited by hand.
+The tables and the text are written by `python -m docs.ehl_case_file` from the data models in
+`gearlube_core/ehl/case/`; do not edit them by hand.
 
 `gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts
 ship, `jamali_2015` and `jamali_2015_thermal`, and three point contacts, `mourier_2006`,
-`elliptical` and `elliptical_thermal` (`gearlube_core/ehl/data/`); `gearlube ehl line --example`
-prints one to start from.
+`elliptical` and `elliptical_thermal` (`gearlube_core/ehl/case/data/`).
+`gearlube ehl line --example` prints one to start from.
 Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md), whose
 `[film_mesh]` can set the nodes denser where the film leaves the contact. A hypoid
 flank, `gearlube ehl hypoid my_case.toml`, takes its contacts from a mesh table; `mohammadpour_2015`

@@ -19,3 +19,11 @@ class StepError(GearLubeError):
 
 class TableError(GearLubeError, ValueError):
     """A mesh table file is incomplete or contradicts itself."""
+
+
+class InterruptedRunError(GearLubeError):
+    """A long run was stopped from the keyboard; the message says what is kept."""
+
+
+class FileError(GearLubeError):
+    """A file is missing, damaged or of another kind."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from docs.ehl.cases import CYCLE, Array, FilmCase
+from docs.ehl.cases import CYCLE, FilmCase
 from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed, span
 from docs.ehl.lines import March
 from docs.ehl.measures import highest_near, jumps, largest_change, off_range, peaks
 from docs.ehl.runs import COUNT_RANGE, COUNTS, CROWNS, POSITIONS, default_cycle
 from docs.ehl.store import Store
+from gearlube_core.arrays import Array
 
 _PRESSURE, _FILM = 0.05, 0.15
 _SIDE = 200  # steps at both ends of the cycle

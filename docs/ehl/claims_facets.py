@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from docs.ehl.cases import LINE, Array, FilmCase, facet_case
+from docs.ehl.cases import LINE, FilmCase, facet_case
 from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed, span
 from docs.ehl.measures import exponent, peaks
 from docs.ehl.runs import FACET_MARCH, FACET_STEPS, FACETS
 from docs.ehl.store import Steady, Store
+from gearlube_core.arrays import Array
 
 _PRESSURE, _FILM = 0.1, 0.2
 _MARCHED = (40, 100)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import BoundaryNorm
 
-from docs.ehl.cases import CYCLE, FACETED, Array, FilmCase, relief_starts
+from docs.ehl.cases import CYCLE, FACETED, FilmCase, relief_starts
 from docs.ehl.claims import GPA, MM, UM
 from docs.ehl.claims_cycle import cycle
 from docs.ehl.dry_cycle import dry_cycle
@@ -15,6 +15,7 @@ from docs.ehl.runs import POSITIONS, POWERS, power_case
 from docs.ehl.sections import line_contact, section
 from docs.ehl.store import Store
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
+from gearlube_core.arrays import Array
 
 _FILMS = np.array([0.1, 0.14, 0.18, 0.22, 0.26, 0.3, 0.4, 0.6, 1.0])  # um
 _PRESSURES = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 1.1, 1.3])  # GPa

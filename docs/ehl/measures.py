@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.signal import find_peaks
 
-from docs.ehl.cases import Array
+from gearlube_core.arrays import Array
 
 
 def off_range(values: Array, low: float, high: float) -> float:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from docs.ehl.cases import CYCLE, Array, FilmCase
+from docs.ehl.cases import CYCLE, FilmCase
 from docs.ehl.claims_cycle import cycle
 from docs.ehl.store import Store
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solution import LineSolution
 from gearlube_core.ehl.line.solver import solve_line

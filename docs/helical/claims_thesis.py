@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
-from docs.helical.cases import Array, Evidence
+from docs.helical.cases import Evidence
 from docs.helical.verdicts import Claim, Verdict, judge
+from gearlube_core.arrays import Array
 from gearlube_core.helical_geometry.contact_line import line_count
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from docs.helical.cases import HE, Array
+from docs.helical.cases import HE
+from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from docs.helical.cases import HIGH, Array
+from docs.helical.cases import HIGH
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_TORQUE, he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters

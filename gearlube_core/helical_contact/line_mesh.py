@@ -11,7 +11,7 @@ from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_geometry.contact_line import clip_line, line_position, segment_length
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.storage.resumable_records import Record
+from gearlube_core.storage.result_store import Record
 
 
 def line_mesh(modified: ModifiedPair, settings: CycleSettings, cycle: Record) -> LineMesh:

@@ -33,7 +33,7 @@ Origin = Literal["table", "inferred", "completed"]
 Role = Literal["pinion", "gear"]
 _MICROMETRE = 1e-6  # m
 _STEEL = 7850.0  # kg/m3
-_FULL_DEPTH = 2.25  # normal modules; ISO 53: addendum 1, dedendum 1.25
+_FULL_DEPTH = 2.25  # normal modules; [iso_53]: addendum 1, dedendum 1.25
 _ABSENT = {
     "root_diameter_mm": "the basic rack's full depth, 2.25 normal modules, below the tip",
     "body.mass_kg": "a steel disc of the root diameter and the face width",

@@ -24,7 +24,7 @@ def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> NDArray[np.float64]:
     Parameters
     ----------
     s_i
-        From the pitch line along the line of action [m], any shape: Jamali 2015 sec. 2.2.1.
+        From the pitch line along the line of action [m], any shape: [jamali_2015 sec. 2.2.1].
     pair
         Gear pair.
 
@@ -116,7 +116,7 @@ def meshing_steps(modified: ModifiedPair, step: float, smallest_share: float) ->
     step
         Advance along the line of action [m].
     smallest_share
-        L/w at both ends of the analysed cycle [-]; Jamali 2015 sec. 4.4 takes 0.16.
+        L/w at both ends of the analysed cycle [-]; [jamali_2015 sec. 4.4] takes 0.16.
 
     Returns
     -------

@@ -101,7 +101,7 @@ def ease_off(
 
     References
     ----------
-    Stadtfeld 1993 (ease-off); Litvin and Fuentes 2004, chapter 9 (tooth contact analysis).
+    [stadtfeld_1993] (ease-off); [litvin_fuentes_2004 ch. 9] (tooth contact analysis).
     """
     check_within("s_count", s_count, 3, 1001, "", "Points over the profile.")
     check_within("t_count", t_count, 3, 1001, "", "Points over the face.")

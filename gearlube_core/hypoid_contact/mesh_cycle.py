@@ -21,7 +21,7 @@ from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.resumable_records import Record, RecordStore
+from gearlube_core.storage.result_store import Record
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import (
     MeshCycleSettings,
@@ -159,7 +159,8 @@ def run_cycle(
     found = compute_positions(
         [(side, float(phase)) for side in SIDES for phase in settings.phases],
         partial(_record_of, pairs, stiffness, settings),
-        RecordStore(store, _key(file, stiffness, settings)),
+        key=_key(file, stiffness, settings),
+        folder=store,
         label=_label,
         jobs=jobs,
         progress=progress,

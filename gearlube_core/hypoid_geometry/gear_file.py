@@ -23,7 +23,7 @@ class HypoidGearFile(InputFile):
 
     References
     ----------
-    Karagiannis et al. 2012, Table 1, for the names of the settings.
+    [karagiannis_2012 Table 1], for the names of the settings.
     """
 
     package: ClassVar[str] = "gearlube_core.hypoid_geometry"

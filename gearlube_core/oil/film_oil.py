@@ -18,9 +18,9 @@ from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.houpert_1985 import GLASS_TEMPERATURE
 
-ROELANDS_CHI = 5.1e-9  # 1/Pa, Jamali 2015 eq. (3.4)
-ROELANDS_KAPPA = 63.15e-6  # Pa s, Jamali 2015 eq. (3.4)
-DOWSON_HIGGINSON_GAMMA = 2.266e-9  # 1/Pa, Jamali 2015 eq. (3.5)
+ROELANDS_CHI = 5.1e-9  # 1/Pa, [jamali_2015 (3.4)]
+ROELANDS_KAPPA = 63.15e-6  # Pa s, [jamali_2015 (3.4)]
+DOWSON_HIGGINSON_GAMMA = 2.266e-9  # 1/Pa, [jamali_2015 (3.5)]
 DOWSON_HIGGINSON_LAMBDA = 1.683e-9  # 1/Pa, the same
 VISCOSITY_LAWS = ("barus", "roelands", "houpert")
 DENSITY_LAWS = ("dowson_higginson", "incompressible")
@@ -102,7 +102,7 @@ def viscosity(oil: EhlLubricant, p: float) -> float:
     -----
     Meant for 0 to about 1 GPa. Below zero the tangent exponential eta0 exp(alpha p) is taken;
     above eta/eta0 = e^200 the ratio grows linearly in the exponent, so that no step of an
-    iteration can overflow. Source: Roelands 1966; Jamali 2015 eq. (3.4).
+    iteration can overflow. Source: [roelands_1966] [jamali_2015 (3.4)]
     """
     return oil.eta0 * _bounded_exponential(oil.log_ratio * _pressure_exponent(oil, p))
 
@@ -122,7 +122,7 @@ def thermal_viscosity(oil: EhlLubricant, p: float, temperature: float) -> float:
 
     Notes
     -----
-    Source: Houpert 1985. At the reference temperature it is `viscosity`.
+    Source: [houpert_1985]. At the reference temperature it is `viscosity`.
     """
     t = (temperature - GLASS_TEMPERATURE) / (oil.temperature - GLASS_TEMPERATURE)
     cooling = math.expm1(-oil.S0 * math.log(t))
@@ -187,9 +187,9 @@ def density(oil: EhlLubricant, p: float) -> float:
 
     Notes
     -----
-    Measured to about 0.4 GPa; bounded by 1.346 rho0 at any pressure. Jamali 2015 eq. (3.5)
+    Measured to about 0.4 GPa; bounded by 1.346 rho0 at any pressure. (3.5)
     prints another letter for gamma p in the numerator.
-    Source: Dowson and Higginson 1966.
+    Source: [dowson_higginson_1966] [jamali_2015 (3.5)]
     """
     if p <= 0.0:
         return oil.rho0

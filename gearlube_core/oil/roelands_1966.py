@@ -28,7 +28,7 @@ def pressure_viscosity_coefficient(eta0: float, Z: float) -> float:
 
     Notes
     -----
-    Needs eta0 above 6.3e-5 Pa s. Source: Roelands 1966.
+    Needs eta0 above 6.3e-5 Pa s. Source: [roelands_1966].
     """
     return ROELANDS_PRESSURE * Z * (math.log(eta0) + ROELANDS_LOG_VISCOSITY)
 
@@ -56,7 +56,7 @@ def roelands_viscosity(eta0: float, Z: float, pressure: float) -> float:
     Notes
     -----
     Fitted by Roelands to about 0.5 GPa; used in elastohydrodynamics to about 1 GPa.
-    Source: Roelands 1966; Karagiannis et al. 2012 eq. (16) at one temperature.
+    Source: [roelands_1966]; [karagiannis_2012 (16)] at one temperature.
     """
     growth = (1.0 + ROELANDS_PRESSURE * pressure) ** Z - 1.0
     return eta0 * math.exp((math.log(eta0) + ROELANDS_LOG_VISCOSITY) * growth)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 MM2_S = 1.0e-6  # m2/s in one mm2/s (one cSt)
-WALTHER_SHIFT = 0.7  # mm2/s, ASTM D341 for viscosities above 2 mm2/s
+WALTHER_SHIFT = 0.7  # mm2/s, [astm_d341] for viscosities above 2 mm2/s
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa, inverse of the Roelands pressure constant 1.96e8 Pa
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the Roelands viscosity constant 6.31e-5 Pa s
 
@@ -34,7 +34,7 @@ def walther_coefficients(
 
     Notes
     -----
-    ASTM D341 recommends the form above 2 mm2/s.
+    [astm_d341] recommends the form above 2 mm2/s.
     """
     w_1, w_2 = walther_double_log(nu_1), walther_double_log(nu_2)
     B = (w_1 - w_2) / math.log10(temperature_2 / temperature_1)

@@ -31,7 +31,7 @@ def walther_viscosity(A: float, B: float, temperature: float) -> tuple[float, fl
     Notes
     -----
     For viscosities above 2 mm2/s. At constant density beta is also that of the dynamic
-    viscosity. Source: Walther 1931; ASTM D341.
+    viscosity. Source: [walther_1931]; [astm_d341].
     """
     log10_shifted = math.exp(_LN10 * A - B * math.log(temperature))
     shifted = math.exp(_LN10 * log10_shifted)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar, TypeVar
 
 import numpy as np
@@ -12,7 +13,9 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress
-from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
+from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
+from gearlube_core.storage.resumable import resumable_results
 
 Position = TypeVar("Position")
 
@@ -56,8 +59,9 @@ def stack_records(records: Iterable[Record]) -> Record:
 def compute_positions(
     positions: Sequence[Position],
     compute: Callable[[Position], Record],
-    store: RecordStore,
     *,
+    key: str,
+    folder: Path | None,
     label: Callable[[Position], tuple[str, str]],
     jobs: int | None,
     progress: Progress,
@@ -70,22 +74,27 @@ def compute_positions(
         Inputs of `compute`.
     compute
         Called in the processes, so it and the positions can be pickled.
-    store
-        Where finished positions are found and kept.
+    key
+        Hash of everything that the positions share; part of the names of their files.
+    folder
+        Where finished positions are found and kept; None: nowhere.
     label
-        Name of a position's file and the sentence that is reported when it is done.
+        What follows `key` in the name of a position's file, and the sentence that is reported
+        when it is done.
     jobs
         Processes; one runs in this process. None: all processors.
     progress
         Called after each new position.
     """
-    return dict(
-        resumable_records(
-            positions,
-            lambda position: label(position)[0],
-            compute,
-            store,
-            jobs=jobs,
-            new=lambda position, done: progress(done / len(positions), label(position)[1]),
-        )
-    )
+    found = {}
+    for position, record, stored in resumable_results(
+        positions,
+        lambda position: f"{key}_{label(position)[0]}",
+        compute,
+        ResultStore(folder, ARRAYS),
+        ProcessPool(jobs=jobs),
+    ):
+        found[position] = record
+        if not stored:
+            progress(len(found) / len(positions), label(position)[1])
+    return found

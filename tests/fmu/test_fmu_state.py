@@ -49,8 +49,8 @@ def test_a_state_saved_in_one_process_continues_in_another(
     host.step(count=5)
     (tmp_path / "state").write_bytes(host.slave.serializeFMUstate(host.save()))
     code = (
-        f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r});"
-        "from fmu_host import Host; from pathlib import Path;"
+        f"import sys; sys.path.insert(0, {str(Path(__file__).parents[2])!r});"
+        "from tests.helpers.fmu_host import Host; from pathlib import Path;"
         f"host = Host({str(fmu_folder)!r});"
         f"state = host.slave.deSerializeFMUstate(Path({str(tmp_path / 'state')!r}).read_bytes());"
         f"assert host.restore(state, {host.time!r}) == 0, host.log;"

@@ -5,7 +5,7 @@ import csv
 import xarray as xr
 from typer.testing import CliRunner
 
-from gearlube.cli import main as cli
+from gearlube import command as cli
 from gearlube.studies.films.figures.catalogue import drawn_figures
 
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
-from gearlube_core.dynamics.helical_pair.kernel_parameters import (
-    Array,
-    PairConstants,
-    SupportArrays,
-)
+from gearlube_core.dynamics.helical_pair.kernel_parameters import PairConstants, SupportArrays
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import DENSITY, LENGTH, LOAD
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import (
     built_up,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numba import njit
 
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
@@ -40,7 +41,7 @@ def restore_outer(array):
 
 @njit
 def restore_axle(array):
-    return tuple_from_array(array, AxleParameters)
+    return tuple_from_array(array, AxleParameters, TaperedRollerParameters)
 
 
 @njit
@@ -64,8 +65,9 @@ def test_floats_are_counted_through_all_levels(kind, count):
     assert count_floats(kind) == count
 
 
-def test_a_nested_tuple_comes_back_whole():
-    assert restore_outer(flatten(NESTED)) == NESTED
+@pytest.mark.parametrize("restore", [restore_outer, restore_outer.py_func])
+def test_a_nested_tuple_comes_back_whole(restore):
+    assert restore(flatten(NESTED)) == NESTED
 
 
 def test_fields_keep_their_names_inside_a_kernel():
@@ -80,7 +82,7 @@ def test_floats_beyond_the_tuple_are_left_alone():
 def test_the_parameters_of_the_axle_come_back_to_the_bit():
     parameters = mohammadpour_2015_axle().kernel_parameters()
     array = flatten(parameters)
-    assert array.size == count_floats(AxleParameters)
+    assert array.size == count_floats(AxleParameters, TaperedRollerParameters)
     assert restore_axle(array) == parameters
 
 

@@ -9,7 +9,7 @@ from gearlube_core.helical_contact.loaded_contact import LoadedSettings
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.storage import resumable_records
+from gearlube_core.storage import resumable
 from tests.helpers.helical_contact_cases import HE_2007, relieved, stiff_teeth
 from tests.helpers.reports import Reports
 
@@ -51,7 +51,7 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
 
 
 def test_a_finished_run_computes_nothing(store, monkeypatch):
-    monkeypatch.setattr(resumable_records, "single_threaded", None)  # would fail if called
+    monkeypatch.setattr(resumable, "single_threaded", None)  # would fail if called
     again = run_cycle(PLAIN, TEETH, SMALL, store=store, jobs=1)
     assert again["rotation"].shape == (5, 2)
     assert again["line_load"].shape == (5, 2, 5, 4)

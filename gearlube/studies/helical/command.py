@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from gearlube.cli.exit_codes import FAILED, INTERRUPTED, told
+from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
 from gearlube.cli.options import (
     HelicalGearArgument,
     JobsOption,
@@ -23,8 +23,8 @@ from gearlube.cli.options import (
     TorqueOfFileOption,
 )
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.ranges import numbers_from
 from gearlube.cli.spread_values import SpreadingCommand
-from gearlube.cli.value_range import values_from
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
@@ -120,7 +120,7 @@ def helical(
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     began = time.monotonic()
-    with told(f"Stopped while results were written; {out} may be incomplete."):
+    with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
         file = HelicalGearFile.given(gear)
         if jobs is not None:
             check_within("--jobs", jobs, 1, 1024)
@@ -137,12 +137,14 @@ def helical(
         check_within("--speed-rpm", speed_rpm, 0.1, 1e6, "rpm", "Give its magnitude.")
         if density is not None:
             check_within("--density", density, 1e-2, 1e4, "N/(um mm)", "13 is usual for steel.")
-        speeds = values_from("--speeds-rpm", speeds_rpm or (), "rpm", 0.1, 1e6)
+        speeds = numbers_from(
+            "--speeds-rpm", speeds_rpm or (), "rpm", 0.1, 1e6, example="100:3000:100"
+        )
         settings = HelicalSettings(
             file=file,
             pinion_torque=torque,
             pinion_speed=rpm_to_rads(speed_rpm),
-            mu=values_from("--mu", mu or ("0:0.3:0.01",), "", 0.0, 1.0),
+            mu=numbers_from("--mu", mu or ("0:0.3:0.01",), "", 0.0, 1.0, example="0:0.3:0.01"),
             speeds=tuple(rpm_to_rads(speed) for speed in speeds),
             friction=friction,
             mesh=mesh,

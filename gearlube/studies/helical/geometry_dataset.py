@@ -27,7 +27,7 @@ from gearlube_core.helical_geometry.meshing_steps import gear_file_steps, line_a
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.units import rpm_to_rads
 
-_STEPS, _LAST_STEP = (75, 300, 500), 575  # Jamali 2015 sec. 4.4
+_STEPS, _LAST_STEP = (75, 300, 500), 575  # [jamali_2015 sec. 4.4]
 _SMALLEST_SHARE = 0.16  # length over F/cos(beta_b) where his cycle begins and ends, sec. 4.4
 _STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 
@@ -142,7 +142,7 @@ def shown_lines(modified: ModifiedPair) -> NDArray[np.float64]:
     """Return X of three lines [m]: early, in the middle and late in the meshing cycle.
 
     At 75, 300 and 500 parts of 575 of the cycle in which the unrelieved line is long enough, as
-    Jamali 2015 sec. 4.4 chooses his; spur lines, long or absent, take the whole cycle.
+    [jamali_2015 sec. 4.4] chooses his; spur lines, long or absent, take the whole cycle.
     """
     pair = modified.pair
     lag = pair.face_width * math.tan(pair.base_helix_angle)

@@ -76,7 +76,7 @@ def analyse_loaded_contact(
 
 
 def constant_density_stiffness(settings: HelicalSettings, density: float) -> xr.Dataset:
-    """Return the stiffness of each line and of all with one density: He et al. 2007 fig. 4.
+    """Return the stiffness of each line and of all with one density: [he_2007 fig. 4].
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ FRICTIONS = ("film", "constant")
 PARTS = ("all", "contact", "dynamics", "geometry")
 RPM = math.pi / 30.0  # rad/s
 
-HARMONICS = 15  # He et al. 2007 sec. 6
+HARMONICS = 15  # [he_2007 sec. 6]
 SHOWN_MU = (0.01, 0.1)  # ditto, figures 6 to 8
 LOAD_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)  # of the pinion torque
 _SPEEDS = 60

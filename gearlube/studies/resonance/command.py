@@ -11,16 +11,16 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from gearlube.cli.exit_codes import INTERRUPTED, told
+from gearlube.cli.exit_codes import INTERRUPTED, exit_on_error
 from gearlube.cli.options import OilTemperatureOption, RoughnessOption
 from gearlube.cli.progress_report import progress_on
 from gearlube_core.checks import check_finite, check_option, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import celsius_to_kelvin
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.resonance.summary import ModelSummary
+    from gearlube_core.mesh_table.table import MeshTable
 
 logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
@@ -96,7 +96,7 @@ def resonance(
     from gearlube.studies.resonance.summary import summaries
 
     began = time.monotonic()
-    with told(f"Stopped while results were written; {out} may be incomplete."):
+    with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
         first, last = _range(frequency_range)
         check_option("--radii", radii, _RADII)
         check_option("--friction", friction, _FRICTION)
@@ -135,6 +135,7 @@ def resonance(
 def _mesh(name: str, mismatch: float, radii: str, torque: float) -> MeshTable:
     from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
     from gearlube_core.mesh_table.netcdf import read_mesh_table
+    from gearlube_core.mesh_table.shipped import shipped_mesh_table
 
     check_within("--mismatch", mismatch, -5.0, 5.0, "percent", "0.3 is usual.")
     if mismatch != 0.0 and (name != "synthetic" or radii != "paper"):
@@ -143,7 +144,7 @@ def _mesh(name: str, mismatch: float, radii: str, torque: float) -> MeshTable:
             "It is of use with --mesh synthetic and --radii paper."
         )
     if name == "shipped":
-        return MeshTable.named("mohammadpour_2015")
+        return shipped_mesh_table("mohammadpour_2015")
     if name == "synthetic":
         return synthetic_mesh(radius_mismatch=0.01 * mismatch, torque=torque)
     return read_mesh_table(name)

@@ -24,7 +24,7 @@ MODELS = {
     "two_dof_lubricated": "2-DOF, lubricated",
 }
 SWEPT = ("two_dof", "one_dof")
-ORBITS_AT = (0.3, 0.65, 1.0)  # mesh over natural frequency, Karagiannis et al. 2012 fig. 8-14
+ORBITS_AT = (0.3, 0.65, 1.0)  # mesh over natural frequency, [karagiannis_2012 fig. 8] to 14
 HOT = 373.15  # K, ditto fig. 21
 
 

@@ -122,7 +122,7 @@ class SweepSettings:
         return hashlib.sha256(text.encode()).hexdigest()[:20]
 
 
-def quick_settings(settings: SweepSettings) -> SweepSettings:
+def quick_sweep_settings(settings: SweepSettings) -> SweepSettings:
     """Return `settings` with a settling time and a record just long enough for a first look."""
     values = {field.name: getattr(settings, field.name) for field in fields(settings)}
     values.update(settling_time=0.15, record_time=0.15, cage_turns=0.9)

@@ -86,7 +86,7 @@ def gear_file_pair(
 
 
 def constant_density_mesh(pair: HelicalPair, density: float, source: str) -> LineMesh:
-    """Return one stiffness density [N/m2] along all contact lines: He et al. 2007 eq. (2)."""
+    """Return one stiffness density [N/m2] along all contact lines: [he_2007 (2)]."""
     return uniform_line_mesh(
         name=f"{pair.name}, constant density",
         source=source,

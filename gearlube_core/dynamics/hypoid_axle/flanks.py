@@ -116,8 +116,10 @@ def flank_sum(
 
     References
     ----------
-    Mohammadpour et al. 2015, eq. (10), (11), (20), (23). Printed eq. (10) has the arm of the
-    normal force; a friction force acts at the arm xi . (j x r) of Karagiannis et al. 2012 eq. (8).
+    [mohammadpour_2015 (10)] [mohammadpour_2015 (11)] [mohammadpour_2015 (20)]
+    [mohammadpour_2015 (23)]
+    (10) prints the arm of the normal force; a friction force acts at the arm xi . (j x r) of
+    `friction_arm_p`. (20) prints the shafts' motion along the line of action for the sliding.
     """
     torque_p = 0.0
     torque_g = 0.0

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_ODE, U_G, U_P, V_G, V_P, W_G, W_P, X
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
@@ -83,8 +84,8 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     p = axle.kernel_parameters._replace(friction_form=-1.0)
     elastic = p._replace(
         loss=0.0,
-        bearing_p=p.bearing_p._replace(loss=0.0),
-        bearing_g=p.bearing_g._replace(loss=0.0),
+        bearing_p=p.bearing_p.without_loss(),
+        bearing_g=p.bearing_g.without_loss(),
     )
     masses = np.array([p.I_p, p.I_g] + 3 * [p.m_p] + 3 * [p.m_g])
     mesh = axle.packed
@@ -99,25 +100,13 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     oil = lubricant_state(p.oil, oil_temperature)
     base = np.array(axle.state_view)
     inputs = StepInputs(0.0, 0.0, 0.0, 0.0)
+    at_load = MeshAtLoad(series, mesh.orders, mesh.windows, mesh.nodes)
     scratch = np.zeros(SCRATCH)
     slope = np.zeros(N_ODE)
     rows = np.r_[W_P, W_G, V_P : V_P + 3, V_G : V_G + 3]
 
     def generalised_force(state: Array, p: AxleParameters) -> Array:
-        axle_rhs(
-            state,
-            inputs,
-            series,
-            mesh.orders,
-            mesh.windows,
-            mesh.nodes,
-            oil,
-            p,
-            1.0,
-            1.0,
-            scratch,
-            slope,
-        )
+        axle_rhs(state, inputs, at_load, oil, p, 1.0, 1.0, scratch, slope)
         return masses * slope[rows]
 
     normal = series[3:6]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
@@ -12,6 +13,7 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_pa
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -23,8 +25,8 @@ Friction = Literal["consistent", "as_printed", "off"]
 Approach = Literal["full", "as_printed"]
 TorqueLoss = Literal["none", "palmgren"]
 
-HYSTERETIC_LOSS = 0.009  # [-], Mohammadpour et al. 2015 eq. (4) and (25)
-FREQUENCY_FLOOR = 50.0  # Hz; eq. (4) diverges at rest; the sweep starts at 100 Hz
+HYSTERETIC_LOSS = 0.009  # [-], [mohammadpour_2015 (4)], [mohammadpour_2015 (25)]
+FREQUENCY_FLOOR = 50.0  # Hz; [mohammadpour_2015 (4)] diverges at rest; the sweep starts at 100 Hz
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 FRICTION_FORMS = {"consistent": 0.0, "as_printed": 1.0, "off": -1.0}
 
@@ -36,8 +38,9 @@ class HypoidAxleParameters:
     Parameters
     ----------
     mesh : MeshTable
-    bearing : TaperedRollerBearing
-        One type, two opposed on either shaft, with preload, interference or clearance set.
+    bearing : Bearing
+        One type, two opposed on either shaft, e.g. a `TaperedRollerBearing` with preload,
+        interference or clearance set.
     oil : Lubricant
     solid : Solid
         Both flanks.
@@ -58,7 +61,7 @@ class HypoidAxleParameters:
     mesh_stiffness : {"tangent", "secant"}
         Spring of the mesh about its load, see `pack_mesh`.
     mesh_damping : {"hysteretic", "modal"}
-        Eq. (4), or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
+        [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
     friction : {"consistent", "as_printed", "off"}
@@ -67,17 +70,17 @@ class HypoidAxleParameters:
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
     frequency_floor : float
-        Lower clamp of the frequency in eq. (4) and (25) [Hz].
+        Lower clamp of the frequency in [mohammadpour_2015 (4)] and [mohammadpour_2015 (25)] [Hz].
     hysteretic_loss : float
-        Coefficient of eq. (4) [-].
+        Coefficient of [mohammadpour_2015 (4)] [-].
 
     References
     ----------
-    Mohammadpour et al. 2015, Tables 1, A1-A4.
+    [mohammadpour_2015 Table 1] and its Tables A1 to A4.
     """
 
     mesh: MeshTable
-    bearing: TaperedRollerBearing
+    bearing: Bearing
     oil: Lubricant
     solid: Solid
     pinion_inertia: float
@@ -131,14 +134,14 @@ class HypoidAxleParameters:
 
     @property
     def equivalent_mass(self) -> float:
-        """Mass of the torsional mesh mode [kg], Karagiannis et al. 2012 eq. (30)."""
+        """Mass of the torsional mesh mode [kg], [karagiannis_2012 (30)]."""
         R_p = self.mesh.mean("R_p", 0.0)
         R_g = R_p * self.mesh.ratio
         return 1.0 / (R_p**2 / self.pinion_inertia + R_g**2 / self.gear_inertia)
 
     @property
     def modal_damping(self) -> float:
-        """Coefficient c of the modal option [N s/m], zero for eq. (4)."""
+        """Coefficient c of the modal option [N s/m], zero for [mohammadpour_2015 (4)]."""
         if self.mesh_damping == "hysteretic":
             return 0.0
         stiffness = self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
@@ -206,7 +209,7 @@ def mohammadpour_2015_axle(
     oil : str
         Name in the lubricant library.
     bearing_approach : {"full", "as_printed"}
-        Eq. (26) with the full approach, or halved as printed.
+        [mohammadpour_2015 (26)] with the full approach, or halved as printed.
 
     See `HypoidAxleParameters` for the other parameters and for the errors.
     """
@@ -220,7 +223,7 @@ def mohammadpour_2015_axle(
         "Preload cannot pull; give 0 N for line-to-line bearings.",
     )
     return HypoidAxleParameters(
-        mesh=mesh or MeshTable.named("mohammadpour_2015"),
+        mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
         bearing=TaperedRollerBearing.mohammadpour_2015(approach=bearing_approach).with_preload(
             bearing_preload
         ),

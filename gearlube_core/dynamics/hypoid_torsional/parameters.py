@@ -15,6 +15,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     TWO_DOF,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -37,7 +38,7 @@ FRICTION_FORMS = {
     "evans_johnson": EVANS_JOHNSON,
     "thermal_eyring": THERMAL_EYRING,
 }
-KARAGIANNIS_DAMPING = 2278.1  # N s/m, Karagiannis et al. 2012 Table 1
+KARAGIANNIS_DAMPING = 2278.1  # N s/m, [karagiannis_2012 Table 1]
 KARAGIANNIS_DAMPING_RATIO = 0.03  # [-], ditto
 
 
@@ -95,7 +96,7 @@ class HypoidTorsionalParameters:
 
     References
     ----------
-    Karagiannis et al. 2012, eq. (1)-(6), (31), (32), Tables 1 and 2.
+    [karagiannis_2012 Table 1] [karagiannis_2012 Table 2]
     """
 
     mesh: MeshTable
@@ -174,9 +175,10 @@ def karagiannis_2012_pair(mesh: MeshTable | None = None) -> HypoidTorsionalParam
 
     Notes
     -----
-    The paper has results at 50 N.m, at 40 and 100 degC, and a torque ripple of 0.1 in eq. (31); 20
-    to 250 N.m is a car's range. It prints no inertias; those of the same gear pair in Mohammadpour
-    et al. 2015, Table 1, are used. Its normal backlash of 150 um is the total.
+    The paper has results at 50 N.m, at 40 and 100 degC, and a torque ripple of 0.1 in
+    [karagiannis_2012 (31)]; 20 to 250 N.m is a car's range. It prints no inertias; those of the
+    same gear pair in [mohammadpour_2015 Table 1] are used. Its normal backlash of 150 um is the
+    total.
 
     Examples
     --------
@@ -186,7 +188,7 @@ def karagiannis_2012_pair(mesh: MeshTable | None = None) -> HypoidTorsionalParam
     50.0
     """
     return HypoidTorsionalParameters(
-        mesh=mesh or MeshTable.named("mohammadpour_2015"),
+        mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
         pinion_inertia=1734e-6,
         gear_inertia=5.81e-2,
         pinion_torque=50.0,

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.point.settings import PointSolverSettings
@@ -34,16 +32,13 @@ COLUMNS = (
 
 
 def _row(step: int, solution: FilmSolution) -> list[float]:
-    i = np.unravel_index(int(solution.pressure.argmax()), solution.pressure.shape)
-    j = np.unravel_index(int(solution.film.argmin()), solution.film.shape)
     return [
         float(step),
         solution.load,
         solution.maximum_pressure,
-        float(solution.y[i[1]]),
+        solution.maximum_pressure_place[1],
         solution.minimum_film,
-        float(solution.x[j[0]]),
-        float(solution.y[j[1]]),
+        *solution.minimum_film_place,
         solution.loaded_length,
         solution.load_error,
         float(solution.converged),

@@ -139,15 +139,13 @@ def march_flank(
 
 def _row(film: HypoidFilm, solution: FilmSolution, beta: float) -> list[float]:
     now = film.cycle.at(solution.time)
-    thinnest = np.unravel_index(int(solution.film.argmin()), solution.film.shape)
     traction = flank_traction(solution, film.lubricant, now.sliding, beta)
     return [
         solution.time,
         solution.load,
         central_film(solution),
         solution.minimum_film,
-        float(solution.x[thinnest[0]]),
-        float(solution.y[thinnest[1]]),
+        *solution.minimum_film_place,
         solution.maximum_pressure,
         *traction,
         solution.load_error,

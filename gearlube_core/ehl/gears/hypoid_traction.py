@@ -44,7 +44,7 @@ def heated_stress(
 
     Notes
     -----
-    Source: Johnson and Greenwood 1980; Houpert 1985 for beta(p).
+    Source: [johnson_greenwood_1980]; [houpert_1985] for beta(p).
     """
     tau = np.zeros(p.size)
     reduced = math.log(oil.eta0) + ROELANDS_LOG_VISCOSITY

@@ -35,7 +35,7 @@ class SolidContact:
     -----
     What both solids press on each other is p = p_f + p_s: it bends them and carries the load.
     The oil has p_f alone: it flows by p_f and has the viscosity and density of p_f, as in the
-    mean flow between asperities (Patir and Cheng 1978; Hu and Zhu 2000). So neither balance knows
+    mean flow between asperities ([patir_cheng_1978]; [hu_zhu_2000]). So neither balance knows
     that the solids touch: mass and load stay balanced. Where oil has no pressure left p = p_s.
 
     Greenwood and Tripp's asperities carry a bounded pressure at h = 0, less than a loaded tooth

@@ -66,7 +66,7 @@ class HelicalPairModel(SteppedModel[StepControl]):
 
     References
     ----------
-    He et al. 2007.
+    [he_2007]
     """
 
     def __init__(self, parameters: HelicalMarchParameters) -> None:
