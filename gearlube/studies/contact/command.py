@@ -12,7 +12,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from gearlube.cli.exit_codes import told
+from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import JobsOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.spread_values import SpreadingCommand
@@ -87,7 +87,7 @@ def contact(
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
     began = time.monotonic()
-    with told(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
+    with exit_on_error(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
         file = HypoidGearFile.given(gear)
         usual = QUICK if quick else ContactSettings()
         cycle = replace(

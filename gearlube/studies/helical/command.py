@@ -13,7 +13,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from gearlube.cli.exit_codes import FAILED, INTERRUPTED, told
+from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
 from gearlube.cli.options import (
     HelicalGearArgument,
     JobsOption,
@@ -120,7 +120,7 @@ def helical(
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     began = time.monotonic()
-    with told(f"Stopped while results were written; {out} may be incomplete."):
+    with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
         file = HelicalGearFile.given(gear)
         if jobs is not None:
             check_within("--jobs", jobs, 1, 1024)

@@ -11,7 +11,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from gearlube.cli.exit_codes import INTERRUPTED, told
+from gearlube.cli.exit_codes import INTERRUPTED, exit_on_error
 from gearlube.cli.options import OilTemperatureOption, RoughnessOption
 from gearlube.cli.progress_report import progress_on
 from gearlube_core.checks import check_finite, check_option, check_within
@@ -96,7 +96,7 @@ def resonance(
     from gearlube.studies.resonance.summary import summaries
 
     began = time.monotonic()
-    with told(f"Stopped while results were written; {out} may be incomplete."):
+    with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
         first, last = _range(frequency_range)
         check_option("--radii", radii, _RADII)
         check_option("--friction", friction, _FRICTION)
