@@ -66,8 +66,16 @@ from gearlube.studies.resonance.run import run_resonance as run_resonance
 # -- Study: lubricated films
 from gearlube_core.ehl.case.contact_case import LineCase as LineCase
 from gearlube_core.ehl.case.contact_case import PointCase as PointCase
+from gearlube_core.ehl.case.hypoid_case import HypoidCase as HypoidCase
+from gearlube.studies.films.helical_case import HelicalLineCase as HelicalLineCase
 from gearlube.studies.films.run_steady import run_line as run_line
 from gearlube.studies.films.run_steady import run_point as run_point
+from gearlube.studies.films.run_steady import run_helical_line as run_helical_line
+from gearlube.studies.films.run_march import MarchSteps as MarchSteps
+from gearlube.studies.films.run_march import run_helical_march as run_helical_march
+from gearlube.studies.films.run_hypoid import run_hypoid as run_hypoid
+from gearlube.studies.films.compare import compare_marches as compare_marches
+from gearlube.studies.films.results import write_film_results as write_film_results
 
 # -- Study: vehicle speed sweep
 from gearlube.studies.sweep.settings import SweepSettings as SweepSettings
