@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from docs.ehl.cases import Array
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.storage.atomic_file import whole_file
 
 COLUMNS = (

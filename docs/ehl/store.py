@@ -15,8 +15,8 @@ from docs.ehl.lines import Lines, March, write_arrays
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.ehl.transient.record import MarchRecord
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ConvergenceError
 
 logger = logging.getLogger("docs.ehl")

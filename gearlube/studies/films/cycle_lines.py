@@ -14,7 +14,7 @@ from gearlube.studies.films.helical_dataset import helical_dataset
 from gearlube.studies.films.variables import unit_note
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ParameterError
 from gearlube_core.storage.atomic_file import whole_file
 

@@ -18,7 +18,7 @@ from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.gears.hypoid_cycle import march_flank, steady_films
 from gearlube_core.ehl.gears.hypoid_thermal import thermal_films
 from gearlube_core.ehl.transient.curves import FilmCurves
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.houpert_1985 import houpert_parameters
 from gearlube_core.storage.atomic_file import write_dataset, write_text

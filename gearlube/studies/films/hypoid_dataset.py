@@ -12,7 +12,7 @@ from gearlube.studies.films.hypoid_case import HypoidFlank
 from gearlube.studies.films.hypoid_formulas import flank_formulas
 from gearlube.studies.films.variables import unit_note
 from gearlube_core.ehl.transient.curves import FilmCurves
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 
 _FILM_NOTES = {
     "load": ("N", "load that the pressure carries"),

@@ -18,8 +18,8 @@ from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
-from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.storage.atomic_file import write_dataset
 
 logger = logging.getLogger("gearlube")

@@ -10,7 +10,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curves
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
 
 COLUMNS = (

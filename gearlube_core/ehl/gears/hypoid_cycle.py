@@ -12,8 +12,8 @@ from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_traction import flank_traction
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curves
-from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
 
 COLUMNS = (

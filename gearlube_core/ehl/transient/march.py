@@ -11,23 +11,19 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.point.cavitation import refuse_rupture
-from gearlube_core.ehl.point.nest import bordered
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.start.nested import bordered
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
-from gearlube_core.ehl.transient.film import (
-    FilmSolution,
-    MovingFilm,
-    film_solution,
-    impose,
-    pack_solutions,
-)
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.newton import KeptCycle, step_newton
+from gearlube_core.ehl.transient.problem import MovingFilm, impose
 from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.rows import RowCycle
+from gearlube_core.ehl.transient.solution import FilmSolution, film_solution, pack_solutions
 from gearlube_core.ehl.transient.steady import steady_state
 from gearlube_core.errors import ConvergenceError, ParameterError
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
 from gearlube_core.ehl.point.newton.newton import flow_residual
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection

@@ -8,17 +8,19 @@ from dataclasses import replace
 import numpy as np
 
 from gearlube_core.ehl.point.cavitation import refuse_rupture
-from gearlube_core.ehl.point.continuation import solve_level
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
-from gearlube_core.ehl.point.nest import COARSE_TOLERANCE, bordered, carried
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.problem import expected_film
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.start.continuation import solve_level
+from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, bordered, carried
 from gearlube_core.ehl.point.terms.state import FilmState
-from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm, film_solution, impose
 from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.problem import MovingFilm, impose
 from gearlube_core.ehl.transient.rows import RowCycle
+from gearlube_core.ehl.transient.solution import FilmSolution, film_solution
 from gearlube_core.errors import ConvergenceError
 
 

@@ -10,8 +10,9 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
 
