@@ -16,7 +16,7 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointOutcome, PointSolution
 from gearlube_core.ehl.point.start.continuation import solve_level
-from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, bordered, carried
+from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, interpolated_state, zero_border
 from gearlube_core.ehl.point.start.starvation import Starvation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ConvergenceError
@@ -33,7 +33,7 @@ def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     a_x = max(math.sqrt(a_x**2 + problem.hertz.R_x * film), 2.5 * (x[1] - x[0]))
     a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
     ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
-    pressure = bordered(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
+    pressure = zero_border(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
     pressure *= level.load / level.grid.integral(pressure)
     return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
 
@@ -70,7 +70,7 @@ def solve_point_contact(
     -----
     Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
     flexible GMRES with a multigrid cycle of line solutions; start on nested grids from the dry
-    contact. Mass-conserving cavitation keeps these unknowns: what broken film holds follows from
+    contact. Mass-conserving cavitation keeps these unknowns: the oil in ruptured film follows from
     them, node after node downstream. References: Venner and Lubrecht 2000 for the equations and
     the hybrid relaxation; Saad 1993 for GMRES.
     """
@@ -96,8 +96,8 @@ def nested_film(
     for k in range(count):
         part = hierarchy.below(k + 1)
         if k:
-            pressure = bordered(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
-            state = carried(part.levels[-1], pressure, state)
+            pressure = zero_border(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
+            state = interpolated_state(part.levels[-1], pressure, state)
         last = k == count - 1
         tolerance = settings.tolerance if last else COARSE_TOLERANCE
         if starved is not None:

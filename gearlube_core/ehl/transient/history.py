@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.start.nested import bordered
+from gearlube_core.ehl.point.start.nested import zero_border
 from gearlube_core.ehl.point.terms.state import FilmState
 
 
@@ -50,4 +50,4 @@ class FilmHistory:
             np.maximum(state.pressure + self.rise[0], 0.5 * state.pressure),
             0.0,
         )
-        return bordered(pressure), state.approach + self.rise[1]
+        return zero_border(pressure), state.approach + self.rise[1]

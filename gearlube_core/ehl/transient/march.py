@@ -19,8 +19,8 @@ from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.history import FilmHistory
 from gearlube_core.ehl.transient.level import MovingLevel
-from gearlube_core.ehl.transient.newton import KeptCycle, step_newton
-from gearlube_core.ehl.transient.problem import MovingFilm, impose
+from gearlube_core.ehl.transient.newton import LaggedPreconditioner, step_newton
+from gearlube_core.ehl.transient.problem import MovingFilm, set_conditions
 from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.rows import RowCycle
 from gearlube_core.ehl.transient.solution import FilmSolution, film_solution, pack_solutions
@@ -97,10 +97,10 @@ class FilmMarch:
         assert isinstance(level, MovingLevel)
         self._level = level
         self._unit = time_step * level.scales.speed / level.scales.length
-        self._kept = KeptCycle(self._grids, RowCycle if film.long else _multigrid)
+        self._lagged = LaggedPreconditioner(self._grids, RowCycle if film.long else _multigrid)
         begin = clock.perf_counter()
         if record is None:
-            impose(film, self._grids, start_time)
+            set_conditions(film, self._grids, start_time)
             state, work = self._steady()
             self._past = FilmHistory(
                 state, state.mass, state.mass, level.terms.storage.inflow(state), None
@@ -134,14 +134,14 @@ class FilmMarch:
         level, past = self._level, self._past
         begin = clock.perf_counter()
         self.steps += 1
-        impose(self.film, self._grids, self.time, finest_only=True)
+        set_conditions(self.film, self._grids, self.time, finest_only=True)
         self._set_storage()
         level.hold_ambient_above(
             level.film(past.state.pressure, past.state.approach), self.film.open_film
         )
         state, record = self._attempt(self._predicted())
         if not record.converged:
-            self._kept.forget()
+            self._lagged.clear()
             again, second = self._attempt(level.state(past.state.pressure, past.state.approach))
             second.newton_steps += record.newton_steps
             second.krylov_steps += record.krylov_steps
@@ -202,7 +202,7 @@ class FilmMarch:
             kept_values=kept_values,
         ).write(path)
         # what goes on and what is read again start from the same preconditioner: none
-        self._kept.forget()
+        self._lagged.clear()
 
     def _resume(self, record: MarchRecord) -> None:
         level = self._level
@@ -227,7 +227,7 @@ class FilmMarch:
                 "Start anew, or take the grading that it was made with."
             )
         self.steps = record.steps
-        impose(self.film, self._grids, self.time)
+        set_conditions(self.film, self._grids, self.time)
         state = level.state(record.pressure, record.approach)
         state.residual = np.zeros(level.shape)  # it was solved with storage
         rise = (record.rise, record.approach_rise) if record.steps else None
@@ -235,7 +235,7 @@ class FilmMarch:
 
     def _steady(self) -> tuple[FilmState, NewtonRecord]:
         grids = self.film.grids(self.settings.wedge)
-        impose(self.film, grids, self.start_time)
+        set_conditions(self.film, grids, self.start_time)
         state, work = steady_state(self.film, grids, self.settings)
         finest = grids.levels[-1]
         assert isinstance(finest, MovingLevel)
@@ -258,13 +258,13 @@ class FilmMarch:
         rate = parts / self._unit
         for left in reversed(range(parts)):
             time = self.time - left * self.time_step / parts
-            impose(self.film, self._grids, time, finest_only=True)
+            set_conditions(self.film, self._grids, time, finest_only=True)
             level.set_storage(rate, rate * mass)
             film = level.film(state.pressure, state.approach)
             level.hold_ambient_above(film, self.film.open_film)
             state, record = self._attempt(level.state(state.pressure, state.approach))
             if not record.converged:
-                impose(self.film, self._grids, self.time, finest_only=True)
+                set_conditions(self.film, self._grids, self.time, finest_only=True)
                 self._set_storage()
                 return None
             mass = state.mass
@@ -279,7 +279,7 @@ class FilmMarch:
         if lowest < least:
             begin = self._level.state(begin.pressure, begin.approach + least - lowest)
         return step_newton(
-            self._kept,
+            self._lagged,
             begin,
             tolerance=self.settings.tolerance,
             load_tolerance=self.settings.load_tolerance,

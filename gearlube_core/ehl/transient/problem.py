@@ -147,7 +147,9 @@ class MovingFilm:
         return Hierarchy(levels, transfers)
 
 
-def impose(film: MovingFilm, grids: Hierarchy, time: float, finest_only: bool = False) -> None:
+def set_conditions(
+    film: MovingFilm, grids: Hierarchy, time: float, finest_only: bool = False
+) -> None:
     """Set the conditions of a time [s] on all grids, or their load alone on all but the finest."""
     finest = grids.levels[-1]
     for level in grids.levels:

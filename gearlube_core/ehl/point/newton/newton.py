@@ -38,7 +38,7 @@ class NewtonRecord:
     converged: bool = False
     residuals: list[float] = field(default_factory=list)
     krylov: int = 0
-    first_order: bool = False  # the answer of upwind-1, where the chosen stencil found none
+    first_order: bool = False  # the solution of upwind-1: the chosen stencil found none
 
     def fallen_back(self, wedge: str) -> str:
         """Return a sentence where upwind-1 stands in for the stencil `wedge`, else nothing."""
