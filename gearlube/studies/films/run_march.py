@@ -20,8 +20,8 @@ from gearlube.studies.films.results import finished, step_file, write_film_resul
 from gearlube.studies.films.run_steady import warn_of_ends
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
-from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
