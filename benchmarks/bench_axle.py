@@ -25,7 +25,7 @@ from scipy.integrate import solve_ivp
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
@@ -73,31 +73,29 @@ def _repeat(
     count: int,
     s: Array,
     inputs: Any,
-    series: Array,
-    orders: int,
-    window: Array,
-    nodes: int,
+    mesh: MeshAtLoad,
     oil: Any,
     p: Any,
     both: tuple[float, float],
     scratch: Array,
     ds: Array,
 ) -> None:
-    axle_rhs(s, inputs, series, orders, window, nodes, oil, p, 1.0, 1.0, scratch, ds)
+    axle_rhs(s, inputs, mesh, oil, p, 1.0, 1.0, scratch, ds)
     for _ in range(count):
         s[PHI_P] += 1e-4
-        axle_rhs(s, inputs, series, orders, window, nodes, oil, p, both[0], both[1], scratch, ds)
+        axle_rhs(s, inputs, mesh, oil, p, both[0], both[1], scratch, ds)
 
 
 def right_hand_side(axle: HypoidAxle) -> tuple[Any, ...]:
     """Arguments of axle_rhs from the state up to the parameters."""
     mesh, p, s = axle.packed, axle.kernel_parameters, axle.get_state()[:N_STATE]
     oil = lubricant_state(p.oil, INPUTS[2])
+    table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
     series, window = np.zeros(mesh.series_size), np.zeros(mesh.window_size)
-    table = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
-    blend_mesh(s[LOAD_TORQUE], s[SIDE], *table, series, window)
+    at_load = MeshAtLoad(series, mesh.orders, window, mesh.nodes)
+    blend_mesh(s[LOAD_TORQUE], s[SIDE], table, at_load)
     inputs = step_inputs(s, INPUTS[0], INPUTS[1], oil, p)
-    return s, inputs, series, mesh.orders, window, mesh.nodes, oil, p
+    return s, inputs, at_load, oil, p
 
 
 def _median(benchmark: BenchmarkFixture) -> float:

@@ -19,11 +19,12 @@ from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_conta
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_contact.gap_map import gap_map
-from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition, PairStiffness
-from gearlube_core.hypoid_contact.member_compliance import pair_stiffness
+from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
+from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
 _LOGGER = logging.getLogger("bench_contact")
 FILE = HypoidGearFile.named("mohammadpour_2015")

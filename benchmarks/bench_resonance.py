@@ -12,6 +12,7 @@ import math
 import statistics
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -36,7 +37,7 @@ SAMPLES = 128
 
 
 def problem(form: Form, steps: int = STEPS) -> PeriodProblem:
-    return PeriodProblem(karagiannis_2012_pair(form=form), steps_per_mesh_period=steps)
+    return PeriodProblem(replace(karagiannis_2012_pair(), form=form), steps_per_mesh_period=steps)
 
 
 def speed_at(of: PeriodProblem, relative: float) -> float:

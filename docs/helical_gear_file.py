@@ -17,6 +17,7 @@ SECTIONS = {
     "pinion.bearing_1": "[pinion.bearing_1], [pinion.bearing_2], and of the gear",
     "damping": "[damping]",
     "operation": "[operation]: torque and speed where none are asked for",
+    "meshing_steps": "[meshing_steps]: the source's steps of a contact line",
     "oil": "[oil]: of the source, for films",
     "film_mesh": "[film_mesh]: nodes of films",
 }

@@ -1,1 +1,1 @@
-"""Vehicle and driveline around the axle, co-simulation, speed sweeps and their figures."""
+"""Vehicle, tyre, engine, drivers and driveline around the axle."""

@@ -76,7 +76,7 @@ class SpeedHold:
         K_I [N m/rad]; by default K^2 / (4 I), which is critical damping for the inertia I of the
         whole axle at the pinion.
     axle_inertia : float, optional
-        I [kg m2]; by default that of Mohammadpour et al. 2015 Table 1.
+        I [kg m2]; by default that of [mohammadpour_2015 Table 1].
     start_factor : float
         By which the loop is faster at the start, so that it learns the axle's losses before a
         record begins [-]: K times f, K_I times f squared with f = 3 / (w t), at most this factor
@@ -91,7 +91,7 @@ class SpeedHold:
 
     References
     ----------
-    Mohammadpour et al. 2015 eq. (6)-(9), which give no speed control.
+    [mohammadpour_2015 (7)] [mohammadpour_2015 (9)]; the paper gives no speed control.
     """
 
     def __init__(

@@ -21,7 +21,7 @@ class FinalDrive:
     Parameters
     ----------
     pinion_teeth, gear_teeth : int
-        13 and 36 in Mohammadpour et al. 2015, Table A1.
+        13 and 36 in [mohammadpour_2015 Table A1].
     """
 
     pinion_teeth: int = 13
@@ -57,7 +57,7 @@ class RoadLoad:
 
     References
     ----------
-    Mohammadpour et al. 2015 eq. (7), (8), (9).
+    [mohammadpour_2015 (7)], [mohammadpour_2015 (8)], [mohammadpour_2015 (9)].
     """
 
     vehicle: Vehicle
@@ -89,7 +89,7 @@ class RoadLoad:
 
         Notes
         -----
-        Mohammadpour et al. 2015 eq. (9) has the ratio of the contact radii Rp/Rg. The ratio of the
+        [mohammadpour_2015 (9)] has the ratio of the contact radii Rp/Rg. The ratio of the
         tooth numbers is used here: it alone balances the power of a lossless axle. The two differ
         by less than 0.1 % for this gear pair (21.1 mm / 58.4 mm against 13/36).
         """

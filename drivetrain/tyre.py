@@ -35,7 +35,7 @@ class Tyre:
     Notes
     -----
     Mohammadpour et al. 2015 name the tyre (Table A3: 195/65R16) and use "the laden dynamic tyre
-    radius" in eq. (7) without its value.
+    radius" in [mohammadpour_2015 (7)] without its value.
     """
 
     unladen_radius: float

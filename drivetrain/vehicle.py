@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from gearlube_core.checks import check_within
 
-STANDARD_GRAVITY = 9.80665  # m/s2, conventional value of the 3rd CGPM (1901)
+STANDARD_GRAVITY = 9.80665  # m/s2, [cgpm_1901]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,7 +51,7 @@ class Vehicle:
 
     @property
     def rolling_resistance(self) -> float:
-        """R_rl = f_rl m g cos(slope) [N] (Mohammadpour et al. 2015 eq. (8))."""
+        """R_rl = f_rl m g cos(slope) [N] ([mohammadpour_2015 (8)])."""
         normal = self.mass * self.gravity * math.cos(math.atan(self.grade))
         return self.rolling_coefficient * normal
 
@@ -62,17 +62,17 @@ class Vehicle:
 
     @property
     def drag_area(self) -> float:
-        """Air resistance over V^2: rho/2 C_D A_f [N s2/m2] (Mohammadpour et al. 2015 eq. (8))."""
+        """Air resistance over V^2: rho/2 C_D A_f [N s2/m2] ([mohammadpour_2015 (8)])."""
         return 0.5 * self.air_density * self.drag_coefficient * self.frontal_area
 
 
 def mohammadpour_2015_vehicle(grade: float = 0.0) -> Vehicle:
-    """Return the vehicle of Mohammadpour et al. 2015, Table A3.
+    """Return the vehicle of [mohammadpour_2015 Table A3].
 
     Notes
     -----
-    The table gives a "vehicle weight" of 1300 kg; it is the mass, and the weight W of eq. (8)
-    is m g. Grade zero is the flat road of the paper.
+    The table gives a "vehicle weight" of 1300 kg; it is the mass, and the weight W of
+    [mohammadpour_2015 (8)] is m g. Grade zero is the flat road of the paper.
     """
     return Vehicle(
         mass=1300.0,

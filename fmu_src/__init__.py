@@ -1,1 +1,1 @@
-"""FMI layer: variable table, model description, slaves, builder and the command line."""
+"""FMI layer: the table of variables, model descriptions, slaves and builders."""

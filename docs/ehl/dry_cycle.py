@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from docs.ehl.cases import FilmCase
-from docs.ehl.lines import write_arrays
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
+from gearlube_core.storage.atomic_file import write_arrays
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,6 +43,6 @@ def dry_cycle(folder: Path, case: FilmCase, every: int = 25) -> DryCycle:
                 tolerance=1e-4,
             )  # fmt: skip
             rows.append(dry.pressure.max(axis=0))
-        write_arrays(path, {"step": steps, "y": y, "pressure": np.array(rows)})
+        write_arrays(path, {"step": steps, "y": y, "pressure": np.array(rows)}, compress=True)
     with np.load(path) as data:
         return DryCycle(step=data["step"], y=data["y"], pressure=data["pressure"])

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from docs.ehl.cases import CYCLE, FACETED, FilmCase
-from docs.ehl.lines import write_arrays
 from docs.ehl.store import SETTINGS, MissingFilmError, Store
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
+from gearlube_core.storage.atomic_file import write_arrays
 
 METHODS = ("differences", "elements")
 GRIDS = (CYCLE, FACETED)
@@ -52,6 +52,6 @@ def discretised(store: Store, nodes: tuple[int, int]) -> dict[str, tuple[Array, 
             )
             found = solve_point_contact(_problem(nodes), settings)
             arrays |= {f"{method}_pressure": found.pressure, f"{method}_film": found.film}
-        write_arrays(path, arrays)
+        write_arrays(path, arrays, compress=True)
     with np.load(path) as data:
         return {m: (data[f"{m}_pressure"], data[f"{m}_film"]) for m in METHODS}

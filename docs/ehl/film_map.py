@@ -15,7 +15,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 from docs.ehl.store import Store
-from gearlube.studies.films.formulas import point_film_formulas
+from gearlube.studies.films.film_formulas import point_film_formulas
 from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
 from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.transient.film import FilmSolution
-from gearlube_core.storage.atomic_file import whole_file
+from gearlube_core.ehl.transient.solution import FilmSolution
+from gearlube_core.storage.atomic_file import write_arrays
 
 COLUMNS = (
     "number", "max_pressure", "max_pressure_y", "min_film", "min_film_y", "load_error",
@@ -20,12 +20,6 @@ COLUMNS = (
 
 class GivenUpError(Exception):
     """A march was given up before the step that is asked for."""
-
-
-def write_arrays(path: Path, arrays: dict[str, Any]) -> None:
-    """Write arrays to a file that is either whole or not there."""
-    with whole_file(path) as partial, partial.open("wb") as stream:
-        np.savez_compressed(stream, **arrays)
 
 
 @dataclass(slots=True)
@@ -79,7 +73,7 @@ class Lines:
 
     def write(self, path: Path) -> None:
         """Write the steps so far."""
-        write_arrays(path, self.arrays())
+        write_arrays(path, self.arrays(), compress=True)
 
     @classmethod
     def read(cls, path: Path) -> Lines:

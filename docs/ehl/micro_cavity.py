@@ -14,15 +14,15 @@ from typing import Any
 
 import numpy as np
 
-from docs.ehl.lines import write_arrays
 from docs.ehl.store import MissingFilmError, Store
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import EllipticParaboloid
-from gearlube_core.ehl.transient.film import MovingFilm
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.oil.film_oil_data import film_oil
+from gearlube_core.storage.atomic_file import write_arrays
 
 logger = logging.getLogger("docs.ehl")
 
@@ -159,7 +159,9 @@ def kept_passage(store: Store, case: CavityCase, nodes: tuple[int, int]) -> Pass
             raise MissingFilmError(path.stem)
         logger.info("cavity, %s", case.name)
         found = march(case, nodes)
-        write_arrays(path, {name: getattr(found, name) for name in Passage.__slots__})
+        write_arrays(
+            path, {name: getattr(found, name) for name in Passage.__slots__}, compress=True
+        )
     with np.load(path) as data:
         values: dict[str, Any] = {name: data[name] for name in data.files}
     values["failures"], values["seconds"] = int(values["failures"]), float(values["seconds"])

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from docs.ehl.claims import MISSING, MM, UM
-from docs.ehl.lines import write_arrays
 from docs.ehl.store import MissingFilmError, Store
 from docs.helical.pages import table
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.storage.atomic_file import write_arrays
 
 FIRST, LAST = 470, 490  # steps of design A; the contact is crossed in 17
 _COLUMNS = ("steady", "moving", "x", "y", "failures")
@@ -72,7 +72,7 @@ def thinnest(store: Store, variant: Variant) -> Thinnest:
         )
         film, x, y = (cycle[name] for name in ("minimum_film", "minimum_film_x", "minimum_film_y"))
         values = (film[0], film[-1], x[-1], y[-1], cycle.failures)
-        write_arrays(path, dict(zip(_COLUMNS, map(np.asarray, values), strict=True)))
+        write_arrays(path, dict(zip(_COLUMNS, map(np.asarray, values), strict=True)), compress=True)
     with np.load(path) as data:
         steady, moving, x, y, failures = (float(data[name]) for name in _COLUMNS)
     return Thinnest(steady, moving, x, y, int(failures))

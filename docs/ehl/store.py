@@ -11,14 +11,15 @@ from typing import Any
 import numpy as np
 
 from docs.ehl.cases import STEPS, FilmCase
-from docs.ehl.lines import Lines, March, write_arrays
+from docs.ehl.lines import Lines, March
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.ehl.transient.record import MarchRecord
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ConvergenceError
+from gearlube_core.storage.atomic_file import write_arrays
 
 logger = logging.getLogger("docs.ehl")
 
@@ -111,7 +112,7 @@ class Store:
         path = self.folder / f"steady_{case.name}_at{step:g}.npz"
         if self._lacks(path):
             logger.info("steady film %s, step %g", case.name, step)
-            write_arrays(path, _solve_steady(case, step))
+            write_arrays(path, _solve_steady(case, step), compress=True)
         with np.load(path) as data:
             values: dict[str, Any] = {name: data[name] for name in data.files}
         for name in _NUMBERS:
@@ -130,7 +131,7 @@ class Store:
         path = self.folder / f"{name}.npz"
         if self._lacks(path):
             logger.info("march %s, steps %d to %d", case.name, first, last)
-            write_arrays(path, self._march(case, first, last, keep, name))
+            write_arrays(path, self._march(case, first, last, keep, name), compress=True)
             for part in self.folder.glob(f"{name}.*part.npz"):
                 part.unlink()
         return March.read(path)

@@ -12,11 +12,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import xarray as xr
-from rich.console import Console
 
 from docs.ehl_hypoid.grid import grid_sentence
-from gearlube.studies.films.hypoid_console import console_hypoid
-from gearlube.studies.films.hypoid_summary import RatioRow, ratio_rows
+from gearlube.studies.films.hypoid.summary import RatioRow, ratio_rows
+from gearlube.studies.films.run_hypoid import run_hypoid
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -75,7 +74,7 @@ def solved(work: Path, variant: Variant) -> xr.Dataset:
     out = work / variant.name
     if not (out / "hypoid.nc").exists():
         case = CASE.varied(variant.changes) if variant.changes else CASE
-        console_hypoid(Console(stderr=True), case=case, march=variant.march, out=out)
+        run_hypoid(case, march=variant.march, folder=out)
     return xr.load_dataset(out / "hypoid.nc", engine="scipy")
 
 
@@ -85,8 +84,8 @@ def table(rows: list[RatioRow]) -> str:
     for row in rows:
         factor, unit = _UNITS.get(row.unit, (1.0, row.unit))
         numbers = (row.least, row.largest, row.load_weighted_mean)
-        told = " | ".join(f"{factor * value:.3g}" for value in numbers)
-        lines.append(f"| {row.quantity} | {row.source} | {told} | {unit} |")
+        texts = " | ".join(f"{factor * value:.3g}" for value in numbers)
+        lines.append(f"| {row.quantity} | {row.source} | {texts} | {unit} |")
     return "\n".join(lines) + "\n"
 
 

@@ -11,8 +11,8 @@ import xarray as xr
 from docs.helical.cases import HE, LINE_LOAD, SPUR
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_TORQUE
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
+from gearlube_core.helical_contact.line_mesh import line_mesh
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
-from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness

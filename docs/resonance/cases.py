@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -31,9 +31,8 @@ _MOST_POINTS = 450
 def reconstructed(mismatch: float = 0.0, **options: Any) -> HypoidTorsionalParameters:
     """Return the pair with the paper's reconstructed numbers and a ratio mismatch [-]."""
     mesh = options.pop("mesh", {})
-    return karagiannis_2012_pair(
-        mesh=synthetic_mesh(radius_mismatch=mismatch, **mesh), **{"radii": "paper", **options}
-    )
+    pair = karagiannis_2012_pair(synthetic_mesh(radius_mismatch=mismatch, **mesh))
+    return replace(pair, **{"radii": "paper", **options})
 
 
 def equivalent_error(mismatch: float) -> dict[str, tuple[tuple[float, float], ...]]:

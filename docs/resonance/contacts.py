@@ -67,8 +67,11 @@ def contacts(
     ConvergenceError
         No stable motion found from static deflection.
     """
-    parameters = karagiannis_2012_pair(
-        friction="thermal_eyring", oil_temperature=oil_temperature, **{**PRINTED, **options}
+    parameters = replace(
+        karagiannis_2012_pair(),
+        friction="thermal_eyring",
+        oil_temperature=oil_temperature,
+        **{**PRINTED, **options},
     )
     if eyring_stress is not None:
         parameters = replace(parameters, oil=replace(parameters.oil, eyring_stress=eyring_stress))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import pickle
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -79,10 +79,10 @@ def kept(work: Path, name: str, compute: Callable[[], T]) -> T:
 
 def gather(work: Path) -> Evidence:
     """Return the evidence, from the folder `work` where an earlier run left it."""
-    pair = karagiannis_2012_pair
+    pair = karagiannis_2012_pair()
 
     def curve(name: str, **options: str) -> Curve:
-        return kept(work, name, lambda: Curve(respond(name, pair(**options))))  # type: ignore[arg-type]
+        return kept(work, name, lambda: Curve(respond(name, replace(pair, **options))))  # type: ignore[arg-type]
 
     def mismatched(d: float) -> Curve:
         name = f"mismatch_{1e4 * d:g}"

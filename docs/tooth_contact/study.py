@@ -11,7 +11,8 @@ import numpy as np
 import xarray as xr
 
 from fmu_src.build import build_hypoid_axle
-from gearlube.studies.sweep import SweepSettings, run_sweep
+from gearlube.studies.sweep.run import SweepModel, run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core import __version__
 from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
@@ -45,12 +46,12 @@ def axle_sweep(work: Path, name: str, file: HypoidGearFile, dataset: xr.Dataset)
     table = write_mesh_table(contact_table(file, dataset), folder / "mesh_table.nc")
     fmu = build_hypoid_axle(folder, table)
     sweep = run_sweep(
-        fmu,
-        speeds_kmh=list(SPEEDS_KMH),
+        SweepSettings(driver="hold"),
+        speeds_kmh=SPEEDS_KMH,
         preloads=[PRELOAD],
-        settings=SweepSettings(driver="hold"),
+        fmu=fmu,
         out=folder / "sweep",
-        modes=None,
+        model=SweepModel(natural_frequencies=None),
     )
     failed = np.flatnonzero(sweep["status"].values.ravel() != 1)
     if failed.size:

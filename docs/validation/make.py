@@ -16,8 +16,9 @@ import xarray as xr
 
 from docs.validation.claims import CLAIMS, Claim
 from fmu_src.build import build_hypoid_axle
-from gearlube.studies.sweep import SweepSettings, run_sweep
-from gearlube.studies.sweep.report import write_report
+from gearlube.studies.sweep.report import write_sweep_report
+from gearlube.studies.sweep.run import run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
 
 ROOT = Path(__file__).resolve().parents[2]
 PRELOADS = [2500.0, 6000.0]
@@ -56,7 +57,7 @@ The default (consistent equations, coupled to the driveline) shows mesh orders a
 
 def sweep(fmu: Path, folder: Path, speeds: list[float], settings: SweepSettings) -> xr.Dataset:
     """Run or resume one sweep and return its merged results."""
-    results = run_sweep(fmu, speeds_kmh=speeds, preloads=PRELOADS, settings=settings, out=folder)
+    results = run_sweep(settings, speeds_kmh=speeds, preloads=PRELOADS, fmu=fmu, out=folder)
     failed = int((results["status"] != 1).sum())
     if failed:
         raise SystemExit(f"{failed} points failed in {folder}; see its summary.csv")
@@ -117,12 +118,12 @@ def main() -> None:
     text += FIGURES + default_sweep_text(coupled)
     text += (ROOT / "docs" / "validation" / "structural_tests.md").read_text(encoding="utf-8")
     (ROOT / "docs" / "validation.md").write_text(text, encoding="utf-8")
-    write_report(coupled, work / "default")
+    write_sweep_report(coupled, work / "default")
     images = ROOT / "docs" / "images"
     images.mkdir(exist_ok=True)
     for name in PICTURES:
         shutil.copyfile(work / "default" / "figures" / f"{name}.png", images / f"{name}.png")
-    write_report(printed, work / "as_printed")
+    write_sweep_report(printed, work / "as_printed")
     shutil.copyfile(work / "as_printed" / "figures" / "dte_map.png", images / "dte_map_printed.png")
 
 

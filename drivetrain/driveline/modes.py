@@ -60,7 +60,7 @@ def driveline_modes(
     driveline : Driveline
         At its steady state, which sets gear and tyre damping.
     pinion_inertia, gear_inertia : float
-        Of the rigid axle [kg m2]; by default Mohammadpour et al. 2015 Table 1.
+        Of the rigid axle [kg m2]; by default [mohammadpour_2015 Table 1].
 
     Notes
     -----

@@ -13,7 +13,7 @@ from drivetrain.driveline.parameters import DrivelineParameters
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ConvergenceError
 
-# Inertias about the shafts [kg m2], Mohammadpour et al. 2015 Table 1.
+# Inertias about the shafts [kg m2], [mohammadpour_2015 Table 1].
 PINION_INERTIA = 1.734e-3
 GEAR_INERTIA = 5.81e-2
 
@@ -151,7 +151,7 @@ def periodic_deviation(parameters: DrivelineParameters, steady: SteadyState) -> 
 
     Notes
     -----
-    Linear, with a rigid axle of the inertias in Mohammadpour et al. 2015 Table 1. It spares the
+    Linear, with a rigid axle of the inertias in [mohammadpour_2015 Table 1]. It spares the
     start-up transient of the flywheel and of the shafts.
     """
     jacobian = rigid_axle_jacobian(parameters, steady)

@@ -22,7 +22,7 @@ class TorsionalAxle:
     Parameters
     ----------
     pinion_inertia, gear_inertia : float
-        By default Mohammadpour et al. 2015 Table 1 [kg m2].
+        By default [mohammadpour_2015 Table 1] [kg m2].
     mesh_stiffness : float
         Mesh stiffness about the pinion axis k R_p^2 [N m/rad]; infinite for a rigid mesh.
     mesh_damping : float

@@ -9,8 +9,7 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED
-from gearlube_core.errors import GearLubeError, ParameterError, TableError
+from gearlube.cli.exit_codes import exit_on_error
 
 _LOGGER = logging.getLogger("gearlube")
 
@@ -38,14 +37,8 @@ def build_fmu(
     from fmu_src.build import build_models
 
     began = time.monotonic()
-    try:
+    with exit_on_error("Stopped; no FMU was built."):
         out.mkdir(parents=True, exist_ok=True)
         paths = build_models(out, model, mesh_table, gear, line_mesh)
-    except (ParameterError, TableError) as error:
-        _LOGGER.error("%s", error)
-        raise typer.Exit(BAD_ARGUMENT) from None
-    except (GearLubeError, OSError) as error:
-        _LOGGER.error("The FMU was not built: %s", error)
-        raise typer.Exit(FAILED) from None
     built = " and ".join(str(path) for path in paths)
     _LOGGER.info("Built %s in %.1f s.", built, time.monotonic() - began)

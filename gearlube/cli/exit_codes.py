@@ -8,7 +8,12 @@ from contextlib import contextmanager
 
 import typer
 
-from gearlube_core.errors import GearLubeError, ParameterError, TableError
+from gearlube_core.errors import (
+    GearLubeError,
+    InterruptedRunError,
+    ParameterError,
+    TableError,
+)
 
 BAD_ARGUMENT, FAILED, INTERRUPTED = 2, 1, 130
 
@@ -16,12 +21,21 @@ _LOGGER = logging.getLogger("gearlube")
 
 
 @contextmanager
-def told(when_stopped: str) -> Iterator[None]:
-    """Log what ends the command, `when_stopped` for the keyboard, and exit with its code."""
+def exit_on_error(when_stopped: str = "Stopped.") -> Iterator[None]:
+    """Log an error that ends a command, and exit with its code.
+
+    Parameters
+    ----------
+    when_stopped
+        What is logged after Ctrl-C, unless the error itself says what is kept.
+    """
     try:
         yield
     except KeyboardInterrupt:
         _LOGGER.warning("%s", when_stopped)
+        raise typer.Exit(INTERRUPTED) from None
+    except InterruptedRunError as error:
+        _LOGGER.warning("%s", error)
         raise typer.Exit(INTERRUPTED) from None
     except (ParameterError, TableError) as error:
         _LOGGER.error("%s", error)
@@ -29,3 +43,10 @@ def told(when_stopped: str) -> Iterator[None]:
     except (GearLubeError, OSError) as error:
         _LOGGER.error("%s", error)
         raise typer.Exit(FAILED) from None
+
+
+def exit_if_failed(reason: str) -> None:
+    """Log `reason` and exit as failed, unless it is empty."""
+    if reason:
+        _LOGGER.error("%s", reason)
+        raise typer.Exit(FAILED)

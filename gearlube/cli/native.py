@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.exit_codes import told
+from gearlube.cli.exit_codes import exit_on_error
 from gearlube_core.errors import ParameterError
 
 
@@ -26,7 +26,7 @@ def native(
     """Run a program that is not Python so that it can load the FMUs."""
     from fmu_src.native_host import native_environment, shell_lines
 
-    with told("Stopped."):
+    with exit_on_error():
         if not program:
             typer.echo("\n".join(shell_lines()))
             return

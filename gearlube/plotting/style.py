@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-# Okabe and Ito (2008), colours that people with colour vision deficiency tell apart.
+# [okabe_ito_2008], colours that people with colour vision deficiency tell apart.
 BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY = (
     "#0072B2",
     "#D55E00",

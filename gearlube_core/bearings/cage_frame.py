@@ -28,6 +28,11 @@ def approach_terms(
 
     g_i = g0 + s ga + g1 cos b + g2 sin b,  g_i' = s va + v1 cos b + v2 sin b, with b = 2 pi i/N,
     in units of FILM_FLOOR_APPROACH. The rates contain the turning of the cage.
+
+    Notes
+    -----
+    Source: [mohammadpour_2015 (26)] with the full approach; approach_factor 1/2 halves it as
+    printed.
     """
     scale = p.approach_factor / FILM_FLOOR_APPROACH
     radial = scale * p.cos_contact

@@ -7,8 +7,8 @@ import math
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.kernels.jit import kernel
 
-# Tapered roller bearings in an oil bath, Harris and Kotzalas 2007 (f0 = 3 for oil mist, 8 to 10
-# for an oil jet) and the same f1 in ISO/TR 14179-1.
+# Tapered roller bearings in an oil bath, [harris_kotzalas_2007] (f0 = 3 for oil mist, 8 to 10
+# for an oil jet) and the same f1 in [iso_tr_14179_1].
 F0_TAPERED_OIL_BATH = 6.0  # 1
 F1_TAPERED = 4e-4  # 1
 
@@ -50,8 +50,7 @@ def drag_torque(speed: float, axial_load: float, nu: float, p: BearingParameters
 
     References
     ----------
-    Palmgren, Ball and Roller Bearing Engineering (1959); Harris and Kotzalas, Essential Concepts
-    of Bearing Technology (2007); ISO/TR 14179-1.
+    [palmgren_1959]; [harris_kotzalas_2007]; [iso_tr_14179_1]
     """
     viscous = max(_VISCOUS * math.pow(nu * abs(speed), 2.0 / 3.0), _VISCOUS_FLOOR)
     dm = p.mean_diameter

@@ -23,7 +23,7 @@ SIN_TABLE = np.sin(_ANGLES)  # sine likewise
 class BearingParameters(NamedTuple):
     """One roller bearing; the two opposed bearings of a shaft share it.
 
-    Built by `TaperedRollerBearing.parameters`; the kernels take no other form.
+    The floats of `TaperedRollerParameters`, which `TaperedRollerBearing.parameters` builds.
     """
 
     kn: float  # inner race - roller - outer race stiffness [N/m^n]
@@ -33,12 +33,12 @@ class BearingParameters(NamedTuple):
     cos_contact: float  # cosine of the contact angle [-]
     interference: float  # approach at zero displacement and zero film, < 0 clearance [m]
     cage_ratio: float  # cage speed over shaft speed [-]
-    loss: float  # hysteresis coefficient of eq. (25), 0.009 [-]
-    approach_factor: float  # 1 full approach, 0.5 as printed in eq. (26) [-]
+    loss: float  # hysteresis coefficient of [mohammadpour_2015 (25)], 0.009 [-]
+    approach_factor: float  # 1 full approach, 0.5 as printed in [mohammadpour_2015 (26)] [-]
     clip: float  # 1 no tension, 0 as printed [-]
     film_constant: float  # film at the floor load / ((eta0 u)^0.647 alpha^0.46), 0 off
     film_speed_radius: float  # mean entraining speed over shaft speed [m]
-    squeeze: float  # 1 with the squeeze factor of eq. (27), 0 without [-]
+    squeeze: float  # 1 with the squeeze factor of [mohammadpour_2015 (27)], 0 without [-]
     mean_diameter: float  # (bore + outside diameter)/2, for the drag [m]
     f0: float  # viscous factor of the drag [-], 0 off
     f1: float  # load factor of the drag [-], 0 off

@@ -34,7 +34,7 @@ from gearlube_core.film.mostofi_gohar_1983 import (
 from gearlube_core.kernels.inlining import inlined
 from gearlube_core.kernels.jit import kernel
 
-N_LINE = 10.0 / 9.0  # 1, exponent of a line contact, Mohammadpour et al. 2015 eq. (25)
+N_LINE = 10.0 / 9.0  # 1, exponent of a line contact, [mohammadpour_2015 (25)]
 _M_LINE = -LOAD_EXPONENT * N_LINE  # 0.05: the film goes with d^-0.05
 # Coefficients of the reversed Taylor series of x - g - H(x), and of the slope of H.
 _HALF = 0.5 * (1.0 + _M_LINE)
@@ -186,7 +186,7 @@ def roller_response_line(
 
     References
     ----------
-    Mohammadpour et al. 2015 eq. (25)-(27).
+    [mohammadpour_2015 (25)] [mohammadpour_2015 (26)] [mohammadpour_2015 (27)]
     """
     x, y, x_g, slope = roller_approach_line(g, film)
     x_rate = g_rate * x_g

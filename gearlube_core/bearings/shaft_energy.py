@@ -116,13 +116,13 @@ def shaft_bearing_energy(
 
     Notes
     -----
-    With the halved approach of eq. (26) as printed, V is divided by the factor 1/2, so that the
-    forces still have a potential. With a film, V holds at constant speed and oil; a change of
-    these lifts the rollers and does work on the shaft that no term of the model supplies.
+    With the halved approach of [mohammadpour_2015 (26)] as printed, V is divided by the factor 1/2,
+    so that the forces still have a potential. With a film, V holds at constant speed and oil; a
+    change of these lifts the rollers and does work on the shaft that no term of the model supplies.
 
     References
     ----------
-    Mohammadpour et al. 2015 eq. (24)-(27), integrated.
+    [mohammadpour_2015 (25)] integrated over the approach
     """
     return bearing_energy(
         r1, r2, xa, cage_angle, shaft_speed, eta0, alpha, p, 1.0

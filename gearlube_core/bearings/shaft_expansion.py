@@ -31,8 +31,7 @@ from gearlube_core.kernels.jit import kernel
 # layout of an expansion: base approaches and rates (g1, g2, ga, v1, v2, va), sums of the load
 # (w cos b, w sin b, +-w), lost power, symmetric 3 x 3 slopes against approach and against rate
 # and cage angle with its cosine and sine
-BASE, SUMS, LOST, STIFFNESS, DAMPING, CAGE = 0, 6, 9, 10, 16, 22
-N_EXPANSION = 25
+BASE, SUMS, LOST, STIFFNESS, DAMPING, CAGE = 0, 6, 9, 10, 16, 22  # N_EXPANSION floats
 
 _1_6, _1_24, _1_120 = 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0
 
@@ -169,7 +168,7 @@ def expand_shaft_bearings(
     r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p
         As in `shaft_bearing_forces`.
     e : ndarray of shape (N_EXPANSION,)
-        Expansion, for `expanded_shaft_forces`.
+        Expansion, see `bearing_type`, for `expanded_shaft_forces`.
     """
     count = int(p.n_rollers)
     film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)

@@ -54,12 +54,13 @@ def shaft_bearing_forces(
     -----
     The lost power covers the motion of the shaft and of the cage: with the potential V of
     `shaft_bearing_energy` at constant film, dV/dt = -F.v - T_c cage_speed - power, where T_c is
-    `cage_torque`. Printed eq. (24) has no side s; printed eq. (26) halves the displacement, which
-    is the option approach="as_printed". A NaN in any input gives NaN forces.
+    `cage_torque`. Printed [mohammadpour_2015 (24)] has no side s; printed [mohammadpour_2015 (26)]
+    halves the displacement, which is the option approach="as_printed". A NaN in any input gives NaN
+    forces.
 
     References
     ----------
-    Mohammadpour et al. 2015 eq. (24)-(27).
+    [mohammadpour_2015 (24)]; `roller_loads.bearing_forces` has the rollers.
     """
     F1_r1, F1_r2, F1_a, lost_1 = bearing_forces(
         r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p, 1.0

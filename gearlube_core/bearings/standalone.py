@@ -1,6 +1,6 @@
 """A rigid rotor on one roller bearing under a constant radial load.
 
-The stand-alone case of Mohammadpour et al. 2015, Table A2: a mass, a load and a speed that belong
+The stand-alone case of [mohammadpour_2015 Table A2]: a mass, a load and a speed that belong
 to none of the vehicle's shafts.
 """
 
@@ -92,7 +92,8 @@ class RotorOnBearing:
         """Rate at which rollers pass the load, N cage_speed/(2 pi) [Hz].
 
         Also the reference frequency of the hysteresis, in place of the mesh frequency of
-        eq. (25), which this case lacks: rollers are loaded and unloaded at this rate.
+        [mohammadpour_2015 (25)], which this case lacks: rollers are loaded and unloaded at this
+        rate.
         """
         return self.bearing.n_rollers * self.cage_speed / (2.0 * math.pi)
 

@@ -10,9 +10,9 @@ from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.parameters import (
     FILM_FLOOR_APPROACH,
     ROLLERS_MAX,
-    BearingParameters,
 )
 from gearlube_core.bearings.roller_contact import N_LINE
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, pi_contact_modulus
 from gearlube_core.errors import ParameterError
@@ -27,7 +27,7 @@ from gearlube_core.film.mostofi_gohar_1983 import (
 Approach = Literal["full", "as_printed"]
 Film = Literal["squeeze", "steady", "off"]
 
-HYSTERETIC_LOSS = 0.009  # 1, Mohammadpour et al. 2015 eq. (25), after Dietl et al. 2000
+HYSTERETIC_LOSS = 0.009  # 1, [mohammadpour_2015 (25)], after [dietl_2000]
 CONTACT_ANGLE_COMPLETED = math.radians(15.0)  # not in the paper; common for axle bearings
 _LARGEST_FIT = 100e-6  # m
 
@@ -51,11 +51,11 @@ class TaperedRollerBearing:
     contact_angle : float
         L, 0 for a cylindrical roller bearing [rad].
     loss : float
-        Coefficient of the hysteresis in eq. (25) [-].
+        Coefficient of the hysteresis in [mohammadpour_2015 (25)] [-].
     approach : {"full", "as_printed"}
-        "as_printed" halves the displacement in eq. (26) and lets rollers pull.
+        "as_printed" halves the displacement in [mohammadpour_2015 (26)] and lets rollers pull.
     film : {"squeeze", "steady", "off"}
-        Film of eq. (27) with or without its squeeze factor, or dry rollers.
+        Film of [mohammadpour_2015 (27)] with or without its squeeze factor, or dry rollers.
     solid : Solid
         Rollers and races.
     f0, f1 : float
@@ -65,6 +65,12 @@ class TaperedRollerBearing:
     interference : float or None
         Approach of every roller at rest, negative for a clearance [m]. Not with `preload`: the
         two describe the same approach.
+
+    Examples
+    --------
+    >>> bearing = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0)
+    >>> round(bearing.cage_ratio, 4)  # cage speed over shaft speed
+    0.3987
     """
 
     bore_diameter: float
@@ -136,7 +142,7 @@ class TaperedRollerBearing:
         film: Film = "squeeze",
         contact_angle: float = CONTACT_ANGLE_COMPLETED,
     ) -> TaperedRollerBearing:
-        """Return the bearing of Mohammadpour et al. 2015, Table A2, without preload or fit.
+        """Return the bearing of [mohammadpour_2015 Table A2], without preload or fit.
 
         Notes
         -----
@@ -211,7 +217,7 @@ class TaperedRollerBearing:
     def film_constant(self) -> float:
         """Return H at the floor load of the kernels over (eta0 u)^0.647 alpha^0.46 [SI].
 
-        H = r 13.924 W^-0.045 U^0.647 G^0.46 (1 - 0.75), Mohammadpour et al. 2015 eq. (27).
+        H = r 13.924 W^-0.045 U^0.647 G^0.46 (1 - 0.75), [mohammadpour_2015 (27)].
         """
         if self.film == "off":
             return 0.0
@@ -222,10 +228,10 @@ class TaperedRollerBearing:
         rest = (1.0 / (E_r * r)) ** SPEED_EXPONENT * E_r**MATERIAL_EXPONENT
         return float(r * COEFFICIENT * (1.0 - SQUEEZE_SHARE) * load * rest)
 
-    def parameters(self) -> BearingParameters:
+    def parameters(self) -> TaperedRollerParameters:
         """Return the floats for the kernels."""
         angle = self.contact_angle
-        return BearingParameters(
+        return TaperedRollerParameters(
             kn=float(self.stiffness_constant),
             n=float(self.exponent),
             n_rollers=float(self.n_rollers),

@@ -1,1 +1,1 @@
-"""Dry contact: Hertzian ellipses and rough surfaces: kernels and closed forms."""
+"""Dry contact: Hertz, rough surfaces, half-space cells in unilateral contact."""

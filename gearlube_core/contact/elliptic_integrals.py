@@ -28,7 +28,7 @@ def complete_elliptic_k_d(axis_ratio: float) -> tuple[float, float]:
     Notes
     -----
     D is formed without the difference K - E and keeps its digits for a circle, where
-    K = pi/2 and D = pi/4. Source: Abramowitz and Stegun 1964, 17.6.
+    K = pi/2 and D = pi/4. Source: [abramowitz_stegun_1964 sec. 17.6].
     """
     complement = 1.0 - axis_ratio
     a, g = 0.5 * (1.0 + axis_ratio), math.sqrt(axis_ratio)

@@ -30,7 +30,7 @@ def log_curvature_ratio(log_ellipticity: float) -> float:
 
     Notes
     -----
-    Same as [(a/b)^2 E - K] / [K - E] of Johnson 1985 eq. (4.28).
+    Same as [(a/b)^2 E - K] / [K - E] of [johnson_1985 (4.28)].
     """
     K, D = complete_elliptic_k_d(math.exp(-log_ellipticity))
     return math.log((K - D) / D) + 2.0 * log_ellipticity
@@ -55,7 +55,7 @@ def ellipticity(radius_ratio: float) -> float:
     Notes
     -----
     Ratios from 1 to 1e12; larger ones return the ellipse of the limit.
-    Source: Johnson 1985 eq. (4.28).
+    Source: [johnson_1985 (4.28)].
     """
     target = math.log(radius_ratio)
     if target <= 0.0:
@@ -101,7 +101,7 @@ def hertz_coefficients(
     Notes
     -----
     Smooth elastic half-spaces; contact small against both radii.
-    Source: Johnson 1985 sec. 4.2; Hamrock and Brewe 1983 for this arrangement.
+    Source: [johnson_1985 sec. 4.2]; [hamrock_brewe_1983] for this arrangement.
     """
     k = ellipticity(max(R_x, R_y) / min(R_x, R_y))
     K, D = complete_elliptic_k_d(1.0 / k)

@@ -24,7 +24,7 @@ def gear_flanks(sigma: float) -> SurfaceParameters:
 
     Notes
     -----
-    Mohammadpour et al. 2015, text below eq. (17).
+    Mohammadpour et al. 2015, text below [mohammadpour_2015 (17)].
     """
     return SurfaceParameters(sigma, 0.055, 0.001)
 
@@ -84,8 +84,9 @@ def asperity_integrals(film_ratio: float) -> tuple[float, float]:
     Notes
     -----
     Cubic Hermite interpolation of exact values and slopes. The tails dropped at l = 5 are
-    F_2 = 1.93e-8 and F_5/2 = 1.35e-8. Source: Greenwood and Tripp 1971; D is Whittaker's
-    parabolic cylinder function.
+    F_2 = 1.93e-8 and F_5/2 = 1.35e-8. D is Whittaker's parabolic cylinder function.
+    Source: [greenwood_tripp_1971]; in place of the fits [mohammadpour_2015 (18)] and
+    [mohammadpour_2015 (19)].
     """
     if film_ratio >= LAMBDA_MAX:
         return 0.0, 0.0
@@ -126,7 +127,7 @@ def f_2(film_ratio: float) -> float:
     Notes
     -----
     Exact; the difference of the two terms costs three digits at l = 5.
-    Source: Greenwood and Tripp 1971.
+    Source: [greenwood_tripp_1971].
     """
     if film_ratio >= LAMBDA_MAX:
         return 0.0
@@ -176,8 +177,8 @@ def asperity_load(
     Notes
     -----
     Meant for l above about 0.5: elastic asperities with Gaussian heights that do not interact.
-    Mohammadpour et al. 2015 eq. (16) prints E', defined as twice E*, which doubles W_a.
-    Source: Greenwood and Tripp 1971.
+    [mohammadpour_2015 (16)] prints E', defined as twice E*, which doubles W_a.
+    Source: [greenwood_tripp_1971].
     """
     return asperity_load_factor(surface) * contact_modulus * area * f_5_2(film_ratio)
 
@@ -204,6 +205,7 @@ def asperity_area(film_ratio: float, area: float, surface: SurfaceParameters) ->
 
     Notes
     -----
-    Range as `asperity_load`. Source: Greenwood and Tripp 1971; Mohammadpour et al. 2015 eq. (17).
+    Range as `asperity_load`.
+    Source: [greenwood_tripp_1971]; [mohammadpour_2015 (17)] [karagiannis_2012 (22)]
     """
     return asperity_area_factor(surface) * area * f_2(film_ratio)

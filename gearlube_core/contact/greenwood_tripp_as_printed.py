@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gearlube_core.kernels.jit import kernel
 
-LAMBDA_CRITICAL = 3.0  # Mohammadpour et al. 2015, below eq. (19)
+LAMBDA_CRITICAL = 3.0  # Mohammadpour et al. 2015, below [mohammadpour_2015 (19)]
 
 
 @kernel
@@ -26,7 +26,7 @@ def f_5_2_as_printed(film_ratio: float) -> float:
     Notes
     -----
     Three printed decimals are too few: the value at l = 3 is 0.092 (exact 0.00017) and rises
-    from about l = 1.8 on. Source: Mohammadpour et al. 2015 eq. (18). Use `f_5_2`.
+    from about l = 1.8 on. Source: [mohammadpour_2015 (18)]. Use `f_5_2`.
     """
     l = film_ratio  # noqa: E741
     if l > LAMBDA_CRITICAL:
@@ -52,7 +52,7 @@ def f_2_as_printed(film_ratio: float) -> float:
 
     Notes
     -----
-    Source: Mohammadpour et al. 2015 eq. (19). Use `f_2`.
+    Source: [mohammadpour_2015 (19)]. Use `f_2`.
     """
     l = film_ratio  # noqa: E741
     if l > LAMBDA_CRITICAL:

@@ -6,10 +6,10 @@ import math
 from typing import Any
 
 import numpy as np
-import pyfftw
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
+from gearlube_core.contact.fftw import pyfftw
 from gearlube_core.errors import ParameterError
 
 _FAR = 8.0  # longer sides of a cell; there the closed mean and Gauss' rule agree to 1e-8
@@ -111,7 +111,8 @@ def love_coefficients(
     the loaded strip is small against its distance from edges and its radii. `mean` halves the
     error of the approach or better and is positive definite by construction, for a fifth more
     iterations of a contact solution; its gaps are cell means too. Both keep nine digits up to
-    256 cells of aspect ratio 17. Source: Love 1929; Johnson 1985 eq. (3.25) in the asinh form.
+    256 cells of aspect ratio 17.
+    Source: [love_1929]; [johnson_1985 (3.25)] in the asinh form; [jamali_2015 (3.3)].
     """
     check_positive("dx", dx, "m")
     check_positive("dy", dy, "m")
@@ -172,6 +173,7 @@ class HalfSpaceConvolution:
         "shape",
     )
 
+    # the sum [jamali_2015 (3.6)] by fast Fourier transform, padded against wrap-around
     def __init__(self, coefficients: Array, *, single: bool = False) -> None:
         coefficients = np.asarray(coefficients, dtype=np.float64)
         if coefficients.ndim != 2 or coefficients.size == 0 or not np.isfinite(coefficients).all():

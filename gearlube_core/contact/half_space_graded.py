@@ -45,7 +45,7 @@ def graded_coefficients(
     Notes
     -----
     Exact for uniform pressure on each rectangle: differences of x asinh(y/|x|) + y asinh(x/|y|),
-    as in `love_coefficients`. Source: Love 1929; Johnson 1985 eq. (3.25).
+    as in `love_coefficients`. Source: [love_1929]; [johnson_1985 (3.25)].
     """
     check_positive("dy", dy, "m")
     check_positive("contact_modulus", contact_modulus, "Pa")

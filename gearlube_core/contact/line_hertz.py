@@ -32,6 +32,7 @@ def line_mean_pressure(line_load: float, R: float, contact_modulus: float) -> fl
     Notes
     -----
     Half-spaces under plane strain; b small against R and against the length of the line.
-    Source: Johnson 1985 eq. (4.43)-(4.45), b = [4 w R/(pi E*)]^(1/2).
+    Source: [johnson_1985 (4.43)] [johnson_1985 (4.44)] [johnson_1985 (4.45)];
+    b = [4 w R/(pi E*)]^(1/2).
     """
     return math.sqrt(math.pi * contact_modulus * line_load / (16.0 * R))

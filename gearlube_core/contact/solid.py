@@ -52,7 +52,7 @@ class Solid:
         check_within("heat_capacity", self.heat_capacity, 50.0, 5000.0, "J/(kg K)")
 
 
-# Mohammadpour et al. 2015, Table A4
+# [mohammadpour_2015 Table A4]
 STEEL_MOHAMMADPOUR_2015 = Solid(
     youngs_modulus=210e9,
     poisson_ratio=0.3,
@@ -74,7 +74,7 @@ def reduced_modulus(solid_1: Solid, solid_2: Solid) -> float:
 
 
 def pi_contact_modulus(solid_1: Solid, solid_2: Solid) -> float:
-    """Return Er = pi E*, the modulus of the groups in Mohammadpour et al. 2015 eq. (22) [Pa]."""
+    """Return Er = pi E*, the modulus of the groups in [mohammadpour_2015 (22)] [Pa]."""
     return math.pi * contact_modulus(solid_1, solid_2)
 
 

@@ -73,8 +73,8 @@ def solve_torque(
 
     Notes
     -----
-    Sources: Polonsky and Keer 1999 for the gradient under the load constraint, the projection
-    and the load restored by scaling; Dostal and Schoeberl 2005 for adding penetrating cells by
+    Source: [polonsky_keer_1999] for the gradient under the load constraint, the projection
+    and the load restored by scaling; [dostal_schoeberl_2005] for adding penetrating cells by
     an exact line search, once their part of the gradient is out of proportion, and for the
     feasible step where the projected one would raise the energy. Polonsky and Keer's own step
     for penetrating cells may diverge where a smooth compliance couples all cells. Between

@@ -1,1 +1,1 @@
-"""Mesh dynamics with backlash and dynamic bearings."""
+"""Gears in motion: hypoid axle, torsional hypoid pair, helical pair."""

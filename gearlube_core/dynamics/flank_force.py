@@ -13,7 +13,8 @@ def backlash_deflection(x: float, backlash: float) -> float:
 
     References
     ----------
-    Mohammadpour et al. 2015, eq. (3), with backlash = 2b.
+    [mohammadpour_2015 (3)] with backlash = 2b. [karagiannis_2012 (4)] is the same law; its x counts
+    from the middle of the gap, b further on.
     """
     if x >= 0.0:
         return x

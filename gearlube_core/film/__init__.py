@@ -1,1 +1,1 @@
-"""Elastohydrodynamic film thickness correlations, named by author and year: kernels."""
+"""Film thickness formulas, named by author and year, and their dimensionless groups."""

@@ -6,7 +6,7 @@ import math
 
 from gearlube_core.kernels.jit import kernel
 
-# Chittenden et al. 1985 part II; Mohammadpour et al. 2015 eq. (22)
+# [chittenden_1985]; [mohammadpour_2015 (22)]
 _SPEED_EXPONENT = 0.68
 _MATERIAL_EXPONENT = 0.49
 _LOAD_EXPONENT = -0.073
@@ -48,7 +48,7 @@ def film_geometry(R_x: float, R_y: float, psi: float) -> tuple[float, float]:
     Notes
     -----
     Evaluate once per contact position; neither depends on load, speed or oil.
-    Source: Chittenden et al. 1985; Mohammadpour et al. 2015 eq. (22).
+    Source: [chittenden_1985]; [mohammadpour_2015 (22)].
     """
     R_e, R_s = _entrainment_radii(R_x, R_y, psi)
     return R_e, 1.0 - math.exp(-_CENTRAL_SIDE_FLOW * (R_s / R_e) ** (2.0 / 3.0))
@@ -123,7 +123,14 @@ def central_film_thickness(
     alpha E'. The coefficient 4.31 belongs to U with the mean speed, so U' is the sum of the
     two surface speeds, U' = 2 u; reading the mean into it makes the film 2^0.68 = 1.60 times
     too thin. The load exponent is printed there as +0.073; the film falls with load.
-    Source: Chittenden et al. 1985; Mohammadpour et al. 2015 eq. (22).
+    Source: [chittenden_1985]; [mohammadpour_2015 (22)].
+
+    Examples
+    --------
+    >>> R_e, side_flow = film_geometry(0.03, 0.3, 0.0)
+    >>> h = central_film_thickness(R_e, side_flow, 0.02, 2e-8, 5.0, 2000.0, 2.3e11)
+    >>> round(1e6 * h, 2)  # um
+    0.8
     """
     product = _power_product(R_e, eta0, alpha, entrainment_speed, load, reduced_modulus)
     return _CENTRAL_COEFFICIENT * side_flow * product
@@ -145,6 +152,13 @@ def minimum_film_thickness(
 
     Parameters, range and source as in `central_film_thickness`, with `side_flow` from
     `minimum_film_geometry`. Returns h_m [m].
+
+    Examples
+    --------
+    >>> R_e, side_flow = minimum_film_geometry(0.03, 0.3, 0.0)
+    >>> h = minimum_film_thickness(R_e, side_flow, 0.02, 2e-8, 5.0, 2000.0, 2.3e11)
+    >>> round(1e6 * h, 2)  # um
+    0.65
     """
     product = _power_product(R_e, eta0, alpha, entrainment_speed, load, reduced_modulus)
     return _MINIMUM_COEFFICIENT * side_flow * product

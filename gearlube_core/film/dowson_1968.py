@@ -36,6 +36,6 @@ def minimum_line_film_thickness(
     -----
     Fully flooded, isothermal, steady, Newtonian, piezoviscous-elastic regime; U about 1e-13 to
     1e-10, G about 2500 to 5000, W' about 3e-5 to 3e-4. Quoted from later literature.
-    Source: Dowson 1968, revising Dowson and Higginson 1966.
+    Source: [dowson_1968], revising [dowson_higginson_1966].
     """
     return law_of_line_film(_LAW, R, eta0, alpha, entrainment_speed, line_load, reduced_modulus)

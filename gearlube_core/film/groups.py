@@ -52,7 +52,7 @@ def point_contact_groups(
 
     References
     ----------
-    Hamrock and Dowson 1977; Moes 1992. The groups of Mohammadpour et al. 2015 eq. (22), with
+    [hamrock_dowson_1977]; [moes_1992]. The groups of [mohammadpour_2015 (22)], with
     Er = pi E'/2 and the sum of the surface speeds, are the same numbers.
 
     Examples
@@ -115,7 +115,7 @@ def line_groups(
 
     References
     ----------
-    Moes 1992; Venner and Lubrecht 2000.
+    [moes_1992]; [venner_lubrecht_2000].
 
     Examples
     --------

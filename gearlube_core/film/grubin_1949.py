@@ -9,7 +9,7 @@ from gearlube_core.checks import check_option, check_positive
 from gearlube_core.film.chittenden_1985 import film_geometry
 from gearlube_core.kernels.jit import kernel
 
-# Karagiannis et al. 2012 eq. (10)
+# [karagiannis_2012 (10)]
 _PRINTED_COEFFICIENT = 1.212
 _SPEED_EXPONENT = 0.75
 _LOAD_EXPONENT = -1.0 / 12.0
@@ -21,7 +21,7 @@ _GAP = 8.0 * math.sqrt(2.0) / (3.0 * math.pi)
 CONSISTENT_COEFFICIENT = (12.0 * GRUBIN_INTEGRAL) ** 0.75 * _GAP**-0.5 * 0.75 ** (-1.0 / 12.0)
 
 CONVENTIONS = ("consistent", "as_printed")
-# thermal reduction, Gupta et al. 1992
+# thermal reduction, [gupta_1992]
 _PRESSURE_TERM, _PRESSURE_POWER = 13.2, 0.42
 _LOADING_TERM, _LOADING_POWER = 0.213, 0.64
 _SLIDE_TERM, _SLIDE_POWER = 2.23, 0.83
@@ -41,7 +41,7 @@ def grubin_convention(name: str, contact_modulus: float) -> GrubinConvention:
     ----------
     name : {"consistent", "as_printed"}
         "consistent": 2.250 with E*, from the Grubin integral. "as_printed": 1.212 with
-        Er = pi E*, Karagiannis et al. 2012 eq. (10), with the mean speed of eq. (12).
+        Er = pi E*, [karagiannis_2012 (10)], with the mean speed of its (12).
     contact_modulus : float
         E* [Pa].
 
@@ -85,9 +85,10 @@ def grubin_geometry(R_x: float, R_y: float, angle: float) -> tuple[float, float]
 
     Notes
     -----
-    Evaluate once per contact position. Source: Karagiannis et al. 2012 eq. (11); Archard and
-    Cowking 1965 for psi. A factor on the pressure build-up would enter the film with power 3/4;
-    the printed 2/3 is kept, the difference is 0.5 % at R_e/R_s = 0.1 and 4 % for a circle.
+    Evaluate once per contact position. Source: [karagiannis_2012 (11)];
+    [archard_cowking_1965] for psi. A factor on the pressure build-up would enter the film with
+    power 3/4; the printed 2/3 is kept, the difference is 0.5 % at R_e/R_s = 0.1 and 4 % for a
+    circle.
     """
     R_e = film_geometry(R_x, R_y, angle)[0]
     side_curvature = 1.0 / R_x + 1.0 / R_y - 1.0 / R_e
@@ -133,7 +134,7 @@ def grubin_film_thickness(
     -----
     Steady, fully flooded, heavily loaded: Hertz pressure well above 1/alpha, film far below the
     Hertz deflection. The gap outside the contact is that of a dry circular contact near its edge.
-    Source: Grubin 1949; Karagiannis et al. 2012 eq. (10).
+    Source: [grubin_1949]; [karagiannis_2012 (10)]
     """
     return (
         convention.coefficient
@@ -185,8 +186,8 @@ def inlet_heating_factor(
     -----
     A fit to line contact solutions up to L about 20 and S about 1; beyond, it is an
     extrapolation, kept between 0 and 1. In pure rolling it is within 8 % of
-    3.94/(3.94 + L^0.62) of Murch and Wilson 1975.
-    Source: Gupta, Cheng, Zhu, Forster, Schrand 1992.
+    3.94/(3.94 + L^0.62) of [murch_wilson_1975].
+    Source: [gupta_1992]
     """
     L = beta * eta0 * entrainment_speed * entrainment_speed / conductivity
     if not L > 0.0:

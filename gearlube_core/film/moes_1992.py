@@ -25,7 +25,7 @@ def central_film_group(M: float, L: float) -> float:
     Notes
     -----
     A fit, within about 10 %; here it sizes domains and starts iterations, it is no result.
-    Source: Moes 1992, coefficients for the central film as quoted by Venner and Lubrecht 2000.
+    Source: [moes_1992], coefficients for the central film as quoted by [venner_lubrecht_2000].
     """
     RI, EI = 3.0 / M, 2.621 * M**-0.2
     s = (7.0 + 8.0 * math.exp(-2.0 * EI / RI)) / 5.0

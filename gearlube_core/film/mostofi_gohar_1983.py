@@ -1,7 +1,7 @@
 """Film thickness of a roller on a race with entraining and squeeze motion.
 
-Mostofi and Gohar, J. Tribol. 105 (1983) 598-604, in the form that Mohammadpour et al. (2015)
-print as eq. (27). Kernels only; see the Notes of `central_film` for the conventions chosen.
+[mostofi_gohar_1983] in the form that is printed as [mohammadpour_2015 (27)]. Kernels only; see the
+Notes of `central_film` for the conventions chosen.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ import math
 
 from gearlube_core.kernels.jit import kernel
 
-COEFFICIENT = 13.924  # 1, Mohammadpour et al. 2015 eq. (27)
-LOAD_EXPONENT = -0.045  # 1, eq. (27)
-SPEED_EXPONENT = 0.647  # 1, eq. (27)
-MATERIAL_EXPONENT = 0.46  # 1, eq. (27)
-SQUEEZE_SHARE = 0.75  # 1, eq. (27)
-SQUEEZE_RATE = 132.0  # 1, eq. (27)
-SQUEEZE_FACTOR_MIN = 0.05  # 1, clip: eq. (27) turns negative for v/u > 0.0022
-SQUEEZE_FACTOR_MAX = 1.0  # 1, limit of eq. (27) for v/u -> -infinity
+COEFFICIENT = 13.924  # [-], [mohammadpour_2015 (27)]
+LOAD_EXPONENT = -0.045  # [-], (27)
+SPEED_EXPONENT = 0.647  # [-], (27)
+MATERIAL_EXPONENT = 0.46  # [-], (27)
+SQUEEZE_SHARE = 0.75  # [-], (27)
+SQUEEZE_RATE = 132.0  # [-], (27)
+SQUEEZE_FACTOR_MIN = 0.05  # 1, clip: [mohammadpour_2015 (27)] turns negative for v/u > 0.0022
+SQUEEZE_FACTOR_MAX = 1.0  # 1, limit of [mohammadpour_2015 (27)] for v/u -> -infinity
 
 
 @kernel
@@ -40,7 +40,7 @@ def squeeze_factor(v: float, u: float) -> float:
 
     Notes
     -----
-    Unclipped, q is negative for v/u > 0.0022. Mohammadpour et al. 2015 eq. (27) writes the
+    Unclipped, q is negative for v/u > 0.0022. [mohammadpour_2015 (27)] writes the
     squeeze speed as dH/d(alpha); the derivative is with respect to time.
 
     Examples
@@ -76,8 +76,8 @@ def dimensionless_groups(
 
     Notes
     -----
-    Mohammadpour et al. 2015 print W and U multiplied by Er below eq. (27), which is not
-    dimensionless; see `dimensionless_groups_as_printed`.
+    Mohammadpour et al. 2015 print W and U multiplied by Er below [mohammadpour_2015 (27)], which is
+    not dimensionless; see `dimensionless_groups_as_printed`.
     """
     return w / (E_r * r * r), eta0 * u / (E_r * r), alpha * E_r
 
@@ -86,7 +86,7 @@ def dimensionless_groups(
 def dimensionless_groups_as_printed(
     w: float, u: float, eta0: float, alpha: float, r: float, E_r: float
 ) -> tuple[float, float, float]:
-    """Return the groups as printed below eq. (27): w Er/r^2, eta0 u Er/r, alpha Er.
+    """Return the groups as printed below [mohammadpour_2015 (27)]: w Er/r^2, eta0 u Er/r, alpha Er.
 
     The first two carry the unit Pa^2 and give films of many metres. Kept to show the misprint
     (Mohammadpour et al. 2015); no model uses it.
@@ -128,13 +128,13 @@ def central_film(
     -----
     The source leaves open whether u in the speed group is the mean or the sum of the surface
     speeds. The mean is used, as in the line and point contact films it is compared with. For the
-    bearing of Mohammadpour et al. 2015, Table A2, at 500 N and 50 to 700 rad/s, H is then 24 to
-    32 % below the central film of Dowson and Toyoda (1979), which knows no end leakage; the sum
+    bearing of [mohammadpour_2015 Table A2], at 500 N and 50 to 700 rad/s, H is then 24 to
+    32 % below the central film of [dowson_toyoda_1979], which knows no end leakage; the sum
     would put it 6 to 19 % above. The squeeze factor is clipped, see `squeeze_factor`.
 
     References
     ----------
-    Mostofi and Gohar 1983; Mohammadpour et al. 2015 eq. (27), with its groups made dimensionless.
+    [mostofi_gohar_1983]; [mohammadpour_2015 (27)], with its groups made dimensionless.
     """
     if u <= 0.0:
         return 0.0

@@ -70,7 +70,7 @@ def central_film_group(M: float, L: float, radius_ratio: float = 1.0) -> float:
     Notes
     -----
     A fit to numerical films, within about 10 % of them; the smooth start and the yardstick of
-    films over a map of loads, no result. Source: Nijenbanning, Venner and Moes 1994.
+    films over a map of loads, no result. Source: [nijenbanning_1994].
 
     Examples
     --------

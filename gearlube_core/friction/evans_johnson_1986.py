@@ -7,7 +7,7 @@ import math
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 
-# Evans and Johnson 1986; Mohammadpour et al. 2015 eq. (13), (14)
+# [evans_johnson_1986]; [mohammadpour_2015 (13)] [mohammadpour_2015 (14)]
 _PRESSURE_COEFFICIENT = 0.87
 _LOG_COEFFICIENT = 1.74
 _LOG_FACTOR = 1.2
@@ -49,7 +49,7 @@ def solid_resistance(
     Notes
     -----
     Heat moves into the solids faster than it spreads (Peclet number above about 5).
-    Source: Evans and Johnson 1986, the solid part of zeta.
+    Source: [evans_johnson_1986], the solid part of zeta.
     """
     flow = reduced_modulus * solid_effusivity_squared * speed
     return math.sqrt(mean_pressure * R_e / flow)
@@ -77,7 +77,7 @@ def surface_heating_number(film_thickness: float, conductivity: float, resistanc
 
     Notes
     -----
-    Source: Evans and Johnson 1986; Mohammadpour et al. 2015 eq. (14).
+    Source: [evans_johnson_1986]; [mohammadpour_2015 (14)].
     """
     return _4_PI * conductivity * resistance / film_thickness
 
@@ -120,12 +120,12 @@ def plateau_stress_ratio(
 
     Notes
     -----
-    A straight line through the exact maximum of Johnson and Greenwood 1980. With the argument
+    A straight line through the exact maximum of [johnson_greenwood_1980]. With the argument
     L = alpha p + ln{2 K eta0/[beta (tau0 h)^2]} and zeta = 0 it is within 1 % for L from 5 to
     11.8, 3.4 % low at 20 and 14 % low at 2; below L = 0 it is negative, while the true traction
-    is only small. Mohammadpour et al. 2015 eq. (13) omits beta, without which the argument of
+    is only small. [mohammadpour_2015 (13)] omits beta, without which the argument of
     the logarithm is not dimensionless; beta = 1 1/K gives the printed form.
-    Source: Evans and Johnson 1986.
+    Source: [evans_johnson_1986].
     """
     stress_length = tau0 * film_thickness
     cooling = beta * (1.0 + _SURFACE_COEFFICIENT * zeta) * stress_length * stress_length

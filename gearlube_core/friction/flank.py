@@ -62,7 +62,7 @@ def flank_friction(
     of 3, where its polynomials jump. In both forms mu lies between zero and the isothermal Eyring
     value, W_a is at most F, and the boundary term carries tanh(|dU|/1 mm/s), so that friction
     passes through zero with sliding speed; the paper states none of these.
-    Source: Mohammadpour et al. 2015 eq. (11)-(19), (22) and erratum notes of the parts.
+    Source: [mohammadpour_2015 (11)], and the parts for the terms and their misprints.
     """
     F = max(load, 0.0)
     F_film = max(F, LOAD_FLOOR)

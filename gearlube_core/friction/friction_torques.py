@@ -26,8 +26,8 @@ def flank_speeds(w_p: float, w_g: float, arm_p: float, arm_g: float) -> tuple[fl
     Notes
     -----
     u leaves out what both surfaces have in common across sliding; the mean vector is the
-    entrainment arm of a mesh table times w_p. Karagiannis et al. 2012 eq. (19) has the opposite
-    sign of dU. Source: Karagiannis et al. 2012 eq. (7)-(9), (12), (19).
+    entrainment arm of a mesh table times w_p. In (19) dU has the opposite sign.
+    Source: [karagiannis_2012 (7)] [karagiannis_2012 (12)] [karagiannis_2012 (19)]
     """
     u_p, u_g = w_p * arm_p, w_g * arm_g
     return 0.5 * (u_p + u_g), u_p - u_g
@@ -59,7 +59,8 @@ def friction_torques(
     Notes
     -----
     A single flank may drive the pinion (arm of opposite sign to dU).
-    Source: Karagiannis et al. 2012 eq. (5), (6), (25).
+    (25) prints vector products; the power is that of each flank's sliding.
+    Source: [karagiannis_2012 (5)] [karagiannis_2012 (6)] [karagiannis_2012 (25)]
     """
     signed = -friction if sliding_speed < 0.0 else friction
     return -signed * arm_p, signed * arm_g, signed * sliding_speed

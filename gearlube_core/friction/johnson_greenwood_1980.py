@@ -2,8 +2,8 @@
 
 A film of thickness h between surfaces of equal temperature, under one shear stress tau with
 tau* = tau0 sinh(tau/tau0) and eta = eta_s exp(-beta dT), has the temperature
-dT = (1/beta) ln[cosh^2 Y/cosh^2(2 Y z/h)]. With X = sinh Y and X* = Y/cosh Y, Karagiannis et
-al. 2012 eq. (18) and (20) become
+dT = (1/beta) ln[cosh^2 Y/cosh^2(2 Y z/h)]. With X = sinh Y and X* = Y/cosh Y,
+[karagiannis_2012 (18)] and [karagiannis_2012 (20)] become
 
     tau/tau0 = c Y tanh Y,  c = 4 A^2/dU* = 8 K/(beta tau0 h |dU|)
     sinh(tau/tau0) = dU* 2 Y/sinh 2Y,  dU* = eta_s |dU|/(tau0 h)
@@ -158,7 +158,9 @@ def thermal_eyring_film(
     Uniform pressure and stress, heat conducted across the film only, exponential fall of
     viscosity with temperature, K and tau0 constant. Newton's method, in Y above 1 and in ln Y
     below, inside a bracket: a cold film gives Y tanh Y <= asinh(dU*)/c.
-    Source: Johnson and Greenwood 1980; Karagiannis et al. 2012 eq. (14)-(20).
+    Source: [johnson_greenwood_1980]
+    [karagiannis_2012 (14)] [karagiannis_2012 (15)] [karagiannis_2012 (18)] [karagiannis_2012 (20)]
+    (14) and (15) enter through their solution, the temperature profile of this module's text.
     """
     return thermal_eyring_film_near(
         0.0, log_viscosity, beta, conductivity, tau0, film_thickness, sliding_speed
@@ -189,7 +191,7 @@ def thermal_newtonian_stress(
 
     Notes
     -----
-    The limit of large tau0. Source: Johnson and Greenwood 1980.
+    The limit of large tau0. Source: [johnson_greenwood_1980].
     """
     slip = abs(sliding_speed)
     if slip == 0.0:

@@ -78,7 +78,7 @@ def line_friction(
     over micrometres per second, as the isothermal Eyring film does, boundary friction over
     `BOUNDARY_SPEED`. Flanks on parallel axes do not slide along the line. Heat at rest is that of
     a strip of length 200 half widths.
-    Source: Dowson and Toyoda 1979 for the film; Mohammadpour et al. 2015 eq. (11)-(19) for the
+    Source: [dowson_toyoda_1979] for the film; `mixed_friction` for the
     rest, with the notes of `flank_friction`.
     """
     w = max(line_load, 0.0)

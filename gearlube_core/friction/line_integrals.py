@@ -49,7 +49,7 @@ class LineFrictionCycle:
     coefficient : ndarray
         mu with the sign of sliding, negative before the pitch line [-].
     central_film, minimum_film : ndarray
-        Dowson and Toyoda 1979, Dowson 1968 [m]; also given where nothing presses.
+        [dowson_toyoda_1979], [dowson_1968] [m]; also given where nothing presses.
     film_ratio : ndarray
         Central film over composite roughness [-].
     temperature_rise : ndarray

@@ -83,8 +83,8 @@ def contact_temperature_rise(
     18 % larger (slender), 4 to 9 % in m. s is the stationary limit, a uniform round source of
     the same area, and only matters below a Peclet number of about 5. The last term is the mean
     over a film heated uniformly across its thickness.
-    Source: Jaeger 1942 for m, Carslaw and Jaeger 1959 sec. 8.2 for s, joined as by Tian and
-    Kennedy 1994.
+    Source: [jaeger_1942] for m, [carslaw_jaeger_1959 sec. 8.2] for s, joined as by
+    [tian_kennedy_1994].
     """
     m = _FLASH_FACTOR * resistance
     m_over_s_squared = m * m * solid_conductivity * solid_conductivity / (_STILL_FACTOR * area)
@@ -148,7 +148,8 @@ def mixed_friction(
     -----
     Range: that of `plateau_stress_ratio` and `asperity_load`. See `flank_friction` for what the
     two forms share and where they part.
-    Source: Mohammadpour et al. 2015 eq. (11)-(19) and erratum notes of the parts.
+    Source: [mohammadpour_2015 (11)] [mohammadpour_2015 (12)] [mohammadpour_2015 (15)].
+    (12) prints the whole load, the consistent form takes off what asperities carry.
     """
     reduced_modulus = 2.0 * solid.contact_modulus
     effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity

@@ -158,9 +158,9 @@ def circular_pressure_coefficient(R_x: float, R_y: float, contact_modulus: float
 
     Notes
     -----
-    Karagiannis et al. 2012 eq. (21) prints (R_x R_y)^(1/2), which is not a pressure. With
-    R_x R_y it is W/A of the area printed with eq. (23). Below `hertz_coefficients` by 27 % at
-    R_y/R_x = 50.
+    [karagiannis_2012 (21)] prints (R_x R_y)^(1/2), which is not a pressure. With
+    R_x R_y it is W/A of the area printed with [karagiannis_2012 (23)]. Below `hertz_coefficients`
+    by 27 % at R_y/R_x = 50.
     """
     return (
         2.0

@@ -107,7 +107,7 @@ def thermal_eyring_flank(
     friction passes through zero with sliding; the paper states neither. The flash temperature
     is `contact_temperature_rise` of a moving source without its film part, with all friction as
     heat. The effective film temperature counts from the heated surfaces.
-    Source: Karagiannis et al. 2012 eq. (10)-(24).
+    Source: [karagiannis_2012 (23)]
     """
     F = max(load, 0.0)
     F_film = max(F, LOAD_FLOOR)

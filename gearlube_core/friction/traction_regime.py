@@ -5,7 +5,7 @@ The largest traction that a heated film can reach over all sliding speeds depend
     L = ln(eta/eta0) + ln{2 K eta0/[beta (tau0 h)^2]},
 
 the sum of a pressure and a film coordinate, and on the Eyring stress. Boundaries of the map are
-therefore straight lines L = constant. Derived here from the film of Johnson and Greenwood 1980:
+therefore straight lines L = constant. Derived here from the film of [johnson_greenwood_1980]:
 
 - Newtonian film, any sliding: tau <= tau_N = 2 X*_max [2 K eta/(beta h^2)]^(1/2), with
   X*_max = max Y/cosh Y = 0.6627. Where tau_N < tau0 heat limits traction before stress thins the
@@ -73,7 +73,7 @@ def largest_stress_ratio(map_number: float) -> float:
 
     Notes
     -----
-    Exact where `plateau_stress_ratio` of Evans and Johnson 1986 is its straight-line fit for
+    Exact where `plateau_stress_ratio` of [evans_johnson_1986] is its straight-line fit for
     L = 5 to 12 without surface heating. Newton's method on ln s.
     """
     target = map_number - NEWTONIAN_LIMIT
@@ -143,10 +143,10 @@ def traction_regime(
     -----
     A Deborah number above about 1 means that the film passes before its viscous strain exceeds
     its elastic one, which bends the curve at small slip and leaves the plateau alone; it is
-    reported, not used. Evans and Johnson 1986 draw their map from measured tau0, tau_L and G,
+    reported, not used. [evans_johnson_1986] draw their map from measured tau0, tau_L and G,
     which neither paper on this gear pair gives.
-    Source: Johnson and Greenwood 1980 for the boundaries, derived above; Evans and Johnson 1986
-    for the map; Johnson and Tevaarwerk 1977 for the Deborah number.
+    Source: [johnson_greenwood_1980] for the boundaries, derived above; [evans_johnson_1986]
+    for the map; [johnson_tevaarwerk_1977] for the Deborah number.
     """
     slip = abs(sliding_speed)
     stress_length = tau0 * film_thickness

@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
 import xarray as xr
 
 from gearlube_core.helical_contact.contact_dataset import contact_dataset
-from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
-from gearlube_core.helical_contact.mesh_cycle import CycleProgress, CycleSettings, run_cycle
+from gearlube_core.helical_contact.line_mesh import line_mesh
+from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.progress import Progress, no_progress
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactSettings:
+    """Loads and positions of an analysis, and the elastic bodies.
+
+    Parameters
+    ----------
+    cycle : CycleSettings
+    body : HelicalBodySettings
+    """
+
+    cycle: CycleSettings
+    body: HelicalBodySettings = field(default_factory=HelicalBodySettings)
 
 
 class HelicalContact(NamedTuple):
@@ -23,16 +38,15 @@ class HelicalContact(NamedTuple):
     line_mesh: LineMesh
 
 
-def analyse_helical_contact(
+def analyse_contact(
     modified: ModifiedPair,
-    cycle: CycleSettings,
-    body: HelicalBodySettings,
+    settings: ContactSettings,
     *,
     store: Path | None = None,
     cache: Path | None = None,
     jobs: int | None = None,
-    announce: Callable[[str], None] = lambda text: None,
-    observer: Callable[[CycleProgress], None] | None = None,
+    cycle_jobs: int | None = None,
+    progress: Progress = no_progress,
 ) -> HelicalContact:
     """Return the loaded contact of a pair over a mesh period.
 
@@ -40,20 +54,17 @@ def analyse_helical_contact(
     ----------
     modified : ModifiedPair
         Gears with the modifications of their flanks.
-    cycle : CycleSettings
-        Torques and positions.
-    body : HelicalBodySettings
-        The teeth's elastic bodies.
+    settings : ContactSettings
     store : Path, optional
         Folder that keeps finished positions, so that an interrupted analysis goes on.
     cache : Path, optional
         Folder of tooth compliances; default: the user's cache.
     jobs : int, optional
         Processes; default: all processors.
-    announce : callable, optional
-        Told what begins.
-    observer : callable, optional
-        Called after each position.
+    cycle_jobs : int, optional
+        Processes for the positions, if other than `jobs`.
+    progress : callable, optional
+        Called with the share of positions that is done [-] and a sentence on what runs.
 
     Raises
     ------
@@ -62,10 +73,13 @@ def analyse_helical_contact(
     ConvergenceError
         When a position finds no equilibrium.
     """
-    announce("tooth compliance")
-    stiffness = pair_stiffness(modified.pair, body, cache=cache, jobs=jobs)
-    announce("loaded contact")
-    record = run_cycle(modified, stiffness, cycle, store=store, jobs=jobs, observer=observer)
+    cycle = settings.cycle
+    progress(0.0, "elastic teeth (kept for the next run)")
+    stiffness = pair_stiffness(modified.pair, settings.body, cache=cache, jobs=jobs)
+    progress(0.0, "loaded contact")
+    record = run_cycle(
+        modified, stiffness, cycle, store=store, jobs=cycle_jobs or jobs, progress=progress
+    )
     return HelicalContact(
         contact_dataset(modified, cycle, record), line_mesh(modified, cycle, record)
     )

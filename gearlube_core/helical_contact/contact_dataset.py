@@ -12,7 +12,7 @@ from gearlube_core.helical_contact.mesh_cycle import CycleSettings, line_numbers
 from gearlube_core.helical_geometry.contact_line import ContactPlane, clip_line, line_position
 from gearlube_core.helical_geometry.load_sharing import unrelieved_plane
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.storage.resumable_records import Record
+from gearlube_core.storage.result_store import Record
 
 _STATE, _LINE = ("phase", "torque"), ("phase", "torque", "line")
 _UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {
@@ -52,7 +52,7 @@ def contact_dataset(modified: ModifiedPair, settings: CycleSettings, cycle: Reco
 
     Notes
     -----
-    K_line = (T_i/r_bp)/(r_bp Theta): N_i of He et al. 2007 eq. (1) is taken along the line of
+    K_line = (T_i/r_bp)/(r_bp Theta): N_i of [he_2007 (1)] is taken along the line of
     action, so that the sum is the mesh stiffness felt by the rotation. Theta counts from where
     unmodified rigid flanks touch; with modified flanks K therefore contains their removal.
     """

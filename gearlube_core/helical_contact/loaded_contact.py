@@ -11,7 +11,6 @@ from scipy.sparse import csr_array, hstack
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
-from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_contact.strips import (
     LineGap,
     LineStrip,
@@ -22,16 +21,16 @@ from gearlube_core.helical_contact.strips import (
 from gearlube_core.helical_contact.tooth_body import flank_position, tooth_form
 from gearlube_core.helical_geometry.contact_line import line_count, line_position
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.tooth_compliance.coupled_strips import (
+from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
+from gearlube_core.tooth_contact.coupled_strips import (
     CoupledSolution,
     CoupledStrip,
     PairStiffness,
     solve_coupled,
 )
-from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
+from gearlube_core.tooth_contact.strip_growth import StripGrowth, solve_on_growing_strips
 
-_GROW = 1.5  # a strip that contact leaves is cut anew, this much larger
-_ATTEMPTS = 10
+_GROWTH = StripGrowth(factor=1.5, margin=1.1, attempts=10)
 _FIRST_DENSITY = 1.2e10  # N/m2 of contact line, only to size the first strips
 _WIDE = 1.7  # half-width of a strip over the half-width of Hertz' line contact
 
@@ -186,27 +185,21 @@ class MeshPosition:
         line_load = torque / arm / pair.mean_contact_length
         closing = closing or line_load / _FIRST_DENSITY / arm
         half_width = _WIDE * self._hertz_half_width(line_load, stiffness.contact_modulus)
-        for _ in range(_ATTEMPTS):
+
+        def solve(closing: float, half_width: float) -> tuple[list[LineStrip], CoupledSolution]:
             strips = self._strips(closing, half_width, settings.strips)
-            solved = solve_coupled(
-                [self._coupled(strip, stiffness) for strip in strips],
-                stiffness,
-                torque,
-                settings.tolerance,
-            )
-            rotation = solved.solution.rotation
-            needed = rotation - self.unloaded_rotation
-            sideways = any(bool((forces[[0, -1]] > 0.0).any()) for forces in solved.forces)
-            if needed <= closing and not sideways:
-                return self._state(torque, strips, solved)
-            if needed > closing:
-                closing = max(1.1 * needed, _GROW**0.5 * closing)
-            if sideways:
-                half_width *= _GROW
-        raise ConvergenceError(
-            f"Contact at mesh phase {self.phase:.3f} and {torque:g} N.m still leaves its strips "
-            f"after {_ATTEMPTS} enlargements. Reduce the torque."
+            coupled = [self._coupled(strip, stiffness) for strip in strips]
+            return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
+
+        strips, solved = solve_on_growing_strips(
+            solve,
+            lambda solved: solved.solution.rotation - self.unloaded_rotation,
+            closing=closing,
+            width=half_width,
+            growth=_GROWTH,
+            where=f"mesh phase {self.phase:.3f} and {torque:g} N.m",
         )
+        return self._state(torque, strips, solved)
 
     def _strips(
         self, closing: float, half_width: float, settings: StripSettings

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.loaded_contact import (
     LoadedLine,
     LoadedSettings,
@@ -23,20 +22,26 @@ from gearlube_core.helical_contact.loaded_contact import (
 from gearlube_core.helical_geometry.contact_line import clip_line, line_count
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
-from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.result_store import Record
+from gearlube_core.tooth_contact.coupled_strips import PairStiffness
+from gearlube_core.tooth_contact.mesh_cycle import (
+    MeshCycleSettings,
+    compute_positions,
+    stack_records,
+)
 
 _FORMAT = 1  # raise with every change of the model that changes results
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CycleSettings:
+class CycleSettings(MeshCycleSettings):
     """Which positions and loads of the mesh are analysed.
 
     Parameters
     ----------
     torques : tuple of float
-        Pinion torques [N.m], rising, above zero.
+        Pinion torques [N.m], rising, 0.001 to 1e6.
     positions : int
         Mesh phases in a period.
     stations : int
@@ -44,37 +49,20 @@ class CycleSettings:
     loaded : LoadedSettings
     """
 
-    torques: tuple[float, ...]
+    torque_range: ClassVar[tuple[float, float]] = (1e-3, 1e6)
+
     positions: int = 24
     stations: int = 16
     loaded: LoadedSettings = field(default_factory=LoadedSettings)
 
     def __post_init__(self) -> None:
-        check_within("positions", self.positions, 4, 400)
+        MeshCycleSettings.__post_init__(self)
         check_within("stations", self.stations, 1, 200)
-        for torque in self.torques:
-            check_within("torques", torque, 1e-3, 1e6, "N.m")
-        if not self.torques or any(np.diff(self.torques) <= 0.0):
-            raise ParameterError(f"torques must rise [N.m], got {self.torques}. Sort them.")
-
-    @property
-    def phases(self) -> Array:
-        """Mesh phases [mesh periods], (positions,)."""
-        return np.arange(self.positions) / self.positions
 
     @property
     def station(self) -> Array:
         """Middles of the stations along a segment, 0 at z_low to 1 at z_high [-], (stations,)."""
         return (np.arange(self.stations) + 0.5) / self.stations
-
-
-@dataclass(frozen=True, slots=True)
-class CycleProgress:
-    """How far an analysis has come."""
-
-    done: int
-    total: int
-    phase: float
 
 
 def line_numbers(pair: HelicalPair) -> NDArray[np.int64]:
@@ -103,7 +91,7 @@ def position_record(
         )
         closing, before = state.rotation - state.unloaded_rotation, torque
         rows.append(_state_record(modified.pair, state, settings))
-    return {key: np.stack([row[key] for row in rows]) for key in rows[0]}
+    return stack_records(rows)
 
 
 def _state_record(pair: HelicalPair, state: LoadedState, settings: CycleSettings) -> Record:
@@ -168,7 +156,7 @@ def run_cycle(
     *,
     store: Path | None = None,
     jobs: int | None = None,
-    observer: Callable[[CycleProgress], None] | None = None,
+    progress: Progress = no_progress,
 ) -> Record:
     """Return the loaded contact over a mesh period.
 
@@ -181,8 +169,8 @@ def run_cycle(
         Folder that keeps finished positions; they are not computed again.
     jobs : int, optional
         Processes; one runs in this process. Default: all processors.
-    observer : callable, optional
-        Called after each position.
+    progress : callable, optional
+        Called after each new position with the share done [-] and which position it was.
 
     Returns
     -------
@@ -195,22 +183,20 @@ def run_cycle(
         When a position finds no equilibrium.
     """
     phases = [float(phase) for phase in settings.phases]
-
-    def tell(phase: float, done: int) -> None:
-        if observer is not None:
-            observer(CycleProgress(done, len(phases), phase))
-
-    found = dict(
-        resumable_records(
-            phases,
-            "{:.6f}".format,
-            partial(position_record, modified, stiffness, settings),
-            RecordStore(store, _key(modified, stiffness, settings)),
-            jobs=jobs,
-            new=tell,
-        )
+    found = compute_positions(
+        phases,
+        partial(position_record, modified, stiffness, settings),
+        key=_key(modified, stiffness, settings),
+        folder=store,
+        label=_label,
+        jobs=jobs,
+        progress=progress,
     )
-    return {name: np.stack([found[phase][name] for phase in phases]) for name in found[phases[0]]}
+    return stack_records(found[phase] for phase in phases)
+
+
+def _label(phase: float) -> tuple[str, str]:
+    return f"{phase:.6f}", f"loaded contact, mesh phase {phase:.2f}"
 
 
 def _key(modified: ModifiedPair, stiffness: PairStiffness, settings: CycleSettings) -> str:

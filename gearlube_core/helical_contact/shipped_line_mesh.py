@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import gearlube_core.mesh_table
-from gearlube_core.helical_contact.analysis import analyse_helical_contact
+from gearlube_core.helical_contact.analysis import ContactSettings, analyse_contact
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
-from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -21,8 +20,8 @@ SETTINGS = CycleSettings(torques=(25.0, 50.0, 100.0, 160.0, 226.0, 300.0, 450.0)
 def analysed_line_mesh(jobs: int | None = None, cache: Path | None = None) -> LineMesh:
     """Return the line mesh of the shipped pair with plain flanks and default bodies."""
     modified = ModifiedPair(pair=named_pair(NAME))
-    return analyse_helical_contact(
-        modified, SETTINGS, HelicalBodySettings(), cache=cache, jobs=jobs
+    return analyse_contact(
+        modified, ContactSettings(cycle=SETTINGS), cache=cache, jobs=jobs
     ).line_mesh
 
 

@@ -17,13 +17,13 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import MEMBERS, involute_flank
 from gearlube_core.helical_geometry.iso_6336_stiffness import profile_shifts
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
 from gearlube_core.tooth_compliance.tooth_body import (
     FLANK_GRID,
     ToothBodySettings,
     members_compliance,
 )
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
+from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
 # 30e6 psi, the usual steel of the rig of He et al. 2007, who do not print theirs
 STEEL_HE_2007 = replace(STEEL_MOHAMMADPOUR_2015, youngs_modulus=206.8e9)

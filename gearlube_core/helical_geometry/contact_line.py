@@ -1,6 +1,6 @@
 """Contact lines of a helical pair on the plane of contact, clipped to it: kernels.
 
-Frame of He et al. 2007 fig. 1: the plane is tangent to both base cylinders; x runs along the line
+Frame of [he_2007 fig. 1]: the plane is tangent to both base cylinders; x runs along the line
 of action from the pinion's tangent point, z along the axes with its origin at mid-face. A line
 is named by X, its x on the face z = +W/2 as if the plane were unbounded; it lies at
 
@@ -44,6 +44,7 @@ class LineSegment(NamedTuple):
 @kernel
 def line_count(plane: ContactPlane) -> int:
     """Return how many lines may be in contact at once: the total contact ratio, rounded up."""
+    # the path of contact [jamali_2015 (2.1)] and what a line travels in contact [jamali_2015 (2.4)]
     travel = plane.D - plane.A + plane.W * plane.sin_b / plane.cos_b
     return math.ceil(travel / plane.pitch - 1.0e-12)
 
@@ -71,7 +72,7 @@ def line_position(phase: float, pair: int, plane: ContactPlane) -> float:
 
     Notes
     -----
-    Source: He et al. 2007 eq. (23).
+    Source: [he_2007 (23a)] [he_2007 (23b)] [he_2007 (23c)]
     """
     return plane.A + (phase - math.floor(phase) + pair) * plane.pitch
 
@@ -94,8 +95,10 @@ def clip_line(X: float, plane: ContactPlane) -> LineSegment:
 
     Notes
     -----
-    Replaces the eight zones of He et al. 2007 eq. (24) and the three cases of Jamali 2015
-    sec. 2.2.1.
+    One rule in place of the eight zones of He and the three cases of [jamali_2015 sec. 2.2.1].
+    Source: [he_2007 (9a)] [he_2007 (9b)] [he_2007 (9c)] [he_2007 (24a)] [he_2007 (24b)]
+    [he_2007 (24c)] [he_2007 (24d)] [he_2007 (24e)] [he_2007 (24f)] [he_2007 (24g)] [he_2007 (24h)]
+    The line x = X - (W/2 - z) tan b is the law of (9a), (9b) and (9c); (24f) prints x_1 for x_2.
     """
     half = 0.5 * plane.W
     tan_b = plane.sin_b / plane.cos_b

@@ -50,8 +50,9 @@ def facet_bounds(roll: ArrayLike, flank: InvoluteFlank, count: int) -> tuple[_Ar
 
     Notes
     -----
-    Source: Jamali 2015 eq. (6.1), (6.6), (6.7), with floor in place of the integer part. s and
-    roll length differ by a constant and, for the gear, in sign; both divide the profile alike.
+    Floor in place of the integer part. s and roll length differ by a constant and, for the gear,
+    in sign; both divide the profile alike.
+    Source: [jamali_2015 (6.1)] [jamali_2015 (6.6)] [jamali_2015 (6.7-a)] [jamali_2015 (6.7-b)]
     """
     arc = (flank.roll_high - flank.roll_low) / count
     k = np.floor((np.asarray(roll, dtype=float) - flank.roll_low) / arc)
@@ -86,7 +87,7 @@ def facet_depth(
 
     Notes
     -----
-    Source: Jamali 2015 sec. 6.1; the facet's ends are points of the involute.
+    Source: [jamali_2015 sec. 6.1]; the facet's ends are points of the involute.
     """
     first, second = facet_bounds(point, flank, count)
     t1, g1 = relative_position(roll, first, flank.base_radius)
@@ -101,7 +102,8 @@ def facet_depth_parabola(
 
     Notes
     -----
-    Source: Jamali 2015 eq. (6.8)-(6.12).
+    Source: [jamali_2015 (6.8)] [jamali_2015 (6.9)] [jamali_2015 (6.10)]
+    The radii r_B1 and r_B2 appear as the roll lengths that belong to them.
     """
     roll = np.asarray(roll, dtype=float)
     first, second = facet_bounds(point, flank, count)
@@ -133,8 +135,9 @@ def parabola_distance(roll: ArrayLike, other: ArrayLike, base_radius: float) -> 
 
     Notes
     -----
-    Source: Jamali 2015 eq. (6.11), (6.12), (7.8), for either member: t = -x on the pinion, +x on
-    the gear. On the involute itself it is `relative_position`.
+    Source: [jamali_2015 (6.11)] [jamali_2015 (6.12)] [jamali_2015 (7.8)]
+    For either member: t = -x on the pinion, +x on the gear. On the involute itself it is
+    `relative_position`.
     """
     roll, other = np.asarray(roll, dtype=float), np.asarray(other, dtype=float)
     t = linear = (other**2 - roll**2) / (2.0 * base_radius)

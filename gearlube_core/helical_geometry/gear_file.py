@@ -14,6 +14,7 @@ from gearlube_core.helical_geometry.gear_file_sections import (
     DampingRatios,
     FilmMesh,
     Flank,
+    LineSteps,
     Member,
     Oil,
     Operation,
@@ -27,11 +28,12 @@ from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
+Names = Annotated[tuple[Text, ...], Field(strict=False)]
 Origin = Literal["table", "inferred", "completed"]
 Role = Literal["pinion", "gear"]
 _MICROMETRE = 1e-6  # m
 _STEEL = 7850.0  # kg/m3
-_FULL_DEPTH = 2.25  # normal modules; ISO 53: addendum 1, dedendum 1.25
+_FULL_DEPTH = 2.25  # normal modules; [iso_53]: addendum 1, dedendum 1.25
 _ABSENT = {
     "root_diameter_mm": "the basic rack's full depth, 2.25 normal modules, below the tip",
     "body.mass_kg": "a steel disc of the root diameter and the face width",
@@ -47,17 +49,29 @@ class HelicalGearFile(InputFile):
     -----
     What a file leaves out is completed: roots from the basic rack, inertia as a steel disc.
     `provenance` says of every field whether its source prints it.
+
+    Examples
+    --------
+    >>> HelicalGearFile.shipped()
+    ('he_2007', 'jamali_2015_a', 'jamali_2015_b')
+    >>> HelicalGearFile.named("he_2007").helical_pair().ratio
+    1.24
     """
 
     package: ClassVar[str] = "gearlube_core.helical_geometry"
 
     name: Text = Field(description="What reports and plots call the pair")
     source: Text = Field(description="Where the numbers are from")
+    compared_with: Names = Field(
+        default=(),
+        description="Shipped gear files whose geometry `gearlube helical` shows beside this pair's",
+    )
     pair: Pair
     pinion: Member
     gear: Member
     damping: DampingRatios = DampingRatios()
     operation: Operation | None = None
+    meshing_steps: LineSteps | None = None
     oil: Oil | None = None
     film_mesh: FilmMesh = FilmMesh()
     inferred: dict[Text, Text] = Field(
@@ -76,6 +90,12 @@ class HelicalGearFile(InputFile):
         for field in (*self.inferred, *self.completed):
             if not any(name == field or name.startswith(f"{field}.") for name in known):
                 raise ValueError(f"inferred or completed names {field!r}, which is not a field")
+        for name in self.compared_with:
+            if name not in self.shipped():
+                raise ValueError(
+                    f"compared_with must name shipped gear files ({', '.join(self.shipped())}), "
+                    f"got {name!r}"
+                )
         for role, member in (("pinion", self.pinion), ("gear", self.gear)):
             if (member.bearing_1 is None) != (member.bearing_2 is None):
                 raise ValueError(f"{role} needs bearing_1 and bearing_2, or neither")

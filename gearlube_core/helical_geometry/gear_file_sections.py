@@ -10,6 +10,9 @@ from pydantic import Field, model_validator
 from gearlube_core.input_file.input_file import Section
 
 Nodes = Annotated[int, Field(ge=17, le=2049)]
+Steps = Annotated[int, Field(ge=1, le=1_000_000)]
+ShownSteps = Annotated[tuple[Annotated[int, Field(ge=0)], ...], Field(strict=False)]
+Position = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
 Teeth = Annotated[int, Field(ge=5, le=1000)]
 Module = Annotated[float, Field(ge=0.1, le=100.0, allow_inf_nan=False)]
 PressureAngle = Annotated[float, Field(ge=10.0, le=35.0, allow_inf_nan=False)]
@@ -196,6 +199,26 @@ class Operation(Section):
 
     pinion_torque_n_m: Torque = Field(description="Drives the pinion")
     pinion_speed_rpm: Speed = Field(description="In the drive direction")
+
+
+class LineSteps(Section):
+    """Equal steps of one contact line through its meshing cycle, as the source counts them."""
+
+    first_position_mm: Position = Field(
+        description="s_0: where the line's end on the face z = -W/2 is at step 0, from the pitch "
+        "line along the line of action"
+    )
+    step_mm: Width = Field(description="Advance along the line of action in one step")
+    count: Steps = Field(description="Number of the last step")
+    shown: ShownSteps = Field(
+        default=(), description="Steps whose contact lines `gearlube helical` shows; 0 to count"
+    )
+
+    @model_validator(mode="after")
+    def _shows_steps_that_exist(self) -> LineSteps:
+        if any(step > self.count for step in self.shown):
+            raise ValueError(f"shown must hold steps up to count, {self.count}, got {self.shown}")
+        return self
 
 
 class FilmMesh(Section):

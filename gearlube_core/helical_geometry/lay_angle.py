@@ -49,7 +49,8 @@ def lay_angles(
 
     Notes
     -----
-    Source: Jamali 2015 eq. (7.1)-(7.8).
+    Source: [jamali_2015 (7.1)] [jamali_2015 (7.2)] [jamali_2015 (7.3)] [jamali_2015 (7.4)]
+    [jamali_2015 (7.5)] [jamali_2015 (7.6)] [jamali_2015 (7.7)]
     """
     check_option("form", form, FORMS)
     check_positive("distance", distance, "m", "Give metres; for its limit use lay_angle_limits.")
@@ -119,7 +120,7 @@ def equal_radius_line(
 
     Notes
     -----
-    Source: Jamali 2015 fig. 5.17. Its inclination dx/dy where it crosses the contact line is
+    Source: [jamali_2015 fig. 5.17]. Its inclination dx/dy where it crosses the contact line is
     that of `lay_angle_limits`.
     """
     flank, plane = involute_flank(pair, member), pair.plane

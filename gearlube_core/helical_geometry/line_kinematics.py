@@ -43,9 +43,10 @@ def line_kinematics(x: float, pinion_speed: float, plane: ContactPlane) -> LineK
 
     Notes
     -----
-    The relative sliding is `u_p - u_g` = -v_s of He et al. 2007 eq. (6), whose y axis points the
-    other way. Radii: Jamali 2015 eq. (2.7), (2.8) with s = x - r_bp tan(alpha_w); speeds (4.1),
-    (4.2). The normal radius is the transverse one over cos(b) (digest of section 2.3).
+    The relative sliding is `u_p - u_g` = -v_s of [he_2007 (6)], whose y axis points the
+    other way. The normal radius is the transverse one over cos(b).
+    Radii: [jamali_2015 (2.7)] [jamali_2015 (2.8)] with s = x - r_bp tan(alpha_w);
+    speeds: [jamali_2015 (4.1)] [jamali_2015 (4.2)].
     """
     R_p, R_g = x, plane.x_g - x
     gear_speed = pinion_speed * plane.r_bp / plane.r_bg

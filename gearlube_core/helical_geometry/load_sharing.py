@@ -1,6 +1,6 @@
 """Load of a contact line as its share of the total contact length.
 
-The working assumption of Jamali 2015 sec. 4.1: the load spreads evenly over what is left of the
+The working assumption of [jamali_2015 sec. 4.1]: the load spreads evenly over what is left of the
 contact lines between the starts of tip relief. Loaded tooth contact needs no such assumption.
 """
 
@@ -53,7 +53,7 @@ def relief_on_path(tip_radius: float, base_radius: float, depth: float) -> float
 
     Notes
     -----
-    Source: Jamali 2015 eq. (2.14), pinion: z_p, and (2.15), wheel: z_w.
+    Source: [jamali_2015 (2.14)], pinion: z_p, and [jamali_2015 (2.15)], wheel: z_w.
     """
     check_positive("base_radius", base_radius, "m")
     check_within(
@@ -83,7 +83,7 @@ def position_of(s_i: ArrayLike, pair: HelicalPair) -> Array:
     Parameters
     ----------
     s_i
-        [m], any shape; Jamali 2015 sec. 2.2.1.
+        [m], any shape; [jamali_2015 sec. 2.2.1].
     """
     skew = pair.face_width * math.tan(pair.base_helix_angle)
     return np.asarray(s_i, dtype=float) + (pair.pitch_point + skew)
@@ -130,7 +130,7 @@ def shared_load(
 
     Notes
     -----
-    Source: Jamali 2015 sec. 4.1; 14.4 kN at the most with his convention.
+    Source: [jamali_2015 sec. 4.1]; 14.4 kN at the most with his convention.
     """
     check_positive("torque", torque, "N.m", "Torque drives the pinion.")
     check_option("convention", convention, CONVENTIONS)

@@ -10,11 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.helical_geometry.sample_pairs import named_pair
-
-_FIRST_POSITION, _STEP, _COUNT = -18.7e-3, 0.04e-3, 575  # m, m: Jamali 2015 sec. 4.4, 23 mm
+from gearlube_core.units import MILLIMETRE
 
 
 def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> NDArray[np.float64]:
@@ -25,7 +24,7 @@ def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> NDArray[np.float64]:
     Parameters
     ----------
     s_i
-        From the pitch line along the line of action [m], any shape: Jamali 2015 sec. 2.2.1.
+        From the pitch line along the line of action [m], any shape: [jamali_2015 sec. 2.2.1].
     pair
         Gear pair.
 
@@ -117,7 +116,7 @@ def meshing_steps(modified: ModifiedPair, step: float, smallest_share: float) ->
     step
         Advance along the line of action [m].
     smallest_share
-        L/w at both ends of the analysed cycle [-]; Jamali 2015 sec. 4.4 takes 0.16.
+        L/w at both ends of the analysed cycle [-]; [jamali_2015 sec. 4.4] takes 0.16.
 
     Returns
     -------
@@ -145,6 +144,28 @@ def meshing_steps(modified: ModifiedPair, step: float, smallest_share: float) ->
     )
 
 
+def gear_file_steps(file: HelicalGearFile) -> MeshingSteps:
+    """Return the steps of a gear file's section [meshing_steps].
+
+    Raises
+    ------
+    ParameterError
+        The file has no such section.
+    """
+    given = file.meshing_steps
+    if given is None:
+        raise ParameterError(
+            f"meshing_steps must be in the gear file, got none in {file.name!r}. Add the section, "
+            "or take meshing_steps(...), which cuts the cycle by the length of the line."
+        )
+    return MeshingSteps(
+        pair=file.helical_pair(),
+        first_position=given.first_position_mm * MILLIMETRE,
+        step=given.step_mm * MILLIMETRE,
+        count=given.count,
+    )
+
+
 def jamali_2015_steps(design: str) -> MeshingSteps:
     """Return the time steps of Jamali 2015 chapters 4 to 6 for design "a" or "b".
 
@@ -154,9 +175,4 @@ def jamali_2015_steps(design: str) -> MeshingSteps:
     L = 0.16 w, -18.64 mm in design A.
     """
     check_option("design", design, ("a", "b"))
-    return MeshingSteps(
-        pair=named_pair(f"jamali_2015_{design}"),
-        first_position=_FIRST_POSITION,
-        step=_STEP,
-        count=_COUNT,
-    )
+    return gear_file_steps(HelicalGearFile.named(f"jamali_2015_{design}"))

@@ -43,8 +43,8 @@ class Crown:
 
     Notes
     -----
-    Source: Jamali 2015 eq. (4.3), (4.4) before their factor cos(beta_b). (4.4) puts the lower
-    half's start at -F_o, so both halves are one formula in |z|.
+    Source: [jamali_2015 (4.3)] and [jamali_2015 (4.4)] before their factor cos(beta_b). (4.4) puts
+    the lower half's start at -F_o, so both halves are one formula in |z|.
     """
 
     amount: float
@@ -83,7 +83,7 @@ class FlankModification:
     profile_slope : float
         f_Halpha over the active profile [m]: the removal at its tip end less that at its root
         end, zero in the middle of its roll length. Positive values open the gap at this member's
-        tip; ISO 1328-1 counts material there, the opposite sign.
+        tip; [iso_1328_1] counts material there, the opposite sign.
     facets : int
         n_f, over the active profile [-]; 0 leaves the profile smooth.
 

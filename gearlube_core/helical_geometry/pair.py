@@ -48,8 +48,8 @@ class HelicalPair:
 
     Notes
     -----
-    Transverse quantities carry the index t, those at the working pitch circles w. Sources: He et
-    al. 2007 sec. 3 and fig. 3; Jamali 2015 eq. (2.1)-(2.4).
+    Transverse quantities carry the index t, those at the working pitch circles w.
+    Source: [he_2007 sec. 3]
     """
 
     name: str
@@ -153,12 +153,12 @@ class HelicalPair:
 
     @property
     def contact_start(self) -> float:
-        """Where the gear's tip enters the line of action: x of A [m]."""
+        """Where the gear's tip enters the line of action: x of A [m]; [jamali_2015 (2.3)]."""
         return self.tangent_length - math.sqrt(self.gear_tip_radius**2 - self.gear_base_radius**2)
 
     @property
     def contact_end(self) -> float:
-        """Where the pinion's tip leaves the line of action: x of D [m]."""
+        """Where the pinion's tip leaves the line of action: x of D [m]; [jamali_2015 (2.2)]."""
         return math.sqrt(self.pinion_tip_radius**2 - self.pinion_base_radius**2)
 
     @property

@@ -17,14 +17,14 @@ def jamali_2015(
     crown_start: float = 0.0,
     facets: int = 0,
 ) -> ModifiedPair:
-    """Return design "a" or "b" of Jamali 2015 Table 4.1 with its relief and crown on all flanks.
+    """Return design "a" or "b" of [jamali_2015 Table 4.1] with its relief and crown on all flanks.
 
     Parameters
     ----------
     design
         "a" (33:34) or "b" (33:99).
     k
-        Parabolic share of the tip relief (eq. 5.2) [-]; 1 is the thesis' default.
+        Parabolic share of the tip relief k of [jamali_2015 (5.2)] [-]; 1 is the default there.
     beta
         Given, the relief follows the power law (5.6) instead [-].
     crown_start

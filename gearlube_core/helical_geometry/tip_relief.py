@@ -43,8 +43,10 @@ class TipRelief:
 
     Notes
     -----
-    Source: Jamali 2015 eq. (5.1)-(5.5). The slope is continuous for k > 0; with k = 0 it steps at
-    r_start. Past the tip, where no flank is left, the tangent goes on.
+    Source: [jamali_2015 (5.1)] [jamali_2015 (5.2)] [jamali_2015 (5.3)] [jamali_2015 (5.4)]
+    [jamali_2015 (5.5)]
+    The slope is continuous for k > 0; with k = 0 it steps at r_start. Past the tip, where no flank
+    is left, the tangent goes on.
     """
 
     amount: float
@@ -97,7 +99,7 @@ class PowerTipRelief:
 
     Notes
     -----
-    Source: Jamali 2015 eq. (5.6). Past the tip, where no flank is left, the power goes on.
+    Source: [jamali_2015 (5.6)]. Past the tip, where no flank is left, the power goes on.
     """
 
     amount: float

@@ -52,12 +52,14 @@ class UndeformedGap:
 
     Notes
     -----
-    Source: Jamali 2015 eq. (2.9)-(2.18), (4.3), (4.4), (6.2)-(6.12). The involute helicoid is
-    developable: its tangent plane is the same along the whole line, so (2.11) is exact but for
-    the parabola. Removal is added along the normal of the line; the profile's own normal turns by
-    less than 0.03 rad across a film's grid and would change it by less than 5e-4 of itself.
-    Past the tips the flanks go on as their modification does; where no involute exists, below the
-    base circle, the gap is infinite.
+    Source: [jamali_2015 (2.9)] [jamali_2015 (2.10)] [jamali_2015 (2.11)] [jamali_2015 (2.12)]
+    [jamali_2015 (2.13)] [jamali_2015 (2.16)] [jamali_2015 (2.17)] [jamali_2015 (2.18)]
+    [jamali_2015 (6.2)]
+    The involute helicoid is developable: its tangent plane is the same along the whole line, so
+    (2.11) is exact but for the parabola. Removal is added along the normal of the line; the
+    profile's own normal turns by less than 0.03 rad across a film's grid and would change it by
+    less than 5e-4 of itself. Past the tips the flanks go on as their modification does; where no
+    involute exists, below the base circle, the gap is infinite.
     """
 
     modified: ModifiedPair
@@ -110,6 +112,9 @@ class UndeformedGap:
         flank: InvoluteFlank,
     ) -> _Array:
         """Return the depth in the transverse sections whose lines lie at `roll`, NaN off it."""
+        # parabola: [jamali_2015 (2.5)] [jamali_2015 (2.6)] [jamali_2015 (6.4-a)]
+        # [jamali_2015 (6.4-b)]; radius and roll length of its point: [jamali_2015 (6.3-a)]
+        # [jamali_2015 (6.3-b)] [jamali_2015 (6.5)]
         r_b = flank.base_radius
         roll = np.where(roll > 0.0, roll, np.nan)
         if self.form == "involute":
@@ -135,7 +140,7 @@ class ContactLineGap(NamedTuple):
 
 
 def contact_line_gap(modified: ModifiedPair, X: float, y: ArrayLike) -> ContactLineGap:
-    """Return the gap along a contact line of a helical pair, as in Jamali 2015 fig. 5.2 to 5.4.
+    """Return the gap along a contact line of a helical pair, see [jamali_2015 fig. 5.2].
 
     Parameters
     ----------

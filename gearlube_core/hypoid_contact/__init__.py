@@ -1,1 +1,1 @@
-"""Tooth contact: everything that writes a mesh table."""
+"""Where the teeth of a hypoid pair touch under load: what writes a mesh table."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -10,16 +9,16 @@ import xarray as xr
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_dataset import contact_dataset
-from gearlube_core.hypoid_contact.member_compliance import pair_stiffness
 from gearlube_core.hypoid_contact.mesh_cycle import (
     SIDES,
-    CycleProgress,
     CycleSettings,
     run_cycle,
 )
 from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
 from gearlube_core.hypoid_geometry.flank.setting_check import reference_misfit, setting_report
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 _LARGEST_MISFIT = 1e-3  # m, of a cutter's reference plane from the middle of the teeth
@@ -43,6 +42,12 @@ class ContactSettings:
     ----------
     cycle : CycleSettings
     body : ToothBodySettings
+
+    Examples
+    --------
+    >>> from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
+    >>> ContactSettings(cycle=CycleSettings(torques=(10.0, 50.0), positions=12)).cycle.positions
+    12
     """
 
     cycle: CycleSettings = field(default_factory=CycleSettings)
@@ -56,8 +61,7 @@ def analyse_contact(
     store: Path | None = None,
     cache: Path | None = None,
     jobs: int | None = None,
-    announce: Callable[[str], None] = lambda text: None,
-    observer: Callable[[CycleProgress], None] | None = None,
+    progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Return the tooth contact of a gear file, unloaded and loaded, on both sides.
 
@@ -71,10 +75,8 @@ def analyse_contact(
         Folder of tooth compliances; default: the user's cache.
     jobs : int, optional
         Processes; default: all processors.
-    announce : callable, optional
-        Told what begins.
-    observer : callable, optional
-        Called after each position.
+    progress : callable, optional
+        Called with the share of positions that is done [-] and a sentence on what runs.
 
     Raises
     ------
@@ -83,13 +85,13 @@ def analyse_contact(
     ConvergenceError
         When a position finds no equilibrium.
     """
-    announce("cutting flanks")
+    progress(0.0, "cutting flanks")
     check_settings_meet(file)
     for side in SIDES:
         FlankPair.from_file(file, side, settings.cycle.misalignment)
-    announce("tooth compliance")
+    progress(0.0, "tooth compliance")
     stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)
-    announce("loaded contact")
-    cycle = run_cycle(file, stiffness, settings.cycle, store=store, jobs=jobs, observer=observer)
-    announce("unloaded contact")
+    progress(0.0, "loaded contact")
+    cycle = run_cycle(file, stiffness, settings.cycle, store=store, jobs=jobs, progress=progress)
+    progress(1.0, "unloaded contact")
     return contact_dataset(file, settings.cycle, cycle)

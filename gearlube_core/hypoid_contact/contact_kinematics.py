@@ -85,17 +85,17 @@ class ContactKinematics:
 
     @property
     def friction_arm_p(self) -> Array:
-        """Arm of a force along xi about the pinion axis [m], (N,); Karagiannis 2012, eq. (8)."""
+        """Arm of a force along xi about the pinion axis [m], (N,); [karagiannis_2012 (8)]."""
         return _dot(self.xi, self.velocity_p)
 
     @property
     def friction_arm_g(self) -> Array:
-        """Arm of a force along xi about the gear axis [m], (N,); Karagiannis 2012, eq. (9)."""
+        """Arm of a force along xi about the gear axis [m], (N,); [karagiannis_2012 (9)]."""
         return _dot(self.xi, self.velocity_g) * self.ratio
 
     @property
     def R_sliding(self) -> Array:
-        """Radius of the gap along the sliding direction [m], (N,); R_zx of Karagiannis 2012."""
+        """Radius of the gap along the sliding direction [m], (N,); [karagiannis_2012 fig. 18a]."""
         return self.radius_along(self.xi)
 
     def radius_along(self, direction: Array) -> Array:
@@ -144,8 +144,7 @@ def contact_kinematics(
 
     References
     ----------
-    Karagiannis et al. 2012, eqs. (7) to (9) and (12); Litvin and Fuentes 2004, chapter 9.3
-    (contact ellipse).
+    [karagiannis_2012 (7)]; [litvin_fuentes_2004 ch. 9.3] (contact ellipse).
     """
     gear = placed_sample(pair.gear, pair.gear_base, pair.gear_turn(gear_angle), gear_parameters)
     turns = pair.pinion_turn(pinion_angle)

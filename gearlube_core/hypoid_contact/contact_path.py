@@ -81,7 +81,7 @@ def contact_path(pair: FlankPair, gear_angles: Array) -> ContactPath:
 
     References
     ----------
-    Litvin and Fuentes 2004, Gear Geometry and Applied Theory, chapter 9.4.
+    [litvin_fuentes_2004 ch. 9.4].
     """
     gear_angles = np.asarray(gear_angles, float)
     start_angle, start = _first_contact(pair)

@@ -78,7 +78,7 @@ def contact_pattern(
 
     References
     ----------
-    Stadtfeld 1993 (unloaded contact pattern from the ease-off).
+    [stadtfeld_1993] (unloaded contact pattern from the ease-off).
     """
     check_option("pairs", pairs, ("one", "all"))
     check_within("thickness", thickness, 1e-7, 1e-4, "m", "6.35e-6 is customary.")

@@ -177,7 +177,7 @@ def find_contact(
 
     References
     ----------
-    Litvin and Fuentes 2004, Gear Geometry and Applied Theory, chapter 9.4 (equations of tangency).
+    [litvin_fuentes_2004 ch. 9.4] (equations of tangency).
     """
     for _ in range(_ITERATIONS):
         cosine = _put_equations(

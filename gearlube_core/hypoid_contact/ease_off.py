@@ -12,7 +12,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.hypoid_contact.first_touch import turning_map
+from gearlube_core.hypoid_contact.contact_rotations import contact_rotations
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample
 
@@ -101,7 +101,7 @@ def ease_off(
 
     References
     ----------
-    Stadtfeld 1993 (ease-off); Litvin and Fuentes 2004, chapter 9 (tooth contact analysis).
+    [stadtfeld_1993] (ease-off); [litvin_fuentes_2004 ch. 9] (tooth contact analysis).
     """
     check_within("s_count", s_count, 3, 1001, "", "Points over the profile.")
     check_within("t_count", t_count, 3, 1001, "", "Points over the face.")
@@ -109,7 +109,7 @@ def ease_off(
         gear_angles = np.arange(-30, 31) / 12.0 * pair.gear_pitch
     s, t = np.linspace(0.0, 1.0, s_count), np.linspace(0.0, 1.0, t_count)
     gear = pair.gear.parameters(*np.meshgrid(s, t, indexing="ij"))
-    found = turning_map(pair, gear, gear_angles).on_tooth()
+    found = contact_rotations(pair, gear, gear_angles).on_tooth()
     shape = found.pinion_angle.shape
     surface = placed_sample(
         pair.pinion,

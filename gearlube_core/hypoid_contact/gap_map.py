@@ -5,23 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
+from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_line
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
 from gearlube_core.hypoid_contact.placement import Placement, place_direction, place_point
-from gearlube_core.hypoid_contact.rays import HIT, hit_along
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
+from gearlube_core.kernels.jit import kernel
 
 _PROFILE = np.linspace(0.02, 1.0, 25)
 _FACE = np.linspace(0.0, 1.0, 49)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _along_normals(
     motion: CuttingMotion,
     placement: Placement,
@@ -39,7 +39,7 @@ def _along_normals(
             gear_placement, Vector(normal[i, 0], normal[i, 1], normal[i, 2])
         )
         x = np.array([starts[i, 0], starts[i, 1], starts[i, 2], 0.0])
-        if hit_along(motion, placement, origin, direction, x) == HIT:
+        if intersect_line(motion, placement, origin, direction, x) == HIT:
             found[i] = x
     return found
 

@@ -3,29 +3,33 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.sparse import csr_array, hstack
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
-from gearlube_core.contact.unilateral_problem import UnilateralSolution
-from gearlube_core.errors import ConvergenceError
 from gearlube_core.hypoid_contact.gap_map import GapMap, gap_map
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
-from gearlube_core.hypoid_contact.strip import Strip, StripFrame, cut_strip, strip_frame
-from gearlube_core.tooth_compliance.coupled_strips import (
+from gearlube_core.hypoid_contact.strips import (
+    Strip,
+    StripFrame,
+    StripSettings,
+    cut_strip,
+    strip_frame,
+)
+from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
+from gearlube_core.tooth_contact.coupled_strips import (
+    CoupledSolution,
     CoupledStrip,
     PairStiffness,
     solve_coupled,
 )
-from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
+from gearlube_core.tooth_contact.strip_growth import StripGrowth, solve_on_growing_strips
 
-_GROW = 1.6  # a strip that contact leaves is cut anew, this much larger
-_ATTEMPTS = 8
+_GROWTH = StripGrowth(factor=1.6, margin=1.15, attempts=8)
 _FIRST_STIFFNESS = 3e8  # N/m, only to size the first strips
 _SHORTEST = 2e-3  # m, length of a strip for its first width
 _WIDE = 2.5  # half-width of a strip over the half-width of Hertz' line contact
@@ -37,19 +41,15 @@ class LoadedSettings:
 
     Parameters
     ----------
-    cells_across, cells_along : int
-        Cells of a strip across and along the contact line.
+    strips : StripSettings
     tolerance : float
         Of the unilateral contact's residual [-].
     """
 
-    cells_across: int = 32
-    cells_along: int = 48
+    strips: StripSettings = field(default_factory=StripSettings)
     tolerance: float = 1e-5
 
     def __post_init__(self) -> None:
-        check_within("cells_across", self.cells_across, 8, 256)
-        check_within("cells_along", self.cells_along, 8, 512)
         check_within("tolerance", self.tolerance, 1e-10, 1e-3)
 
 
@@ -73,6 +73,9 @@ class LoadedPair:
     forces: Array
     pressure: Array
     torque: float
+
+
+_Strips = list[tuple[float, Strip]]  # of each tooth pair, with its phase
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,23 +168,22 @@ class MeshPosition:
         check_positive("torque", torque, "N.m", "Coast flanks carry positive torque too.")
         arm = float(np.nanmedian(np.abs(self.maps[len(self.maps) // 2].arm)))
         closing = closing or torque / arm / _FIRST_STIFFNESS
-        width = 1.0
-        for _ in range(_ATTEMPTS):
+
+        def solve(closing: float, width: float) -> tuple[_Strips, CoupledSolution]:
             strips = self._strips(torque / arm, closing, width, stiffness, settings)
-            state, solution = self._solve(torque, strips, stiffness, settings)
-            needed = arm * (solution.rotation - self.unloaded_rotation)
-            sideways = any(_touches_side(pair) for pair in state.pairs)
-            if needed <= closing and not sideways:
-                return state
-            if needed > closing:
-                closing = max(1.15 * needed, _GROW**0.5 * closing)
-            if sideways:
-                width *= _GROW
-        raise ConvergenceError(
-            f"Contact at mesh phase {self.phase:.3f} and {torque:g} N.m still leaves its strips "
-            f"after {_ATTEMPTS} enlargements. Reduce the torque, or check that the flanks are "
-            "crowned: the strips hold contact along lines."
+            coupled = [_coupled(self.pair, strip, stiffness) for _, strip in strips]
+            return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
+
+        strips, solved = solve_on_growing_strips(
+            solve,
+            lambda solved: arm * (solved.solution.rotation - self.unloaded_rotation),
+            closing=closing,
+            width=1.0,
+            growth=_GROWTH,
+            where=f"mesh phase {self.phase:.3f} and {torque:g} N.m",
+            cure=", or check that the flanks are crowned: the strips hold contact along lines",
         )
+        return self._state(torque, strips, solved)
 
     def _strips(
         self,
@@ -190,8 +192,7 @@ class MeshPosition:
         width: float,
         stiffness: PairStiffness,
         settings: LoadedSettings,
-    ) -> list[tuple[float, Strip]]:
-        shape = settings.cells_across, settings.cells_along
+    ) -> _Strips:
         strips = []
         for phase, gaps in zip(self.phases, self.maps, strict=True):
             # turned to first touch: with backlash to close, arms that differ by per cents would
@@ -201,7 +202,7 @@ class MeshPosition:
             if frame is None:
                 continue
             half = _WIDE * width * self._hertz_half_width(frame, force, stiffness.contact_modulus)
-            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, half, shape)
+            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, half, settings.strips)
             if strip.usable.any():
                 strips.append((phase, strip))
         return strips
@@ -218,19 +219,7 @@ class MeshPosition:
         per_length = force / max(2.0 * frame.half_length, _SHORTEST)
         return math.sqrt(4.0 * per_length / (math.pi * modulus * curvature))
 
-    def _solve(
-        self,
-        torque: float,
-        strips: Sequence[tuple[float, Strip]],
-        stiffness: PairStiffness,
-        settings: LoadedSettings,
-    ) -> tuple[LoadedState, UnilateralSolution]:
-        solved = solve_coupled(
-            [_coupled(self.pair, strip, stiffness) for _, strip in strips],
-            stiffness,
-            torque,
-            settings.tolerance,
-        )
+    def _state(self, torque: float, strips: _Strips, solved: CoupledSolution) -> LoadedState:
         pairs = []
         for (phase, strip), forces, pressure in zip(
             strips, solved.forces, solved.pressure, strict=True
@@ -238,7 +227,7 @@ class MeshPosition:
             pairs.append(
                 LoadedPair(phase, strip, forces, pressure, float(np.nansum(forces * strip.arm)))
             )
-        state = LoadedState(
+        return LoadedState(
             phase=self.phase,
             torque=torque,
             rotation=solved.solution.rotation,
@@ -249,7 +238,6 @@ class MeshPosition:
             pairs=tuple(pairs),
             iterations=solved.solution.outcome.iterations,
         )
-        return state, solved.solution
 
 
 def _angles(pair: FlankPair, phase: float) -> tuple[float, float]:
@@ -273,9 +261,3 @@ def _coupled(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> Coupled
         area=strip.area,
         weights=csr_array(hstack(parts)),
     )
-
-
-def _touches_side(pair: LoadedPair) -> bool:
-    """Tell whether contact reaches the long sides of the strip where the teeth go on."""
-    loaded = pair.forces > 0.0
-    return bool(loaded[[0, -1]].any())

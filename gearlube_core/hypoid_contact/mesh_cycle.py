@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
-from gearlube_core.arrays import Array
-from gearlube_core.checks import check_within
-from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.loaded_contact import (
     LoadedSettings,
     LoadedState,
     MeshPosition,
-    PairStiffness,
 )
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.result_store import Record
+from gearlube_core.tooth_contact.coupled_strips import PairStiffness
+from gearlube_core.tooth_contact.mesh_cycle import (
+    MeshCycleSettings,
+    compute_positions,
+    stack_records,
+)
 
 SIDES: tuple[Side, ...] = ("drive", "coast")
 PAIRS_BESIDE = 2  # tooth pairs looked at before and after the one at the mesh phase
@@ -32,35 +36,25 @@ _FORMAT = 2  # raise with every change of the model that changes results
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CycleSettings:
+class CycleSettings(MeshCycleSettings):
     """Which positions and loads of the mesh are analysed.
 
     Parameters
     ----------
+    torques : tuple of float
+        Pinion torques [N.m], rising, 0.01 to 1e5; used on either flank.
     positions : int
         Mesh phases in a period.
-    torques : tuple of float
-        Pinion torques [N.m], rising, above zero; used on either flank.
     loaded : LoadedSettings
     misalignment : Misalignment
     """
 
-    positions: int = 20
+    torque_range: ClassVar[tuple[float, float]] = (1e-2, 1e5)
+
     torques: tuple[float, ...] = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 300.0, 400.0)
+    positions: int = 20
     loaded: LoadedSettings = field(default_factory=LoadedSettings)
     misalignment: Misalignment = ALIGNED
-
-    def __post_init__(self) -> None:
-        check_within("positions", self.positions, 4, 400)
-        for torque in self.torques:
-            check_within("torques", torque, 1e-2, 1e5, "N.m")
-        if not self.torques or any(np.diff(self.torques) <= 0.0):
-            raise ParameterError(f"torques must rise [N.m], got {self.torques}. Sort them.")
-
-    @property
-    def phases(self) -> Array:
-        """Mesh phases [mesh periods], (positions,)."""
-        return np.arange(self.positions) / self.positions
 
 
 def position_record(
@@ -84,8 +78,7 @@ def position_record(
         following = [t for t in settings.torques if t > torque]
         if following:
             closing *= following[0] / torque
-    rows = [_state_record(pair, position, state) for state in states]
-    return {key: np.stack([row[key] for row in rows]) for key in rows[0]}
+    return stack_records(_state_record(pair, position, state) for state in states)
 
 
 def _state_record(pair: FlankPair, position: MeshPosition, state: LoadedState) -> Record:
@@ -127,16 +120,6 @@ def _state_record(pair: FlankPair, position: MeshPosition, state: LoadedState) -
     }
 
 
-@dataclass(frozen=True, slots=True)
-class CycleProgress:
-    """How far an analysis has come."""
-
-    done: int
-    total: int
-    side: Side
-    phase: float
-
-
 def run_cycle(
     file: HypoidGearFile,
     stiffness: dict[Side, PairStiffness],
@@ -144,7 +127,7 @@ def run_cycle(
     *,
     store: Path | None = None,
     jobs: int | None = None,
-    observer: Callable[[CycleProgress], None] | None = None,
+    progress: Progress = no_progress,
 ) -> dict[Side, Record]:
     """Return the loaded contact over a mesh cycle on both sides.
 
@@ -157,8 +140,8 @@ def run_cycle(
         Folder that keeps finished positions; they are not computed again.
     jobs : int, optional
         Processes; one runs in this process. Default: all processors.
-    observer : callable, optional
-        Called after each position.
+    progress : callable, optional
+        Called after each new position with the share done [-] and which position it was.
 
     Returns
     -------
@@ -172,45 +155,35 @@ def run_cycle(
     ConvergenceError
         When a position finds no equilibrium.
     """
-    tasks = [(side, float(phase)) for side in SIDES for phase in settings.phases]
-    found: dict[tuple[Side, float], Record] = {}
-    for task, record in resumable_records(
-        tasks,
-        _name,
-        _position,
-        RecordStore(store, _key(file, stiffness, settings)),
-        prepare=_prepare,
-        arguments=(file, stiffness, settings),
+    pairs = {side: FlankPair.from_file(file, side, settings.misalignment) for side in SIDES}
+    found = compute_positions(
+        [(side, float(phase)) for side in SIDES for phase in settings.phases],
+        partial(_record_of, pairs, stiffness, settings),
+        key=_key(file, stiffness, settings),
+        folder=store,
+        label=_label,
         jobs=jobs,
-        new=lambda task, done: observer and observer(CycleProgress(done, len(tasks), *task)),
-    ):
-        found[task] = record
+        progress=progress,
+    )
     return {
-        side: {
-            name: np.stack([found[side, float(phase)][name] for phase in settings.phases])
-            for name in found[side, 0.0]
-        }
+        side: stack_records(found[side, float(phase)] for phase in settings.phases)
         for side in SIDES
     }
 
 
-_work: dict[str, object] = {}  # what every position of a run shares, set once in each process
+def _record_of(
+    pairs: dict[Side, FlankPair],
+    stiffness: dict[Side, PairStiffness],
+    settings: CycleSettings,
+    position: tuple[Side, float],
+) -> Record:
+    side, phase = position
+    return position_record(pairs[side], phase, stiffness[side], settings)
 
 
-def _prepare(
-    file: HypoidGearFile, stiffness: dict[Side, PairStiffness], settings: CycleSettings
-) -> None:
-    _work["pairs"] = {
-        side: FlankPair.from_file(file, side, settings.misalignment) for side in SIDES
-    }
-    _work["stiffness"] = stiffness
-    _work["settings"] = settings
-
-
-def _position(task: tuple[Side, float]) -> Record:
-    side, phase = task
-    pairs, stiffness = _work["pairs"], _work["stiffness"]
-    return position_record(pairs[side], phase, stiffness[side], _work["settings"])  # type: ignore[index, arg-type]
+def _label(position: tuple[Side, float]) -> tuple[str, str]:
+    side, phase = position
+    return f"{side}_{phase:.6f}", f"{side} flanks, mesh phase {phase:.2f}"
 
 
 def _key(
@@ -224,7 +197,3 @@ def _key(
         for part in (stiffness[side].pinion, stiffness[side].gear):
             digest.update(np.ascontiguousarray(part.image).tobytes())
     return digest.hexdigest()[:16]
-
-
-def _name(task: tuple[Side, float]) -> str:
-    return f"{task[0]}_{task[1]:.6f}"

@@ -1,4 +1,4 @@
-"""Unloaded transmission error as the extreme of the pinion's turning over all flank points.
+"""Unloaded transmission error as the least rotation of the pinion to contact, by search.
 
 Second route beside the path of contact: no normals are compared, edges of the teeth count.
 """
@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.hypoid_contact.first_touch import first_touch, turning_map
+from gearlube_core.hypoid_contact.contact_rotations import contact_rotations
+from gearlube_core.hypoid_contact.first_touch import first_touch
 from gearlube_core.hypoid_contact.pair import FlankPair
 
 _STENCIL = np.linspace(-1.0, 1.0, 3)
@@ -49,7 +50,7 @@ def _touch(pair: FlankPair, angle: float) -> tuple[float, float, float]:
     for _ in range(_ROUNDS):
         x = np.clip(x, size, 1.0 - size)
         s, t = np.meshgrid(x[0] + size[0] * _STENCIL, x[1] + size[1] * _STENCIL, indexing="ij")
-        found = turning_map(pair, pair.gear.parameters(s, t), np.array([angle]), start)
+        found = contact_rotations(pair, pair.gear.parameters(s, t), np.array([angle]), start)
         if np.isnan(found.pinion_angle).any():
             size = _SHRINK * size  # part of the stencil lies where the pinion has no flank
             continue

@@ -106,7 +106,7 @@ def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
 
     References
     ----------
-    Litvin and Fuentes 2004, chapter 9.2 (transmission errors of parabolic type).
+    [litvin_fuentes_2004 ch. 9.2] (transmission errors of parabolic type).
     """
     check_within("count", count, 3, 100_001, "", "Positions over the mesh period.")
     coarse = _coarse_path(pair)

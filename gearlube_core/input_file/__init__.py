@@ -1,1 +1,1 @@
-"""Input files in people's units: data models read from TOML, their notes and errors."""
+"""Input files in TOML: data models, notes on their fields, errors."""

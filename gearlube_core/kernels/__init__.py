@@ -1,1 +1,1 @@
-"""What compiled kernels are made with."""
+"""The decorator of all compiled kernels, and tuples as flat arrays."""

@@ -11,13 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from numba import njit
-
-from gearlube_core.kernels.foreign_types import keep_own_types
+from gearlube_core.kernels.compiled_cache import compiled
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def kernel(function: _Function) -> _Function:
     """Compile `function` with numba on first call and keep the machine code on disk."""
-    return keep_own_types(njit(error_model="numpy")(function), function)  # type: ignore[no-any-return]
+    return compiled(function, error_model="numpy")

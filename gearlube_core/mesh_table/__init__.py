@@ -1,1 +1,1 @@
-"""Mesh table: periodic mesh data against pinion angle and load, tagged datum by datum."""
+"""Mesh data against angle and load: what contact analysis writes and dynamics reads."""

@@ -96,6 +96,10 @@ def mesh_series(
 
     `coefficients` has shape (N_SERIES * (2 n_orders + 1),): the series are grouped by order,
     first the means, then for each order h the N_SERIES cosine and the N_SERIES sine coefficients.
+
+    Notes
+    -----
+    Source: [mohammadpour_2015 (5)], which prints n phi_p for n z_p phi_p; [karagiannis_2012 (26)].
     """
     k = coefficients[K_M]
     rp = coefficients[R_P]
@@ -163,6 +167,11 @@ def pair_channels(
     `window` has shape ((n_nodes + 1) * n_channels,), the first node repeated at the end. Linear
     between nodes, so that shares that sum to 1 at the nodes do so everywhere. The first channel is
     the share; the others are left alone where it is zero.
+
+    Notes
+    -----
+    Windows of whole mesh periods in place of the flank functions.
+    Source: [karagiannis_2012 (27)] [karagiannis_2012 (28)] [karagiannis_2012 (29)]
     """
     position = z_p * phi * _WINDOWS_PER_RADIAN + pair * _THIRD
     position = (position - math.floor(position)) * n_nodes

@@ -107,7 +107,7 @@ def uniform_line_mesh(
     lines: int,
     density: float,
 ) -> LineMesh:
-    """Return one density k [N/m2] everywhere, without offset (He et al. 2007 eq. (2))."""
+    """Return one density k [N/m2] everywhere, without offset: [he_2007 (2)]."""
     check_positive("density", density, "N/m2", "About 1.3e10 N/m2 is usual for steel.")
     shape = (1, 1, lines, 1)
     return LineMesh(

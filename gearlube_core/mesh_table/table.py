@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from importlib.resources import as_file, files
-from pathlib import Path
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
@@ -106,9 +104,17 @@ class MeshTable:
 
     References
     ----------
-    Mohammadpour et al. 2015, eq. (5) and (23); Karagiannis et al. 2012, eq. (26)-(29). The papers'
-    flank functions of period contact_ratio do not repeat with the mesh for non-integer contact
-    ratios; windows in a period of `PAIRS` mesh periods do.
+    [mohammadpour_2015 (5)] [mohammadpour_2015 (23)]
+    [karagiannis_2012 (26)] [karagiannis_2012 (27)] [karagiannis_2012 (28)] [karagiannis_2012 (29)]
+    The papers' flank functions of period contact_ratio do not repeat with the mesh for non-integer
+    contact ratios; windows in a period of `PAIRS` mesh periods do.
+
+    Examples
+    --------
+    >>> from gearlube_core.mesh_table.shipped import shipped_mesh_table
+    >>> table = shipped_mesh_table("mohammadpour_2015")
+    >>> table.pinion_teeth, table.gear_teeth
+    (13, 36)
     """
 
     name: str
@@ -228,14 +234,3 @@ class MeshTable:
             return float(np.interp(torque, self.torque[coast], means[coast]))
         drive = self.torque > 0.0
         return float(np.interp(abs(torque), self.torque[drive], means[drive]))
-
-    @classmethod
-    def named(cls, name: str) -> MeshTable:
-        """Return a table that ships with the package, e.g. "mohammadpour_2015"."""
-        from gearlube_core.mesh_table.netcdf import read_mesh_table
-
-        resource = files("gearlube_core.mesh_table") / "data" / f"{name}.nc"
-        if not resource.is_file():
-            raise TableError(f"No mesh table is called {name!r}. Shipped: mohammadpour_2015.")
-        with as_file(resource) as path:
-            return read_mesh_table(Path(path))

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from gearlube_core.kernels.jit import kernel
 
-_GAMMA = 2.266e-9  # 1/Pa, Jamali 2015 eq. (3.5)
+_GAMMA = 2.266e-9  # 1/Pa, [jamali_2015 (3.5)]
 _LAMBDA = 1.683e-9  # 1/Pa, the same
 
 
@@ -23,8 +23,8 @@ class DowsonHigginson(NamedTuple):
         Notes
         -----
         Below ambient pressure rho0, with derivatives zero; at zero those from above. Measured to
-        about 0.4 GPa; bounded by 1.346 rho0 at any pressure. Jamali 2015 eq. (3.5) prints another
-        letter for gamma p in the numerator. Source: Dowson and Higginson 1966.
+        about 0.4 GPa; bounded by 1.346 rho0 at any pressure. (3.5) prints another letter for
+        gamma p in the numerator. Source: [dowson_higginson_1966] [jamali_2015 (3.5)]
         """
         q = max(p, 0.0)
         below = 1.0 + self.lam * q

@@ -41,7 +41,8 @@ def eyring_stress_ratio(newtonian_ratio: float, exponent: float) -> float:
     Notes
     -----
     Any finite x >= 0 and y: the exponential is not formed where it would overflow.
-    Source: Eyring 1936; Johnson and Tevaarwerk 1977 without the elastic term.
+    Source: [eyring_1936]; [johnson_tevaarwerk_1977] without the elastic term;
+    [karagiannis_2012 (14)] [jamali_2015 (3.26)]
     """
     if newtonian_ratio <= 0.0:
         return 0.0
@@ -54,7 +55,7 @@ def eyring_stress_ratio(newtonian_ratio: float, exponent: float) -> float:
 class Eyring(NamedTuple):
     """Shear law du/dz = (tau0/eta) sinh(tau/tau0), with closed forms for a film.
 
-    Source: Eyring 1936.
+    Source: [eyring_1936]
     """
 
     tau0: float  # Eyring stress [Pa]; 0: Newtonian

@@ -64,7 +64,10 @@ def eyring_flow_factor(sigma: float, a: float) -> tuple[float, float, float]:
     Derived from du/dz = tau0/eta sinh(tau/tau0), tau = tau_m + z dp/dx: no slip gives
     sinh(tau_m/tau0) = a s/sinh s, and the flow is the integral of -z du/dz. Above |sigma| = 100
     the factor is kept at its value there.
-    Source: Jamali 2015 eq. (3.25)-(3.41) in one dimension; Conry, Wang and Cusano 1987.
+    Source: [conry_1987]; in one dimension
+    [jamali_2015 (3.25)] [jamali_2015 (3.26)] [jamali_2015 (3.29)] [jamali_2015 (3.29a)]
+    [jamali_2015 (3.31)] [jamali_2015 (3.33)] [jamali_2015 (3.35)] [jamali_2015 (3.37)]
+    [jamali_2015 (3.39)]
     """
     s = min(abs(sigma), _LARGEST_SIGMA)
     F, F_s = _poiseuille_part(s)

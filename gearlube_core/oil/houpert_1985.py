@@ -138,7 +138,7 @@ def houpert_log_viscosity(law: HoupertParameters, pressure: float, temperature: 
     -----
     To about 1 GPa, as `roelands_viscosity`, to which it reduces at T_0. Karagiannis et al. 2012
     add 273 to the temperature in degC; 273.15 here changes S0 by 0.07 %.
-    Source: Houpert 1985; Karagiannis et al. 2012 eq. (16), (17).
+    Source: [houpert_1985]; [karagiannis_2012 (16)], [karagiannis_2012 (17)].
     """
     cooling = math.log((temperature - GLASS_TEMPERATURE) / (law.temperature - GLASS_TEMPERATURE))
     compression = math.log(1.0 + ROELANDS_PRESSURE * pressure)

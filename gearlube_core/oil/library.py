@@ -16,7 +16,7 @@ from gearlube_core.units import celsius_to_kelvin
 LIBRARY_PATH = Path(__file__).with_name("lubricants.toml")
 TAGS = ("printed", "corrected", "completed", "assumed")
 KELVIN_SUFFIX = "_degc"
-LOWEST_VISCOSITY = 2.0e-6  # m2/s, ASTM D341 for the shift of 0.7 mm2/s
+LOWEST_VISCOSITY = 2.0e-6  # m2/s, [astm_d341] for the shift of 0.7 mm2/s
 
 
 def read_library(path: Path = LIBRARY_PATH) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from gearlube_core.kernels.jit import kernel
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa, inverse of the Roelands pressure constant 1.96e8 Pa
 # The viscosity constant, as papers round it: Karagiannis 2012 in the axle's friction, Jamali 2015
 # in films. They differ by 4e-5 in ln eta.
-ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the constant in Pa s, Karagiannis et al. 2012 eq. (16)
-ROELANDS_KAPPA = 63.15e-6  # Pa s, Jamali 2015 eq. (3.4)
+ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the constant in Pa s, [karagiannis_2012 (16)]
+ROELANDS_KAPPA = 63.15e-6  # Pa s, [jamali_2015 (3.4)]
 GLASS_TEMPERATURE = 138.0  # K, where the law of Roelands lets the viscosity grow without bound
 
 
@@ -39,7 +39,7 @@ def pressure_viscosity_coefficient(eta0: float, Z: float) -> float:
 
     Notes
     -----
-    Needs eta0 above 6.3e-5 Pa s. Source: Roelands 1966.
+    Needs eta0 above 6.3e-5 Pa s. Source: [roelands_1966].
     """
     return ROELANDS_PRESSURE * Z * (math.log(eta0) + ROELANDS_LOG_VISCOSITY)
 
@@ -67,7 +67,7 @@ def roelands_viscosity(eta0: float, Z: float, pressure: float) -> float:
     Notes
     -----
     Fitted by Roelands to about 0.5 GPa; used in elastohydrodynamics to about 1 GPa.
-    Source: Roelands 1966; Karagiannis et al. 2012 eq. (16) at one temperature.
+    Source: [roelands_1966]; [karagiannis_2012 (16)] at one temperature.
     """
     growth = (1.0 + ROELANDS_PRESSURE * pressure) ** Z - 1.0
     return eta0 * math.exp((math.log(eta0) + ROELANDS_LOG_VISCOSITY) * growth)

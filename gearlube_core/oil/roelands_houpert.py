@@ -42,7 +42,7 @@ class RoelandsHoupert(NamedTuple):
         Notes
         -----
         Meant for 0 to about 1 GPa; below zero the tangent at ambient pressure is taken.
-        Source: Roelands 1966; Jamali 2015 eq. (3.4); Houpert 1985.
+        Source: [roelands_1966] [jamali_2015 (3.4)] [houpert_1985]
         """
         growth, slope = _pressure_exponent(self.chi, self.Z, p)
         exponent = growth + (cooling - 1.0) * (1.0 + growth)

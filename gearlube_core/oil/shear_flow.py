@@ -259,8 +259,13 @@ def shear_flow(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float)
     film flows as if the surfaces slid no faster. Slip is taken as equal at both walls, so that
     entrainment is not changed.
 
-    Sources: Jamali 2015 eq. (3.25)-(3.43) with v for u in (3.38); Sharif, Evans and Snidle 2001;
-    in one dimension Conry, Wang and Cusano 1987.
+    Source: [sharif_2001]; in one dimension [conry_1987];
+    [jamali_2015 (3.25)] [jamali_2015 (3.26)] [jamali_2015 (3.27)] [jamali_2015 (3.28)]
+    [jamali_2015 (3.29)] [jamali_2015 (3.30)] [jamali_2015 (3.29a)] [jamali_2015 (3.30a)]
+    [jamali_2015 (3.31)] [jamali_2015 (3.32)] [jamali_2015 (3.33)] [jamali_2015 (3.34)]
+    [jamali_2015 (3.35)] [jamali_2015 (3.36)] [jamali_2015 (3.37)] [jamali_2015 (3.38)]
+    [jamali_2015 (3.39)] [jamali_2015 (3.40)] [jamali_2015 (3.43)]
+    (3.38) prints u for v.
     """
     e = _equilibrium(law, sigma_s, sigma_r, a, limit)
     along, across = _factors(law, e)

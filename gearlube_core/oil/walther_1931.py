@@ -7,7 +7,7 @@ import math
 from gearlube_core.kernels.jit import kernel
 
 MM2_S = 1.0e-6  # m2/s in one mm2/s (one cSt)
-WALTHER_SHIFT = 0.7  # mm2/s, ASTM D341 for viscosities above 2 mm2/s
+WALTHER_SHIFT = 0.7  # mm2/s, [astm_d341] for viscosities above 2 mm2/s
 _LN10 = math.log(10.0)
 
 
@@ -32,7 +32,7 @@ def walther_viscosity(A: float, B: float, temperature: float) -> tuple[float, fl
     Notes
     -----
     For viscosities above 2 mm2/s. At constant density beta is also that of the dynamic
-    viscosity. Source: Walther 1931; ASTM D341.
+    viscosity. Source: [walther_1931]; [astm_d341].
     """
     log10_shifted = math.exp(_LN10 * A - B * math.log(temperature))
     shifted = math.exp(_LN10 * log10_shifted)
@@ -65,7 +65,7 @@ def walther_coefficients(
 
     Notes
     -----
-    ASTM D341 recommends the form above 2 mm2/s.
+    [astm_d341] recommends the form above 2 mm2/s.
     """
     w_1, w_2 = walther_double_log(nu_1), walther_double_log(nu_2)
     B = (w_1 - w_2) / math.log10(temperature_2 / temperature_1)

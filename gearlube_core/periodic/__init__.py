@@ -1,4 +1,4 @@
-"""Periodic motions: found, followed and judged for stability, whatever the model."""
+"""Periodic motions of any model: shooting, continuation, stability."""
 
 from gearlube_core.periodic.branch import Branch, SpecialPoint
 from gearlube_core.periodic.branch_switching import BranchStart, switch_branch

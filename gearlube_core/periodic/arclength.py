@@ -49,7 +49,7 @@ class Arc:
 
         With A = [dr/dy; reference], A t = (0, ..., 0, 1) gives the tangent t up to its length, and
         det [dr/dy; t/abs(t)] = det(A) abs(t). That determinant changes sign at branch points but
-        not at folds (Keller 1977).
+        not at folds ([keller_1977]).
         """
         system = np.vstack((evaluation.jacobian, reference))
         right_hand = np.zeros(reference.size)

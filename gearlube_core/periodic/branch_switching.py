@@ -59,7 +59,7 @@ def switch_branch(
     -----
     At a branch point the derivative [dr/dz, dr/dp] has a null space of dimension two. The search
     goes along the direction in it that is normal to the known branch, and is held at that distance,
-    so that it cannot fall back onto the known branch (Keller 1977).
+    so that it cannot fall back onto the known branch ([keller_1977]).
     """
     check_finite("step", step)
     centre = problem.place(point.unknowns, point.parameter)

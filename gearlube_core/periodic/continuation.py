@@ -110,7 +110,7 @@ def follow(
 
     Notes
     -----
-    Keller 1977: predictor along the tangent, corrector in the plane normal to it. The step grows
+    [keller_1977]: predictor along the tangent, corrector in the plane normal to it. The step grows
     and shrinks with the corrector's iterations and with the turn of the branch. A turn that does
     not shrink with the step is a corner and is passed, also when sharper than a right angle.
     Motions through a backlash, integrated with fixed steps, give branches with a corner wherever
@@ -248,7 +248,7 @@ class _Walk:
 
         Beyond the corner the branch leaves along the null vector of the derivative found there. Of
         its two directions the one that keeps the sign of det [dr/dy; tangent] leads onwards, in
-        piecewise smooth equations as in smooth ones (Allgower and Georg 1990, ch. 12).
+        piecewise smooth equations as in smooth ones ([allgower_georg_1990 ch. 12]).
         """
         here, arc = self.node, self.arc
         ahead = arc.problem.evaluate(here.place + self.length * here.tangent)

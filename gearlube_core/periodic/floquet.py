@@ -32,8 +32,9 @@ def floquet_multipliers(monodromy: Array, *, trivial: int = 0) -> Multipliers:
 
     Notes
     -----
-    A disturbance along an eigenvector is multiplied by mu each period (Floquet 1883). With damping,
-    the product of all multipliers is exp of the integral of the divergence over the period.
+    A disturbance along an eigenvector is multiplied by mu each period ([floquet_1883]). With
+    damping, the product of all multipliers is exp of the integral of the divergence over the
+    period.
 
     Examples
     --------

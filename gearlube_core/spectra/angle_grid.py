@@ -163,7 +163,7 @@ def resample(
     Notes
     -----
     A cubic spline keeps a component of s samples per cycle to a relative error of about
-    1/(s - 1)^4: 4e-3 at 5 samples, 1.5e-4 at 10, 3e-7 at 44 (Unser, IEEE Signal Processing
-    Magazine 16(6), 1999, 22-38, spline of degree 3).
+    1/(s - 1)^4: 4e-3 at 5 samples, 1.5e-4 at 10, 3e-7 at 44 ([unser_1999],
+    spline of degree 3).
     """
     return np.asarray(CubicSpline(angle, signals, axis=0)(window.angle))

@@ -1,1 +1,1 @@
-"""Files written whole, records of finished work, and the processes that do it."""
+"""Files written whole or not at all, stored results, worker processes."""

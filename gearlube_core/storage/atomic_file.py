@@ -1,22 +1,30 @@
-"""Files that are whole or not there: written beside their place, then moved into it."""
+"""Atomic writes: a file is complete or not there."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+import zipfile
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlube_core.errors import FileError
 
 if TYPE_CHECKING:  # not every user of this module has datasets
     import xarray as xr
 
+Arrays = dict[str, Any]  # ndarrays by name; texts and numbers are arrays of no dimension
+
 
 @contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
-    """Give a file to write; it takes the place of `path` when all went well.
+def atomic_write(path: Path) -> Iterator[Path]:
+    """Give the path of a neighbouring file to write; move it to `path` if all went well.
 
-    An older file at `path` stays as it is until then; the one to write is gone if anything fails.
+    Until then an older file at `path` stays as it is. If anything fails, the neighbouring file is
+    removed.
     """
     partial = path.with_name(f"{path.name}.{os.getpid()}.part")
     try:
@@ -26,13 +34,64 @@ def whole_file(path: Path) -> Iterator[Path]:
         partial.unlink(missing_ok=True)
 
 
+def write_text(text: str, path: Path) -> None:
+    """Write a text in UTF-8."""
+    with atomic_write(path) as partial:
+        partial.write_text(text, encoding="utf-8")
+
+
+def write_arrays(path: Path, arrays: Mapping[str, Any], *, compress: bool = False) -> None:
+    """Write arrays as an npz file, flushed to the disk."""
+    save = np.savez_compressed if compress else np.savez
+    with atomic_write(path) as partial, partial.open("wb") as stream:
+        save(stream, **arrays)
+        stream.flush()
+        os.fsync(stream.fileno())
+
+
+def read_arrays(path: Path) -> Arrays:
+    """Return the arrays of an npz file.
+
+    Raises
+    ------
+    FileError
+        The file is missing, damaged or of another kind.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            return {name: stored[name] for name in stored.files}
+    except (OSError, ValueError, KeyError, AttributeError, EOFError, zipfile.BadZipFile) as error:
+        raise FileError(f"{path} must be an npz file, got {error}. Remove it.") from error
+
+
 def write_dataset(dataset: xr.Dataset, path: Path) -> None:
     """Write a dataset as NetCDF 3, which needs no library beside scipy."""
-    with whole_file(path) as partial:
+    with atomic_write(path) as partial:
         dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
 
 
-def write_text(text: str, path: Path) -> None:
-    """Write a text in UTF-8."""
-    with whole_file(path) as partial:
-        partial.write_text(text, encoding="utf-8")
+def write_compressed_dataset(dataset: xr.Dataset, path: Path) -> None:
+    """Write a dataset as NetCDF 4 with compressed floats; texts may have any length."""
+    encoding = {
+        str(name): {"zlib": True, "complevel": 1}
+        for name, variable in dataset.data_vars.items()
+        if variable.dtype.kind == "f" and variable.ndim > 0
+    }
+    with atomic_write(path) as partial:
+        dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+
+
+def read_compressed_dataset(path: Path) -> xr.Dataset:
+    """Return the dataset in a NetCDF 4 file.
+
+    Raises
+    ------
+    FileError
+        The file is missing, damaged or of another kind.
+    """
+    import xarray as xr
+
+    try:
+        return xr.load_dataset(path, engine="netcdf4")
+    except (OSError, ValueError, RuntimeError, KeyError) as error:
+        raise FileError(f"{path} must be a NetCDF file, got {error}. Remove it.") from error

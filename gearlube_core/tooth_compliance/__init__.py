@@ -1,1 +1,1 @@
-"""Condensed elastic compliance of one gear tooth on a base block, by finite elements."""
+"""Elastic compliance of gear teeth by finite elements."""

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import os
-import tempfile
-import zipfile
 from pathlib import Path
 
 import numpy as np
 
 from gearlube_core.contact.solid import Solid
+from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
 from gearlube_core.tooth_compliance.flank_compliance import (
     SIDES,
     CondensationSettings,
@@ -45,41 +44,22 @@ def cache_folder(folder: Path | str | None = None) -> Path:
     return user_cache_path("gearlube") / "tooth_compliance"
 
 
-def _read(
-    path: Path, settings: CondensationSettings
+def _flanks(
+    stored: Record, settings: CondensationSettings
 ) -> tuple[FlankCompliance, FlankCompliance] | None:
-    """Return the stored flanks, or None when the file is absent or damaged."""
+    """Return the flanks of a record, or None when an array is missing, misshapen or not finite."""
     count = settings.profile_hats * settings.lengthwise_hats
-    try:
-        with np.load(path, allow_pickle=False) as stored:
-            arrays = {side: {name: stored[f"{side}_{name}"] for name in _FIELDS} for side in SIDES}
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+    if not stored.keys() >= {f"{side}_{name}" for side in SIDES for name in _FIELDS}:
         return None
-    flanks = tuple(FlankCompliance(**arrays[side]) for side in SIDES)
-    whole = all(
+    flanks = tuple(
+        FlankCompliance(**{name: stored[f"{side}_{name}"] for name in _FIELDS}) for side in SIDES
+    )
+    sound = all(
         matrix.shape == (count, count) and bool(np.all(np.isfinite(matrix)))
         for flank in flanks
         for matrix in (flank.image, flank.elastic)
     )
-    return (flanks[0], flanks[1]) if whole else None
-
-
-def _write(path: Path, flanks: tuple[FlankCompliance, ...]) -> None:
-    """Write a neighbouring file and rename it, so that no reader sees half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    arrays = {
-        f"{side}_{name}": getattr(flank, name)
-        for side, flank in zip(SIDES, flanks, strict=True)
-        for name in _FIELDS
-    }
-    handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, **arrays)
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    return (flanks[0], flanks[1]) if sound else None
 
 
 def cached_tooth_compliance(
@@ -105,7 +85,13 @@ def cached_tooth_compliance(
     flanks = stored_tooth_compliance(geometry, solid, settings, folder)
     if flanks is None:
         flanks = tooth_compliance(geometry, solid, settings)
-        _write(_path(geometry, solid, settings, folder), flanks)
+        record = {
+            f"{side}_{name}": getattr(flank, name)
+            for side, flank in zip(SIDES, flanks, strict=True)
+            for name in _FIELDS
+        }
+        store = ResultStore(cache_folder(folder), ARRAYS)
+        store.keep(compliance_key(geometry, solid, settings), record)
     return flanks
 
 
@@ -116,13 +102,6 @@ def stored_tooth_compliance(
     folder: Path | str | None = None,
 ) -> tuple[FlankCompliance, FlankCompliance] | None:
     """Return what `cached_tooth_compliance` would take from the disk, or None."""
-    return _read(_path(geometry, solid, settings, folder), settings)
-
-
-def _path(
-    geometry: ToothGeometry,
-    solid: Solid,
-    settings: CondensationSettings,
-    folder: Path | str | None,
-) -> Path:
-    return cache_folder(folder) / f"{compliance_key(geometry, solid, settings)}.npz"
+    store = ResultStore(cache_folder(folder), ARRAYS)
+    stored = store.read(compliance_key(geometry, solid, settings))
+    return None if stored is None else _flanks(stored, settings)

@@ -122,7 +122,7 @@ def half_space_compliance(
 
     References
     ----------
-    Johnson 1985, eq. (3.22a): u_z = (1 - nu^2)/(pi E) P/r of a point force P.
+    [johnson_1985 (3.22a)]: u_z = (1 - nu^2)/(pi E) P/r of a point force P.
     """
     coarse, fine = (
         _integrated(flank, s_nodes, t_nodes, refinement * parts)

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
-from gearlube_core.storage.worker_pool import worker_pool
+from gearlube_core.storage.process_pool import ProcessPool
 from gearlube_core.tooth_compliance.cache import cached_tooth_compliance, stored_tooth_compliance
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
@@ -71,16 +71,12 @@ def members_compliance(
         if known is not None:
             found[member] = known
     missing = [member for member in teeth if member not in found]
-    if jobs == 1 or len(missing) == 1:
-        for member in missing:
-            found[member] = cached_tooth_compliance(teeth[member], solid, condensation, cache)
-    elif missing:
-        with worker_pool(len(missing)) as pool:
-            waiting = {
-                member: pool.submit(
-                    cached_tooth_compliance, teeth[member], solid, condensation, cache
-                )
-                for member in missing
-            }
-            found |= {member: future.result() for member, future in waiting.items()}
-    return found
+    processes = 1 if jobs == 1 else len(missing)
+    with ProcessPool(jobs=processes).open(len(missing)) as executor:
+        arguments = [(teeth[member], solid, condensation, cache) for member in missing]
+        if executor is None:
+            computed = [cached_tooth_compliance(*values) for values in arguments]
+        else:
+            futures = [executor.submit(cached_tooth_compliance, *values) for values in arguments]
+            computed = [future.result() for future in futures]
+    return found | dict(zip(missing, computed, strict=True))

@@ -8,10 +8,10 @@ from scipy.integrate import solve_ivp
 
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.mesh_force import backlash_deflection
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from tests.helpers.axle_cases import conservative, operating_point, plain, record, running_axle
 
-MESH = plain(MeshTable.named("mohammadpour_2015"))
+MESH = plain(shipped_mesh_table("mohammadpour_2015"))
 I_P, I_G = 1734e-6, 5.81e-2  # kg m2, Mohammadpour et al. 2015, Table 1
 Z_P = 13
 

@@ -8,8 +8,8 @@ import pytest
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_kinematics import contact_kinematics, path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
+from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_line
 from gearlube_core.hypoid_contact.placed_flank import placed_sample, shape_operator
-from gearlube_core.hypoid_contact.rays import HIT, hit_along
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from tests.helpers.conjugate_curvature import conjugate_relative_curvature
 from tests.helpers.contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
@@ -31,7 +31,7 @@ def gap_at(path, k, normal, origin):
         (pair.pinion, pair.pinion_placed(path.pinion_angle[k]), path.pinion_parameters[k]),
     ):
         x = np.array([*parameters, 0.0])
-        assert hit_along(flank.motion, placement, Vector(*origin), Vector(*normal), x) == HIT
+        assert intersect_line(flank.motion, placement, Vector(*origin), Vector(*normal), x) == HIT
         heights.append(x[3])
     return heights[0] - heights[1]
 
@@ -163,8 +163,8 @@ def test_opposite_points_near_the_contact_give_nearly_its_kinematics(side):
     pinion_x = np.array([*path.pinion_parameters[i], 0.0])
     direction = Vector(*k.normal[i])
     gear_placed = pair.gear_placed(path.gear_angle[i])
-    assert hit_along(pair.gear.motion, gear_placed, Vector(*origin), direction, gear_x) == HIT
-    assert hit_along(pair.pinion.motion, placed, Vector(*origin), direction, pinion_x) == HIT
+    assert intersect_line(pair.gear.motion, gear_placed, Vector(*origin), direction, gear_x) == HIT
+    assert intersect_line(pair.pinion.motion, placed, Vector(*origin), direction, pinion_x) == HIT
     near = contact_kinematics(
         pair, path.gear_angle[[i]], path.pinion_angle[[i]], gear_x[None, :3], pinion_x[None, :3]
     )

@@ -8,6 +8,7 @@ from scipy.integrate import cumulative_simpson, simpson
 from scipy.optimize import root
 
 from gearlube_core.ehl.point.equations.film_shear import FilmShear
+from gearlube_core.ehl.point.equations.shear_factors import ObliqueFactors
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.eyring_flow import eyring_flow_factor, eyring_mean_stress
@@ -190,7 +191,7 @@ def test_arrays_hold_the_tensor_of_every_node_and_turn_with_sliding():
     x, y, pressure, film, eta = grid()
     fields = pressure, film, 1.0 / eta
     along_x = shear_of(oil, (0.5, 0.0), x, y).factors(*fields)
-    assert along_x.xy is None
+    assert not isinstance(along_x, ObliqueFactors)
     j, i = 5, 13
     slope_x = (pressure[j, i + 1] - pressure[j, i - 1]) / (2.0 * (x[1] - x[0]))
     slope_y = (pressure[j + 1, i] - pressure[j - 1, i]) / (2.0 * (y[1] - y[0]))

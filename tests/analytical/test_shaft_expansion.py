@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from gearlube_core.bearings.bearing_type import N_EXPANSION
 from gearlube_core.bearings.shaft_expansion import (
     CAGE,
-    N_EXPANSION,
     SUMS,
     expand_shaft_bearings,
     expanded_shaft_forces,

@@ -5,9 +5,9 @@ import pytest
 
 from gearlube_core.dynamics.packed_mesh import pack_mesh
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_P, E
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 
-TABLE = MeshTable.named("mohammadpour_2015")
+TABLE = shipped_mesh_table("mohammadpour_2015")
 ANGLE = 2.0 * np.pi * np.arange(240) / 240  # of the mesh period
 
 

@@ -7,16 +7,20 @@ from numba import types
 
 from fmu_src.object_code import array_at, lower_to_object
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.dynamics.hypoid_axle.communication import communication_step
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
+from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats
 from gearlube_core.mesh_table.kernels import N_SERIES
 
-N_PARAMETERS = count_floats(AxleParameters)
+KINDS = (TaperedRollerParameters, MixedFlankFriction)
+COMMUNICATION_STEP = axle_kernels(*KINDS).communication_step
+N_PARAMETERS = count_floats(AxleParameters, *KINDS)
 N_CONTROL = count_floats(StepControl)
 ORDERS, NODES, LEVELS = 5, 192, 7
 SERIES = LEVELS * N_SERIES * (2 * ORDERS + 1)
@@ -46,7 +50,7 @@ POINTER = types.CPointer(types.float64)
 def axle_step(
     s, trial, h, torque_p, torque_g, oil, levels, series, windows, parameters, control, work, out
 ):
-    return communication_step(
+    return COMMUNICATION_STEP(
         array_at(s, N_STATE),
         array_at(trial, N_STATE),
         h,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from gearlube_core.helical_contact.line_mesh import line_mesh
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
-from gearlube_core.helical_contact.loaded_line_mesh import line_mesh
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness

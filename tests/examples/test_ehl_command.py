@@ -3,16 +3,17 @@
 import logging
 import math
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import typer
 import xarray as xr
 
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube.studies.films import console as ehl_console
-from gearlube.studies.films import march_console as ehl_march_console
-from gearlube.studies.films.cycle_dataset import march_key
-from gearlube.studies.films.line_dataset import hertz_line
+from gearlube.studies.films import run_march, run_steady
+from gearlube.studies.films.datasets.helical_cycle import march_key
+from gearlube.studies.films.datasets.line import hertz_line
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, jamali_2015_film
 from gearlube_core.errors import ConvergenceError, ParameterError
@@ -25,14 +26,13 @@ def asked(monkeypatch):
     """The cases that the command would have solved."""
     calls = []
 
-    def remember(_, **given):
-        calls.append(given)
-        return ""
+    def remember(case, steps=None, **given):
+        calls.append({"case": case, "steps": steps, **given})
+        raise typer.Exit(0)
 
-    monkeypatch.setattr(ehl_console, "console_line", remember)
-    monkeypatch.setattr(ehl_console, "console_point", remember)
-    monkeypatch.setattr(ehl_console, "console_helical_line", remember)
-    monkeypatch.setattr(ehl_march_console, "console_helical_cycle", remember)
+    for name in ("run_line", "run_point", "run_helical_line"):
+        monkeypatch.setattr(run_steady, name, remember)
+    monkeypatch.setattr(run_march, "run_helical_march", remember)
     return calls
 
 
@@ -49,17 +49,21 @@ def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(spacing, tmp_path, mon
     )  # fmt: skip
     whole, stopped = tmp_path / "whole", tmp_path / "stopped"
     assert run(*march, "--out", whole).exit_code == 0
-    said = ehl_march_console.smallest_film_nm
     steps = []
+    march_itself = run_march.run_helical_march
 
-    def stopping(solution):
-        steps.append(solution)
-        if len(steps) == 4:
-            raise KeyboardInterrupt
-        return said(solution)
+    def stopping(case, given, *, progress, **others):
+        def stop(share, sentence):
+            progress(share, sentence)
+            if sentence.startswith("smallest film"):
+                steps.append(share)
+                if len(steps) == 4:
+                    raise KeyboardInterrupt
 
-    monkeypatch.setattr(ehl_march_console, "RECORD_EVERY", 2)
-    monkeypatch.setattr(ehl_march_console, "smallest_film_nm", stopping)
+        given = replace(given, record_every=2)
+        return march_itself(case, given, progress=stop, **others)
+
+    monkeypatch.setattr(run_march, "run_helical_march", stopping)
     assert run(*march, "--out", stopped).exit_code == INTERRUPTED
     assert not (stopped / "cycle.nc").exists()
     assert not list(stopped.glob("*.part"))
@@ -143,7 +147,7 @@ def test_a_record_is_for_one_pair_operation_oil_grid_and_first_step(asked):
     keys = {march_key(film, 0) for film in films} | {march_key(films[0], 1)}
     assert len(keys) == len(options) + 1
     assert march_key(asked[0]["case"].film(), 0) in keys
-    assert (asked[0]["first"], asked[0]["last"]) == (0, None)
+    assert (asked[0]["steps"].first, asked[0]["steps"].last) == (0, None)
 
 
 def test_the_dry_line_is_that_of_hertz():
@@ -165,7 +169,10 @@ def test_defaults_are_shipped_cases(asked):
     line, point = asked
     assert line["case"] == LineCase.named("jamali_2015")
     assert point["case"] == PointCase.named("mourier_2006")
-    assert (str(line["out"]), str(point["out"])) == ("gearlube_ehl_line", "gearlube_ehl_point")
+    assert (str(line["folder"]), str(point["folder"])) == (
+        "gearlube_ehl_line",
+        "gearlube_ehl_point",
+    )
 
 
 def test_options_replace_what_the_case_says(asked):
@@ -304,7 +311,7 @@ def test_a_failed_or_stopped_run_says_so(reason, code, monkeypatch, caplog):
     def fail(_, **given):
         raise reason
 
-    monkeypatch.setattr(ehl_console, "console_point", fail)
+    monkeypatch.setattr(run_steady, "run_point", fail)
     with caplog.at_level(logging.WARNING, "gearlube"):
         assert run("point").exit_code == code
     assert str(reason) in caplog.text

@@ -4,12 +4,13 @@ import csv
 
 import numpy as np
 import pytest
+import typer
 import xarray as xr
 from typer.testing import CliRunner
 
 from gearlube import command as cli
-from gearlube.cli.exit_codes import BAD_ARGUMENT
-from gearlube.studies.films import hypoid_console as ehl_hypoid_console
+from gearlube.cli.exit_codes import BAD_ARGUMENT, INTERRUPTED
+from gearlube.studies.films import results, run_hypoid
 from gearlube.studies.films.figures.catalogue import drawn_figures
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
@@ -46,7 +47,7 @@ def test_it_writes_films_formulas_summary_and_figures(tmp_path):
 
 
 def test_thermal_films_stand_beside_the_cold_ones(tmp_path, monkeypatch, caplog):
-    monkeypatch.setattr(ehl_hypoid_console, "save_ehl_figures", lambda *_: [])
+    monkeypatch.setattr(results, "save_film_figures", lambda *_: [])
     options = (*TINY, "--load", "static", "--phases", "0.2:0.8", "--temperature", "thermal")
     result = run(*options, "--no-march", "--out", tmp_path)
     assert result.exit_code == 0, result.output
@@ -62,39 +63,41 @@ def test_thermal_films_stand_beside_the_cold_ones(tmp_path, monkeypatch, caplog)
     ratio = dataset["evans_johnson"] / dataset["warm_traction"]
     row = rows["friction", "Evans and Johnson 1986, over thermal"]
     assert float(row["largest"]) == pytest.approx(float(ratio.max()), rel=1e-4)
-    # heat has no history: a march with it is refused
+    # transient thermal films are not implemented
     assert run(*options, "--out", tmp_path).exit_code == BAD_ARGUMENT
     assert "no-march" in caplog.text
 
 
 def test_a_stopped_march_goes_on_to_the_same_film(tmp_path, monkeypatch):
     """Its record stands after every 2 steps; the rest gives what an unbroken march gives."""
-    monkeypatch.setattr(ehl_hypoid_console, "RECORD_EVERY", 2)
-    monkeypatch.setattr(ehl_hypoid_console, "save_ehl_figures", lambda *_: [])
+    monkeypatch.setattr(results, "save_film_figures", lambda *_: [])
     options = (*TINY, "--load", "static", "--phases", "0.2:0.8")
-    assert run(*options, "--out", tmp_path / "whole").exit_code == 0
+    stop_at = []
     calls = []
-    real = ehl_hypoid_console.march_flank
+    itself = run_hypoid.run_hypoid
 
-    def stopped(*arguments, progress, **given):
-        def stop(n, last, film):
-            calls.append(n)
-            if n == 3:
-                raise KeyboardInterrupt
-            progress(n, last, film)
+    def stopping(case, *, progress, **given):
+        def stop(share, sentence):
+            progress(share, sentence)
+            if sentence.startswith("film in time"):
+                calls.append(sentence)
+                if len(calls) in stop_at:
+                    raise KeyboardInterrupt
 
-        return real(*arguments, progress=stop, **given)
+        return itself(case, progress=stop, record_every=2, **given)
 
-    monkeypatch.setattr(ehl_hypoid_console, "march_flank", stopped)
-    assert run(*options, "--out", tmp_path / "parts").exit_code != 0
-    calls.append("again")
-    monkeypatch.setattr(ehl_hypoid_console, "march_flank", real)
+    monkeypatch.setattr(run_hypoid, "run_hypoid", stopping)
+    assert run(*options, "--out", tmp_path / "whole").exit_code == 0
+    calls.clear()
+    stop_at.append(4)
+    assert run(*options, "--out", tmp_path / "parts").exit_code == INTERRUPTED
     assert run(*options, "--out", tmp_path / "parts").exit_code == 0
     whole, parts = (
         xr.load_dataset(tmp_path / name / "hypoid.nc", engine="scipy")
         for name in ("whole", "parts")
     )
-    assert calls == [0, 1, 2, 3, "again"]
+    # steps 0 to 3, the record of 2, then 3 to 6
+    assert len(calls) == 8
     for name in ("central_film", "pressure_max", "traction_heated"):
         np.testing.assert_array_equal(parts[name], whole[name])
 
@@ -104,11 +107,11 @@ def asked(monkeypatch):
     """The cases that the command would have solved."""
     calls = []
 
-    def remember(_, **given):
-        calls.append(given)
-        return ""
+    def remember(case, **given):
+        calls.append({"case": case, **given})
+        raise typer.Exit(0)
 
-    monkeypatch.setattr(ehl_hypoid_console, "console_hypoid", remember)
+    monkeypatch.setattr(run_hypoid, "run_hypoid", remember)
     return calls
 
 

@@ -20,6 +20,7 @@ from fmu_src.build import build_helical_pair, build_models
 from fmu_src.check import problems
 from fmu_src.helical_pair import DEFINITION, GEAR_FILE, LINE_MESH_FILE, definition_with
 from gearlube import command as cli
+from gearlube.cli.exit_codes import BAD_ARGUMENT
 from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.errors import ParameterError, TableError
@@ -218,6 +219,6 @@ def test_options_that_do_not_fit_are_refused_before_anything_is_written(
     places = {"GEAR": str(gear_file), "MESH": str(line_mesh)}
     arguments = [places.get(option, option) for option in options]
     result = CliRunner().invoke(cli.app, ["build-fmu", *arguments, "--out", str(tmp_path)])
-    assert result.exit_code == cli.BAD_ARGUMENT
+    assert result.exit_code == BAD_ARGUMENT
     assert message in caplog.text
     assert list(tmp_path.iterdir()) == []

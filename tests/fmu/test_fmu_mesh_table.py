@@ -19,17 +19,19 @@ from fmu_src.build import build_hypoid_axle
 from fmu_src.check import problems
 from fmu_src.hypoid_axle import DEFINITION, definition_with_table
 from gearlube import command as cli
-from gearlube.studies.sweep import SweepSettings, run_point
-from gearlube.studies.sweep import console as sweep_console
+from gearlube.cli.exit_codes import BAD_ARGUMENT
+from gearlube.studies.sweep import run as sweep_run
 from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
+from gearlube.studies.sweep.point import run_point
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.errors import ParameterError, TableError
+from gearlube_core.errors import InterruptedRunError, ParameterError, TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from tests.helpers.axle_cases import with_coast_flanks
 from tests.helpers.fmu_host import FATAL, OK, Host
 
-SHIPPED = MeshTable.named("mohammadpour_2015")
+SHIPPED = shipped_mesh_table("mohammadpour_2015")
 # other teeth, and coast flanks that differ from the drive flanks
 OTHER = replace(
     with_coast_flanks(SHIPPED), name="pair_11_43", pinion_teeth=11, gear_teeth=43, source="my.toml"
@@ -187,7 +189,7 @@ def test_a_bad_table_is_refused_before_any_work(
         out = tmp_path / "out"
         options = [command, "--mesh-table", str(path), "--out", str(out)]
         result = CliRunner().invoke(cli.app, options)
-        assert result.exit_code == cli.BAD_ARGUMENT
+        assert result.exit_code == BAD_ARGUMENT
         assert message in caplog.text
         assert str(path) in caplog.text
         assert not (out / "points").exists()
@@ -207,10 +209,13 @@ def test_the_commands_pass_the_table_on(
     again = tmp_path / "again" / "HypoidAxle.fmu"
     assert again.read_bytes() == (tmp_path / "HypoidAxle.fmu").read_bytes()
     seen: list[dict[str, object]] = []
-    monkeypatch.setattr(
-        sweep_console, "console_sweep", lambda console, **options: seen.append(options) or 0
-    )
-    assert CliRunner().invoke(cli.app, ["sweep", "--mesh-table", str(table)]).exit_code == 0
+
+    def stopped(settings: SweepSettings, **options: object) -> None:
+        seen.append(options)
+        raise InterruptedRunError("Stopped.")
+
+    monkeypatch.setattr(sweep_run, "run_sweep", stopped)
+    CliRunner().invoke(cli.app, ["sweep", "--mesh-table", str(table)])
     assert seen[0]["mesh_table"] == table
 
 
@@ -218,7 +223,7 @@ def test_a_table_beside_an_fmu_is_refused(
     table: Path, axle_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     options = ["sweep", "--mesh-table", str(table), "--fmu", str(axle_path)]
-    assert CliRunner().invoke(cli.app, options).exit_code == cli.BAD_ARGUMENT
+    assert CliRunner().invoke(cli.app, options).exit_code == BAD_ARGUMENT
     assert "--mesh-table must not be given with --fmu" in caplog.text
 
 

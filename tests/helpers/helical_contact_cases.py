@@ -15,9 +15,9 @@ from gearlube_core.helical_geometry.modification import FlankModification, Modif
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.sample_pairs import named_pair
 from gearlube_core.helical_geometry.tip_relief import TipRelief
-from gearlube_core.tooth_compliance.coupled_strips import PairStiffness
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
+from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
 HE_2007 = named_pair("he_2007")
 TORQUE = 225.97  # N.m, 2000 lb in of He et al. 2007

@@ -5,7 +5,7 @@ import numpy as np
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_flank import FlankCycle
 from gearlube_core.ehl.gears.hypoid_window import pair_contact
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.film_oil_data import film_oil
 
 SPEED, TORQUE = 144.2, 40.0  # rad/s, N.m
@@ -14,7 +14,7 @@ BETA = 0.024  # 1/K
 
 def flank_cycle(phase=None, speed=SPEED):
     """The drive flank of the shipped table at rest's loads."""
-    table = MeshTable.named("mohammadpour_2015")
+    table = shipped_mesh_table("mohammadpour_2015")
     phase = np.linspace(-0.3, 1.2, 31) if phase is None else phase
     contact = pair_contact(table, TORQUE, phase)
     angle = (phase + 1.5) * 2.0 * np.pi / table.pinion_teeth

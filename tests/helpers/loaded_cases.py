@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.hypoid_contact.loaded_contact import PairStiffness
 from gearlube_core.tooth_compliance.flank_compliance import FlankCompliance
+from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from tests.helpers.contact_cases import shipped_file
 
 MODULUS = 115.4e9  # Pa, steel on steel

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solution import LineSolution
@@ -11,7 +12,6 @@ from gearlube_core.ehl.point.problem import EllipticParaboloid, elliptical_conta
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm
 from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.oil.film_oil import FilmOil

@@ -1,5 +1,7 @@
 """Torsional pairs that several tests share."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
@@ -12,9 +14,8 @@ from gearlube_core.periodic.shooting import solve_periodic
 def reconstructed(mismatch=0.0, **options):
     """The pair with the paper's reconstructed numbers and a radius mismatch."""
     mesh = options.pop("mesh", {})
-    return karagiannis_2012_pair(
-        mesh=synthetic_mesh(radius_mismatch=mismatch, **mesh), **{"radii": "paper", **options}
-    )
+    pair = karagiannis_2012_pair(synthetic_mesh(radius_mismatch=mismatch, **mesh))
+    return replace(pair, **{"radii": "paper", **options})
 
 
 def periodic_orbit(parameters, speed_ratio, steps=256, periods=1):

@@ -12,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_rotation
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import place_point
-from gearlube_core.hypoid_contact.rays import HIT, hit_by_turning
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.machine_frames import (
     gear_cut,
@@ -170,7 +170,7 @@ def clearance_at_phase_zero(file, side):
     for point in points.reshape(-1, 3):
         at = np.array([*pair.pinion.start, pair.pinion_turn(0.0)])
         target = place_point(placed, Vector(*point))
-        if hit_by_turning(pair.pinion.motion, pair.pinion_base, target, at) == HIT:
+        if intersect_rotation(pair.pinion.motion, pair.pinion_base, target, at) == HIT:
             turns.append(pair.touching_sign * pair.pinion_angle(at[3]))
     return min(turns) * file.blank().pinion.mean_pitch_radius
 

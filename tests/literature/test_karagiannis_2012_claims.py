@@ -5,6 +5,7 @@ are asserted as found, so that a change is noticed.
 """
 
 import functools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ from tests.helpers.torsional_cases import periodic_orbit, reconstructed
 
 def shipped(ratio, **options):
     """The motion of the analysed mesh that Newton's method finds from static deflection."""
-    return periodic_orbit(karagiannis_2012_pair(**options), ratio)
+    return periodic_orbit(replace(karagiannis_2012_pair(), **options), ratio)
 
 
 def settled_from(parameters, x_0, ratio, periods=600, steps=256):
@@ -65,7 +66,7 @@ def test_5_a_sweep_down_stays_apart_where_a_sweep_up_is_in_contact():
 
 @pytest.mark.parametrize("form", ["two_dof", "one_dof"])
 def test_analysed_mesh_is_bistable_below_resonance_by_loss_of_contact(form):
-    problem = PeriodProblem(karagiannis_2012_pair(form=form), steps_per_mesh_period=256)
+    problem = PeriodProblem(replace(karagiannis_2012_pair(), form=form), steps_per_mesh_period=256)
     model = problem.model
     unit = model.pinion_speed(model.natural_frequency)
     branch = follow(
@@ -121,7 +122,8 @@ def test_9_third_order_peaks_near_a_third_for_constant_radii_too():
 @functools.cache
 def lubricated(ratio, temperature=313.15):
     """Flank contacts and motion with the paper's choices for the film."""
-    parameters = karagiannis_2012_pair(
+    parameters = replace(
+        karagiannis_2012_pair(),
         friction="thermal_eyring",
         film="as_printed",
         film_temperature="effective",

@@ -7,9 +7,10 @@ from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.mesh_table.table import PAIRS, SERIES_UNITS, WINDOW_UNITS, MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.table import PAIRS, SERIES_UNITS, WINDOW_UNITS
 
-TABLE = MeshTable.named("mohammadpour_2015")
+TABLE = shipped_mesh_table("mohammadpour_2015")
 RATIO = 36 / 13
 CONTACT_MODULUS = 115.4e9  # Pa, steel on steel, docs/conventions.md
 PHASE = np.linspace(0.0, 2.0 * np.pi, 96, endpoint=False)

@@ -6,7 +6,8 @@ import pytest
 
 from docs.validation.claims import CLAIMS, FAILS, HOLDS, PARTLY
 from fmu_src.build import build_hypoid_axle
-from gearlube.studies.sweep import SweepSettings, quick_settings, run_sweep
+from gearlube.studies.sweep.run import run_sweep
+from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
 
 SPEEDS = [30.0, 80.0]  # km/h: the printed equations are stable at the first only
 PRELOADS = [2500.0, 6000.0]  # N
@@ -18,8 +19,8 @@ def fmu(tmp_path_factory):
 
 
 def sweep(fmu, folder, **changes):
-    settings = replace(quick_settings(SweepSettings(driver="hold")), **changes)
-    return run_sweep(fmu, speeds_kmh=SPEEDS, preloads=PRELOADS, settings=settings, out=folder)
+    settings = replace(quick_sweep_settings(SweepSettings(driver="hold")), **changes)
+    return run_sweep(settings, speeds_kmh=SPEEDS, preloads=PRELOADS, fmu=fmu, out=folder)
 
 
 @pytest.fixture(scope="module")

@@ -28,7 +28,7 @@ from gearlube_core.friction.thermal_eyring_data import (
 )
 from gearlube_core.friction.thermal_eyring_flank import thermal_eyring_flank
 from gearlube_core.friction.traction_regime import EYRING, flank_regime
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.houpert_1985 import (
     houpert_log_viscosity,
     houpert_parameters,
@@ -40,7 +40,7 @@ SOLID = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 SURFACE = SurfaceParameters(0.5e-6, 0.055, 0.001)
 OIL = Lubricant.named("karagiannis_2012")
 LAW = houpert_parameters(OIL)
-TABLE = MeshTable.named("mohammadpour_2015")
+TABLE = shipped_mesh_table("mohammadpour_2015")
 LEVEL = int(np.flatnonzero(TABLE.torque == 50.0)[0])
 FORCE = 50.0 / TABLE.series["R_p"][LEVEL, 0, 0]
 SPEED = 2640.0 * math.pi / 30.0

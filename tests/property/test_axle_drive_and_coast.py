@@ -18,6 +18,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.mesh_table.kernels import mesh_series
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from tests.helpers.axle_cases import (
     OIL,
@@ -29,7 +30,7 @@ from tests.helpers.axle_cases import (
     with_coast_flanks,
 )
 
-SHIPPED = plain(MeshTable.named("mohammadpour_2015"))
+SHIPPED = plain(shipped_mesh_table("mohammadpour_2015"))
 TWO_SIDED = with_coast_flanks(SHIPPED)
 COAST_RADIUS, COAST_STIFFNESS, COAST_ERROR = 1.03, 0.9, 1.6  # as `with_coast_flanks` has them
 DRIVING, COASTING = 40.0, -30.0  # N.m at the pinion

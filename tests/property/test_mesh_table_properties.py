@@ -14,9 +14,9 @@ from gearlube_core.mesh_table.kernels import (
     mesh_series,
     pair_channels,
 )
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 
-TABLE = MeshTable.named("mohammadpour_2015")
+TABLE = shipped_mesh_table("mohammadpour_2015")
 Z_P = 13.0
 PERIOD = 2 * math.pi / Z_P
 # 2000 periods, known to 4e-13, times 192/3 nodes and a slope of the share of at most 1 a node

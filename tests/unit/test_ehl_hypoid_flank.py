@@ -11,10 +11,10 @@ from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from tests.helpers.hypoid_film_cases import flank_cycle, hypoid_film
 
-TABLE = MeshTable.named("mohammadpour_2015")
+TABLE = shipped_mesh_table("mohammadpour_2015")
 
 
 @pytest.mark.parametrize("true", np.radians([20.0, 80.0, 100.0, 170.0, -15.0, -120.0]))

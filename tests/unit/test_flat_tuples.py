@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from numba import njit
 
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 
 
@@ -40,7 +42,7 @@ def restore_outer(array):
 
 @njit
 def restore_axle(array):
-    return tuple_from_array(array, AxleParameters)
+    return tuple_from_array(array, AxleParameters, TaperedRollerParameters, MixedFlankFriction)
 
 
 @njit
@@ -64,8 +66,9 @@ def test_floats_are_counted_through_all_levels(kind, count):
     assert count_floats(kind) == count
 
 
-def test_a_nested_tuple_comes_back_whole():
-    assert restore_outer(flatten(NESTED)) == NESTED
+@pytest.mark.parametrize("restore", [restore_outer, restore_outer.py_func])
+def test_a_nested_tuple_comes_back_whole(restore):
+    assert restore(flatten(NESTED)) == NESTED
 
 
 def test_fields_keep_their_names_inside_a_kernel():
@@ -80,7 +83,7 @@ def test_floats_beyond_the_tuple_are_left_alone():
 def test_the_parameters_of_the_axle_come_back_to_the_bit():
     parameters = mohammadpour_2015_axle().kernel_parameters()
     array = flatten(parameters)
-    assert array.size == count_floats(AxleParameters)
+    assert array.size == count_floats(AxleParameters, TaperedRollerParameters, MixedFlankFriction)
     assert restore_axle(array) == parameters
 
 

@@ -21,7 +21,7 @@ SLUG_INCH = POUND_FORCE / INCH  # kg in 1 lbf.s2/in
 
 def file_with(name):
     """A file whose optional sections are there to be varied."""
-    return JAMALI if name.startswith("oil") else HE
+    return JAMALI if name.startswith(("oil", "meshing_steps")) else HE
 
 
 @pytest.mark.parametrize("name", NUMBERS)
@@ -50,7 +50,7 @@ def test_what_is_no_number_is_refused(name, value):
 def test_every_number_has_a_unit_or_needs_none_and_a_meaning(name):
     plain = (
         "teeth", "facets", "tip_relief_parabola", "tip_relief_exponent", "mesh", "translation",
-        "tilt", "nodes_across", "nodes_along",
+        "tilt", "nodes_across", "nodes_along", "count",
     )  # fmt: skip
     assert NOTES[name].unit or name.rsplit(".", 1)[1] in plain
     assert len(NOTES[name].meaning) > 5
@@ -96,6 +96,16 @@ def test_every_number_has_a_unit_or_needs_none_and_a_meaning(name):
         ({"pinion.tip_diameter_mm": 120.0}, "tip radii must keep contact.* Shorten the teeth"),
         ({"completed": {"gear.colour": "as it is"}}, "'gear.colour', which is not a field"),
         ({"inferred": {"gear.body": ""}}, r"inferred\.gear\.body"),
+        ({"compared_with": ["he_2008"]}, "compared_with must name shipped .* got 'he_2008'"),
+        (
+            {
+                "meshing_steps.first_position_mm": -18.7,
+                "meshing_steps.step_mm": 0.04,
+                "meshing_steps.count": 400,
+                "meshing_steps.shown": [75, 500],
+            },
+            r"meshing_steps: shown must hold steps up to count, 400, got \(75, 500\)",
+        ),
     ],
 )
 def test_fields_that_contradict_each_other_are_refused(changes, words):

@@ -9,8 +9,9 @@ from gearlube_core.helical_contact.loaded_contact import LoadedSettings
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
 from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_geometry.modification import ModifiedPair
-from gearlube_core.storage import resumable_records
+from gearlube_core.storage import resumable
 from tests.helpers.helical_contact_cases import HE_2007, relieved, stiff_teeth
+from tests.helpers.reports import Reports
 
 CELLS = LoadedSettings(strips=StripSettings(cells_across=11, cells_along=12))
 SMALL = CycleSettings(torques=(50.0, 200.0), positions=5, stations=4, loaded=CELLS)
@@ -26,26 +27,31 @@ def store(tmp_path_factory):
 
 
 def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
-    seen, rest = [], []
+    seen, rest = [], Reports()
 
-    def stop(progress):
-        seen.append(progress.phase)
+    def stop(_, sentence):
+        seen.append(sentence)
         if len(seen) == 2:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_cycle(PLAIN, TEETH, SMALL, store=tmp_path, jobs=1, observer=stop)
+        run_cycle(PLAIN, TEETH, SMALL, store=tmp_path, jobs=1, progress=stop)
     resumed = run_cycle(
-        PLAIN, TEETH, SMALL, store=tmp_path, jobs=1, observer=lambda p: rest.append(p.phase)
+        PLAIN,
+        TEETH,
+        SMALL,
+        store=tmp_path,
+        jobs=1,
+        progress=rest,
     )
-    assert sorted(seen + rest) == [float(k) for k in SMALL.phases]
+    assert sorted(seen + rest) == [f"loaded contact, mesh phase {k:.2f}" for k in SMALL.phases]
     whole = run_cycle(PLAIN, TEETH, SMALL, store=store, jobs=1)
     for name, values in whole.items():
         np.testing.assert_array_equal(resumed[name], values)
 
 
 def test_a_finished_run_computes_nothing(store, monkeypatch):
-    monkeypatch.setattr(resumable_records, "single_threaded", None)  # would fail if called
+    monkeypatch.setattr(resumable, "single_threaded", None)  # would fail if called
     again = run_cycle(PLAIN, TEETH, SMALL, store=store, jobs=1)
     assert again["rotation"].shape == (5, 2)
     assert again["line_load"].shape == (5, 2, 5, 4)
@@ -53,8 +59,8 @@ def test_a_finished_run_computes_nothing(store, monkeypatch):
 
 def test_other_teeth_or_reliefs_are_not_taken_from_the_store(store):
     for other in ((PLAIN, stiff_teeth(110e9)), (relieved(HE_2007, 1e-5, 1e-3), TEETH)):
-        done = []
-        run_cycle(*other, SMALL, store=store, jobs=1, observer=done.append)
+        done = Reports()
+        run_cycle(*other, SMALL, store=store, jobs=1, progress=done)
         assert len(done) == 5
 
 

@@ -7,10 +7,14 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact import mesh_cycle
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES, CycleSettings, run_cycle
+from gearlube_core.hypoid_contact.strips import StripSettings
 from tests.helpers.loaded_cases import FILE, stiffness
+from tests.helpers.reports import Reports
 
 SMALL = CycleSettings(
-    positions=4, torques=(30.0,), loaded=LoadedSettings(cells_across=12, cells_along=16)
+    positions=4,
+    torques=(30.0,),
+    loaded=LoadedSettings(strips=StripSettings(cells_across=12, cells_along=16)),
 )
 TEETH = dict.fromkeys(SIDES, stiffness())
 
@@ -25,23 +29,25 @@ def store(tmp_path_factory):
 def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
     seen = []
 
-    def stop(progress):
-        seen.append((progress.side, progress.phase))
+    def stop(_, sentence):
+        seen.append(sentence)
         if len(seen) == 3:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_cycle(FILE, TEETH, SMALL, store=tmp_path, jobs=1, observer=stop)
-    rest = []
+        run_cycle(FILE, TEETH, SMALL, store=tmp_path, jobs=1, progress=stop)
+    rest = Reports()
     resumed = run_cycle(
         FILE,
         TEETH,
         SMALL,
         store=tmp_path,
         jobs=1,
-        observer=lambda p: rest.append((p.side, p.phase)),
+        progress=rest,
     )
-    assert sorted(seen + rest) == sorted((s, float(k)) for s in SIDES for k in SMALL.phases)
+    assert sorted(seen + rest) == sorted(
+        f"{s} flanks, mesh phase {k:.2f}" for s in SIDES for k in SMALL.phases
+    )
     whole = run_cycle(FILE, TEETH, SMALL, store=store, jobs=1)
     for side in SIDES:
         for name, values in whole[side].items():
@@ -59,16 +65,16 @@ def test_other_teeth_or_loads_are_not_taken_from_the_store(store):
         (FILE, dict.fromkeys(SIDES, stiffness(2e-9)), SMALL),
         (FILE.varied({"pinion.cutter.blade_edge_radius_mm": 500.0}), TEETH, SMALL),
     ):
-        done = []
-        run_cycle(*other, store=store, jobs=1, observer=done.append)
+        done = Reports()
+        run_cycle(*other, store=store, jobs=1, progress=done)
         assert len(done) == 8
 
 
 def test_a_damaged_position_is_computed_again(tmp_path, store):
     for file in store.glob("*.npz"):
         (tmp_path / file.name).write_bytes(file.read_bytes()[:100])
-    done = []
-    run_cycle(FILE, TEETH, SMALL, store=tmp_path, jobs=1, observer=done.append)
+    done = Reports()
+    run_cycle(FILE, TEETH, SMALL, store=tmp_path, jobs=1, progress=done)
     assert len(done) == 8
 
 

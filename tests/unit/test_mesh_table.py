@@ -19,10 +19,11 @@ from gearlube_core.mesh_table.kernels import (
     transmission_error,
 )
 from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
-from gearlube_core.mesh_table.table import SERIES_UNITS, WINDOW_UNITS, MeshTable, Provenance
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.table import SERIES_UNITS, WINDOW_UNITS, Provenance
 from tests.helpers.axle_cases import drive_only, with_coast_flanks
 
-SHIPPED = MeshTable.named("mohammadpour_2015")
+SHIPPED = shipped_mesh_table("mohammadpour_2015")
 TABLE = drive_only(SHIPPED)
 LEVELS = TABLE.torque.size
 Z_P = 13
@@ -177,7 +178,7 @@ def test_a_setting_that_no_file_can_hold_is_refused(settings):
 
 def test_an_unknown_table_is_refused_with_the_names_that_ship():
     with pytest.raises(TableError, match=r"called 'no_such'\. Shipped: mohammadpour_2015"):
-        MeshTable.named("no_such")
+        shipped_mesh_table("no_such")
 
 
 def spoiled(path, change):
@@ -373,7 +374,7 @@ def test_a_single_load_level_serves_every_load():
 
 def test_tables_can_be_read_by_several_threads_at_once():
     def read(_):
-        return MeshTable.named(TABLE.name).contact_ratio
+        return shipped_mesh_table(TABLE.name).contact_ratio
 
     # eight at a time, often: a library that must not be entered twice crashes the process
     with ThreadPoolExecutor(8) as pool:

@@ -1,4 +1,4 @@
-"""Kernels for the package's own laws are kept on disk, those for laws from outside are not."""
+"""Kernels for a law from outside are kept on disk while the law's file is unchanged."""
 
 from __future__ import annotations
 
@@ -53,5 +53,8 @@ def test_a_process_without_the_law_reads_what_one_with_it_left(tmp_path):
     assert hits_and_misses(OWN + FOREIGN, tmp_path, cache=cache) == "0 2"
     # numba reads the types of all specialisations at once: one it cannot import would stop it
     assert hits_and_misses(OWN, cache=cache) == "1 0"
-    # a law's file may have been edited: its kernels are compiled in every process
+    assert hits_and_misses(OWN + FOREIGN, tmp_path, cache=cache) == "2 0"
+    (tmp_path / "foreign_law.py").write_text(
+        LAW.replace("self.slope * p,", "2.0 * self.slope * p,")
+    )
     assert hits_and_misses(OWN + FOREIGN, tmp_path, cache=cache) == "1 1"

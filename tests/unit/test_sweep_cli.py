@@ -1,16 +1,24 @@
 """The command `gearlube`: what people type, and what they are told when it is wrong."""
 
 import pytest
+import xarray as xr
 from typer.testing import CliRunner
 
 from gearlube import command as cli
-from gearlube.cli.arguments import speeds_from
+from gearlube.cli.ranges import numbers_from
 from gearlube.cli.spread_values import spread
-from gearlube.studies.sweep import console as sweep_console
+from gearlube.studies.sweep import report as sweep_report
+from gearlube.studies.sweep import run as sweep_run
 from gearlube_core import __version__
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import InterruptedRunError, ParameterError
 
 FLAGS = {"--preload", "--speeds"}
+
+
+def result_with(statuses):
+    """The dataset of a sweep whose points ended with these statuses."""
+    attributes = {"computed_points": len(statuses), "wall_time": 1.0}
+    return xr.Dataset({"status": ("speed", statuses)}, attrs=attributes)
 
 
 @pytest.fixture
@@ -18,11 +26,12 @@ def calls(monkeypatch):
     """Arguments of the sweeps that the command would run."""
     seen = []
 
-    def console_sweep(console, **options):
-        seen.append(options)
-        return 0
+    def run_sweep(settings, **options):
+        seen.append({"settings": settings, **options})
+        return result_with([1, 1])
 
-    monkeypatch.setattr(sweep_console, "console_sweep", console_sweep)
+    monkeypatch.setattr(sweep_run, "run_sweep", run_sweep)
+    monkeypatch.setattr(sweep_report, "write_sweep_report", lambda dataset, out, entries: out)
     return seen
 
 
@@ -51,8 +60,8 @@ def test_values_are_spread_only_over_the_flags_that_take_several():
 def test_default_is_the_sweep_of_the_paper(calls):
     assert run("sweep").exit_code == 0
     (call,) = calls
-    assert call["speeds_kmh"] == [20.0 + 5.0 * i for i in range(17)]
-    assert call["preloads"] == [2500.0, 6000.0]
+    assert call["speeds_kmh"] == tuple(20.0 + 5.0 * i for i in range(17))
+    assert call["preloads"] == (2500.0, 6000.0)
     assert call["settings"].equations == "consistent"
     assert call["settings"].driver == "vehicle"
     assert str(call["out"]) == "gearlube_sweep"
@@ -65,7 +74,7 @@ def test_options_reach_the_settings_in_si_units(calls):
     )
     assert result.exit_code == 0
     (call,) = calls
-    assert call["speeds_kmh"] == [30.0]
+    assert call["speeds_kmh"] == (30.0,)
     assert call["settings"].oil_temperature == pytest.approx(333.15)
     assert call["settings"].roughness_rms == pytest.approx(0.3e-6)
     assert call["settings"].equations == "as_printed"
@@ -76,7 +85,7 @@ def test_options_reach_the_settings_in_si_units(calls):
 def test_quick_run_is_short(calls):
     assert run("sweep", "--quick").exit_code == 0
     (call,) = calls
-    assert call["speeds_kmh"] == [20.0, 60.0, 100.0]
+    assert call["speeds_kmh"] == (20.0, 60.0, 100.0)
     assert call["settings"].record_time < 0.2
 
 
@@ -105,9 +114,21 @@ def test_unknown_option_is_refused():
     assert run("sweep", "--sped", "20").exit_code == 2
 
 
-def test_failed_points_show_in_the_exit_code(monkeypatch):
-    monkeypatch.setattr(sweep_console, "console_sweep", lambda console, **options: 3)
+def test_failed_points_show_in_the_exit_code(calls, monkeypatch, caplog):
+    monkeypatch.setattr(sweep_run, "run_sweep", lambda settings, **_: result_with([1, 0, 0]))
     assert run("sweep").exit_code == 1
+    assert "2 points failed" in caplog.text
+
+
+def test_a_stopped_sweep_says_what_is_kept_and_has_the_exit_code_of_ctrl_c(
+    calls, monkeypatch, caplog
+):
+    def stopped(settings, **options):
+        raise InterruptedRunError("3 of 6 points are finished and kept")
+
+    monkeypatch.setattr(sweep_run, "run_sweep", stopped)
+    assert run("sweep").exit_code == 130
+    assert "3 of 6 points" in caplog.text
 
 
 def test_version_is_that_of_the_package():
@@ -116,15 +137,19 @@ def test_version_is_that_of_the_package():
     assert __version__ in result.output
 
 
+def numbers(*texts):
+    return numbers_from("--speeds", texts, "km/h", 1.0, 300.0, example="20:100:5", most=500)
+
+
 def test_speeds_are_sorted_without_repeats():
-    assert speeds_from(["60", "20:60:20", "30,40"]) == [20.0, 30.0, 40.0, 60.0]
+    assert numbers("60", "20:60:20", "30,40") == (20.0, 30.0, 40.0, 60.0)
 
 
 def test_last_speed_is_reached_although_the_step_is_no_binary_fraction():
-    assert speeds_from(["20:21:0.1"])[-1] == pytest.approx(21.0)
-    assert len(speeds_from(["20:21:0.1"])) == 11
+    assert numbers("20:21:0.1")[-1] == 21.0
+    assert len(numbers("20:21:0.1")) == 11
 
 
 def test_words_are_no_speeds():
     with pytest.raises(ParameterError, match="must be a number in km/h, got 'fast'"):
-        speeds_from(["fast"])
+        numbers("fast")

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from gearlube.studies.sweep import SweepSettings, run_sweep
+from gearlube.studies.sweep.run import SweepModel, run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
 from tests.helpers import sweep_stand_in as stand_in
 
 DEADLINE = 60.0  # s, for anything that has to come up
@@ -72,30 +73,32 @@ def cluster(tmp_path):
                 process.kill()
 
 
+def model_of(point):
+    return SweepModel(point=point, compile_first=None, natural_frequencies=None)
+
+
 def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(cluster, tmp_path):
     address, workers = cluster
     fmu = stand_in.write_fmu(tmp_path / "axle.fmu")
     grid = {
         "speeds_kmh": [20.0, 30.0, 40.0, 50.0, 60.0, 70.0],
         "preloads": [2500.0, 6000.0],
-        "prepare": None,
-        "modes": None,
     }
     killed = threading.Event()
 
-    def kill_one_worker_after_two_points(progress):
-        if progress.done == 2 and not killed.is_set():
+    def kill_one_worker_after_two_points(share, sentence):
+        if share >= 2 / 12 and not killed.is_set():
             workers["first"].send_signal(signal.SIGKILL)
             killed.set()
 
     settings = SweepSettings()
     remote = run_sweep(
-        fmu,
-        settings=settings,
+        settings,
+        fmu=fmu,
         out=tmp_path / "remote",
         scheduler=address,
-        observer=kill_one_worker_after_two_points,
-        point=stand_in.slow_point,
+        progress=kill_one_worker_after_two_points,
+        model=model_of(stand_in.slow_point),
         **grid,
     )
     assert killed.is_set()
@@ -103,6 +106,10 @@ def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(
     assert int(remote["status"].sum()) == 12
 
     local = run_sweep(
-        fmu, settings=settings, out=tmp_path / "local", point=stand_in.small_point, **grid
+        settings,
+        fmu=fmu,
+        out=tmp_path / "local",
+        model=model_of(stand_in.small_point),
+        **grid,
     )
     xr.testing.assert_identical(remote.drop_attrs(), local.drop_attrs())

@@ -8,13 +8,13 @@ import pytest
 import xarray as xr
 
 from gearlube.plotting.style import cell_edges
-from gearlube.studies.sweep import SweepSettings, quick_settings
+from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.figures import CATALOGUE, spectrum_map
 from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
 from gearlube.studies.sweep.figures.spectrum_map import DTE, default_top
-from gearlube.studies.sweep.merge import merge
 from gearlube.studies.sweep.point import failed_point
-from gearlube.studies.sweep.report import report_html, write_report
+from gearlube.studies.sweep.report import report_html, write_sweep_report
+from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
 from tests.helpers import sweep_stand_in as stand_in
 
 SPEEDS, PRELOADS = [20.0, 60.0, 100.0], [2500.0, 6000.0]
@@ -23,7 +23,7 @@ MESSAGE = "The axle FMU refused the step <at> t = 0.1 s"
 
 @pytest.fixture(scope="module")
 def sweep():
-    settings = quick_settings(SweepSettings())
+    settings = quick_sweep_settings(SweepSettings())
     points = {(v, p): stand_in.point(None, v, p, settings) for v in SPEEDS for p in PRELOADS}
     points[60.0, 6000.0] = failed_point(60.0, 6000.0, MESSAGE)
     dataset = merge(PRELOADS, SPEEDS, points)
@@ -84,7 +84,7 @@ def test_cells_touch_half_way_between_speeds():
 
 
 def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_path):
-    path = write_report(sweep, tmp_path)
+    path = write_sweep_report(sweep, tmp_path)
     html = path.read_text(encoding="utf-8")
     assert html.count("data:image/png;base64,") == len(CATALOGUE)
     assert 'src="http' not in html

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from gearlube.studies.sweep import SweepSettings, quick_settings
 from gearlube.studies.sweep.recording import revolutions_to_record
 from gearlube.studies.sweep.separation import separation_class
+from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
 from tests.helpers.sweep_stand_in import (
     CAGE_ORDER,
     INPUT_POWER,
@@ -31,7 +31,7 @@ def dataset():
 
 def test_communication_step_divides_the_mesh_period_and_is_at_least_10_khz():
     for speed_kmh in (20.0, 37.0, 100.0):
-        recording = recorded(speed_kmh, quick_settings(SETTINGS))
+        recording = recorded(speed_kmh, quick_sweep_settings(SETTINGS))
         period = 2.0 * math.pi / (TEETH * pinion_speed_at(speed_kmh))
         ratio = period / recording.step
         assert ratio == pytest.approx(round(ratio), abs=1e-9)  # rounding of one division
@@ -150,6 +150,6 @@ def test_settings_that_differ_in_anything_have_different_keys():
         SETTINGS.key(**{**base, "preload": 6000.0}),
         SETTINGS.key(**{**base, "fmu_guid": "b"}),
         SETTINGS.key(**{**base, "version": "2"}),
-        quick_settings(SETTINGS).key(**base),
+        quick_sweep_settings(SETTINGS).key(**base),
     ]
     assert len({key, *others}) == 6

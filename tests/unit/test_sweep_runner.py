@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube.studies.sweep import SweepInterruptedError, SweepSettings, load_sweep, run_sweep
-from gearlube.studies.sweep.interrupts import deferred_interrupts
-from gearlube.studies.sweep.merge import merge
-from gearlube_core.errors import GearLubeError, ParameterError
+from gearlube.studies.sweep.datasets import load_sweep, merge
+from gearlube.studies.sweep.run import SweepModel, run_sweep
+from gearlube.studies.sweep.settings import SweepSettings
+from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
+from gearlube_core.storage.interrupts import deferred_interrupts
 from tests.helpers import sweep_stand_in as stand_in
 
 SETTINGS = SweepSettings()
@@ -27,16 +28,19 @@ def sweep(fmu, out, point, **options):
     seen = []
     arguments = {"speeds_kmh": SPEEDS, "preloads": (2500.0, 6000.0), "jobs": 1} | options
     dataset = run_sweep(
-        fmu,
-        settings=SETTINGS,
+        SETTINGS,
+        fmu=fmu,
         out=out,
-        observer=seen.append,
-        point=point,
-        prepare=None,
-        modes=None,
+        progress=lambda share, sentence: seen.append((share, sentence)),
+        model=SweepModel(point=point, compile_first=None, natural_frequencies=None),
         **arguments,
     )
     return dataset, seen
+
+
+def computed(seen):
+    """Return the points that were not taken from the folder."""
+    return [sentence for _, sentence in seen if not sentence.endswith("(stored)")]
 
 
 def test_points_are_laid_out_over_preload_and_speed_with_ragged_spectra_padded(fmu, tmp_path):
@@ -46,7 +50,7 @@ def test_points_are_laid_out_over_preload_and_speed_with_ragged_spectra_padded(f
     spectrum = dataset["dte_spectrum"]
     assert spectrum.shape == (2, 3, 60)
     np.testing.assert_array_equal(np.isfinite(spectrum).sum("bin"), [[20, 40, 60]] * 2)
-    assert [p.done for p in seen] == [1, 2, 3, 4, 5, 6]
+    assert [share for share, _ in seen] == [k / 6 for k in range(1, 7)]
 
 
 def test_file_tells_settings_version_and_fmu_and_can_be_read_by_speed_in_kmh(fmu, tmp_path):
@@ -62,14 +66,16 @@ def test_file_tells_settings_version_and_fmu_and_can_be_read_by_speed_in_kmh(fmu
 def test_second_run_computes_nothing_and_gives_the_same_dataset(fmu, tmp_path):
     first, _ = sweep(fmu, tmp_path / "out", stand_in.small_point)
     second, seen = sweep(fmu, tmp_path / "out", stand_in.refusing_point)
-    assert all(progress.reused for progress in seen)
+    assert len(seen) == 6
+    assert not computed(seen)
+    assert second.attrs["computed_points"] == 0
     xr.testing.assert_identical(first.drop_attrs(), second.drop_attrs())
 
 
 def test_only_new_speeds_are_computed_when_the_grid_grows(fmu, tmp_path):
     sweep(fmu, tmp_path / "out", stand_in.small_point)
     _, seen = sweep(fmu, tmp_path / "out", stand_in.small_point, speeds_kmh=(*SPEEDS, 80.0))
-    assert [p.speed_kmh for p in seen if not p.reused] == [80.0, 80.0]
+    assert sorted(computed(seen)) == ["80 km/h, 2500 N", "80 km/h, 6000 N"]
 
 
 def test_a_damaged_point_file_is_computed_again(fmu, tmp_path):
@@ -77,7 +83,7 @@ def test_a_damaged_point_file_is_computed_again(fmu, tmp_path):
     victim = min((tmp_path / "out" / "points").iterdir())
     victim.write_bytes(victim.read_bytes()[:1000])
     second, seen = sweep(fmu, tmp_path / "out", stand_in.small_point)
-    assert sum(not progress.reused for progress in seen) == 1
+    assert len(computed(seen)) == 1
     xr.testing.assert_identical(first.drop_attrs(), second.drop_attrs())
 
 
@@ -88,7 +94,7 @@ def test_failed_points_are_rows_with_a_message_and_are_tried_again(fmu, tmp_path
     assert dataset["message"].values[1, 2] == "GearLubeError: unforeseen"
     assert np.isnan(dataset["dte_pp"].values[0, 1])
     again, seen = sweep(fmu, tmp_path / "out", stand_in.small_point)
-    assert sum(not progress.reused for progress in seen) == 4
+    assert len(computed(seen)) == 4
     assert int(again["status"].sum()) == 6
 
 
@@ -101,7 +107,7 @@ def test_a_point_whose_process_died_is_computed_by_another_process(fmu, tmp_path
 
 
 def test_ctrl_c_keeps_finished_points_and_says_how_to_go_on(fmu, tmp_path):
-    with pytest.raises(SweepInterruptedError, match="Run the same command again"):
+    with pytest.raises(InterruptedRunError, match="Run the same command again"):
         sweep(
             fmu, tmp_path / "out", stand_in.interrupting_point, speeds_kmh=MANY, preloads=[2500.0]
         )
@@ -110,7 +116,7 @@ def test_ctrl_c_keeps_finished_points_and_says_how_to_go_on(fmu, tmp_path):
     # more: they are waited for. The others are cancelled.
     assert 3 <= kept < len(MANY)
     _, seen = sweep(fmu, tmp_path / "out", stand_in.small_point, speeds_kmh=MANY, preloads=[2500.0])
-    assert sum(progress.reused for progress in seen) == kept
+    assert len(seen) - len(computed(seen)) == kept
 
 
 def test_ctrl_c_becomes_a_flag_first_and_an_exception_when_it_is_repeated():

@@ -2,6 +2,7 @@
 
 import importlib
 import pkgutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,11 +23,13 @@ from gearlube_core.kernels.flat_tuples import flatten
 from tests.helpers.torsional_cases import reconstructed
 
 MODELS = {
-    "hot": HypoidTorsional(karagiannis_2012_pair(friction="thermal_eyring", torque_ripple=0.1)),
-    "along": HypoidTorsional(
-        karagiannis_2012_pair(friction="thermal_eyring", entrainment="along_sliding")
+    "hot": HypoidTorsional(
+        replace(karagiannis_2012_pair(), friction="thermal_eyring", torque_ripple=0.1)
     ),
-    "cold": HypoidTorsional(karagiannis_2012_pair(friction="evans_johnson")),
+    "along": HypoidTorsional(
+        replace(karagiannis_2012_pair(), friction="thermal_eyring", entrainment="along_sliding")
+    ),
+    "cold": HypoidTorsional(replace(karagiannis_2012_pair(), friction="evans_johnson")),
     "printed": HypoidTorsional(
         reconstructed(
             0.003, equations="as_printed", damping_gate="as_printed", load_torque="instantaneous"

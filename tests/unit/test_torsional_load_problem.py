@@ -1,5 +1,7 @@
 """Periodic motions over the pinion torque: derivatives, and agreement with those over the speed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,7 @@ from gearlube_core.periodic import follow, solve_periodic
 
 
 def load_problem(form, relative=0.8):
-    parameters = karagiannis_2012_pair(form=form)
+    parameters = replace(karagiannis_2012_pair(), form=form)
     model = HypoidTorsional(parameters)
     speed = model.pinion_speed(relative * model.natural_frequency)
     return LoadProblem(parameters, speed, steps_per_mesh_period=128)

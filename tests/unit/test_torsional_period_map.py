@@ -1,5 +1,7 @@
 """Derivatives of the period map, and the problem it states for shooting."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -33,7 +35,9 @@ CASES = {
         0.0,
     ),
     "friction": (
-        PeriodProblem(karagiannis_2012_pair(friction="thermal_eyring"), steps_per_mesh_period=64),
+        PeriodProblem(
+            replace(karagiannis_2012_pair(), friction="thermal_eyring"), steps_per_mesh_period=64
+        ),
         0.4,
         0.5,
     ),
@@ -83,7 +87,9 @@ def test_shooting_finds_what_time_integration_settles_to(form):
 def test_load_torque_gives_way_to_losses():
     """At constant mean speed the load takes what damping and friction leave."""
     for friction in ("off", "thermal_eyring"):
-        problem = PeriodProblem(karagiannis_2012_pair(friction=friction), steps_per_mesh_period=128)
+        problem = PeriodProblem(
+            replace(karagiannis_2012_pair(), friction=friction), steps_per_mesh_period=128
+        )
         speed = problem.model.pinion_speed(0.4 * problem.model.natural_frequency)
         motion = solve_periodic(problem.equations(), problem.initial_guess(speed), speed)
         orbit = problem.orbit(motion.unknowns, speed)

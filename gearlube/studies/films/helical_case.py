@@ -22,7 +22,7 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import rpm_to_rads
 
 _STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
-_STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: Jamali 2015 sec. 4.4
+_STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: [jamali_2015 sec. 4.4]
 # the thesis' own steps and E*, so that its step numbers name its positions
 _THESIS = {"jamali_2015_a": "a", "jamali_2015_b": "b"}
 
@@ -156,3 +156,52 @@ def line_of_step(steps: MeshingSteps, step: float) -> tuple[float, float]:
     """Return s_i and X of the line at a step [m]."""
     position = float(steps.position(step))
     return position, float(line_at_position(position, steps.pair))
+
+
+def with_flanks(
+    file: HelicalGearFile,
+    facets: int | None = None,
+    crown_start_mm: float | None = None,
+    relief_parabola: float | None = None,
+    relief_exponent: float | None = None,
+) -> HelicalGearFile:
+    """Return the gear file with other facets, crown or tip relief on both flanks.
+
+    Parameters
+    ----------
+    file
+        Gear pair.
+    facets
+        In place of the involute; 0: none.
+    crown_start_mm
+        Of both crowns, from mid-face [mm].
+    relief_parabola
+        Parabolic share k of both tip reliefs [-].
+    relief_exponent
+        Exponent of both tip reliefs as powers of the depth [-]; not beside `relief_parabola`.
+
+    Raises
+    ------
+    ParameterError
+        Something is out of range, or both forms of relief are given.
+    """
+    if relief_parabola is not None and relief_exponent is not None:
+        raise ParameterError(
+            f"relief_parabola must not be given with relief_exponent, got {relief_parabola:g} and "
+            f"{relief_exponent:g}. Leave one out."
+        )
+    form = None if relief_exponent is None else "power"
+    fields = {
+        "facets": facets,
+        "crown_start_mm": crown_start_mm,
+        "tip_relief_parabola": relief_parabola,
+        "tip_relief_exponent": relief_exponent,
+        "tip_relief_form": form if relief_parabola is None else "blended",
+    }
+    changes = {
+        f"{role}.flank.{field}": value
+        for role in ("pinion", "gear")
+        for field, value in fields.items()
+        if value is not None
+    }
+    return file.varied(changes) if changes else file

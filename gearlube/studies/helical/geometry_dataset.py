@@ -23,10 +23,11 @@ from gearlube_core.checks import check_positive
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.helical_geometry.meshing_steps import jamali_2015_steps, line_at_position
+from gearlube_core.helical_geometry.meshing_steps import gear_file_steps, line_at_position
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from gearlube_core.units import rpm_to_rads
 
-_STEPS, _LAST_STEP = (75, 300, 500), 575  # Jamali 2015 sec. 4.4
+_STEPS, _LAST_STEP = (75, 300, 500), 575  # [jamali_2015 sec. 4.4]
 _SMALLEST_SHARE = 0.16  # length over F/cos(beta_b) where his cycle begins and ends, sec. 4.4
 _STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 
@@ -110,7 +111,7 @@ def gear_file_geometry(
     Parameters
     ----------
     file : HelicalGearFile
-        The two designs of Jamali 2015 show the contact lines of his time steps 75, 300 and 500.
+        Its [meshing_steps] name the contact lines that are shown; without them see `shown_lines`.
     torque, pinion_speed : float
         [N.m], [rad/s]; left out, those of the file's operation.
 
@@ -122,16 +123,16 @@ def gear_file_geometry(
     given = file.operation
     if given is not None:
         torque = given.pinion_torque_n_m if torque is None else torque
-        rpm = given.pinion_speed_rpm
-        pinion_speed = rpm * math.pi / 30.0 if pinion_speed is None else pinion_speed
+        speed = rpm_to_rads(given.pinion_speed_rpm)
+        pinion_speed = speed if pinion_speed is None else pinion_speed
     if torque is None or pinion_speed is None:
         raise ParameterError(
             f"torque and pinion_speed must be given for {file.name!r}, which has no [operation], "
             f"got {torque} N.m and {pinion_speed} rad/s. Add the section or give both."
         )
     lines = None
-    if file.name in ("jamali_2015_a", "jamali_2015_b"):
-        lines = jamali_2015_steps(file.name[-1]).line(np.array(_STEPS))
+    if file.meshing_steps is not None and file.meshing_steps.shown:
+        lines = gear_file_steps(file).line(np.array(file.meshing_steps.shown))
     return geometry_dataset(
         file.modified_pair(), torque=torque, pinion_speed=pinion_speed, lines=lines
     )
@@ -141,7 +142,7 @@ def shown_lines(modified: ModifiedPair) -> NDArray[np.float64]:
     """Return X of three lines [m]: early, in the middle and late in the meshing cycle.
 
     At 75, 300 and 500 parts of 575 of the cycle in which the unrelieved line is long enough, as
-    Jamali 2015 sec. 4.4 chooses his; spur lines, long or absent, take the whole cycle.
+    [jamali_2015 sec. 4.4] chooses his; spur lines, long or absent, take the whole cycle.
     """
     pair = modified.pair
     lag = pair.face_width * math.tan(pair.base_helix_angle)

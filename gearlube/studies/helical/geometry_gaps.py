@@ -24,10 +24,10 @@ from gearlube_core.helical_geometry.modification import Crown, FlankModification
 from gearlube_core.helical_geometry.tip_relief import TipRelief
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap, contact_line_gap
 
-RELIEF_FORMS = (0.0, 0.5, 1.0)  # k of Jamali 2015 fig. 5.2 to 5.4
-CROWN_STARTS = (0.0, 0.1, 0.25, 0.4, 0.45)  # F_o over F, Jamali 2015 sec. 4.6
-FACETS = (40, 60, 100)  # Jamali 2015 fig. 6.5
-SURFACE_CROWN_START = 0.25  # Jamali 2015 fig. 4.5 (c)
+RELIEF_FORMS = (0.0, 0.5, 1.0)  # k of [jamali_2015 fig. 5.2] to 5.4
+CROWN_STARTS = (0.0, 0.1, 0.25, 0.4, 0.45)  # F_o over F, [jamali_2015 sec. 4.6]
+FACETS = (40, 60, 100)  # [jamali_2015 fig. 6.5]
+SURFACE_CROWN_START = 0.25  # [jamali_2015 fig. 4.5c]
 _RELIEF_LINES = 17
 _ACROSS, _SURFACE = 601, (61, 89)
 _EDGE_GAP = 12e-6  # m, of unmodified flanks at the edge of what is shown across a line

@@ -22,7 +22,7 @@ UNMODIFIED, RELIEVED = "unmodified", "with tip relief"
 STATIONS = 881  # along a line; odd, so that one lies at mid-face
 _POSITIONS, _PHASES, _PATH = 601, 1000, 401
 _BEYOND = 0.02  # of the cycle shown before and after it
-_CHORD = 1e-3  # m, Jamali 2015 sec. 7.3
+_CHORD = 1e-3  # m, [jamali_2015 sec. 7.3]
 
 
 class Part(NamedTuple):

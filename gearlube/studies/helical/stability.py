@@ -21,7 +21,9 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     natural_frequencies,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
+from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
+from gearlube_core.storage.resumable import resumable_results
 
 LIGHT_DAMPING = 0.01  # [-], of welded bodies and rolling bearings, below the paper's 0.05
 VARIATION = 8.0  # of the mesh about its mean; spur gears of this size vary five times as much
@@ -71,15 +73,16 @@ def stability_dataset(
     tasks = [_Row("variation", "stiffness_variation", float(v)) for v in variation]
     tasks += [_Row("variation_light", "stiffness_variation", float(v)) for v in variation]
     tasks += [_Row("damping", "damping_ratio", float(v)) for v in damping]
-    key = hashlib.sha256(f"{_FORMAT} {parameters_key(parameters)}".encode())
-    key.update(frequency.tobytes())
+    digest = hashlib.sha256(f"{_FORMAT} {parameters_key(parameters)}".encode())
+    digest.update(frequency.tobytes())
+    key = digest.hexdigest()[:16]
     found: dict[_Row, Array] = {}
-    for task, record in resumable_records(
+    for task, record, _ in resumable_results(
         tasks,
-        lambda row: f"{row.name}_{row.value:.9g}",
+        lambda row: f"{key}_{row.name}_{row.value:.9g}",
         partial(_row, parameters, frequency),
-        RecordStore(store, key.hexdigest()[:16]),
-        jobs=jobs,
+        ResultStore(store, ARRAYS),
+        ProcessPool(jobs=jobs),
     ):
         found[task] = record["growth"]
         observe(len(found) / len(tasks))

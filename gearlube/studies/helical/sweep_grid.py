@@ -27,7 +27,9 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
-from gearlube_core.storage.resumable_records import Record, RecordStore, resumable_records
+from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
+from gearlube_core.storage.resumable import resumable_results
 
 _FORMAT = 1  # raise with every change of the model that changes results
 
@@ -88,7 +90,7 @@ def sweep_dataset(
     jobs : int, optional
         Processes; all processors by default.
     observe : callable
-        Told the share that is done [-].
+        Called with the share that is done [-].
 
     Returns
     -------
@@ -96,16 +98,17 @@ def sweep_dataset(
         Dimensions `mu`, `speed`, `harmonic`; NaN where the pair is unstable. Names that begin with
         `film_` have no `mu`.
     """
-    key = hashlib.sha256(f"{_FORMAT} {parameters_key(parameters)}".encode())
-    key.update(np.ascontiguousarray(mu).tobytes())
+    digest = hashlib.sha256(f"{_FORMAT} {parameters_key(parameters)}".encode())
+    digest.update(np.ascontiguousarray(mu).tobytes())
+    key = digest.hexdigest()[:16]
     tasks = [float(speed) for speed in speeds]
     found: dict[float, Record] = {}
-    for speed, record in resumable_records(
+    for speed, record, _ in resumable_results(
         tasks,
-        "speed_{:.9g}".format,
+        lambda speed: f"{key}_speed_{speed:.9g}",
         partial(speed_column, parameters, mu),
-        RecordStore(store, key.hexdigest()[:16]),
-        jobs=jobs,
+        ResultStore(store, ARRAYS),
+        ProcessPool(jobs=jobs),
     ):
         found[speed] = record
         observe(len(found) / len(tasks))

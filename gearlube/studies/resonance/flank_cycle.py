@@ -71,7 +71,8 @@ def flank_cycle(motion: Motion, parameters: HypoidTorsionalParameters) -> FlankC
 
     References
     ----------
-    Karagiannis et al. 2012, fig. 15, 18, 20, 21.
+    [karagiannis_2012 fig. 15] [karagiannis_2012 fig. 18] [karagiannis_2012 fig. 20]
+    [karagiannis_2012 fig. 21].
     """
     model = motion.problem.model
     p, orbit = model.kernel_parameters, motion.orbit

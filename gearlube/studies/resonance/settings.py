@@ -24,7 +24,7 @@ MODELS = {
     "two_dof_lubricated": "2-DOF, lubricated",
 }
 SWEPT = ("two_dof", "one_dof")
-ORBITS_AT = (0.3, 0.65, 1.0)  # mesh over natural frequency, Karagiannis et al. 2012 fig. 8-14
+ORBITS_AT = (0.3, 0.65, 1.0)  # mesh over natural frequency, [karagiannis_2012 fig. 8] to 14
 HOT = 373.15  # K, ditto fig. 21
 
 
@@ -54,9 +54,18 @@ class ResonanceSettings:
         Of the time sweeps; 0 for none.
     section_starts : int
         Starts of the Poincare section; 0 for none.
+    load_at : float, optional
+        Also follow the response over the pinion torque, at this mesh over natural frequency [-],
+        0.05 to 3.
     steps_per_mesh_period, lubricated_steps : int
         Of the integrator, without and with friction. Where contact is lost close to a fold,
         fewer steps than 512 show folds that are not there.
+
+    Examples
+    --------
+    >>> from gearlube_core.mesh_table.shipped import shipped_mesh_table
+    >>> ResonanceSettings(mesh=shipped_mesh_table("mohammadpour_2015"), friction="off").friction
+    'off'
     """
 
     mesh: MeshTable | None = None
@@ -70,6 +79,7 @@ class ResonanceSettings:
     frequencies: int = 200
     sweep_frequencies: int = 60
     section_starts: int = 24
+    load_at: float | None = None
     steps_per_mesh_period: int = 512
     lubricated_steps: int = 128
 
@@ -83,6 +93,8 @@ class ResonanceSettings:
         check_within("frequencies", self.frequencies, 2, 5000)
         check_within("sweep_frequencies", self.sweep_frequencies, 0, 5000)
         check_within("section_starts", self.section_starts, 0, 1000)
+        if self.load_at is not None:
+            check_within("load_at", self.load_at, 0.05, 3.0, "", "0.9 shows the bistable range.")
         self.parameters("two_dof")
         if self.mesh is not None and self.pinion_torque > 1.5 * self.mesh.torque[-1]:
             raise ParameterError(
@@ -118,8 +130,8 @@ class ResonanceSettings:
         self, model: str, oil_temperature: float | None = None
     ) -> HypoidTorsionalParameters:
         """Return the gear pair of a model, at another oil temperature [K] if given."""
-        return karagiannis_2012_pair(
-            mesh=self.mesh,
+        return replace(
+            karagiannis_2012_pair(self.mesh),
             form="one_dof" if model == "one_dof" else "two_dof",
             radii="mean" if model == "two_dof_mean_radii" else self.radii,
             pinion_torque=self.pinion_torque,

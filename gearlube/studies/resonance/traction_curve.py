@@ -54,7 +54,7 @@ def traction_curve(cycle: FlankCycle) -> TractionCurve:
 
     References
     ----------
-    Karagiannis et al. 2012, fig. 19; Johnson and Greenwood 1980.
+    [karagiannis_2012 fig. 19]; [johnson_greenwood_1980].
     """
     oil = cycle.motion.problem.model.kernel_parameters.thermal_oil
     pressure = float(cycle.values["mean_pressure"][cycle.hardest])

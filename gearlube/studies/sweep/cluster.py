@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator
+from concurrent.futures import Executor
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 from distributed import Client, Worker, WorkerPlugin, get_worker
 
-from gearlube.studies.sweep.executors import Crew, PointFunction
+from gearlube.studies.sweep.point import Place, PointFunction
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube.studies.sweep.unpack import unpack
 from gearlube_core.errors import GearLubeError, ParameterError
@@ -31,6 +33,13 @@ class FmuOnWorker(WorkerPlugin):
         self.name = f"gearlube-fmu-{hashlib.sha256(content).hexdigest()[:16]}"
         self.directory = Path()
 
+    @classmethod
+    def of_file(cls, fmu: Path) -> FmuOnWorker:
+        """Return the plugin for an FMU; raise ParameterError when it is not one file."""
+        if not fmu.is_file():
+            raise ParameterError(f"A cluster needs the FMU as one file, {fmu} is none.")
+        return cls(fmu.read_bytes())
+
     def setup(self, worker: Worker) -> None:
         """Write and unzip the FMU on `worker`."""
         home = Path(worker.local_directory)
@@ -41,33 +50,44 @@ class FmuOnWorker(WorkerPlugin):
 
 
 def run_on_worker(
-    plugin: str, point: PointFunction, speed_kmh: float, preload: float, settings: SweepSettings
+    plugin: str, point: PointFunction, settings: SweepSettings, place: Place
 ) -> xr.Dataset:
     """Run `point` with the FMU that the plugin of that name brought to this worker."""
     carrier: Any = get_worker().plugins[plugin]
-    return point(carrier.directory, speed_kmh, preload, settings)
+    return point(carrier.directory, *place, settings)
 
 
-@contextmanager
-def cluster_crew(fmu: Path, scheduler: str, point: PointFunction) -> Iterator[Crew]:
-    """Run points on the cluster at `scheduler`; its workers must have gearlube installed."""
-    if not fmu.is_file():
-        raise ParameterError(f"A cluster needs the FMU as one file, {fmu} is none.")
-    try:
-        client = Client(scheduler, timeout=_CONNECT_TIMEOUT, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise GearLubeError(
-            f"No Dask scheduler answered at {scheduler} within {_CONNECT_TIMEOUT:g} s: {error}. "
-            "Start one with `dask scheduler` and workers with `dask worker ADDRESS --nthreads 1`."
-        ) from error
-    plugin = FmuOnWorker(fmu.read_bytes())
-    try:
-        client.register_plugin(plugin, name=plugin.name)
-        executor = client.get_executor(retries=RETRIES, pure=False)
+@dataclass(frozen=True, slots=True)
+class DaskPool:
+    """Workers of the cluster at `scheduler`; they must have gearlube installed."""
+
+    scheduler: str
+    plugin: FmuOnWorker
+
+    @contextmanager
+    def open(self, tasks: int) -> Iterator[Executor]:
+        """Bring the FMU to the workers and give an executor.
+
+        Raises
+        ------
+        GearLubeError
+            No scheduler answers at the address.
+        """
         try:
-            yield Crew(executor, run_on_worker, (plugin.name, point))
+            client = Client(self.scheduler, timeout=_CONNECT_TIMEOUT, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise GearLubeError(
+                f"No Dask scheduler answered at {self.scheduler} within {_CONNECT_TIMEOUT:g} s: "
+                f"{error}. Start one with `dask scheduler` and workers with "
+                "`dask worker ADDRESS --nthreads 1`."
+            ) from error
+        try:
+            client.register_plugin(self.plugin, name=self.plugin.name)
+            executor = client.get_executor(retries=RETRIES, pure=False)
+            try:
+                yield executor
+            finally:
+                executor.shutdown(wait=False)
+                client.unregister_worker_plugin(self.plugin.name)
         finally:
-            executor.shutdown(wait=False)
-            client.unregister_worker_plugin(plugin.name)
-    finally:
-        client.close()
+            client.close()

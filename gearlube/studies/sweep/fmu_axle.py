@@ -100,12 +100,12 @@ class FmuAxle:
         """Return `what` with what the FMU said about it, without the loader's stack notes."""
         said = [text.removeprefix(f"{_INSTANCE}: ") for text in self.messages]
         reasons = [text for text in dict.fromkeys(said) if not text.startswith(_LOADER_NOTE)]
-        told = [
+        distinct = [
             text
             for i, text in enumerate(reasons)
             if not any(text in other for j, other in enumerate(reasons) if j != i)
         ]
-        return f"{what}: {' '.join(told) or 'the FMU gave no reason.'}"
+        return f"{what}: {' '.join(distinct) or 'the FMU gave no reason.'}"
 
     def set_parameters(self, values: Mapping[str, str | float | int]) -> None:
         """Set FMU parameters by name; enumerations take the name of their item."""

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from drivetrain.road_load import FinalDrive
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, read_mesh_table
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 
 SHIPPED = "mohammadpour_2015"  # the table of an FMU without one of its own
@@ -14,7 +15,7 @@ SHIPPED = "mohammadpour_2015"  # the table of an FMU without one of its own
 def mesh_table_of(directory: Path) -> MeshTable:
     """Return the mesh table that the FMU unzipped at `directory` computes with."""
     own = directory / "resources" / FILE_IN_FMU
-    return read_mesh_table(own) if own.is_file() else MeshTable.named(SHIPPED)
+    return read_mesh_table(own) if own.is_file() else shipped_mesh_table(SHIPPED)
 
 
 def final_drive_of(mesh: MeshTable) -> FinalDrive:

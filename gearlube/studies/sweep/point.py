@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,6 +25,9 @@ from gearlube_core.spectra import angle_window
 from gearlube_core.units import kmh_to_ms
 
 FINISHED, FAILED = 1, 0
+
+Place = tuple[float, float]  # speed [km/h], preload [N]
+PointFunction = Callable[[Path, float, float, SweepSettings], xr.Dataset]
 
 
 def run_point(

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
+GRID = ("preload", "speed")  # dimensions of a sweep
 SEPARATION_MEANINGS = ("none", "single-sided", "double-sided")
 
 # name: (unit, description)

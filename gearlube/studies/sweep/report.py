@@ -47,7 +47,7 @@ _COLUMNS = (
 )
 
 
-def write_report(
+def write_sweep_report(
     dataset: xr.Dataset, directory: Path | str, entries: Sequence[Entry] = CATALOGUE
 ) -> Path:
     """Write report.html and figures/*.png into `directory`; return the path of the report."""

@@ -22,7 +22,7 @@ def separation_class(dte_min: float, dte_max: float, backlash: float) -> int:
     -----
     Mirrored for coasting: contact with the coast flank throughout (max <= -2b) is class 0.
     Teeth that float in the gap for the whole record (-2b < x < 0) count as single-sided.
-    Source: Mohammadpour et al. 2015 eq. (3), classes after Karagiannis et al. 2012 section 3.
+    Source: [mohammadpour_2015 (3)], classes after [karagiannis_2012 sec. 3].
     """
     if dte_min >= 0.0 or dte_max <= -backlash:
         return NONE

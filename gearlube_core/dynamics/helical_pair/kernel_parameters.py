@@ -32,7 +32,7 @@ class PairConstants(NamedTuple):
     T_g: float  # T_p r_bg/r_bp [N.m]
     backlash: float  # normal [m]
     one_sided: float  # 1: flanks separate and may touch at the back; 0: linear springs
-    mesh_sign: float  # +1; -1 as printed in eq. (4)
+    mesh_sign: float  # +1; -1 as printed in [he_2007 (4)]
 
 
 class MeshArrays(NamedTuple):

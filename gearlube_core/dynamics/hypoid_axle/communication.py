@@ -1,77 +1,112 @@
-"""One communication step as a single kernel: advance a copy, keep it if sound, write outputs."""
+"""The kernels that Python and C call: one communication step, and the outputs of a state.
+
+They take the parameters as one flat array, whose meaning depends on the type of the bearings
+and on the law of flank friction. So they are made once for each pair of these; every kernel below
+takes any `AxleParameters`.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import NamedTuple
 
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.dynamics.hypoid_axle.integrate import OK, advance
+from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.dynamics.hypoid_axle.integrate import OK, StepControl, advance
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshLevels
 from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.friction.flank_law import FlankLaw
+from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 
 
-@kernel
-def communication_step(
-    s: NDArray[float64],
-    trial: NDArray[float64],
-    duration: float,
-    pinion_torque: float,
-    wheel_torque: float,
-    oil_temperature: float,
-    levels: NDArray[float64],
-    series: NDArray[float64],
-    n_orders: int,
-    windows: NDArray[float64],
-    n_nodes: int,
-    parameters: NDArray[float64],
-    control: NDArray[float64],
-    work: NDArray[float64],
-    rollers: NDArray[float64],
-    out: NDArray[float64],
-) -> int:
-    """Advance the axle by `duration` [s] and write its outputs; return a status.
+class AxleKernels(NamedTuple):
+    """Compiled functions of an axle with one type of bearing and one law of flank friction."""
+
+    communication_step: Callable[..., int]
+    outputs: Callable[..., None]
+
+
+@cache
+def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKernels:
+    """Return the compiled step and outputs of an axle with these bearings and flanks.
 
     Parameters
     ----------
-    s, trial : ndarray of shape (N_STATE,)
-        State, unchanged when the status is not OK; work space.
-
-    Others as in `advance` and `write_outputs`.
+    bearing : type
+        The bearing type, a NamedTuple class; see `bearing_type.ShaftBearings`.
+    law : type
+        The law of flank friction, likewise; see `flank_law.FlankLaw`.
     """
-    for i in range(N_STATE):
-        trial[i] = s[i]
-    status = advance(
-        trial,
-        duration,
-        pinion_torque,
-        wheel_torque,
-        oil_temperature,
-        levels,
-        series,
-        n_orders,
-        windows,
-        n_nodes,
-        parameters,
-        control,
-        work,
-    )
-    if status == OK:
+
+    @kernel
+    def communication_step(
+        s: NDArray[float64],
+        trial: NDArray[float64],
+        duration: float,
+        pinion_torque: float,
+        wheel_torque: float,
+        oil_temperature: float,
+        levels: NDArray[float64],
+        series: NDArray[float64],
+        n_orders: int,
+        windows: NDArray[float64],
+        n_nodes: int,
+        parameters: NDArray[float64],
+        control_values: NDArray[float64],
+        work: NDArray[float64],
+        rollers: NDArray[float64],
+        out: NDArray[float64],
+    ) -> int:
+        """Advance the axle by `duration` [s] and write its outputs; return a status.
+
+        Parameters
+        ----------
+        s, trial : ndarray of shape (N_STATE,)
+            State, unchanged when the status is not OK; work space.
+        parameters, control_values : ndarray
+            Flattened AxleParameters and StepControl.
+
+        Others as in `MeshLevels`, `advance` and `write_outputs`.
+        """
+        table = MeshLevels(levels, series, n_orders, windows, n_nodes)
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        control: StepControl = tuple_from_array(control_values, StepControl)
+        torques = (pinion_torque, wheel_torque)
         for i in range(N_STATE):
-            s[i] = trial[i]
-        write_outputs(
-            s,
-            pinion_torque,
-            wheel_torque,
-            oil_temperature,
-            levels,
-            series,
-            n_orders,
-            windows,
-            n_nodes,
-            parameters,
-            work,
-            rollers,
-            out,
-        )
-    return status
+            trial[i] = s[i]
+        status = advance(trial, duration, torques, oil_temperature, table, p, control, work)
+        if status == OK:
+            for i in range(N_STATE):
+                s[i] = trial[i]
+            write_outputs(s, torques, oil_temperature, table, p, work, rollers, out)
+        return status
+
+    @kernel
+    def outputs(
+        s: NDArray[float64],
+        pinion_torque: float,
+        wheel_torque: float,
+        oil_temperature: float,
+        levels: NDArray[float64],
+        series: NDArray[float64],
+        n_orders: int,
+        windows: NDArray[float64],
+        n_nodes: int,
+        parameters: NDArray[float64],
+        work: NDArray[float64],
+        rollers: NDArray[float64],
+        out: NDArray[float64],
+    ) -> None:
+        """Write the outputs of the state `s`; arguments as in `communication_step`."""
+        table = MeshLevels(levels, series, n_orders, windows, n_nodes)
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        torques = (pinion_torque, wheel_torque)
+        write_outputs(s, torques, oil_temperature, table, p, work, rollers, out)
+
+    return AxleKernels(communication_step, outputs)

@@ -8,13 +8,18 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh, follow_flank
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+    MeshAtLoad,
+    MeshLevels,
+    blend_mesh,
+    follow_flank,
+)
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
+    N_ENERGIES,
     N_ODE,
     N_STATE,
     PINION_WORK,
@@ -26,7 +31,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
@@ -79,10 +83,7 @@ def rk4_step(
     first: float,
     expand: float,
     inputs: StepInputs,
-    series: NDArray[float64],
-    n_orders: int,
-    window: NDArray[float64],
-    n_nodes: int,
+    mesh: MeshAtLoad,
     oil: LubricantState,
     p: AxleParameters,
     scratch: NDArray[float64],
@@ -105,19 +106,19 @@ def rk4_step(
     trial = stages[0:N_STATE]
     slope = stages[N_STATE : N_STATE + N_ODE]
     total = stages[N_STATE + N_ODE : N_STATE + 2 * N_ODE]
-    axle_rhs(s, inputs, series, n_orders, window, n_nodes, oil, p, first, first, scratch, slope)
+    axle_rhs(s, inputs, mesh, oil, p, first, first, scratch, slope)
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, 1.0, expand, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, 1.0, expand, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, 0.0, 0.0, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, 0.0, 0.0, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, series, n_orders, window, n_nodes, oil, p, 1.0, 0.0, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, 1.0, 0.0, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
@@ -144,8 +145,8 @@ def step_inputs(
     drag_p = 0.0
     drag_g = 0.0
     if p.drag != 0.0:
-        drag_p = 2.0 * drag_torque(s[W_P], p.preload, oil.nu, p.bearing_p)
-        drag_g = 2.0 * drag_torque(s[W_G], p.preload, oil.nu, p.bearing_g)
+        drag_p = 2.0 * p.bearing_p.shaft_drag(s[W_P], p.preload, oil)
+        drag_g = 2.0 * p.bearing_g.shaft_drag(s[W_G], p.preload, oil)
     return StepInputs(pinion_torque, wheel_torque, drag_p, drag_g)
 
 
@@ -153,16 +154,11 @@ def step_inputs(
 def advance(
     s: NDArray[float64],
     duration: float,
-    pinion_torque: float,
-    wheel_torque: float,
+    torques: tuple[float, float],
     oil_temperature: float,
-    levels: NDArray[float64],
-    series: NDArray[float64],
-    n_orders: int,
-    windows: NDArray[float64],
-    n_nodes: int,
-    parameters: NDArray[float64],
-    control_values: NDArray[float64],
+    table: MeshLevels,
+    p: AxleParameters,
+    control: StepControl,
     work: NDArray[float64],
 ) -> int:
     """Advance the axle by `duration` [s] under constant inputs; return a status.
@@ -173,14 +169,13 @@ def advance(
         Changed in place, also when the status is not OK.
     duration : float
         Communication step [s].
-    pinion_torque, wheel_torque : float
-        [N.m]
+    torques : tuple of 2 floats
+        Of pinion and wheel [N.m].
     oil_temperature : float
         [K]
-    levels, series, n_orders, windows, n_nodes
-        Packed mesh table, see `packed_mesh.PackedMesh`.
-    parameters, control_values : ndarray
-        Flattened AxleParameters and StepControl.
+    table : MeshLevels
+    p : AxleParameters
+    control : StepControl
     work : ndarray of shape (work_size(n_orders, n_nodes),)
 
     Returns
@@ -194,44 +189,38 @@ def advance(
     pinion torque with LOAD_FILTER_TIME. The side, drive or coast flanks, is chosen after every
     integrator step, see `follow_flank`.
     """
-    p: AxleParameters = tuple_from_array(parameters, AxleParameters)
-    control: StepControl = tuple_from_array(control_values, StepControl)
     at_scratch = N_STATE + 2 * N_ODE
     at_series = at_scratch + SCRATCH
-    at_window = at_series + N_SERIES * (2 * n_orders + 1)
+    at_window = at_series + N_SERIES * (2 * table.n_orders + 1)
     stages = work[0:at_scratch]
     scratch = work[at_scratch:at_series]
-    blended = work[at_series:at_window]
-    window = work[at_window:]
+    mesh = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)
     oil = lubricant_state(p.oil, oil_temperature)
-    blend_mesh(s[LOAD_TORQUE], s[SIDE], levels, series, n_orders, windows, n_nodes, blended, window)
-    wanted = duration / step_limit(p, control, s[W_P], blended[K_M])
+    blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
+    wanted = duration / step_limit(p, control, s[W_P], mesh.series[K_M])
     if not wanted < MAX_STEPS:
         return TOO_MANY_STEPS
     steps = max(1, math.ceil(wanted))
     h = duration / steps
-    for i in range(7):
+    for i in range(N_ENERGIES):
         s[WORK_MARK + i] = s[PINION_WORK + i]
     s[TIME_IN_STEP] = duration
     for k in range(steps):
-        inputs = step_inputs(s, pinion_torque, wheel_torque, oil, p)
+        inputs = step_inputs(s, torques[0], torques[1], oil, p)
         rk4_step(
             s,
             h,
             1.0 if k == 0 else 0.0,
             1.0 if k % STEPS_PER_EXPANSION == 0 else 0.0,
             inputs,
-            blended,
-            n_orders,
-            window,
-            n_nodes,
+            mesh,
             oil,
             p,
             scratch,
             stages,
         )
-        if levels[0] < 0.0:
-            follow_flank(s, levels, series, n_orders, windows, n_nodes, p, blended, window)
+        if table.levels[0] < 0.0:
+            follow_flank(s, table, p, mesh)
     total = 0.0
     for i in range(N_ODE):
         total += abs(s[i])

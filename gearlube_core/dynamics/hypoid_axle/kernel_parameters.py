@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from gearlube_core.bearings.parameters import BearingParameters
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.oil.lubricant import LubricantParameters
 
 
 class AxleParameters(NamedTuple):
-    """Constants of one axle; built by `HypoidAxleParameters.kernel_parameters`."""
+    """Constants of one axle; built by `HypoidAxleParameters.kernel_parameters`.
+
+    Bearings and flank law are NamedTuples of floats of any class with their methods.
+    """
 
     I_p: float  # kg m2
     I_g: float  # kg m2
@@ -19,16 +21,15 @@ class AxleParameters(NamedTuple):
     m_g: float  # kg
     z_p: float  # pinion teeth [-]
     backlash: float  # 2b along the line of action [m]
-    loss: float  # hysteretic loss coefficient of eq. (4) [-]
-    frequency_floor: float  # lower clamp of the frequency in eq. (4) and (25) [Hz]
-    modal_damping: float  # N s/m; zero selects eq. (4)
-    lateral_sign: float  # +1 consistent, -1 as printed in eq. (1) c-h
+    loss: float  # hysteretic loss coefficient of [mohammadpour_2015 (4)] [-]
+    frequency_floor: float  # lower clamp of f_m in [mohammadpour_2015 (4)], (25) [Hz]
+    modal_damping: float  # N s/m; zero selects [mohammadpour_2015 (4)]
+    lateral_sign: float  # +1 consistent, -1 as printed in [mohammadpour_2015 (1)] c-h
     consistent: float  # 1 with the terms that make the mesh conserve energy, 0 as printed
-    friction_form: float  # 0 consistent, 1 as printed, -1 off
+    friction: float  # 1 with flank friction, 0 without
     drag: float  # 1 with bearing drag torque, 0 without
     preload: float  # axial preload of a bearing, for its drag [N]
-    bearing_p: BearingParameters
-    bearing_g: BearingParameters
-    surface: SurfaceParameters
-    solid: SolidParameters
+    bearing_p: ShaftBearings
+    bearing_g: ShaftBearings
+    flank_law: FlankLaw
     oil: LubricantParameters

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from numpy import float64
 from numpy.typing import NDArray
@@ -30,22 +31,31 @@ from gearlube_core.mesh_table.kernels import (
 )
 
 
+class MeshLevels(NamedTuple):
+    """The mesh table at all its loads; shapes as in `packed_mesh.PackedMesh`."""
+
+    levels: NDArray[float64]  # signed pinion torque [N.m]
+    series: NDArray[float64]  # Fourier coefficients
+    n_orders: int
+    windows: NDArray[float64]  # data of the tooth pairs
+    n_nodes: int
+
+
+class MeshAtLoad(NamedTuple):
+    """The mesh table at one load."""
+
+    series: NDArray[float64]  # shape (N_SERIES * (2 n_orders + 1),)
+    n_orders: int
+    window: NDArray[float64]  # shape ((n_nodes + 1) * N_CHANNELS,)
+    n_nodes: int
+
+
 @kernel
-def blend_mesh(
-    load_torque: float,
-    side: float,
-    levels: NDArray[float64],
-    series: NDArray[float64],
-    n_orders: int,
-    windows: NDArray[float64],
-    n_nodes: int,
-    series_out: NDArray[float64],
-    window_out: NDArray[float64],
-) -> None:
-    """Interpolate the packed mesh table to the load `load_torque` [N.m] of one side."""
-    bracket = load_bracket(load_torque, side, levels, levels.size)
-    blend_levels(series, N_SERIES * (2 * n_orders + 1), bracket, series_out)
-    blend_levels(windows, (n_nodes + 1) * N_CHANNELS, bracket, window_out)
+def blend_mesh(load_torque: float, side: float, table: MeshLevels, mesh: MeshAtLoad) -> None:
+    """Interpolate the table to the load `load_torque` [N.m] of one side, into `mesh`."""
+    bracket = load_bracket(load_torque, side, table.levels, table.levels.size)
+    blend_levels(table.series, N_SERIES * (2 * table.n_orders + 1), bracket, mesh.series)
+    blend_levels(table.windows, (table.n_nodes + 1) * N_CHANNELS, bracket, mesh.window)
 
 
 @kernel
@@ -64,14 +74,9 @@ def lateral_and_unloaded(
 @kernel
 def follow_flank(
     s: NDArray[float64],
-    levels: NDArray[float64],
-    series: NDArray[float64],
-    n_orders: int,
-    windows: NDArray[float64],
-    n_nodes: int,
+    table: MeshLevels,
     p: AxleParameters,
-    series_out: NDArray[float64],
-    window_out: NDArray[float64],
+    mesh: MeshAtLoad,
 ) -> None:
     """Take the mesh data of the other side when the teeth have crossed the middle of the gap.
 
@@ -87,10 +92,10 @@ def follow_flank(
     ----------
     s : ndarray of shape (N_STATE,)
         Changed at X and SIDE.
-    levels, series, n_orders, windows, n_nodes
-        Packed mesh table with coast levels.
+    table : MeshLevels
+        With coast levels.
     p : AxleParameters
-    series_out, window_out : ndarray
+    mesh : MeshAtLoad
         The table at the present load; rewritten at a change of side.
     """
     x = s[X] * UM
@@ -99,21 +104,19 @@ def follow_flank(
     if (x <= -gap) if on_coast else (x >= 0.0):
         return
     phi = s[PHI_P]
-    old = mesh_series(series_out, n_orders, p.z_p, phi)
+    old = mesh_series(mesh.series, mesh.n_orders, p.z_p, phi)
     separated = -gap < x < 0.0
     rotation = x + 0.5 * gap
     if separated:
-        rotation -= lateral_and_unloaded(s, old, series_out, n_orders, p.z_p)
+        rotation -= lateral_and_unloaded(s, old, mesh.series, mesh.n_orders, p.z_p)
     if (rotation < 0.0) == on_coast:
         return
     s[SIDE] = 1.0 if on_coast else -1.0
-    blend_mesh(
-        s[LOAD_TORQUE], s[SIDE], levels, series, n_orders, windows, n_nodes, series_out, window_out
-    )
-    new = mesh_series(series_out, n_orders, p.z_p, phi)
+    blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
+    new = mesh_series(mesh.series, mesh.n_orders, p.z_p, phi)
     if separated:
         x = rotation * new.R_p / old.R_p - 0.5 * gap
-        x += lateral_and_unloaded(s, new, series_out, n_orders, p.z_p)
+        x += lateral_and_unloaded(s, new, mesh.series, mesh.n_orders, p.z_p)
         x = min(0.0, max(-gap, x))
     else:
         kept = math.sqrt(old.k_m / new.k_m)

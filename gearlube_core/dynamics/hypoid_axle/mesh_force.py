@@ -71,8 +71,8 @@ def mesh_force(
 
     References
     ----------
-    Mohammadpour et al. 2015, eq. (1)-(4); eq. (4) with f_m in Hz, clamped from below because it
-    diverges at rest.
+    [mohammadpour_2015 (2)] as a rate; [mohammadpour_2015 (4)] with f_m in Hz, clamped from below
+    because it diverges at rest.
     """
     m: MeshSeries = mesh_series(series, n_orders, p.z_p, s[PHI_P])
     w_p = s[W_P]

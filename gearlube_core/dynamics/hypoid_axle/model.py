@@ -8,7 +8,7 @@ from scipy.optimize import root
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
-from gearlube_core.dynamics.hypoid_axle.communication import communication_step
+from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     NOT_FINITE,
     TOO_MANY_STEPS,
@@ -18,9 +18,8 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh
-from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
+from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -75,7 +74,18 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     References
     ----------
-    Mohammadpour et al. 2015.
+    [mohammadpour_2015]
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> axle = HypoidAxle(mohammadpour_2015_axle())
+    >>> axle.initialise(
+    ...     pinion_speed=209.4, pinion_torque=50.0, wheel_torque=140.0, oil_temperature=333.15
+    ... )
+    >>> axle.step(1e-4, 50.0, 140.0, 333.15)
+    >>> round(axle.output("mesh.force"), 1)  # N
+    2400.1
     """
 
     def __init__(self, parameters: HypoidAxleParameters) -> None:
@@ -89,7 +99,7 @@ class HypoidAxle(SteppedModel[StepControl]):
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         super().__init__(
             states=N_STATE,
-            outputs=N_OUTPUTS,
+            output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0, 1.0, 0.0),
             oil=parameters.oil,
             torque_limits=(MAX_TORQUE, MAX_WHEEL_TORQUE),
@@ -107,10 +117,12 @@ class HypoidAxle(SteppedModel[StepControl]):
             flatten(self.kernel_parameters),
         )
         work, rollers = np.zeros(work_size(mesh.orders, mesh.nodes)), np.zeros(ROLLERS_MAX)
+        p = self.kernel_parameters
+        kernels = axle_kernels(type(p.bearing_p), type(p.flank_law))
         return Kernels(
-            communication_step,
+            kernels.communication_step,
             (*data, self._control_values, work, rollers, self._outputs),
-            write_outputs,
+            kernels.outputs,
             (*data, work, rollers, self._outputs),
         )
 
@@ -135,36 +147,15 @@ class HypoidAxle(SteppedModel[StepControl]):
         full[:N_ODE] = state
         torque_p, torque_g, oil_temperature = self._inputs.tolist()
         oil = lubricant_state(p.oil, oil_temperature)
-        series = np.zeros(mesh.series_size)
-        window = np.zeros(mesh.window_size)
-        blend_mesh(
-            full[LOAD_TORQUE],
-            full[SIDE],
-            mesh.levels,
-            mesh.series,
-            mesh.orders,
-            mesh.windows,
-            mesh.nodes,
-            series,
-            window,
+        table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+        at_load = MeshAtLoad(
+            np.zeros(mesh.series_size), mesh.orders, np.zeros(mesh.window_size), mesh.nodes
         )
+        blend_mesh(full[LOAD_TORQUE], full[SIDE], table, at_load)
         slope = np.zeros(N_ODE)
         inputs = step_inputs(full, torque_p, torque_g, oil, p)
         scratch = np.zeros(SCRATCH)
-        axle_rhs(
-            full,
-            inputs,
-            series,
-            mesh.orders,
-            window,
-            mesh.nodes,
-            oil,
-            p,
-            1.0,
-            1.0,
-            scratch,
-            slope,
-        )
+        axle_rhs(full, inputs, at_load, oil, p, 1.0, 1.0, scratch, slope)
         return slope
 
     def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
@@ -178,13 +169,14 @@ class HypoidAxle(SteppedModel[StepControl]):
     def _settle(self, pinion_torque: float, oil_temperature: float) -> None:
         """Solve the six displacements and the transmission error for static equilibrium."""
         s = self._state
-        p = self.kernel_parameters._replace(friction_form=-1.0)
+        p = self.kernel_parameters._replace(friction=0.0)
         mesh = self.packed
         oil = lubricant_state(p.oil, oil_temperature)
         series = self._series_at(pinion_torque)
         slope = np.zeros(N_ODE)
         scratch = np.zeros(SCRATCH)
         inputs = StepInputs(pinion_torque, 0.0, 0.0, 0.0)
+        at_load = MeshAtLoad(series, mesh.orders, mesh.windows, mesh.nodes)
         deflection = pinion_torque / series[1] / series[0]
         s[X] = MICRO * (deflection if deflection >= 0.0 else deflection - p.backlash)
         # at rest: hysteresis and the ratio error's speed play no part in a static state
@@ -197,20 +189,7 @@ class HypoidAxle(SteppedModel[StepControl]):
 
         def residual(u: Array) -> Array:
             at_rest[free] = u
-            axle_rhs(
-                at_rest,
-                inputs,
-                series,
-                mesh.orders,
-                mesh.windows,
-                mesh.nodes,
-                oil,
-                p,
-                1.0,
-                1.0,
-                scratch,
-                slope,
-            )
+            axle_rhs(at_rest, inputs, at_load, oil, p, 1.0, 1.0, scratch, slope)
             return scale * slope[rows]
 
         force = max(abs(pinion_torque / series[1]), 1.0)

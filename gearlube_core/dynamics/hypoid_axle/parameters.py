@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
@@ -12,6 +13,9 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_pa
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.errors import ParameterError
+from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
+from gearlube_core.friction.flank_laws import FLANK_LAWS
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -23,10 +27,9 @@ Friction = Literal["consistent", "as_printed", "off"]
 Approach = Literal["full", "as_printed"]
 TorqueLoss = Literal["none", "palmgren"]
 
-HYSTERETIC_LOSS = 0.009  # [-], Mohammadpour et al. 2015 eq. (4) and (25)
-FREQUENCY_FLOOR = 50.0  # Hz; eq. (4) diverges at rest; the sweep starts at 100 Hz
+HYSTERETIC_LOSS = 0.009  # [-], [mohammadpour_2015 (4)], [mohammadpour_2015 (25)]
+FREQUENCY_FLOOR = 50.0  # Hz; [mohammadpour_2015 (4)] diverges at rest; the sweep starts at 100 Hz
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
-FRICTION_FORMS = {"consistent": 0.0, "as_printed": 1.0, "off": -1.0}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,8 +39,9 @@ class HypoidAxleParameters:
     Parameters
     ----------
     mesh : MeshTable
-    bearing : TaperedRollerBearing
-        One type, two opposed on either shaft, with preload, interference or clearance set.
+    bearing : Bearing
+        One type, two opposed on either shaft, e.g. a `TaperedRollerBearing` with preload,
+        interference or clearance set.
     oil : Lubricant
     solid : Solid
         Both flanks.
@@ -58,26 +62,33 @@ class HypoidAxleParameters:
     mesh_stiffness : {"tangent", "secant"}
         Spring of the mesh about its load, see `pack_mesh`.
     mesh_damping : {"hysteretic", "modal"}
-        Eq. (4), or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
+        [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
-    friction : {"consistent", "as_printed", "off"}
-        See `gearlube_core.friction`.
+    friction : {"consistent", "as_printed", "off"} or callable
+        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`.
     bearing_torque_loss : {"none", "palmgren"}
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
     frequency_floor : float
-        Lower clamp of the frequency in eq. (4) and (25) [Hz].
+        Lower clamp of the frequency in [mohammadpour_2015 (4)] and [mohammadpour_2015 (25)] [Hz].
     hysteretic_loss : float
-        Coefficient of eq. (4) [-].
+        Coefficient of [mohammadpour_2015 (4)] [-].
 
     References
     ----------
-    Mohammadpour et al. 2015, Tables 1, A1-A4.
+    [mohammadpour_2015 Table 1] and its Tables A1 to A4.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> dry = replace(mohammadpour_2015_axle(), friction="off")
+    >>> round(dry.equivalent_mass, 2)  # kg
+    3.39
     """
 
     mesh: MeshTable
-    bearing: TaperedRollerBearing
+    bearing: Bearing
     oil: Lubricant
     solid: Solid
     pinion_inertia: float
@@ -91,7 +102,7 @@ class HypoidAxleParameters:
     mesh_stiffness: MeshStiffness
     mesh_damping: MeshDamping
     modal_loss_factor: float
-    friction: Friction
+    friction: Friction | FlankLawMaker
     bearing_torque_loss: TorqueLoss
     steps_per_mesh_period: int
     steps_per_highest_period: int
@@ -103,7 +114,8 @@ class HypoidAxleParameters:
         check_option("radii", self.radii, get_args(Radii))
         check_option("mesh_stiffness", self.mesh_stiffness, get_args(MeshStiffness))
         check_option("mesh_damping", self.mesh_damping, get_args(MeshDamping))
-        check_option("friction", self.friction, get_args(Friction))
+        if isinstance(self.friction, str):
+            check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
         for name, unit in (
             ("pinion_inertia", "kg m2"),
@@ -131,18 +143,26 @@ class HypoidAxleParameters:
 
     @property
     def equivalent_mass(self) -> float:
-        """Mass of the torsional mesh mode [kg], Karagiannis et al. 2012 eq. (30)."""
+        """Mass of the torsional mesh mode [kg], [karagiannis_2012 (30)]."""
         R_p = self.mesh.mean("R_p", 0.0)
         R_g = R_p * self.mesh.ratio
         return 1.0 / (R_p**2 / self.pinion_inertia + R_g**2 / self.gear_inertia)
 
     @property
     def modal_damping(self) -> float:
-        """Coefficient c of the modal option [N s/m], zero for eq. (4)."""
+        """Coefficient c of the modal option [N s/m], zero for [mohammadpour_2015 (4)]."""
         if self.mesh_damping == "hysteretic":
             return 0.0
         stiffness = self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
         return float(self.modal_loss_factor * (stiffness * self.equivalent_mass) ** 0.5)
+
+    def _flank_law(self) -> FlankLaw:
+        """Return the law of friction; without friction it still gives the film."""
+        if callable(self.friction):
+            make = self.friction
+        else:
+            make = FLANK_LAWS["consistent" if self.friction == "off" else self.friction]
+        return make(gear_flanks(self.roughness_rms), solid_parameters(self.solid, self.solid))
 
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""
@@ -160,13 +180,12 @@ class HypoidAxleParameters:
             modal_damping=self.modal_damping,
             lateral_sign=-1.0 if as_printed else 1.0,
             consistent=0.0 if as_printed else 1.0,
-            friction_form=FRICTION_FORMS[self.friction],
+            friction=0.0 if self.friction == "off" else 1.0,
             drag=1.0 if self.bearing_torque_loss == "palmgren" else 0.0,
             preload=self.bearing.preload_force(),
             bearing_p=bearing,
             bearing_g=bearing,
-            surface=gear_flanks(self.roughness_rms),
-            solid=solid_parameters(self.solid, self.solid),
+            flank_law=self._flank_law(),
             oil=self.oil.parameters(),
         )
 
@@ -206,9 +225,14 @@ def mohammadpour_2015_axle(
     oil : str
         Name in the lubricant library.
     bearing_approach : {"full", "as_printed"}
-        Eq. (26) with the full approach, or halved as printed.
+        [mohammadpour_2015 (26)] with the full approach, or halved as printed.
 
     See `HypoidAxleParameters` for the other parameters and for the errors.
+
+    Examples
+    --------
+    >>> mohammadpour_2015_axle(bearing_preload=6000.0).gear_mass  # kg
+    49.9
     """
     check_option("bearing_approach", bearing_approach, get_args(Approach))
     check_within(
@@ -220,7 +244,7 @@ def mohammadpour_2015_axle(
         "Preload cannot pull; give 0 N for line-to-line bearings.",
     )
     return HypoidAxleParameters(
-        mesh=mesh or MeshTable.named("mohammadpour_2015"),
+        mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
         bearing=TaperedRollerBearing.mohammadpour_2015(approach=bearing_approach).with_preload(
             bearing_preload
         ),

@@ -1,4 +1,4 @@
-"""Right-hand side of the 8-DOF hypoid axle with dynamic roller bearings."""
+"""Right-hand side of the 8-DOF hypoid axle."""
 
 from __future__ import annotations
 
@@ -7,14 +7,11 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.bearings.bearing_type import N_EXPANSION, ShaftMotion
 from gearlube_core.bearings.cage_frame import cage_torque
-from gearlube_core.bearings.shaft_expansion import (
-    N_EXPANSION,
-    expand_shaft_bearings,
-    expanded_shaft_forces,
-)
 from gearlube_core.dynamics.hypoid_axle.flanks import flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad
 from gearlube_core.dynamics.hypoid_axle.mesh_force import mesh_force, reference_frequency
 from gearlube_core.dynamics.hypoid_axle.state import (
     BEARING_DAMPING,
@@ -58,15 +55,12 @@ class StepInputs(NamedTuple):
 
 
 @kernel
-def expand_pinion_bearings(
-    s: NDArray[float64],
-    f_ref: float,
-    oil: LubricantState,
-    p: AxleParameters,
-    expansion: NDArray[float64],
-) -> None:
-    """Write the expansion of the pinion's bearing forces about state `s`."""
-    expand_shaft_bearings(
+def pinion_motion(s: NDArray[float64]) -> ShaftMotion:
+    """Return the motion of the pinion in its bearings.
+
+    The shaft lies along x: r1 = z, r2 = y turns with the pinion, which drives about -x.
+    """
+    return ShaftMotion(
         s[U_P + 2] * UM,
         s[U_P + 1] * UM,
         s[U_P] * UM,
@@ -75,24 +69,13 @@ def expand_pinion_bearings(
         s[V_P],
         s[CAGE_P],
         s[W_P],
-        f_ref,
-        oil.eta0,
-        oil.alpha,
-        p.bearing_p,
-        expansion,
     )
 
 
 @kernel
-def expand_gear_bearings(
-    s: NDArray[float64],
-    f_ref: float,
-    oil: LubricantState,
-    p: AxleParameters,
-    expansion: NDArray[float64],
-) -> None:
-    """Write the expansion of the gear's bearing forces about state `s`."""
-    expand_shaft_bearings(
+def gear_motion(s: NDArray[float64]) -> ShaftMotion:
+    """Return the motion of the gear in its bearings; the shaft lies along z."""
+    return ShaftMotion(
         s[U_G] * UM,
         s[U_G + 1] * UM,
         s[U_G + 2] * UM,
@@ -101,11 +84,6 @@ def expand_gear_bearings(
         s[V_G + 2],
         s[CAGE_G],
         s[W_G],
-        f_ref,
-        oil.eta0,
-        oil.alpha,
-        p.bearing_g,
-        expansion,
     )
 
 
@@ -113,10 +91,7 @@ def expand_gear_bearings(
 def axle_rhs(
     s: NDArray[float64],
     inputs: StepInputs,
-    series: NDArray[float64],
-    n_orders: int,
-    window: NDArray[float64],
-    n_nodes: int,
+    mesh_data: MeshAtLoad,
     oil: LubricantState,
     p: AxleParameters,
     tractions: float,
@@ -133,8 +108,7 @@ def axle_rhs(
     ----------
     s, ds : ndarray of shape (N_STATE,), (N_ODE,)
     inputs : StepInputs
-    series, n_orders, window, n_nodes
-        The mesh table at the present load, see `mesh_table.kernels`.
+    mesh_data : MeshAtLoad
     oil : LubricantState
     p : AxleParameters
     tractions, bearings : float
@@ -147,21 +121,22 @@ def axle_rhs(
 
     Notes
     -----
-    The printed eq. (1) c-h has the opposite sign of n F to the one that eq. (2) implies, and no
-    flank friction in the lateral equations: p.lateral_sign = -1, p.consistent = 0. The moment that
-    the loaded rollers exert on the orbiting cage is carried by its shaft in the consistent form;
-    the paper has none, and its rollers then do work on nothing.
+    The printed [mohammadpour_2015 (1)] c-h has the opposite sign of n F to the one that
+    [mohammadpour_2015 (2)] implies, and no flank friction in the lateral equations: p.lateral_sign
+    = -1, p.consistent = 0. The moment that the loaded rollers exert on the orbiting cage is carried
+    by its shaft in the consistent form; the paper has none, and its rollers then do work on
+    nothing.
 
     References
     ----------
-    Mohammadpour et al. 2015, eq. (1), (2), (6), (24).
+    [mohammadpour_2015 (1)] [mohammadpour_2015 (6)]
     """
-    mesh = mesh_force(s, series, n_orders, p)
+    mesh = mesh_force(s, mesh_data.series, mesh_data.n_orders, p)
     friction = flank_sum(
         s,
         mesh.force,
-        window,
-        n_nodes,
+        mesh_data.window,
+        mesh_data.n_nodes,
         oil,
         p,
         tractions,
@@ -174,37 +149,16 @@ def axle_rhs(
 
     expansion_p = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
     expansion_g = scratch[AT_EXPANSION + N_EXPANSION : SCRATCH]
+    pinion = pinion_motion(s)
+    gear = gear_motion(s)
     if bearings != 0.0:
-        expand_pinion_bearings(s, f_ref, oil, p, expansion_p)
-        expand_gear_bearings(s, f_ref, oil, p, expansion_g)
-    # pinion shaft along x: r1 = z, r2 = y turns with the pinion, which drives about -x
-    p_z, p_y, p_x, lost_p = expanded_shaft_forces(
-        s[U_P + 2] * UM,
-        s[U_P + 1] * UM,
-        s[U_P] * UM,
-        s[V_P + 2],
-        s[V_P + 1],
-        s[V_P],
-        s[CAGE_P],
-        w_p,
-        p.bearing_p,
-        expansion_p,
-    )
-    g_x, g_y, g_z, lost_g = expanded_shaft_forces(
-        s[U_G] * UM,
-        s[U_G + 1] * UM,
-        s[U_G + 2] * UM,
-        s[V_G],
-        s[V_G + 1],
-        s[V_G + 2],
-        s[CAGE_G],
-        w_g,
-        p.bearing_g,
-        expansion_g,
-    )
+        p.bearing_p.expand_forces(pinion, f_ref, oil, expansion_p)
+        p.bearing_g.expand_forces(gear, f_ref, oil, expansion_g)
+    p_z, p_y, p_x, lost_p = p.bearing_p.expanded_forces(pinion, expansion_p)
+    g_x, g_y, g_z, lost_g = p.bearing_g.expanded_forces(gear, expansion_g)
     shared = p.consistent
-    cage_p = cage_torque(s[U_P + 2] * UM, s[U_P + 1] * UM, p_z, p_y)
-    cage_g = cage_torque(s[U_G] * UM, s[U_G + 1] * UM, g_x, g_y)
+    cage_p = cage_torque(pinion.r1, pinion.r2, p_z, p_y)
+    cage_g = cage_torque(gear.r1, gear.r2, g_x, g_y)
     on_shaft_p = shared * p.bearing_p.cage_ratio * cage_p - inputs.drag_p
     on_shaft_g = shared * p.bearing_g.cage_ratio * cage_g - inputs.drag_g
 

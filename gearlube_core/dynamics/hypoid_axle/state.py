@@ -18,10 +18,11 @@ CAGE_P, CAGE_G = 17, 18  # cage angles [rad]
 PINION_WORK, WHEEL_WORK = 19, 20  # work of the external torques [J]
 VISCOUS, BOUNDARY = 21, 22  # flank friction losses [J]
 MESH_DAMPING, BEARING_DAMPING, BEARING_TORQUE = 23, 24, 25  # other losses [J]
+N_ENERGIES = 7  # from PINION_WORK on
 N_ODE = 26  # everything above is integrated
 
 LOAD_TORQUE = 26  # filtered abs(pinion torque) that selects the load level [N.m]
 TIME_IN_STEP = 27  # length of the last communication step [s]
-WORK_MARK = 28  # the seven energies at the start of the last communication step [J]
-SIDE = WORK_MARK + 7  # below 0: the mesh data are those of the coast flanks [-]
+WORK_MARK = 28  # these energies at the start of the last communication step [J]
+SIDE = WORK_MARK + N_ENERGIES  # below 0: the mesh data are those of the coast flanks [-]
 N_STATE = SIDE + 1

@@ -105,7 +105,7 @@ def flank_torques(
 
     References
     ----------
-    Karagiannis et al. 2012, eq. (5)-(9), (13).
+    [karagiannis_2012 (13)]
     """
     torque_p = 0.0
     torque_g = 0.0

@@ -69,7 +69,7 @@ class HypoidTorsional:
 
     References
     ----------
-    Karagiannis et al. 2012.
+    [karagiannis_2012]
     """
 
     def __init__(self, parameters: HypoidTorsionalParameters) -> None:
@@ -131,12 +131,12 @@ class HypoidTorsional:
 
     @property
     def equivalent_mass(self) -> float:
-        """m_eq [kg], eq. (30) of Karagiannis et al. 2012."""
+        """m_eq [kg], [karagiannis_2012 (30)]."""
         return self.kernel_parameters.m_eq
 
     @property
     def natural_frequency(self) -> float:
-        """Of the mesh mode, sqrt(k0/m_eq)/(2 pi) [Hz], eq. (30)."""
+        """Of the mesh mode, sqrt(k0/m_eq)/(2 pi) [Hz], [karagiannis_2012 (30)]."""
         return math.sqrt(self.stiffness / self.equivalent_mass) / (2.0 * math.pi)
 
     @property
@@ -152,7 +152,7 @@ class HypoidTorsional:
 
     @property
     def mean_load_torque(self) -> float:
-        """T_g that balances the mean pinion torque without losses, eq. (32) [N.m]."""
+        """T_g of the mean pinion torque without losses [N.m]; [karagiannis_2012 (32)]."""
         p = self.kernel_parameters
         return p.pinion_torque * p.R_g0 / p.R_p0
 

@@ -15,6 +15,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     TWO_DOF,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -37,7 +38,7 @@ FRICTION_FORMS = {
     "evans_johnson": EVANS_JOHNSON,
     "thermal_eyring": THERMAL_EYRING,
 }
-KARAGIANNIS_DAMPING = 2278.1  # N s/m, Karagiannis et al. 2012 Table 1
+KARAGIANNIS_DAMPING = 2278.1  # N s/m, [karagiannis_2012 Table 1]
 KARAGIANNIS_DAMPING_RATIO = 0.03  # [-], ditto
 
 
@@ -95,7 +96,7 @@ class HypoidTorsionalParameters:
 
     References
     ----------
-    Karagiannis et al. 2012, eq. (1)-(6), (31), (32), Tables 1 and 2.
+    [karagiannis_2012 Table 1] [karagiannis_2012 Table 2]
     """
 
     mesh: MeshTable
@@ -162,79 +163,50 @@ class HypoidTorsionalParameters:
             )
 
 
-def karagiannis_2012_pair(
-    *,
-    pinion_torque: float = 50.0,
-    mesh: MeshTable | None = None,
-    form: Form = "two_dof",
-    radii: Radii = "consistent",
-    mesh_stiffness: MeshStiffness = "tangent",
-    mesh_damping: MeshDamping = "constant",
-    damping: float = KARAGIANNIS_DAMPING,
-    damping_ratio: float = KARAGIANNIS_DAMPING_RATIO,
-    damping_gate: DampingGate = "gated",
-    equations: Equations = "consistent",
-    backlash: float = 150e-6,
-    torque_ripple: float = 0.0,
-    load_torque: LoadTorque = "mean",
-    hold_gain: float = 0.05,
-    friction: Friction = "off",
-    oil: str = "karagiannis_2012",
-    oil_temperature: float = 313.15,
-    roughness_rms: float = 0.5e-6,
-    film: Film = "consistent",
-    film_temperature: FilmTemperature = "inlet",
-    flash_temperature: bool = False,
-    contact_pressure: ContactPressure = "elliptical",
-    entrainment: Entrainment = "vector_mean",
-) -> HypoidTorsionalParameters:
-    """Return the gear pair of Karagiannis et al. 2012 (Tables 1 and 2).
+def karagiannis_2012_pair(mesh: MeshTable | None = None) -> HypoidTorsionalParameters:
+    """Return the gear pair of Karagiannis et al. 2012 (Tables 1 and 2), dry, at 50 N.m and 40 degC.
+
+    Use `dataclasses.replace` for other options, torques or oils.
 
     Parameters
     ----------
-    pinion_torque : float
-        The paper's results are at 50 N.m; 20 to 250 N.m is a car's range [N.m].
     mesh : MeshTable, optional
         By default the table that ships; `synthetic_mesh` gives the paper's reconstructed numbers.
-    torque_ripple : float
-        0.1 in eq. (31) [-].
-    oil : str
-        Name in the lubricant library.
-    oil_temperature : float
-        The paper has 40 and 100 degC [K].
-
-    See `HypoidTorsionalParameters` for the other parameters and for the errors.
 
     Notes
     -----
-    The paper prints no inertias; those of the same gear pair in Mohammadpour et al. 2015,
-    Table 1, are used. Its normal backlash of 150 um is the total.
+    The paper has results at 50 N.m, at 40 and 100 degC, and a torque ripple of 0.1 in
+    [karagiannis_2012 (31)]; 20 to 250 N.m is a car's range. It prints no inertias; those of the
+    same gear pair in [mohammadpour_2015 Table 1] are used. Its normal backlash of 150 um is the
+    total.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> pair = replace(karagiannis_2012_pair(), friction="thermal_eyring", oil_temperature=373.15)
+    >>> pair.pinion_torque
+    50.0
     """
     return HypoidTorsionalParameters(
-        mesh=mesh or MeshTable.named("mohammadpour_2015"),
+        mesh=mesh or shipped_mesh_table("mohammadpour_2015"),
         pinion_inertia=1734e-6,
         gear_inertia=5.81e-2,
-        pinion_torque=pinion_torque,
-        backlash=backlash,
-        form=form,
-        radii=radii,
-        mesh_stiffness=mesh_stiffness,
-        mesh_damping=mesh_damping,
-        damping=damping,
-        damping_ratio=damping_ratio,
-        damping_gate=damping_gate,
-        equations=equations,
-        torque_ripple=torque_ripple,
-        load_torque=load_torque,
-        hold_gain=hold_gain,
-        friction=friction,
-        oil=Lubricant.named(oil),
-        oil_temperature=oil_temperature,
+        pinion_torque=50.0,
+        backlash=150e-6,
+        form="two_dof",
+        radii="consistent",
+        mesh_stiffness="tangent",
+        mesh_damping="constant",
+        damping=KARAGIANNIS_DAMPING,
+        damping_ratio=KARAGIANNIS_DAMPING_RATIO,
+        damping_gate="gated",
+        equations="consistent",
+        torque_ripple=0.0,
+        load_torque="mean",
+        hold_gain=0.05,
+        friction="off",
+        oil=Lubricant.named("karagiannis_2012"),
+        oil_temperature=313.15,
         solid=STEEL_MOHAMMADPOUR_2015,
-        roughness_rms=roughness_rms,
-        film=film,
-        film_temperature=film_temperature,
-        flash_temperature=flash_temperature,
-        contact_pressure=contact_pressure,
-        entrainment=entrainment,
+        roughness_rms=0.5e-6,
     )

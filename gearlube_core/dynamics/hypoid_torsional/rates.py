@@ -84,12 +84,14 @@ def pair_rates(
     Notes
     -----
     e' and k' on the pinion make the mesh exchange no energy with nothing; the printed form, in
-    which the pinion carries -R_p F, has p.consistent = 0. The instantaneous load of eq. (32)
-    follows R_g/R_p over its mean.
+    which the pinion carries -R_p F, has p.consistent = 0. The instantaneous load of
+    [karagiannis_2012 (32)] follows R_g/R_p over its mean.
 
     References
     ----------
-    Karagiannis et al. 2012, eq. (1)-(6), (31), (32); eq. (3) as a rate.
+    [karagiannis_2012 (1)] [karagiannis_2012 (2)] [karagiannis_2012 (3)] [karagiannis_2012 (5)]
+    [karagiannis_2012 (6)] [karagiannis_2012 (31)] [karagiannis_2012 (32)]
+    (3) as a rate.
     """
     k = rows[i, K]
     arm_p = rows[i, R_P] - rows[i, DE]
@@ -123,7 +125,7 @@ def pair_rates(
 
 @kernel
 def ripple(phi: float, p: TorsionalParameters) -> float:
-    """Return the pinion torque over its mean, 1 + ripple cos phi."""
+    """Return the pinion torque over its mean, 1 + ripple cos phi; [karagiannis_2012 (31)]."""
     if p.ripple == 0.0:
         return 1.0  # a cosine costs as much as the rest
     return 1.0 + p.ripple * math.cos(phi)
@@ -167,7 +169,7 @@ def reduced_rates(
 
     References
     ----------
-    Karagiannis et al. 2012, eq. (30) and the 1-DOF model compared there.
+    [karagiannis_2012 (30)] and the 1-DOF model compared there.
     """
     x_rate = v - rows[i, DE] * speed
     force = mesh_force(x, x_rate, rows[i, K], p)

@@ -12,8 +12,8 @@ from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.point.equations.mesh import Grading
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.solid_contact import SolidContact
-from gearlube_core.ehl.transient.film import MovingFilm
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.helical_geometry.load_sharing import CONVENTIONS, shared_load
 from gearlube_core.helical_geometry.meshing_steps import MeshingSteps, jamali_2015_steps
 from gearlube_core.helical_geometry.modification import ModifiedPair
@@ -22,11 +22,11 @@ from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import jamali_2015_oil
 
-JAMALI_2015_MODULUS = 0.5 * 227.5e9  # E*, Pa; E 207 GPa and nu 0.3 follow from Jamali 2015 ch. 7
-_TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: Jamali 2015 ch. 4
+JAMALI_2015_MODULUS = 0.5 * 227.5e9  # E*, Pa; E 207 GPa, nu 0.3: from [jamali_2015 ch. 7]
+_TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: [jamali_2015 ch. 4]
 _LARGEST_GAP = 50e-6  # m
 _OPEN_FILM = 10e-6  # m
-_DOMAIN = (-2.75, 1.775)  # of the largest Hertz semi-width; Jamali 2015 covers 4.5 of them
+_DOMAIN = (-2.75, 1.775)  # of the largest Hertz semi-width; 4.5 in [jamali_2015 ch. 4]
 _SOLIDS = SolidContact()
 _SLENDEST = 2000.0  # R_y/R_x that stands for a line
 
@@ -80,8 +80,7 @@ class HelicalFilm:
     Notes
     -----
     u_j = R_j' omega_j varies along the line, not across it, and there is no velocity along the
-    line. Load in the share of the unrelieved length. Source: Jamali 2015 sec. 4.1, 4.2, 4.4,
-    eq. (2.9)-(2.18), (4.1), (4.2).
+    line. Load in the share of the unrelieved length. Source: [jamali_2015 ch. 4].
     """
 
     modified: ModifiedPair
@@ -129,6 +128,7 @@ class HelicalFilm:
 
     def surface_speeds(self, y: Array, X: float) -> tuple[Array, Array]:
         """Return the speeds of pinion and gear across the line [m/s] at y [m]."""
+        # [jamali_2015 (4.1)] [jamali_2015 (4.2)]
         plane = self.modified.pair.plane
         s = X - 0.5 * plane.W * plane.sin_b / plane.cos_b + np.asarray(y) * plane.sin_b
         gear_speed = self.pinion_speed * plane.r_bp / plane.r_bg

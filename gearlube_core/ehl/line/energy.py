@@ -159,7 +159,7 @@ def march_energy(
     Notes
     -----
     Finite volumes across the film, half cells at the walls, second-order backward along x.
-    Source: Carslaw and Jaeger 1959 for the surfaces; reduced form of Cheng 1965.
+    Source: [carslaw_jaeger_1959] for the surfaces; reduced form of [cheng_1965].
     """
     n, m = T.shape
     heat = np.empty(m)

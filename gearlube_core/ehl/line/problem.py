@@ -145,10 +145,10 @@ class LineSettings:
         Of the finest grid.
     stencil
         Of the wedge: "upwind-2" (default), "central", "upwind-1", or "galerkin" for the finite
-        elements of Jamali 2015.
+        elements of [jamali_2015 (3.14)].
     cavitation
         "reynolds": pressure and its gradient vanish where the film breaks. "mass_conserving":
-        the void share of Jakobsson, Floberg and Olsson is solved as well.
+        the void share of [jakobsson_floberg_1957] and [olsson_1965] is solved as well.
     tolerance
         Largest sum of unbalanced flows over the flow through the contact, and of the load's
         error [-]; never asked for beyond what rounding allows.
@@ -159,6 +159,11 @@ class LineSettings:
     contact_film
         Film [m] at which solids touch in a march in time, where the oil alone finds no film; 0:
         never.
+
+    Examples
+    --------
+    >>> LineSettings(nodes=401).stencil
+    'upwind-2'
     """
 
     nodes: int = 1001

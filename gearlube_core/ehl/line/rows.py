@@ -98,7 +98,7 @@ def _wedge_weights(stencil: int, speed: float, face: int, faces: int) -> tuple[f
 def _add_poiseuille(
     f: int, P: np.ndarray, H: np.ndarray, c: RowCoefficients, shear_law: Any, rows: LocalRows
 ) -> None:
-    # flow by pressure between nodes f and f + 1, mean of the nodes' as Jamali eq. (3.9): viscosity
+    # flow by pressure between nodes f and f + 1, mean as in [jamali_2015 (3.9)]: viscosity
     # and flow factor together, which cancel where the oil is thick; apart a coarse grid thins films
     g = f + 1
     by_step = c.mobility * c.weight / c.step
@@ -183,7 +183,7 @@ def _add_wedge(
 def _add_galerkin(
     f: int, P: np.ndarray, H: np.ndarray, c: RowCoefficients, rows: LocalRows
 ) -> None:
-    # element f of Jamali eq. (3.14): rho h' + h rho_p p' against both hats, integrated exactly
+    # element f of [jamali_2015 (3.14)]: rho h' + h rho_p p' against both hats, integrated exactly
     speed = c.speed * c.weight
     for side in range(2):
         i, o = f + side, f + 1 - side
@@ -241,7 +241,9 @@ def fill_rows(
 
     Notes
     -----
-    Source: Jamali 2015 eq. (3.1), (3.8)-(3.14), (3.23), written for mass carried, not split.
+    Written for mass carried, not split by the product rule.
+    Source: [jamali_2015 (3.1)] [jamali_2015 (3.1a)] [jamali_2015 (3.8)] [jamali_2015 (3.9)]
+    [jamali_2015 (3.10)] [jamali_2015 (3.11)] [jamali_2015 (3.12)] [jamali_2015 (3.23)]
     """
     n = P.size
     rows.by_pressure[:] = 0.0

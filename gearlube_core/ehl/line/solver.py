@@ -106,6 +106,7 @@ def grid_nest(settings: LineSettings) -> list[int]:
 
 def hertz_start(system: LineSystem, film: float) -> LineState:
     """Return the dry pressure after Hertz and an approach that leaves `film` [m] at x = 0."""
+    # the approach: [jamali_2015 (3.46)] [jamali_2015 (3.47)]
     # a thick film carries over the length on which the gap opens, more than the half width
     width = max(np.sqrt(system.load / LOAD), np.sqrt(0.5 * film / system.scales.film))
     X = system.X / width

@@ -85,7 +85,7 @@ class LineSystem:
         return self.coefficients.step
 
     def film(self, state: LineState) -> np.ndarray:
-        """Return the film H (n,) [-]."""
+        """Return the film H (n,) [-]; [jamali_2015 (3.2)] [jamali_2015 (3.15)]."""
         return state.H0 + self.gap + self.deflection(state.P)
 
     def evaluate(self, state: LineState) -> None:
@@ -104,7 +104,7 @@ class LineSystem:
         )
 
     def load_error(self, state: LineState) -> float:
-        """Return carried load less the set one, over the set one [-]."""
+        """Return carried load less the set one, over the set one [-]; [jamali_2015 (4.5)]."""
         return float(self.step * state.P.sum() / self.load - 1.0)
 
     def factorise(self, nodes: np.ndarray, voids: np.ndarray) -> Factors:

@@ -43,7 +43,7 @@ def fill_mean_stress(
     The limit acts on the traction alone: where it is met the film slips at the limiting stress,
     and flow by pressure through an oil that stiff is negligible beside what is carried. Where the
     film is broken the stress is that of the share of the gap that holds oil.
-    Source: Jamali 2015 eq. (3.29a), (3.31); Johnson and Tevaarwerk 1977 for the limit's use.
+    Source: [jamali_2015 (3.29a)] [jamali_2015 (3.31)]; [johnson_tevaarwerk_1977] for the limit.
     """
     for i in range(p.size):
         newtonian = eta[i] * sliding / h[i]

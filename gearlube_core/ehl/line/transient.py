@@ -59,7 +59,8 @@ class LineMarch:
     Notes
     -----
     d(rho h)/dt = [1.5 (rho h)^q - 2 (rho h)^(q-1) + 0.5 (rho h)^(q-2)]/dt, or the mean of the
-    flows at both times. Jamali 2015 eq. (3.23); (3.24) prints its right side with the wrong sign.
+    flows at both times. [jamali_2015 (3.23)]; [jamali_2015 (3.24)] prints its right
+    side with the wrong sign.
     Where a film without mass conservation is broken, what gathers is the whole gap. Where no film
     is found, the step is solved again with solids that touch at `contact_film`: load and balances
     of all other nodes hold, what oil a held film makes is `contact_flow` of the solution.

@@ -11,7 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.ehl.point.border.far_field import FarField
+from gearlube_core.ehl.point.far_field import FarField
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
@@ -71,8 +71,8 @@ class PointContactProblem:
         E* [Pa]; half of E' = 2 E*.
     lubricant
         Oil; its Eyring stress acts on the flow where `sliding` is given, and so does the limiting
-        stress of an oil that has both: beyond it the film slips. A Newtonian film's flow by
-        pressure does not know of slip, its traction does.
+        stress of an oil that has both: beyond it the film slips. Slip changes the
+        traction of a Newtonian film but not its flow by pressure.
     x_limits, y_limits
         Domain [m].
     nodes
@@ -183,8 +183,8 @@ def expected_film(problem: PointContactProblem) -> float:
     """Return a central film [m] to start from: the largest of elastic and rigid estimates.
 
     Not thinner than touching solids under the largest dry pressure.
-    Elastic: Chittenden et al. 1985 and the isoviscous limit of `regime_films`. Rigid: Kapitza
-    1955, p = -12 eta u x/[(3 + 2 R_x/R_y) h^2] where it is positive, so
+    Elastic: [chittenden_1985] and the isoviscous limit of `regime_films`. Rigid: [kapitza_1955],
+    p = -12 eta u x/[(3 + 2 R_x/R_y) h^2] where it is positive, so
     W = 12 pi eta u R_x/(3 + 2 R_x/R_y) (2 R_y/h)^(1/2).
     """
     R_x, R_y = problem.hertz.R_x, problem.hertz.R_y

@@ -52,7 +52,7 @@ def point_traction(
     -----
     Stress across the sliding, from the pressure's slope there, is left out of Eyring's law. Where
     the film is broken and no fill is given the gap counts as full of oil at ambient pressure.
-    Source: Jamali 2015 eq. (3.29a), (3.31), along the sliding.
+    Source: [jamali_2015 (3.29a)] [jamali_2015 (3.31)] along the sliding.
     """
     shape, p = pressure.shape, np.ascontiguousarray(pressure).ravel()
     eta, eta_slope, rho, rho_slope, tau = (np.empty(p.size) for _ in range(5))

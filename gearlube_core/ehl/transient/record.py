@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import zipfile
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-import numpy as np
-
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError
-from gearlube_core.storage.atomic_file import whole_file
+from gearlube_core.errors import FileError, ParameterError
+from gearlube_core.storage.atomic_file import read_arrays, write_arrays
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,10 +33,7 @@ class MarchRecord:
 
     def write(self, path: Path | str) -> None:
         """Write the record; an older one at `path` stays whole until the new one is complete."""
-        with whole_file(Path(path)) as partial, partial.open("wb") as stream:
-            np.savez(stream, **asdict(self))
-            stream.flush()
-            os.fsync(stream.fileno())
+        write_arrays(Path(path), asdict(self))
 
     @classmethod
     def read(cls, path: Path | str) -> MarchRecord:
@@ -52,9 +45,9 @@ class MarchRecord:
             The file is not such a record.
         """
         try:
-            with np.load(path, allow_pickle=False) as data:
-                values = {name: data[name] for name in cls.__dataclass_fields__}
-        except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+            stored = read_arrays(Path(path))
+            values = {name: stored[name] for name in cls.__dataclass_fields__}
+        except (FileError, KeyError) as error:
             raise ParameterError(
                 f"{path} must be the record of a march, got {error}. Start anew."
             ) from error

@@ -40,7 +40,7 @@ class CutterHead:
 
         References
         ----------
-        ISO 23509:2016, formula (176).
+        [iso_23509 (176)].
         """
         sine = self.blade_groups * normal_module / (2.0 * self.radius)
         check_within(
@@ -68,7 +68,7 @@ class ToothTrace:
 
     References
     ----------
-    ISO 23509:2016, 6.2.2 and 7.6.
+    [iso_23509 6.2.2] [iso_23509 7.6].
     """
 
     cutter: CutterHead
@@ -88,28 +88,31 @@ class ToothTrace:
 
     @property
     def lead_angle(self) -> float:
-        """Lead angle of the cutter nu [rad], formula (35)."""
+        """Lead angle of the cutter nu [rad], [iso_23509 (35)]."""
         return self.cutter.lead_angle(self.normal_module)
 
     @property
     def centre_angle(self) -> float:
-        """Angle at the mean point between the cutter centre and the gear apex [rad], (36)."""
+        """Angle at the mean point from cutter centre to gear apex [rad], [iso_23509 (36)]."""
         return 0.5 * math.pi - self.mean_spiral_angle + self.lead_angle
 
     @property
     def centre_distance(self) -> float:
-        """Distance of the gear apex from the cutter centre rho_P0 [m], formulas (37), (177)."""
+        """Distance of the gear apex from the cutter centre rho_P0 [m].
+
+        [iso_23509 (37)] [iso_23509 (177)]
+        """
         r, big_r = self.cutter.radius, self.mean_cone_distance
         return math.sqrt(big_r**2 + r**2 - 2.0 * big_r * r * math.cos(self.centre_angle))
 
     @property
     def base_radius(self) -> float:
-        """Radius of the fixed circle of the epicycloid rho_b [m], formula (178)."""
+        """Radius of the fixed circle of the epicycloid rho_b [m], [iso_23509 (178)]."""
         return self.centre_distance / (1.0 + self.cutter.blade_groups / self.crown_teeth)
 
     @property
     def curvature_radius(self) -> float:
-        """Radius of curvature at the mean point rho_mbeta [m], formulas (38) and (39)."""
+        """Radius of curvature at the mean point rho_mbeta [m]: [iso_23509 (38)], (39)."""
         along = self.mean_cone_distance * math.cos(self.mean_spiral_angle)
         cosine = along / self.base_radius
         # the normal of the trace must pass the fixed circle, or the blade never swings through
@@ -133,7 +136,7 @@ class ToothTrace:
 
         References
         ----------
-        ISO 23509:2016, formulas (189) to (192).
+        [iso_23509 (189)] to (192).
         """
         p, r = self.centre_distance, self.cutter.radius
         if not abs(p - r) < cone_distance < p + r:

@@ -87,7 +87,7 @@ class HypoidBlank:
 
     References
     ----------
-    Mohammadpour et al. 2015, Table A1; Karagiannis et al. 2012, Table 1.
+    [mohammadpour_2015 Table A1]; [karagiannis_2012 Table 1].
     """
 
     pinion: MemberBlank
@@ -116,7 +116,7 @@ class HypoidBlank:
     def root_clearance(self) -> float:
         """Bottom clearance [m]: as given, else completed as 0.125 of the working depth.
 
-        0.125 is the clearance factor k_c of ISO 23509:2016, annex C (its samples F.2 to F.4).
+        0.125 is the clearance factor k_c of [iso_23509 annex C] (its samples F.2 to F.4).
         """
         return 0.125 * self.working_depth if self.clearance is None else self.clearance
 

@@ -105,16 +105,16 @@ def method_1(
 
     Notes
     -----
-    The mean pitch radius comes from the first estimate of the gear's pitch angle, formula (11),
+    The mean pitch radius comes from the first estimate of the gear's pitch angle, [iso_23509 (11)],
     and is kept: the mean point leaves mid-face by the error of that estimate.
 
     References
     ----------
-    ISO 23509:2016, 6.2.2, formulas (8) to (41).
+    [iso_23509 6.2.2], formulas (8) to (41).
     """
     ratio = design.gear_teeth / design.pinion_teeth
     departure = design.shaft_angle - 0.5 * math.pi
-    # 1.2 is the standard's guess of the hypoid dimension factor, formula (11)
+    # 1.2 is the standard's guess of the hypoid dimension factor, [iso_23509 (11)]
     estimate = math.atan(ratio * math.cos(departure) / (1.2 * (1.0 - ratio * math.sin(departure))))
     radius = 0.5 * (outer_pitch_diameter - design.gear_face_width * math.sin(estimate))
     check_within("gear mean pitch radius", radius, 1e-4, 5.0, "m", _METRES)
@@ -145,7 +145,7 @@ def method_2(
 
     References
     ----------
-    ISO 23509:2016, 6.2.3, formulas (42) to (83).
+    [iso_23509 6.2.3], formulas (42) to (83).
     """
     radius = 0.5 * mean_pitch_diameter
 
@@ -175,7 +175,7 @@ def method_3(
 
     References
     ----------
-    ISO 23509:2016, 6.2.4, formulas (84) to (109).
+    [iso_23509 6.2.4], formulas (84) to (109).
     """
 
     def cones(angle: float) -> PitchCones:
@@ -186,7 +186,7 @@ def method_3(
 
 
 def curvature_misfit(design: HypoidDesign, cones: PitchCones) -> float:
-    """Return rho_mbeta / rho_lim - 1 [-], the closing condition of method 1, formula (33)."""
+    """Return rho_mbeta / rho_lim - 1 [-], the closing condition of method 1, [iso_23509 (33)]."""
     return design.gear_trace(cones).curvature_radius * cones.limit_curvature - 1.0
 
 

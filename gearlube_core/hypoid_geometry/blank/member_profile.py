@@ -44,7 +44,7 @@ class MemberProfile:
 
     References
     ----------
-    ISO 23509:2016, 7.4 and 7.9, with addendum and dedendum angles of zero.
+    [iso_23509 7.4] [iso_23509 7.9], with addendum and dedendum angles of zero.
     """
 
     member: MemberBlank

@@ -37,7 +37,7 @@ class PitchCones:
 
     References
     ----------
-    ISO 23509:2016, clauses 6 and 7.2.
+    [iso_23509 6] [iso_23509 7.2].
     """
 
     pinion_teeth: int
@@ -98,7 +98,8 @@ class PitchCones:
 
         References
         ----------
-        ISO 23509:2016, formulas (90), (91), (93) to (95) and (113), solved together.
+        [iso_23509 (90)] [iso_23509 (91)] [iso_23509 (93)] [iso_23509 (94)] [iso_23509 (95)]
+        [iso_23509 (113)], solved together.
         """
         if (gear_spiral_angle is None) == (pinion_spiral_angle is None):
             raise ParameterError(
@@ -155,12 +156,12 @@ class PitchCones:
 
     @property
     def normal_module(self) -> float:
-        """Mean normal module m_mn [m], formula (116)."""
+        """Mean normal module m_mn [m], [iso_23509 (116)]."""
         return 2.0 * self.gear_pitch_radius * math.cos(self.gear_spiral_angle) / self.gear_teeth
 
     @property
     def crown_teeth(self) -> float:
-        """Teeth of the gear's crown gear z_2 / sin(delta_2) [-], formula (34)."""
+        """Teeth of the gear's crown gear z_2 / sin(delta_2) [-], [iso_23509 (34)]."""
         return self.gear_teeth / math.sin(self.gear_pitch_angle)
 
     @property
@@ -171,13 +172,13 @@ class PitchCones:
 
     @property
     def axial_offset_angle(self) -> float:
-        """Offset angle in the pinion's axial plane zeta_m [rad], formula (113)."""
+        """Offset angle in the pinion's axial plane zeta_m [rad], [iso_23509 (113)]."""
         sine = check_within("offset / reach", self.offset / self._reach, 0.0, 1.0)
         return math.asin(sine)
 
     @property
     def offset_angle(self) -> float:
-        """Offset angle in the pitch plane zeta_mp [rad], formula (114)."""
+        """Offset angle in the pitch plane zeta_mp [rad], [iso_23509 (114)]."""
         sine = math.sin(self.axial_offset_angle) * math.sin(self.shaft_angle)
         return math.asin(sine / math.cos(self.pinion_pitch_angle))
 
@@ -190,13 +191,13 @@ class PitchCones:
 
     @property
     def gear_apex(self) -> float:
-        """Gear pitch apex beyond the crossing point t_z2 [m], formulas (129) and (131)."""
+        """Gear pitch apex beyond the crossing point t_z2 [m]: [iso_23509 (129)], (131)."""
         along = self.gear_mean_cone_distance * math.cos(self.gear_pitch_angle)
         return along - self._gear_axial_distance
 
     @property
     def pinion_apex(self) -> float:
-        """Pinion pitch apex beyond the crossing point t_z1 [m], formulas (130) and (131)."""
+        """Pinion pitch apex beyond the crossing point t_z1 [m]: [iso_23509 (130)], (131)."""
         departure = self.shaft_angle - 0.5 * math.pi
         across = self.gear_pitch_radius * math.cos(self.axial_offset_angle) * math.cos(departure)
         along = self.pinion_mean_cone_distance * math.cos(self.pinion_pitch_angle)
@@ -204,7 +205,7 @@ class PitchCones:
 
     @property
     def limit_pressure_angle(self) -> float:
-        """Limit pressure angle alpha_lim [rad], formulas (32) and (117).
+        """Limit pressure angle alpha_lim [rad], [iso_23509 (32)] [iso_23509 (117)].
 
         At this inclination of the flank the lines of contact gather at the mean point; the
         effective angles of both flanks count from it.
@@ -217,7 +218,7 @@ class PitchCones:
 
     @property
     def limit_curvature(self) -> float:
-        """Lengthwise curvature of the limit flank 1 / rho_lim [1/m], formula (33).
+        """Lengthwise curvature of the limit flank 1 / rho_lim [1/m], [iso_23509 (33)].
 
         It is the curvature of the flank's normal section; the curvature of the trace in the pitch
         plane is 1 / cos(alpha_lim) times as much. The standard compares the two as they are.

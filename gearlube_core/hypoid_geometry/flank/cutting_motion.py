@@ -76,8 +76,8 @@ def cut_state(motion: CuttingMotion, u: float, th: float, ph: float) -> CutState
 
     References
     ----------
-    Litvin and Fuentes 2004, Gear Geometry and Applied Theory, chapters 6 and 8 (envelope,
-    equation of meshing); Karagiannis et al. 2012, Table 1 (machine settings).
+    [litvin_fuentes_2004 ch. 6] [litvin_fuentes_2004 ch. 8] (envelope,
+    equation of meshing); [karagiannis_2012 Table 1] (machine settings).
     """
     cos_th = math.cos(th)
     sin_th = math.sin(th)

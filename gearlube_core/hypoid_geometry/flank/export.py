@@ -12,7 +12,7 @@ from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.tooth_solid import Solid
-from gearlube_core.storage.atomic_file import whole_file
+from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.units import MILLIMETRE
 
 FORMATS = ("stl", "glb")
@@ -80,5 +80,5 @@ def _in_one_move(path: str | Path) -> Iterator[Path]:
     target = Path(path)
     if not target.parent.is_dir():
         raise ParameterError(f"The folder {target.parent} of {target.name} does not exist.")
-    with whole_file(target) as partial:
+    with atomic_write(target) as partial:
         yield partial

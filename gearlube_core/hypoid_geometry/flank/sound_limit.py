@@ -61,7 +61,7 @@ def sound_limit(flank: Flank, t: Array, blade_tip: float) -> SoundLimit:
 
     References
     ----------
-    Litvin and Fuentes 2004, chapter 6.3 (singular points, undercutting).
+    [litvin_fuentes_2004 ch. 6.3] (singular points, undercutting).
     """
     t = np.asarray(t, float)
     s = np.full(t.size, _MIDDLE)

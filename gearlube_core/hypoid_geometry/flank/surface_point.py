@@ -59,7 +59,7 @@ def regularity(state: CutState) -> float:
 
     References
     ----------
-    Litvin and Fuentes 2004, chapter 6.3 (singular points, undercutting).
+    [litvin_fuentes_2004 ch. 6.3] (singular points, undercutting).
     """
     n2 = dot(state.normal, state.normal)
     alpha = dot(cross(state.r_ph, state.r_th), state.normal) / n2

@@ -14,7 +14,7 @@ from gearlube.studies.contact.figures.flank_maps import _SIDES, _spread
 def transmission_errors(dataset: xr.Dataset) -> Any:
     """Return single-pair errors and the unloaded and loaded transmission error over two periods.
 
-    Compare Karagiannis et al. 2012, figure 7.
+    Compare [karagiannis_2012 fig. 7].
     """
     with house_style():
         figure = new_figure(9.6, 7.0)
@@ -60,7 +60,7 @@ def _loaded(ax: Any, part: xr.Dataset) -> None:
 def stiffness_and_radii(dataset: xr.Dataset) -> Any:
     """Return mesh stiffness and contact radii over their means against pinion rotation.
 
-    Compare Karagiannis et al. 2012, figure 6.
+    Compare [karagiannis_2012 fig. 6].
     """
     rows = (
         ("k_m", "secant stiffness [N/µm]", 1e-6),

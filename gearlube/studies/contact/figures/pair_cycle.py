@@ -22,7 +22,7 @@ def load_shares(dataset: xr.Dataset) -> Any:
 def contact_properties(dataset: xr.Dataset) -> Any:
     """Return curvature and motion at a pair's centre of force over its contact, by torque.
 
-    Compare Karagiannis et al. 2012, figure 18 (a): R_zx along the sliding, entrainment.
+    Compare [karagiannis_2012 fig. 18a]: R_zx along the sliding, entrainment.
     """
     rows = (
         ("R_x", "$R_x$, minor axis [mm]", 1e3),

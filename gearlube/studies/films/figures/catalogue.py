@@ -1,4 +1,4 @@
-"""The figures of line and point contacts, in reading order."""
+"""The figures of films by the kind of contact, in reading order."""
 
 from __future__ import annotations
 
@@ -32,49 +32,44 @@ from gearlube.studies.films.figures.point_contact import (
 )
 
 Draw = Callable[[xr.Dataset], Any]
-LINE_CATALOGUE: dict[str, Draw] = {
-    "profile": line_profile,
-    "profile_hertz": line_profile_hertz,
-    "shear": line_shear,
-    "temperature": line_temperature,
-    "residuals": residual_history,
-}
-POINT_CATALOGUE: dict[str, Draw] = {
-    "contours": point_contours,
-    "sections": point_sections,
-    "shear": point_shear,
-    "temperature": point_temperature,
-    "residuals": residual_history,
-}
-HELICAL_CATALOGUE: dict[str, Draw] = {
-    "contours": helical_contours,
-    "along": helical_along,
-    "sections": helical_sections,
-}
-CYCLE_CATALOGUE: dict[str, Draw] = {"cycle": cycle_curves, "cycle_map": cycle_map}
-STEP_CATALOGUE: dict[str, Draw] = {"contours": step_contours, "sections": step_sections}
-HYPOID_CATALOGUE: dict[str, Draw] = {
-    "curves": hypoid_curves,
-    "ratios": hypoid_ratios,
-    "contours": hypoid_contours,
-}
-_CATALOGUES = {
-    "line": LINE_CATALOGUE,
-    "point": POINT_CATALOGUE,
-    "helical": HELICAL_CATALOGUE,
-    "helical_cycle": CYCLE_CATALOGUE,
-    "helical_step": STEP_CATALOGUE,
-    "hypoid": HYPOID_CATALOGUE,
+# by the attribute `contact` of a dataset
+CATALOGUES: dict[str, dict[str, Draw]] = {
+    "line": {
+        "profile": line_profile,
+        "profile_hertz": line_profile_hertz,
+        "shear": line_shear,
+        "temperature": line_temperature,
+        "residuals": residual_history,
+    },
+    "point": {
+        "contours": point_contours,
+        "sections": point_sections,
+        "shear": point_shear,
+        "temperature": point_temperature,
+        "residuals": residual_history,
+    },
+    "helical": {
+        "contours": helical_contours,
+        "along": helical_along,
+        "sections": helical_sections,
+    },
+    "helical_cycle": {"cycle": cycle_curves, "cycle_map": cycle_map},
+    "helical_step": {"contours": step_contours, "sections": step_sections},
+    "hypoid": {
+        "curves": hypoid_curves,
+        "ratios": hypoid_ratios,
+        "contours": hypoid_contours,
+    },
 }
 
 
-def save_ehl_figures(dataset: xr.Dataset, directory: Path, prefix: str = "") -> list[Path]:
+def save_film_figures(dataset: xr.Dataset, directory: Path, prefix: str = "") -> list[Path]:
     """Draw every figure for which there are data into `directory` as PNG; return the files.
 
     `prefix` begins the names of the files.
     """
     directory.mkdir(parents=True, exist_ok=True)
-    catalogue = _CATALOGUES[dataset.attrs["contact"]]
+    catalogue = CATALOGUES[dataset.attrs["contact"]]
     files = []
     for name in drawn_figures(dataset):
         path = directory / f"{prefix}{name}.png"
@@ -93,4 +88,4 @@ def drawn_figures(dataset: xr.Dataset) -> list[str]:
         left_out.add("shear")
     if of["contact"] == "helical_cycle" and dataset.sizes["step"] < 2:
         left_out.add("cycle_map")
-    return [name for name in _CATALOGUES[of["contact"]] if name not in left_out]
+    return [name for name in CATALOGUES[of["contact"]] if name not in left_out]

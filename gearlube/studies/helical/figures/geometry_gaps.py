@@ -27,7 +27,7 @@ _ACROSS = "$x$: across the contact line [mm]"
 
 
 def crown_forms(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return forms of crown, and the gap about a line with one of them: Jamali 2015 fig. 4.5."""
+    """Return forms of crown, and the gap about a line with one of them: [jamali_2015 fig. 4.5]."""
     with house_style():
         figure = new_figure(max(6.4, 5.2 * len(datasets)), 8.0)
         rows = figure.subfigures(2, 1, height_ratios=(1.0, 1.35))
@@ -65,7 +65,7 @@ def _surface(ax: Any, dataset: xr.Dataset) -> None:
 
 
 def relief_gaps(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return gaps along the shown lines for forms of tip relief: Jamali 2015 fig. 5.2 to 5.4."""
+    """Return gaps along the shown lines for forms of tip relief: [jamali_2015 fig. 5.2] to 5.4."""
     forms = datasets[0]["k"].values
     words = {0.0: "linear", 1.0: "parabolic"}
     with house_style():
@@ -108,7 +108,7 @@ def _line_gaps(ax: Any, dataset: xr.Dataset, k: float) -> None:
 
 
 def equal_relief(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return lines of equal tip relief on the tangent plane of a line: Jamali 2015 fig. 5.17."""
+    """Return lines of equal tip relief on the tangent plane of a line: [jamali_2015 fig. 5.17]."""
     cells = [(dataset, member) for dataset in datasets for member in dataset["relieved"].values]
     with house_style():
         figure = new_figure(max(6.4, 3.1 * len(cells)), 7.0)
@@ -167,7 +167,7 @@ def _label_line(
 
 
 def facet_gaps(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return smooth and faceted profiles from the tangent plane: Jamali 2015 fig. 6.5."""
+    """Return smooth and faceted profiles from the tangent plane: [jamali_2015 fig. 6.5]."""
     counts = datasets[0]["facets"].values
     with house_style():
         figure, axes = columns(

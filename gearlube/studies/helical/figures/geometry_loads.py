@@ -21,12 +21,12 @@ from gearlube.studies.helical.figures.geometry_layout import (
 
 
 def unmodified_lines(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return length and load of a line over its cycle without relief: Jamali 2015 fig. 4.1."""
+    """Return length and load of a line over its cycle without relief: [jamali_2015 fig. 4.1]."""
     return _lines(datasets, 0, "Contact lines of unmodified flanks")
 
 
 def relieved_lines(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return the same between the starts of tip relief: Jamali 2015 fig. 4.2."""
+    """Return the same between the starts of tip relief: [jamali_2015 fig. 4.2]."""
     return _lines(datasets, 1, "Contact lines between the starts of tip relief")
 
 
@@ -81,7 +81,7 @@ def _loads(ax: Any, part: xr.Dataset, s_i: Any) -> None:
 
 
 def contact_plane(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return the plane of contact with relief zones and the shown lines: Jamali 2015 fig. 4.6."""
+    """Return the plane of contact with relief zones and the shown lines: [jamali_2015 fig. 4.6]."""
     with house_style():
         figure, axes = columns(datasets, 1, 5.6, sharey=True)
         for ax, dataset in zip(axes[0], datasets, strict=True):

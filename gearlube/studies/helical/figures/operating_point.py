@@ -19,7 +19,7 @@ from gearlube.studies.helical.figures.layout import (
 
 
 def displacements(response: xr.Dataset) -> Any:
-    """Return the pinion's translations. Compare He et al. 2007, figure 6."""
+    """Return the pinion's translations. Compare [he_2007 fig. 6]."""
     rows = (
         ("u_xp", "$u_{xp}$", 1e6, "µm"),
         ("u_yp", "$u_{yp}$", 1e6, "µm"),
@@ -29,7 +29,7 @@ def displacements(response: xr.Dataset) -> Any:
 
 
 def bearing_forces(response: xr.Dataset) -> Any:
-    """Return the forces of the pinion's bearings. Compare He et al. 2007, figure 7, in lbf."""
+    """Return the forces of the pinion's bearings. Compare [he_2007 fig. 7], in lbf."""
     rows = (
         ("F_xp", "$F_{x}$", 1.0, "N"),
         ("F_yp", "$F_{y}$", 1.0, "N"),
@@ -39,7 +39,7 @@ def bearing_forces(response: xr.Dataset) -> Any:
 
 
 def composites(response: xr.Dataset) -> Any:
-    """Return the composite displacements. Compare He et al. 2007, figure 8."""
+    """Return the composite displacements. Compare [he_2007 fig. 8]."""
     rows = (
         ("delta_x", r"$\delta_x$", 1e6, "µm"),
         ("delta_y", r"$\delta_y$", 1e6, "µm"),

@@ -39,7 +39,7 @@ def followed(part: xr.Dataset, name: str) -> tuple[Array, Array]:
 def loaded_stiffness(contact: xr.Dataset) -> Any:
     """Return stiffness functions of the pairs and of all, from loaded contact.
 
-    Compare He et al. 2007, figure 2.
+    Compare [he_2007 fig. 2].
     """
     part = at_torque(contact)
     torque = float(part["torque"])
@@ -105,7 +105,7 @@ def _one_pair(ax: Any, contact: xr.Dataset) -> None:
 def constant_stiffness(contact: xr.Dataset) -> Any:
     """Return stiffness functions with one density, and the zones of each pair.
 
-    Compare He et al. 2007, figures 3 and 4.
+    Compare [he_2007 fig. 3] [he_2007 fig. 4].
     """
     with house_style():
         figure = new_figure(9.0, 6.4)

@@ -31,7 +31,7 @@ _ROWS: tuple[tuple[tuple[str, str, float], ...], ...] = (
 def contact_properties(cycle: xr.Dataset) -> Any:
     """Return what a tooth pair goes through from entry to exit, and its neighbours.
 
-    Compare Karagiannis et al. 2012, figures 18, 20 and 21.
+    Compare [karagiannis_2012 fig. 18] [karagiannis_2012 fig. 20] [karagiannis_2012 fig. 21].
     """
     cases = cycle.sizes["case"]
     with house_style():

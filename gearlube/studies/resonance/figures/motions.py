@@ -56,7 +56,7 @@ def _no_contact(ax: Any) -> None:
 def time_histories(cycle: xr.Dataset) -> Any:
     """Return waveforms of both dry models over two mesh periods.
 
-    Compare Karagiannis et al. 2012, figures 8 (b), 9 and 11.
+    Compare [karagiannis_2012 fig. 8b] [karagiannis_2012 fig. 9] [karagiannis_2012 fig. 11].
     """
     return _waveforms(
         cycle, _DRY, "Transmission error of all coexisting motions, grey: teeth apart"
@@ -90,7 +90,7 @@ def _shared_legend(figure: Any, axes: Any) -> None:
 def spectra(cycle: xr.Dataset) -> Any:
     """Return the amplitudes of mesh orders of both dry models.
 
-    Compare Karagiannis et al. 2012, figures 10 and 12.
+    Compare [karagiannis_2012 fig. 10] [karagiannis_2012 fig. 12].
     """
     frequencies = _frequencies(cycle)
     with house_style():
@@ -127,7 +127,7 @@ def _bars(ax: Any, motions: list[xr.Dataset], last: int = 8) -> None:
 def constant_radii(cycle: xr.Dataset) -> Any:
     """Return waveforms and orders of the models with constant radii.
 
-    Compare Karagiannis et al. 2012, figures 13 and 14.
+    Compare [karagiannis_2012 fig. 13] [karagiannis_2012 fig. 14].
     """
     models = ("two_dof_mean_radii", "one_dof")
     frequencies = [value for value in _frequencies(cycle) if value != 0.65]
@@ -153,7 +153,7 @@ def constant_radii(cycle: xr.Dataset) -> Any:
 def dry_and_lubricated(cycle: xr.Dataset) -> Any:
     """Return waveforms of the 2-DOF model with and without friction, and their difference.
 
-    Compare Karagiannis et al. 2012, figures 16 and 17.
+    Compare [karagiannis_2012 fig. 16] [karagiannis_2012 fig. 17].
     """
     frequencies = _frequencies(cycle)
     with house_style():

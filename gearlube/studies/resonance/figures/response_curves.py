@@ -65,7 +65,7 @@ def draw_branch(ax: Any, branch: xr.Dataset, values: Array, colour: str, **style
 def response_curves(dataset: xr.Dataset) -> Any:
     """Return amplitude over frequency, with branches, stability, separation and time sweeps.
 
-    Compare Karagiannis et al. 2012, figure 8.
+    Compare [karagiannis_2012 fig. 8].
     """
     models = shown_models(dataset)
     with house_style():

@@ -27,7 +27,7 @@ def case_label(cycle: xr.Dataset, case: int) -> str:
 def traction_map(cycle: xr.Dataset) -> Any:
     """Return all contacts of the cycles on the traction map.
 
-    Compare Karagiannis et al. 2012, figure 15, after Evans and Johnson 1986.
+    Compare [karagiannis_2012 fig. 15], after [evans_johnson_1986].
     """
     with house_style():
         figure = new_figure(8.0, 5.6)
@@ -78,7 +78,7 @@ def traction_map(cycle: xr.Dataset) -> Any:
 def traction_curves(cycle: xr.Dataset) -> Any:
     """Return traction and viscosity against shear rate of the hardest loaded contacts.
 
-    Compare Karagiannis et al. 2012, figure 19.
+    Compare [karagiannis_2012 fig. 19].
     """
     with house_style():
         figure = new_figure(9.6, 4.8)

@@ -18,7 +18,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     with_friction,
 )
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
-from gearlube_core.storage.worker_pool import single_threaded, worker_pool
+from gearlube_core.storage.process_pool import ProcessPool, single_threaded
 
 QUANTITIES = (*RELATIVE, *COMPOSITES)
 
@@ -86,12 +86,12 @@ def harmonic_grid(
         check_positive("pinion_speed", value, "rad/s")
     check_within("count", count, 1, settings.samples // 8, "", "Raise the number of samples.")
     jobs = [(parameters, mu, float(speed), count, settings) for speed in pinion_speed]
-    if workers > 1:
-        with worker_pool(workers) as pool:
-            columns = list(pool.map(_column, *zip(*jobs, strict=True), chunksize=4))
-    else:
-        with single_threaded():
-            columns = [_column(*job) for job in jobs]
+    with ProcessPool(jobs=workers).open(len(jobs)) as executor:
+        if executor is None:
+            with single_threaded():
+                columns = [_column(*job) for job in jobs]
+        else:
+            columns = list(executor.map(_column, *zip(*jobs, strict=True), chunksize=4))
     parts = [np.stack([column[part] for column in columns], axis=1) for part in range(5)]
     return HarmonicGrid(
         mu=mu,

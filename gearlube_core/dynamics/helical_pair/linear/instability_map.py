@@ -59,7 +59,7 @@ class InstabilityMap:
         """Return 2 f_i/k and (f_i + f_j)/k, k = 1 to `largest` [Hz], rising.
 
         Mesh frequencies from which tongues of instability grow, of one mode and of two in
-        combination (Nayfeh and Mook 1979, sec. 5.3 and 6.2).
+        combination ([nayfeh_mook_1979 sec. 5.3] [nayfeh_mook_1979 sec. 6.2]).
         """
         f = self.natural_frequencies
         sums = (f[:, None] + f[None, :])[np.triu_indices(f.size)]

@@ -70,6 +70,13 @@ def linear_system(parameters: HelicalPairParameters, variation: float = 1.0) -> 
         is left out: it needs a motion, see `periodic_response`.
     variation
         Factor on the mesh's deviation from its mean over the period [-]; axis of instability maps.
+
+    Notes
+    -----
+    Source: [he_2007 (38a)] [he_2007 (38b)] [he_2007 (38c)] [he_2007 (39a)] [he_2007 (39b)]
+    [he_2007 (39c)] [he_2007 (40a)] [he_2007 (40b)] [he_2007 (40c)] [he_2007 (41a)] [he_2007 (41b)]
+    [he_2007 (41c)]
+    Consistent signs: the pinion's torque of (39c) drives along -z; (38a) and (40c) hold misprints.
     """
     c, mesh, supports = (
         parameters.kernel_parameters(), parameters.mesh_arrays(), parameters.support_arrays(),

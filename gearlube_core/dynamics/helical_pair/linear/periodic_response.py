@@ -97,10 +97,11 @@ class PeriodicResponse:
         return self._combined(name, self.rate)
 
     def _combined(self, name: str, values: Array) -> Array:
-        """Return a coordinate, or delta_x, delta_y, delta_z of He et al. 2007 sec. 6.
+        """Return a coordinate, or delta_x, delta_y, delta_z of [he_2007 sec. 6].
 
-        delta_z = psi - u_xp + u_xg is kinematic, with the signs of eq. (4) (printed + u_xp - u_xg);
-        delta_x = r_bp th_xp + r_bg th_xg + u_zp - u_zg likewise; delta_y, with th_y, as defined.
+        delta_z = psi - u_xp + u_xg is kinematic, with the signs of [he_2007 (4)] (printed + u_xp -
+        u_xg); delta_x = r_bp th_xp + r_bg th_xg + u_zp - u_zg likewise; delta_y, with th_y, as
+        defined.
         """
         column = {label: values[:, i] for i, label in enumerate(RELATIVE)}
         if name not in COMPOSITES:
@@ -168,8 +169,8 @@ def periodic_response(
 
     Notes
     -----
-    He et al. 2007 integrate (38)-(41) until transients are gone. Their pair turns on without limit
-    under friction, see `linear_system`; its vibration does not depend on that.
+    He et al. 2007 integrate their equations of motion until transients are gone. Their pair turns
+    on without limit under friction, see `linear_system`; its vibration does not depend on that.
 
     As in the paper, the pinion does not feel that loaded springs enter, leave and change; the march
     has it as an option, see `HelicalMarchParameters.equations` for the difference. It is quadratic

@@ -113,7 +113,7 @@ class HelicalMarchParameters:
 
     References
     ----------
-    He et al. 2007.
+    [he_2007]
     """
 
     pair: HelicalPair

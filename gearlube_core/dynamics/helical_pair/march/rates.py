@@ -107,9 +107,13 @@ def march_rates(
 
     Notes
     -----
-    He et al. 2007 eq. (38)-(41), consistent signs, about a motion that follows the actual rotation
-    of the pinion; flanks press, never pull. Products of rotation and tilt (gyroscopic terms) are
-    left out as in the paper. Mesh damping as in `mesh_damping`, for either flank by itself.
+    The paper's equations of motion with consistent signs (the pinion's torque drives along -z),
+    about a motion that follows the actual rotation of the pinion; flanks press, never pull.
+    Products of rotation and tilt (gyroscopic terms) are left out as in the paper. Mesh damping as
+    in `mesh_damping`, for either flank by itself.
+    Source: [he_2007 (38a)] [he_2007 (38b)] [he_2007 (38c)] [he_2007 (39a)] [he_2007 (39b)]
+    [he_2007 (39c)] [he_2007 (40a)] [he_2007 (40b)] [he_2007 (40c)] [he_2007 (41a)] [he_2007 (41b)]
+    [he_2007 (41c)]
     """
     motion: MotionConstants = tuple_from_array(data, MotionConstants)
     p = motion.flanks

@@ -52,8 +52,9 @@ def contact_points(
 
     Notes
     -----
-    v_s = -x Omega_p + (x_g - x) Omega_g: He et al. 2007 eq. (6). Between phases of the mesh k and
-    e are linear; at the period's end line i has become line i + 1.
+    v_s = -x Omega_p + (x_g - x) Omega_g, the difference of both surface velocities along y.
+    Between phases of the mesh k and e are linear; at the period's end line i has become line i + 1.
+    Source: [he_2007 (5a)] [he_2007 (5b)] [he_2007 (6)]
     """
     phases, lines, stations = mesh.density.shape
     place = (phase - math.floor(phase)) * phases
@@ -112,6 +113,6 @@ def _blend(
 
 @kernel
 def constant_friction(mu: float, points: Array, n: int) -> None:
-    """Give the first `n` points one coefficient of friction [-]: He et al. 2007, Coulomb's law."""
+    """Give the first `n` points one friction coefficient [-]: Coulomb's law, [he_2007 sec. 2]."""
     for i in range(n):
         points[i, MU] = mu

@@ -7,7 +7,7 @@ One law for every motion of the pair:
 k_m is the stiffness along the line of action of all contact lines, loaded or not, s the share of it
 that touches, each point's part built up over its first penetration. With all lines in contact, as
 in linear motions, s is one. F turns the members against each other with moments r_bp F and r_bg F,
-in place of He et al. 2007 eq. (36), (37), which are not each other's reaction.
+in place of [he_2007 (36)] and [he_2007 (37)], which are not each other's reaction.
 """
 
 from __future__ import annotations

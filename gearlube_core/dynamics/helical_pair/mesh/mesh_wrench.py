@@ -67,8 +67,12 @@ def plane_strain(
 
     Notes
     -----
-    He et al. 2007 eq. (4) with the sign reversed, so that compression is positive, as (7), (16)
-    and (21) need it: with the printed sign flanks that press attract each other.
+    Source: [he_2007 (3a)] [he_2007 (3b)] [he_2007 (4)] [he_2007 (18c)] [he_2007 (18d)]
+    [he_2007 (18e)]
+    The sign of (4) is reversed, so that compression is positive, as the forces need it: with the
+    printed sign flanks that press attract each other. Of the motions (3a), (3b) only the difference
+    along the normal counts; (3b) prints th_zp for th_zg. y0 and y1 hold c1, c2 and c3 of (18c) to
+    (18e), with x_g for the misprinted x_e.
     """
     tilted = axial + (plane.r_bp * th_xp + plane.r_bg * th_xg) - plane.x_g * th_yg
     return plane.cos_b * closing - plane.sin_b * tilted, th_yp - th_yg
@@ -119,6 +123,14 @@ def load_sums(c: PairConstants, points: Array, n: int, sums: Array) -> None:
 
     One-sided contact has |w| for w in r, so that friction opposes sliding on the back flank too;
     linear contact keeps the paper's w, also where a line pulls.
+
+    Notes
+    -----
+    Source: [he_2007 (8)] [he_2007 (10a)] [he_2007 (10b)] [he_2007 (12)] [he_2007 (13a)]
+    [he_2007 (13b)] [he_2007 (13c)] [he_2007 (14)] [he_2007 (17)] [he_2007 (18a)] [he_2007 (18b)]
+    [he_2007 (19a)] [he_2007 (19b)] [he_2007 (19c)] [he_2007 (19d)]
+    The closed forms (10b), (13b), (13c), (18a) and (18b) are taken as sums over Gauss points that
+    are exact for them, with x_g for the misprinted x_e and with compression positive.
     """
     plane = c.plane
     sums[:] = 0.0
@@ -139,7 +151,9 @@ def mesh_wrench(w: float, wp: float, r: float, rx: float, rz: float, plane: Cont
 
     Notes
     -----
-    He et al. 2007 eq. (7), (16), (21) with x_g for the misprinted x_e, integrated.
+    Source: [he_2007 (7)] [he_2007 (11a)] [he_2007 (11b)] [he_2007 (15)] [he_2007 (16)]
+    [he_2007 (20)] [he_2007 (21)] [he_2007 (22)]
+    (21) with x_g for the misprinted x_e; in the third row of (22) the first term lacks mu.
     """
     return Wrench(
         -plane.cos_b * w,

@@ -25,7 +25,7 @@ def bearing_forces(supports: SupportArrays, displacement: Array, rate: Array) ->
 
     Notes
     -----
-    He et al. 2007 sec. 6, where du/dt is missing.
+    Source: [he_2007 sec. 6], where du/dt is missing.
     """
     forces = np.zeros((displacement.shape[0], 12))
     for member in range(2):

@@ -29,7 +29,7 @@ class Bearing:
 
     References
     ----------
-    He et al. 2007 eq. (26); its K_xz and K_z_theta_y drop out of (27) and are left out here.
+    [he_2007 (26)]; its K_xz and K_z_theta_y drop out of (27) and are left out here.
     """
 
     position: float
@@ -66,11 +66,11 @@ class ShaftEnds:
     youngs_modulus : float
         [Pa]
     series : {"beam", "term_by_term"}
-        Flexibilities of shaft end and bearing added as matrices; or term by term, eq. (27).
+        Flexibilities of shaft end and bearing added as matrices; or term by term, [he_2007 (27)].
 
     References
     ----------
-    He et al. 2007 eq. (25), taken per side: 3 E I/l^3, 3 E I/l^2, 3 E I/l, A E/l.
+    [he_2007 (25)], taken per side: 3 E I/l^3, 3 E I/l^2, 3 E I/l, A E/l.
     """
 
     radius: float

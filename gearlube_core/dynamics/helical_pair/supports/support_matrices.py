@@ -20,9 +20,9 @@ def bearing_matrix(bearing: Bearing, shaft: ShaftEnds | None) -> Array:
     Notes
     -----
     "beam": K_B (1 + S K_B)^-1 with the flexibility S of a beam that is clamped in the gear body,
-    l^3/(3 E I), l^2/(2 E I), l/(E I) and l/(E A). "term_by_term": He et al. 2007 eq. (27) with
-    the terms of (25) per side; a zero in either matrix stays zero. The lever arm between the two
-    frames belongs to `support_stiffness`.
+    l^3/(3 E I), l^2/(2 E I), l/(E I) and l/(E A). "term_by_term": [he_2007 (27)] with
+    the terms of [he_2007 (25)] per side; a zero in either matrix stays zero. The lever arm between
+    the two frames belongs to `support_stiffness`.
     """
     K = np.zeros((6, 6))
     K[_X, _X], K[_Y, _Y], K[_Z, _Z] = bearing.K_xx, bearing.K_yy, bearing.K_zz
@@ -60,7 +60,9 @@ def support_stiffness(support: ShaftSupport) -> Array:
 
     Notes
     -----
-    Symmetric. He et al. 2007 eq. (28) agrees; (29)-(31) do not, see `printed_support_stiffness`.
+    Symmetric, on pinion and gear alike.
+    Source: [he_2007 (28)] [he_2007 (29)] [he_2007 (30)] [he_2007 (31)]
+    (28) agrees; in (29), (30) and (31) misprints are put right, see `printed_support_stiffness`.
     """
     K = np.zeros((6, 6))
     for bearing in (support.first, support.second):
@@ -71,12 +73,12 @@ def support_stiffness(support: ShaftSupport) -> Array:
 
 
 def printed_support_stiffness(support: ShaftSupport) -> Array:
-    """Return the matrix of He et al. 2007 eq. (28), (29) as printed, shape (6, 6).
+    """Return the matrix of [he_2007 (28)] and [he_2007 (29)] as printed, shape (6, 6).
 
     Notes
     -----
     The second bearing's moments have the wrong sign, so that its lever arm cancels the first's;
-    tilting stiffness K_theta and the reciprocal coupling terms are missing. Not symmetric. Eq.
+    tilting stiffness K_theta and the reciprocal coupling terms are missing. Not symmetric.
     (30), (31) are the gear's and repeat this with further misprints of indices, not kept.
     """
     K = np.zeros((6, 6))
@@ -106,8 +108,11 @@ def support_damping(
 
     Notes
     -----
-    He et al. 2007 eq. (32)-(35). The sum per bearing (as printed) is sqrt(2) times the total's for
-    two equal bearings, and at odds with the paper's own bearing force, which has the total.
+    The sum per bearing (as printed) is sqrt(2) times the total's for
+    two equal bearings, and at odds with the paper's own bearing force, which has the total. (33)
+    prints 2 m_g for m_g.
+    Source: [he_2007 (32)] [he_2007 (33)] [he_2007 (34a)] [he_2007 (34b)] [he_2007 (35a)]
+    [he_2007 (35b)]
     """
     total = np.diag(support_stiffness(support)).copy()
     c = 2.0 * ratio * np.sqrt(total * np.array([mass, mass, mass, inertia, inertia, 0.0]))

@@ -36,7 +36,7 @@ class CrossFlow(NamedTuple):
 
     ratio_x: np.ndarray  # xy/xx
     ratio_y: np.ndarray  # xy/yy
-    slope_x: np.ndarray  # of xy, what a change of grad p meets, over xx
+    slope_x: np.ndarray  # flow factor xy of a change of grad p, over xx
     slope_y: np.ndarray  # over yy
 
 
@@ -66,6 +66,8 @@ def add_cross_flow(
     -----
     Fluxes are differences between faces, so mass is balanced to rounding over any set of nodes.
     The slope along a face is the mean of the central ones at both nodes, second order.
+    Where sliding is oblique the flow factor is a tensor here, where [jamali_2015 (3.41)] and
+    [jamali_2015 (3.42)] have one factor along x and one along y.
     """
     ny, nx = pressure.shape
     unit = 0.25 * math.sqrt(parameters.poiseuille_x * parameters.poiseuille_y)

@@ -126,8 +126,8 @@ def element_residual(
     -----
     Flow factors s = rho h^3/eta and rho h are linear along the sides of an element, integrals by
     2 x 2 Gauss points are exact. The wedge is in the form that conserves mass: its product rule
-    (Jamali 2015 eq. 3.14) would not. Shape functions sum to one, so the sum of the residuals of
-    any set of nodes is the flow over its border. Source: Jamali 2015 eq. (3.13), (3.14).
+    as printed would not. Shape functions sum to one, so the sum of the residuals of any set of
+    nodes is the flow over its border. Source: [jamali_2015 (3.13)] [jamali_2015 (3.14)]
     """
     ny, nx = pressure.shape
     residual[:] = 0.0

@@ -46,7 +46,7 @@ def flexible_gmres(
 
     Notes
     -----
-    Saad 1993, with modified Gram-Schmidt and Givens rotations, without restart.
+    [saad_1993], with modified Gram-Schmidt and Givens rotations, without restart.
     """
     size = field.size
     first = np.append(field.ravel(), weight * number)

@@ -18,7 +18,7 @@ class AndersonMixing:
     Notes
     -----
     x_next = g_k - sum over j of gamma_j (g_j+1 - g_j), where the sum of gamma_j (f_j+1 - f_j) is
-    nearest to f_k = g_k - x_k. Source: Anderson 1965; Walker and Ni 2011, type II.
+    nearest to f_k = g_k - x_k. Source: [anderson_1965]; [walker_ni_2011], type II.
     """
 
     def __init__(self, depth: int) -> None:

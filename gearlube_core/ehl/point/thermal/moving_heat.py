@@ -77,7 +77,8 @@ def moving_heat_coefficients(
     surface is contained. The integrand is a product of functions of x and of y, so that all
     offsets follow from one product of matrices; quadrature between the times where edges of
     cells meet leaves less than 1e-6 of the largest rise. At rest, what comes after 1e7 crossing
-    times is left out, 1e-4 of a plate's. Source: Carslaw and Jaeger 1959, 10.3 and 10.7.
+    times is left out, 1e-4 of a plate's. Source: [carslaw_jaeger_1959 sec. 10.3]
+    [carslaw_jaeger_1959 sec. 10.7].
     """
     for axis, speed, step in zip("xy", velocity, steps, strict=True):
         check_finite(f"velocity along {axis}", speed, "m/s")

@@ -12,13 +12,13 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.point.cavitation import check_cavitation, refuse_rupture
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual, newton
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import nested_film, point_solution
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.film_oil import viscosity_cooling
@@ -55,7 +55,7 @@ class PointThermalSettings:
 class ThermalPointSolution:
     """A point contact's film with its temperatures; arrays over the problem's x and y."""
 
-    film: PointSolution  # the warm film
+    film: PointSolution  # at the temperatures found
     temperature: Array  # (nx, ny, heights) from body 1 to body 2 [K]
     flux: Array  # (2, nx, ny) into body 1 and body 2 [W/m2]
     heating: Array  # (nx, ny) heat of shear over the film [W/m2]
@@ -130,9 +130,9 @@ def solve_thermal_point(
     Notes
     -----
     Entrainment and sliding point anywhere; either surface may stand or move against the other.
-    The bodies are half-spaces that warm as Carslaw and Jaeger's under moving heat, at any Peclet
-    number (`moving_heat_coefficients`), bulk temperatures given. The oil carries heat at every
-    height along the film as it flows, back out of the inlet as well, and enters at its own
+    The bodies are half-spaces that warm as those of [carslaw_jaeger_1959] under moving heat, at any
+    Peclet number (`moving_heat_coefficients`), bulk temperatures given. The oil carries heat at
+    every height along the film as it flows, back out of the inlet as well, and enters at its own
     temperature; along the film it does not conduct, which asks for a film far thinner than the
     contact. Reduced form, as for lines: flow by pressure has a parabolic profile and one
     viscosity, the mean of the fluidity weighted with z^2; the skewing of the carried flow by
@@ -141,7 +141,7 @@ def solve_thermal_point(
     the film slips and the slip heats it evenly. A broken film is not sheared.
 
     Films that heat thins by a quarter and more (beta eta0 u^2/k above about 1 in the inlet) take
-    tens of turns, and some of them do not settle.
+    tens of turns, and some of them do not converge.
 
     Converged when residual, load and heat balance hold together: the heat that shear makes is
     conducted and carried away, the sum over all cells of what is not, and what the surfaces'
@@ -170,8 +170,8 @@ def solve_thermal_point(
             good = False
             break
         energy.turn(film)
-        level.warm = energy.factors(film)
-        state = _warm_film(hierarchy, state, settings, energy.balance, record)
+        level.set_thermal_factors(*energy.factors(film))
+        state = _film_at_temperatures(hierarchy, state, settings, energy.balance, record)
     energy.judge(energy.film(state), everywhere=True)
     record.converged = good
     solved = point_solution(problem, settings, hierarchy, state, record, begin, throw=False)
@@ -205,7 +205,7 @@ def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -
         )
 
 
-def _warm_film(
+def _film_at_temperatures(
     hierarchy: Hierarchy,
     state: FilmState,
     settings: PointSolverSettings,

@@ -10,18 +10,18 @@ from scipy.sparse.linalg import LinearOperator, gmres
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.line.energy import FilmFields, fill_thermal_oil
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.anderson_mixing import AndersonMixing
 from gearlube_core.ehl.point.thermal.energy import (
     PointFilm,
     PointHeat,
     PointMotion,
+    add_surface_change,
     fill_heat,
     heat_balance,
     sweep_film,
-    warm_surfaces,
 )
 from gearlube_core.ehl.point.thermal.moving_heat import MovingHeat
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE
@@ -70,9 +70,9 @@ class FilmTemperature:
     ) -> None:
         self.level, self.oil = level, problem.lubricant
         scales, (ny, nx) = level.scales, level.shape
-        self.steps = level.dx * scales.length, level.dy * scales.length
-        u, v = scales.turned(problem.entrainment)
-        su, sv = scales.turned(problem.sliding or (0.0, 0.0))
+        self.steps = level.grid.dx * scales.length, level.grid.dy * scales.length
+        u, v = scales.along_axes(problem.entrainment)
+        su, sv = scales.along_axes(problem.sliding or (0.0, 0.0))
         self.speed, self.sliding = scales.speed, math.hypot(su, sv)
         self.motion = PointMotion(
             u - 0.5 * su, v - 0.5 * sv, u + 0.5 * su, v + 0.5 * sv, *self.steps,
@@ -91,21 +91,19 @@ class FilmTemperature:
         self.heat = PointHeat(np.zeros((n, heights)), np.zeros(n), np.zeros(n), np.zeros(n))
         self.balance = math.inf
         self._mixing = AndersonMixing(_MIXED)
-        self._answer, self._shape = np.empty((3, n)), np.empty((2, n, heights))
+        self._conductance, self._shape = np.empty((3, n)), np.empty((2, n, heights))
 
     def film(self, state: FilmState) -> PointFilm:
         """Return what the balance takes from a state."""
         scales, oil = self.level.scales, self.oil
         p = state.oil * scales.pressure
         h = np.maximum(state.film * scales.film, 1e-12)
-        p_y, p_x = np.gradient(p, self.steps[1], self.steps[0])
+        p_y, p_x = (np.asarray(s) for s in np.gradient(p, self.steps[1], self.steps[0]))
         c, s = self.direction
         flow = state.film_flow
         mobility = h * h / (12.0 * oil.eta0)
         u, v = -mobility * flow.fluidity_x * p_x, -mobility * flow.fluidity_y * p_y
-        if state.shear is not None and state.shear.xy is not None:
-            cross = mobility * state.fluidity * state.shear.xy
-            u, v = u - cross * p_y, v - cross * p_x
+        u, v = state.shear.with_cross_velocity((u, v), mobility, state.fluidity, (p_x, p_y))
         # oil is not pumped back faster than it is carried in; where the grid says so it is coarse
         size = np.maximum(np.hypot(u, v) / self.speed, 1.0)
         rho = np.asarray(state.density * oil.rho0)
@@ -154,13 +152,13 @@ class FilmTemperature:
         for way in (False, True) * _SWEEPS:
             sweep_film(
                 film, self.motion, self.oil, self.heat, nx, way, way, self.T, self.flux,
-                self._answer, self._shape,
+                self._conductance, self._shape,
             )  # fmt: skip
         error = self._surface_error()
 
         def applied(change: Array) -> Array:
             one, two = change.reshape(2, -1)
-            own_1, both, own_2 = self._answer
+            own_1, both, own_2 = self._conductance
             flux = np.array((own_1 * one - both * two, own_2 * two - both * one))
             return np.asarray(change + self._rise(flux).ravel())
 
@@ -171,10 +169,10 @@ class FilmTemperature:
             restart=_SURFACES_STEPS,
             maxiter=1,
         )
-        warm_surfaces(change.reshape(2, -1), self._shape, self.T)
+        add_surface_change(change.reshape(2, -1), self._shape, self.T)
 
     def factors(self, film: PointFilm) -> tuple[Array, Array]:
-        """Return what the grid's `warm` takes: factors of viscosity and density, (ny, nx)."""
+        """Return the thermal factors of viscosity and density, both (ny, nx) [-]."""
         cooling, dilation = np.empty((2, *self.level.shape))
         p = film.along.p
         fill_thermal_oil(

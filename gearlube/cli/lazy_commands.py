@@ -1,0 +1,84 @@
+"""Commands that are imported when they are used."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Any, Literal
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+from typer.main import get_group
+
+MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would swallow [units]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LazyCommand:
+    """Where a command is found.
+
+    Parameters
+    ----------
+    name : str
+        As typed after `gearlube`.
+    target : str
+        "module:name" of a function with typer options, or of a `typer.Typer` with commands of
+        its own.
+    summary : str
+        One sentence for the list of commands, which is shown without importing them.
+    command_class : str
+        Name of a class of commands in the same module; typer's own if empty.
+    context_settings : mapping
+        Passed to click.
+    """
+
+    name: str
+    target: str
+    summary: str
+    command_class: str = ""
+    context_settings: Mapping[str, Any] = field(default_factory=dict)
+
+    def load(self) -> Any:  # a click command; newer typers have a click of their own
+        """Import the module and return the command."""
+        module_name, attribute = self.target.split(":")
+        module = import_module(module_name)
+        found = getattr(module, attribute)
+        app = typer.Typer(add_completion=False, rich_markup_mode=MARKUP)
+        app.callback()(_nothing)
+        if isinstance(found, typer.Typer):
+            app.add_typer(found, name=self.name)
+        else:
+            chosen = getattr(module, self.command_class) if self.command_class else None
+            app.command(self.name, cls=chosen, context_settings=dict(self.context_settings))(found)
+        return get_group(app).commands[self.name]
+
+
+def lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
+    """Return a group class with these commands, listed in this order."""
+    table = {command.name: command for command in commands}
+
+    class LazyGroup(TyperGroup):
+        listing = False  # whether the help is being written
+
+        def list_commands(self, ctx: Any) -> list[str]:
+            return list(table)
+
+        def get_command(self, ctx: Any, cmd_name: str) -> Any:
+            found = table.get(cmd_name)
+            if found is None:
+                return None
+            return TyperCommand(cmd_name, help=found.summary) if self.listing else found.load()
+
+        def format_help(self, ctx: Any, formatter: Any) -> None:
+            self.listing = True
+            try:
+                super().format_help(ctx, formatter)
+            finally:
+                self.listing = False
+
+    return LazyGroup
+
+
+def _nothing() -> None:
+    """Make typer see a group where there is one command only."""

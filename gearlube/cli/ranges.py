@@ -1,0 +1,73 @@
+"""Ranges of numbers as people type them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from gearlube_core.checks import check_finite, check_positive, check_within
+from gearlube_core.errors import ParameterError
+
+
+def numbers_from(
+    option: str,
+    texts: Sequence[str],
+    unit: str,
+    low: float,
+    high: float,
+    *,
+    example: str,
+    most: int = 2000,
+) -> tuple[float, ...]:
+    """Return the numbers that ranges "first:last:step" and single values ask for, rising.
+
+    Parameters
+    ----------
+    option
+        Its name, for errors.
+    texts
+        As typed; also separated by commas.
+    unit, low, high
+        Limits of each number.
+    example
+        A range that makes sense, for errors.
+    most
+        Largest number of values in a range.
+
+    Raises
+    ------
+    ParameterError
+        A text is no range, or a number is out of its limits.
+
+    Examples
+    --------
+    >>> numbers_from("--mu", ["0:0.3:0.1", "0.05"], "", 0.0, 1.0, example="0:0.3:0.01")
+    (0.0, 0.05, 0.1, 0.2, 0.3)
+    """
+    cure = f"Write first:last:step, for instance {example}, or single values."
+    space = f" {unit}" if unit else ""
+    values: list[float] = []
+    for text in (part for whole in texts for part in whole.split(",")):
+        pieces = [check_finite(option, p, unit, cure) for p in text.split(":")]  # type: ignore[arg-type]
+        if len(pieces) == 1:
+            values += pieces
+            continue
+        if len(pieces) != 3:
+            raise ParameterError(f"{option} must be a range of three numbers, got {text!r}. {cure}")
+        first, last, step = pieces
+        check_positive(f"the step of {option}", step, unit, cure)
+        if last < first:
+            raise ParameterError(
+                f"The last value of {option} must be at least the first, {first:g}{space}, "
+                f"got {last:g}{space}. {cure}"
+            )
+        count = math.floor((last - first) / step * (1.0 + 1e-9)) + 1
+        if count > most:
+            raise ParameterError(
+                f"{option} must give at most {most} values, got {count}. Use a larger step."
+            )
+        values += [first + i * step for i in range(count)]
+    rising = sorted({round(value, 12) for value in values})
+    for value in rising:
+        check_within(option, value, low, high, unit, cure)
+    return tuple(rising)

@@ -1,0 +1,1 @@
+"""The commands `gearlube ehl line`, `point`, `helical`, `hypoid` and `compare`."""

@@ -1,0 +1,54 @@
+"""The command `gearlube ehl compare`."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlube.studies.films.commands.console import errors_ended
+from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
+
+logger = logging.getLogger("gearlube")
+
+
+def compare(
+    marches: Annotated[
+        list[str],
+        typer.Argument(
+            help="Folders of marches, or NAME=FOLDER to name them.", metavar="FOLDER..."
+        ),
+    ],
+    film_exponent: Annotated[
+        float,
+        typer.Option(
+            help="Divide films by the pinion speed, over that of the first, to this power.",
+            metavar="N",
+        ),
+    ] = 0.0,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_compare"),
+) -> None:
+    """Draw largest pressures and smallest films of several marches over their steps.
+
+    For instance of one pair with other tip reliefs, crowns, facets or speeds, each marched before
+    by gearlube ehl helical --march. Writes compare.png.
+    """
+    from gearlube.studies.films.compare import compare_marches
+
+    with errors_ended(out):
+        folders: dict[str, Path] = {}
+        for entry in marches:
+            name, given, folder = entry.rpartition("=")
+            where = Path(folder if given else entry)
+            label = name if given else where.name
+            if label in folders:
+                raise ParameterError(
+                    f"Names of marches must differ, got {label!r} twice. Write NAME=FOLDER."
+                )
+            folders[label] = where
+        check_within("--film-exponent", film_exponent, -5.0, 5.0)
+        compare_marches(folders, film_exponent=film_exponent, folder=out)
+        logger.info("Results: %s", out / "compare.png")

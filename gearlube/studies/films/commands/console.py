@@ -1,0 +1,98 @@
+"""What the commands `gearlube ehl` share: progress, summary, messages and exit codes."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+
+from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
+from gearlube.cli.progress_report import progress_on
+
+if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
+    import xarray as xr
+
+    from gearlube.studies.films.hypoid.summary import RatioRow
+    from gearlube.studies.films.summary import Row
+    from gearlube_core.progress import Progress
+
+logger = logging.getLogger("gearlube")
+console = Console(stderr=True)
+_SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm"), "1": (1.0, "")}
+
+
+def errors_ended(out: Path) -> AbstractContextManager[None]:
+    """Turn errors into messages and exit codes; `out` is where results go."""
+    return exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again.")
+
+
+def solve_and_show(solve: Callable[[Progress], xr.Dataset], out: Path) -> None:
+    """Solve with a progress bar, print what was found; end with a failure if it did not converge.
+
+    `solve` takes the callback of the progress and writes its files into `out`.
+    """
+    from gearlube.studies.films.results import dataset_file
+
+    with progress_on(console, "films") as progress:
+        dataset = solve(progress)
+    _show(dataset)
+    logger.info("Results: %s, %s", dataset_file(dataset, out), out / "figures")
+    outcome = str(dataset.attrs["outcome"])
+    exit_if_failed("" if dataset.attrs["converged"] else outcome)
+    logger.info("%s", outcome)
+
+
+def _show(dataset: xr.Dataset) -> None:
+    """Print the summary of a dataset, for a march its largest pressure and smallest film."""
+    from gearlube.studies.films.hypoid.summary import ratio_rows
+    from gearlube.studies.films.summary import summary_rows
+
+    kind, name = dataset.attrs["contact"], dataset.attrs["name"]
+    if kind == "helical_cycle":
+        logger.info("Largest pressure %.3f GPa.", 1e-9 * float(dataset["pressure_max"].max()))
+        logger.info("Smallest film %.1f nm.", 1e9 * float(dataset["minimum_film"].min()))
+    elif kind == "hypoid":
+        console.print(_ratio_table(name, ratio_rows(dataset)))
+    else:
+        console.print(_summary_table(f"{name}: lubricated {kind} contact", summary_rows(dataset)))
+
+
+def _summary_table(title: str, rows: list[Row]) -> Table:
+    from gearlube.studies.films.summary import SOLUTION
+
+    table = _table(title, "quantity", ">value", "unit", ">deviation")
+    for row in rows:
+        factor, unit = _SCALES.get(row.unit, (1.0, row.unit))
+        own = row.source == SOLUTION
+        table.add_row(
+            row.quantity if own else f"  {row.source}",
+            f"{factor * row.value:.4g}",
+            unit,
+            "" if own else f"{100.0 * row.deviation:+.1f} %",
+        )
+    return table
+
+
+def _ratio_table(name: str, rows: list[RatioRow]) -> Table:
+    title = f"{name}: hypoid flank through its engagement"
+    table = _table(title, "quantity", "of", ">least", ">largest", ">mean by load", "unit")
+    for row in rows:
+        factor, unit = _SCALES.get(row.unit, (1.0, row.unit))
+        numbers = (row.least, row.largest, row.load_weighted_mean)
+        table.add_row(row.quantity, row.source, *(f"{factor * v:.4g}" for v in numbers), unit)
+    return table
+
+
+def _table(title: str, *headings: str) -> Table:
+    """Return a table without rows; columns whose heading begins with > are set to the right."""
+    table = Table(title=title)
+    for heading in headings:
+        table.add_column(
+            heading.removeprefix(">"), justify="right" if heading[0] == ">" else "left"
+        )
+    return table

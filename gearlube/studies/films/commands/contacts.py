@@ -1,0 +1,134 @@
+"""The commands `gearlube ehl line` and `gearlube ehl point`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+import typer
+
+from gearlube.cli.options import CaseArgument, ExampleOption
+from gearlube.studies.films.commands.console import errors_ended, solve_and_show
+from gearlube_core.checks import check_finite
+
+if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
+    from gearlube_core.ehl.case.contact_case import ContactCase
+
+Case = TypeVar("Case", bound="ContactCase")
+
+_Entrainment = Annotated[
+    float | None,
+    typer.Option(help="Mean surface speed along x [m/s].", metavar="M/S"),
+]
+_SlideRoll = Annotated[
+    float | None,
+    typer.Option(help="Slide-roll ratio along x, 2 (u1 - u2)/(u1 + u2).", metavar="RATIO"),
+]
+_Cavitation = Annotated[
+    str | None,
+    typer.Option(help="Where the film breaks.", metavar="reynolds|mass_conserving"),
+]
+_Temperature = Annotated[
+    str | None,
+    typer.Option(
+        help="thermal: with the energy balance of oil and bodies.", metavar="isothermal|thermal"
+    ),
+]
+
+
+def line(
+    case: CaseArgument = "jamali_2015",
+    load: Annotated[
+        float | None, typer.Option(help="Load per length [N/mm].", metavar="N/MM")
+    ] = None,
+    entrainment: _Entrainment = None,
+    slide_roll: _SlideRoll = None,
+    nodes: Annotated[
+        int | None, typer.Option(help="Nodes of the finest grid.", metavar="N")
+    ] = None,
+    stencil: Annotated[
+        str | None,
+        typer.Option(help="Of the wedge.", metavar="upwind-2|central|upwind-1|galerkin"),
+    ] = None,
+    cavitation: _Cavitation = None,
+    temperature: _Temperature = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
+    example: ExampleOption = False,
+) -> None:
+    """Solve a lubricated line contact; write line.nc, summary.csv and figures.
+
+    Shipped cases: jamali_2015, jamali_2015_thermal. Options given here replace those of the case.
+    """
+    from gearlube.studies.films import run_steady
+    from gearlube_core.ehl.case.contact_case import LineCase
+
+    with errors_ended(out):
+        if example:
+            typer.echo(LineCase.shipped_text(case), nl=False)
+            return
+        changes = {
+            "load_n_per_mm": load,
+            "solver.nodes": nodes,
+            "solver.stencil": stencil,
+            "solver.cavitation": cavitation,
+            "temperature": temperature,
+        }
+        file = _changed(LineCase.given(case), changes, entrainment, slide_roll)
+        solve_and_show(
+            lambda progress: run_steady.run_line(file, folder=out, progress=progress), out
+        )
+
+
+def point(
+    case: CaseArgument = "mourier_2006",
+    load: Annotated[float | None, typer.Option(help="Load [N].", metavar="NEWTON")] = None,
+    entrainment: _Entrainment = None,
+    slide_roll: _SlideRoll = None,
+    nodes: Annotated[
+        int | None, typer.Option(help="Nodes along x and along y.", metavar="N")
+    ] = None,
+    wedge: Annotated[
+        str | None,
+        typer.Option(help="Stencil of the wedge.", metavar="upwind-2|upwind-1|central|quick"),
+    ] = None,
+    cavitation: _Cavitation = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
+    example: ExampleOption = False,
+) -> None:
+    """Solve a lubricated point contact; write point.nc, summary.csv and figures.
+
+    Shipped cases: mourier_2006, elliptical. Options given here replace those of the case.
+    """
+    from gearlube.studies.films import run_steady
+    from gearlube_core.ehl.case.contact_case import PointCase
+
+    with errors_ended(out):
+        if example:
+            typer.echo(PointCase.shipped_text(case), nl=False)
+            return
+        changes = {
+            "load_n": load,
+            "solver.nodes_x": nodes,
+            "solver.nodes_y": nodes,
+            "solver.wedge": wedge,
+            "solver.cavitation": cavitation,
+        }
+        file = _changed(PointCase.given(case), changes, entrainment, slide_roll)
+        solve_and_show(
+            lambda progress: run_steady.run_point(file, folder=out, progress=progress), out
+        )
+
+
+def _changed(
+    case: Case, changes: dict[str, Any], entrainment: float | None, slide_roll: float | None
+) -> Case:
+    """Return the case with what the options replace."""
+    given = {field: value for field, value in changes.items() if value is not None}
+    for name, value, unit in (
+        ("--entrainment", entrainment, "m/s"),
+        ("--slide-roll", slide_roll, ""),
+    ):
+        if value is not None:
+            check_finite(name, value, unit)
+    given |= case.speeds_at(entrainment, slide_roll)
+    return case.varied(given) if given else case

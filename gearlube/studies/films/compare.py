@@ -1,0 +1,63 @@
+"""Several marches of helical pairs side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.studies.films.figures.helical_cycle import compared_cycles
+from gearlube.studies.films.results import read_march
+from gearlube_core.checks import check_within
+
+
+def compare_marches(
+    marches: Mapping[str, Path | xr.Dataset],
+    *,
+    film_exponent: float = 0.0,
+    folder: Path | None = None,
+) -> xr.Dataset:
+    """Return largest pressures and smallest films of several marches over their steps.
+
+    Parameters
+    ----------
+    marches
+        By the names that the figure shows: folders of `run_helical_march`, or its datasets.
+    film_exponent
+        Films are divided by the pinion speed, over that of the first march, to this power,
+        -5 to 5 [-].
+    folder
+        Where compare.png is written; None: nothing is written.
+
+    Returns
+    -------
+    xr.Dataset
+        `pressure_max` [Pa], `minimum_film` [m], as solved, and `converged` over `march` and
+        `step`; not a number at steps that a march does not have.
+
+    Raises
+    ------
+    ParameterError
+        A folder holds no march, or the exponent is out of range.
+    """
+    check_within("film_exponent", film_exponent, -5.0, 5.0)
+    cycles = {
+        name: one if isinstance(one, xr.Dataset) else read_march(Path(one))
+        for name, one in marches.items()
+    }
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+        compared_cycles(cycles, film_exponent).savefig(folder / "compare.png", dpi=150)
+    curves = [one[["pressure_max", "minimum_film", "converged"]] for one in cycles.values()]
+    names = xr.DataArray(list(cycles), dims="march", name="march")
+    failed = [name for name, one in cycles.items() if not one.attrs["converged"]]
+    outcome = f"All {len(cycles)} marches converged."
+    if failed:
+        outcome = f"Steps did not converge in {', '.join(failed)}."
+    return xr.concat(curves, names, join="outer", combine_attrs="drop").assign_attrs(
+        contact="helical_marches",
+        film_exponent=film_exponent,
+        converged=int(not failed),
+        outcome=outcome,
+    )

@@ -1,0 +1,1 @@
+"""Lubricated contacts as labelled datasets."""

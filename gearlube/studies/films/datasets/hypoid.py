@@ -1,0 +1,197 @@
+"""Films of a hypoid flank through its engagement as a labelled dataset."""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.films.datasets.variables import Variable, noted, noted_curves
+from gearlube.studies.films.hypoid.flank import HypoidFlank
+from gearlube.studies.films.hypoid.formulas import flank_formulas
+from gearlube_core.ehl.transient.curves import FilmCurves
+from gearlube_core.ehl.transient.solution import FilmSolution
+
+_FILM_NOTES = {
+    "load": ("N", "load that the pressure carries"),
+    "central_film": ("m", "film in the centre of the dry contact"),
+    "minimum_film": ("m", "smallest film"),
+    "minimum_film_x": ("m", "its place along the minor axis"),
+    "minimum_film_y": ("m", "its place along the major axis"),
+    "pressure_max": ("Pa", "largest pressure"),
+    "traction_newtonian": ("1", "friction along sliding, Newtonian, isothermal"),
+    "traction_eyring": ("1", "friction along sliding, Eyring, isothermal"),
+    "traction_heated": ("1", "friction along sliding, Eyring, heated across the film"),
+    "load_error": ("1", "missing share of the load"),
+    "residual": ("1", "unbalanced flow over flow"),
+    "converged": ("1", "1 where the film converged"),
+    "newton_steps": ("1", "Newton steps"),
+    "seconds": ("s", "time that the solution took"),
+}
+_FORMULA_NOTES = {
+    "hertz_pressure": ("Pa", "largest dry pressure, Hertz"),
+    "chittenden_central": ("m", "central film, Chittenden et al. 1985 at the entrainment's angle"),
+    "chittenden_minimum": ("m", "minimum film, Chittenden et al. 1985 at the entrainment's angle"),
+    "component_central": ("m", "central film, Chittenden et al. 1985, minor-axis component"),
+    "component_minimum": ("m", "minimum film, Chittenden et al. 1985, minor-axis component"),
+    "grubin": ("m", "film, Grubin 1949"),
+    "evans_johnson": ("1", "film friction, Evans and Johnson 1986, Chittenden's film"),
+    "evans_johnson_solved": ("1", "film friction, Evans and Johnson 1986, solved film"),
+    "evans_johnson_roelands": ("1", "the same, with the viscosity of the solution"),
+    "axle_friction": ("1", "friction of film and asperities in the axle model"),
+    "asperity_share": ("1", "share of asperities in it"),
+    "regime": ("1", "traction: 0 Newtonian, 1 Eyring, 2 elastic-plastic"),
+}
+_THERMAL_NOTES = {
+    "central_film": ("m", "film in the centre of the dry contact, thermal"),
+    "minimum_film": ("m", "smallest film, thermal"),
+    "cold_central_film": ("m", "central film on the same grid, isothermal"),
+    "cold_minimum_film": ("m", "smallest film on the same grid, isothermal"),
+    "pressure_max": ("Pa", "largest pressure, thermal"),
+    "traction": ("1", "friction along sliding, thermal"),
+    "rise_max": ("K", "highest temperature in the film above the inlet"),
+    "rise_surface": ("K", "highest temperature of a surface above the inlet"),
+    "heat_balance": ("1", "heat that is not balanced over that of shear"),
+    "turns": ("1", "turns of film and energy"),
+    "converged": ("1", "1 where the thermal film converged"),
+    "seconds": ("s", "time that the solution took"),
+}
+_CONTACT_NOTES = {
+    "phase": ("1", "mesh periods from the middle of the pair's window"),
+    "given_load": ("N", "load on the pair"),
+    "R_x": ("m", "relative radius along the minor axis"),
+    "R_y": ("m", "relative radius along the major axis"),
+    "entrainment": ("m/s", "entrainment speed"),
+    "psi": ("rad", "entrainment from the minor axis"),
+    "sliding": ("m/s", "sliding speed"),
+    "chi": ("rad", "sliding from the minor axis"),
+}
+
+
+def hypoid_dataset(
+    flank: HypoidFlank,
+    steady: FilmCurves,
+    march: FilmCurves | None = None,
+    thermal: FilmCurves | None = None,
+) -> xr.Dataset:
+    """Return films, formulas, load and motion over `position` (steady) and `step` (in time).
+
+    Parameters
+    ----------
+    flank
+        What was solved.
+    steady
+        Steady films; those kept whole lie along `instant`.
+    march
+        Films in time; None: left out.
+    thermal
+        Thermal films of the positions; None: left out.
+    """
+    variables = _curves(flank, steady, "position", "steady_")
+    if march is not None:
+        variables |= _curves(flank, march, "step", "")
+        variables |= _squeeze(steady, march)
+    formulas = [
+        flank_formulas(flank, flank.film.cycle.at(time), film)
+        for time, film in zip(steady["time"], steady["central_film"], strict=True)
+    ]
+    for name, note in _FORMULA_NOTES.items():
+        values = np.array([getattr(one, name) for one in formulas])
+        variables[name] = noted("position", values, *note)
+    if np.isfinite(flank.drive.axle_film).all():
+        for name, values, note in (
+            ("axle_film", flank.drive.axle_film, ("m", "film in the running axle model")),
+            ("running_friction", flank.drive.axle_friction, ("1", "friction in the running axle")),
+        ):
+            there = np.interp(steady["time"], flank.film.cycle.time, values)
+            variables[name] = noted("position", there, *note)
+    variables |= _whole_films(flank, steady)
+    if thermal is not None:
+        variables |= noted_curves(_THERMAL_NOTES, thermal, "position", "warm_")
+    case = flank.case
+    solved = [curves for curves in (steady, march, thermal) if curves is not None]
+    failures = sum(curves.failures for curves in solved)
+    outcome = f"All {sum(len(curves.table) for curves in solved)} films converged."
+    if failures:
+        outcome = f"{failures} films did not converge. Take more nodes, or smaller time steps."
+    return xr.Dataset(
+        variables,
+        attrs={
+            "contact": "hypoid",
+            "name": case.name,
+            "source": case.source,
+            "mesh_table": flank.parameters.mesh.name,
+            "flank": "drive" if case.pinion_torque_n_m > 0.0 else "coast",
+            "pinion_torque": case.pinion_torque_n_m,
+            "pinion_speed": case.pinion_speed,
+            "load_of": case.load,
+            "entrainment_of": case.entrainment,
+            "oil": case.oil,
+            "oil_temperature": case.oil_temperature,
+            "eyring_stress": flank.oil.tau0,
+            "flow": case.flow,
+            "wedge": case.solver.wedge,
+            "nodes_minor": flank.film.nodes[0],
+            "nodes_major": flank.film.nodes[1],
+            "failures": failures,
+            "converged": int(failures == 0),
+            "outcome": outcome,
+        },
+    )
+
+
+def _curves(
+    flank: HypoidFlank, curves: FilmCurves, dimension: str, prefix: str
+) -> dict[str, Variable]:
+    of = [flank.film.cycle.at(float(time)) for time in curves["time"]]
+    contact = np.array(
+        [[n.phase, n.load, n.R_x, n.R_y, n.speed, n.psi, n.slip, n.chi] for n in of]
+    ).T
+    found = {prefix + "time": noted(dimension, curves["time"], "s", "from the first loaded sample")}
+    found |= noted_curves(_FILM_NOTES, curves, dimension, prefix)
+    for (name, note), values in zip(_CONTACT_NOTES.items(), contact, strict=True):
+        found[prefix + name] = noted(dimension, values, *note)
+    return found
+
+
+def _squeeze(steady: FilmCurves, march: FilmCurves) -> dict[str, Variable]:
+    """Return films, pressure and friction in time over those of steady films."""
+    found = {}
+    for name in ("central_film", "minimum_film", "pressure_max", "traction_heated"):
+        there = np.interp(steady["time"], march["time"], march[name])
+        found[f"squeeze_{name}"] = noted(
+            "position", there / steady[name], "1", f"{_FILM_NOTES[name][1]}, in time over steady"
+        )
+    return found
+
+
+def _whole_films(flank: HypoidFlank, steady: FilmCurves) -> dict[str, Variable]:
+    if not steady.kept:
+        return {}
+    rows = sorted(steady.kept)
+    films: list[FilmSolution] = [steady.kept[row] for row in rows]
+    dims = ("instant", "x", "y")
+    axes = np.array(
+        [flank.film.problem(flank.film.cycle.at(one.time)).hertz_contact for one in films]
+    )
+    return {
+        "instant_position": noted("instant", np.array(rows), "1", "its row of positions"),
+        "x": noted("x", films[0].x, "m", "place along the minor axis"),
+        "y": noted("y", films[0].y, "m", "place along the major axis"),
+        "pressure": noted(dims, np.array([one.pressure for one in films]), "Pa", "pressure"),
+        "film": noted(dims, np.array([one.film for one in films]), "m", "film thickness"),
+        "semi_axis_x": noted("instant", axes[:, 0], "m", "minor semi-axis of the dry contact"),
+        "semi_axis_y": noted("instant", axes[:, 1], "m", "major semi-axis of the dry contact"),
+    }
+
+
+def hypoid_key(flank: HypoidFlank) -> str:
+    """Return a short name that differs where contact, oil, grid or steps do."""
+    cycle = flank.film.cycle
+    digest = hashlib.sha256(
+        repr((flank.case.solver, flank.film.lubricant, flank.film.flow)).encode()
+    )
+    for name in cycle.__dataclass_fields__:
+        digest.update(np.ascontiguousarray(getattr(cycle, name)).tobytes())
+    return digest.hexdigest()[:12]

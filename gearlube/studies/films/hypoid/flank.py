@@ -1,0 +1,125 @@
+"""The film of a hypoid tooth pair from a case: mesh table, motion of the axle, oil."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlube.studies.films.hypoid.contact_motion import contact_motion
+from gearlube.studies.films.hypoid.drive import PairDrive, dynamic_drive, static_drive
+from gearlube_core.arrays import Array
+from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters, mohammadpour_2015_axle
+from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
+from gearlube_core.ehl.gears.hypoid_flank import FlankCycle
+from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
+from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil_data import film_oil_of
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+
+_FEWEST = 8  # samples of a cycle
+
+
+@dataclass(frozen=True, slots=True)
+class HypoidFlank:
+    """A case ready to be solved.
+
+    Parameters
+    ----------
+    case
+        As given.
+    parameters
+        Axle, with table, oil and roughness.
+    film
+        Contact through the loaded part of the engagement.
+    drive
+        Load and speed at the same samples, with film and friction of the axle model.
+    """
+
+    case: HypoidCase
+    parameters: HypoidAxleParameters
+    film: HypoidFilm
+    drive: PairDrive
+
+    @property
+    def oil(self) -> LubricantState:
+        """Oil at its temperature, as the axle sees it."""
+        return lubricant_state(self.parameters.oil.parameters(), self.case.oil_temperature)
+
+
+def hypoid_flank(case: HypoidCase) -> HypoidFlank:
+    """Return the film of one tooth pair of a case.
+
+    Raises
+    ------
+    ParameterError
+        Something is out of range, or the pair carries no load over the phases asked for.
+    """
+    torque, speed = case.pinion_torque_n_m, case.pinion_speed
+    if torque == 0.0:
+        raise ParameterError("pinion_torque_n_m must not be 0 N.m. Load a flank.")
+    parameters = mohammadpour_2015_axle(
+        mesh=case.table(), oil=case.oil, roughness_rms=1e-6 * case.roughness_um
+    )
+    parameters.oil.check_temperature(case.oil_temperature, "oil temperature")
+    drive = (
+        dynamic_drive(parameters, speed, torque, case.oil_temperature)
+        if case.load == "dynamic"
+        else static_drive(parameters, speed, torque)
+    )
+    phase = phase_of(parameters.mesh, drive.angle)
+    held = loaded_span(case, phase, drive.load)
+    drive = PairDrive(*(values[held] for values in drive))
+    film = HypoidFilm(
+        cycle=_cycle(case, parameters, drive, phase[held]),
+        lubricant=film_oil_of(parameters.oil, case.oil_temperature),
+        contact_modulus=contact_modulus(parameters.solid, parameters.solid),
+        nodes=(case.solver.nodes_minor, case.solver.nodes_major),
+        flow=case.flow,
+    )
+    return HypoidFlank(case, parameters, film, drive)
+
+
+def loaded_span(case: HypoidCase, phase: Array, load: Array) -> slice:
+    """Return the samples around the largest load that carry, within the phases asked for."""
+    most = float(load.max())
+    carries = (load >= case.smallest_load * most) & (load > 0.0)
+    carries &= (phase >= case.first_phase) & (phase <= case.last_phase)
+    if not carries.any():
+        raise ParameterError(
+            f"The pair carries no load between phases {case.first_phase:g} and "
+            f"{case.last_phase:g}. Widen them."
+        )
+    top = int(np.where(carries, load, -1.0).argmax())
+    gaps = np.flatnonzero(~carries)
+    first = int(gaps[gaps < top].max(initial=-1)) + 1
+    last = int(gaps[gaps > top].min(initial=carries.size))
+    if last - first < _FEWEST:
+        raise ParameterError(
+            f"The pair carries load over {last - first} samples only, {_FEWEST} are needed. Widen "
+            "the phases or lower smallest_load."
+        )
+    return slice(first, last)
+
+
+def _cycle(
+    case: HypoidCase, parameters: HypoidAxleParameters, drive: PairDrive, phase: Array
+) -> FlankCycle:
+    contact = pair_contact(parameters.mesh, case.pinion_torque_n_m, phase)
+    motion = contact.entrainment
+    if case.entrainment == "moving_contact":
+        if case.gear_file is None:
+            raise ParameterError("moving_contact needs gear_file, of which the table was made.")
+        motion = motion - contact_motion(case.gear_file, case.pinion_torque_n_m, phase)
+    return FlankCycle(
+        time=drive.time - drive.time[0],
+        angle=drive.angle,
+        phase=phase,
+        load=drive.load,
+        R_x=contact.R_x,
+        R_y=contact.R_y,
+        entrainment=motion * drive.speed[:, None],
+        sliding=contact.sliding * drive.speed[:, None],
+    )

@@ -1,0 +1,147 @@
+"""The film of a helical pair's contact line in time, through its meshing cycle."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.studies.films.datasets.cycle_lines import CycleLines, step_dataset, with_steady_film
+from gearlube.studies.films.datasets.helical_cycle import (
+    cycle_dataset,
+    march_key,
+    with_steady_points,
+)
+from gearlube.studies.films.datasets.helical_line import helical_dataset
+from gearlube.studies.films.helical_case import HelicalLineCase
+from gearlube.studies.films.results import finished, step_file, write_film_results
+from gearlube.studies.films.run_steady import warn_of_ends
+from gearlube_core.checks import check_within
+from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
+from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from gearlube_core.ehl.transient.solution import FilmSolution
+from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import write_dataset
+
+logger = logging.getLogger("gearlube")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MarchSteps:
+    """Steps of the meshing cycle that a march passes.
+
+    Parameters
+    ----------
+    first, last
+        First and last step; `last` None: that of the cycle. The film is steady at the first.
+    snapshots
+        Steps whose whole film is written, beside that of the line at rest there. They need a
+        folder.
+    record_every
+        Steps from one record of the march to the next. A stopped march goes on from its last
+        record.
+    """
+
+    first: int = 0
+    last: int | None = None
+    snapshots: tuple[int, ...] = ()
+    record_every: int = 5
+
+
+def run_helical_march(
+    case: HelicalLineCase,
+    steps: MarchSteps | None = None,
+    *,
+    folder: Path | None = None,
+    progress: Progress = no_progress,
+) -> xr.Dataset:
+    """Return the film of a contact line over the steps of its meshing cycle, with squeeze.
+
+    Parameters
+    ----------
+    case
+        Gear pair, operation, oil and grid; its `step` and `position` have no meaning here.
+    steps
+        Of the march; the whole cycle if left out.
+    folder
+        Where cycle.nc, figures, snapshots and records of the march are written. A march goes on
+        from its record in `folder` if there is one. None: nothing is written.
+    progress
+        Called with the share done and what is done now.
+
+    Returns
+    -------
+    xr.Dataset
+        See `cycle_dataset`. The attribute `converged` is 0 if any step did not converge.
+
+    Raises
+    ------
+    ParameterError
+        The case is incomplete or out of range, or a record in `folder` cannot be read.
+    """
+    steps = steps or MarchSteps()
+    film = case.film()
+    names = {"name": case.file.name, "source": case.file.source}
+    first = steps.first
+    last = film.steps.count if steps.last is None else steps.last
+    for step in steps.snapshots:
+        check_within("snapshots", step, first, last, "", "Name steps of the march.")
+    if steps.snapshots and folder is None:
+        raise ParameterError("snapshots need a folder to write them to, got None. Give a folder.")
+    warn_of_ends(film)
+    key = march_key(film, first)
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    lines = CycleLines(None if folder is None else folder / f"lines_{key}.npz")
+    films = last - first + len(steps.snapshots)
+
+    def report(solved: int, sentence: str) -> None:
+        # files and figures count as much as one more film
+        progress(solved / (films + 1), sentence)
+
+    report(0, "steady film at the first step")
+
+    def observe(step: int, _: int, solution: FilmSolution) -> None:
+        lines.add(step, solution)
+        if folder is not None and step in steps.snapshots:
+            line = helical_dataset(film, float(step), solution, **names)
+            write_dataset(step_dataset(line, key), step_file(folder, step))
+        if step % steps.record_every == 0 or step == last:
+            lines.write()
+        report(step - first, f"smallest film {1e9 * solution.minimum_film:.0f} nm")
+
+    cycle = march_helical_cycle(
+        film,
+        first=first,
+        last=last,
+        checkpoint=None if folder is None else folder / f"march_{key}.npz",
+        checkpoint_every=steps.record_every,
+        progress=observe,
+        throw=False,
+    )
+    # a record may hold more steps than are asked for now
+    cycle = replace(cycle, table=cycle.table[: last - first + 1])
+    steady: dict[int, FilmSolution] = {}
+    for done, step in enumerate(steps.snapshots, last - first):
+        report(done, f"step {step} at rest")
+        steady[step] = solve_helical_line(film, float(step), MARCH_SETTINGS, throw=False)
+        if folder is not None:
+            _finish_snapshot(folder, step, key, steady[step])
+    dataset = with_steady_points(cycle_dataset(film, cycle, lines, **names), steady)
+    return finished(dataset, folder, progress, films / (films + 1))
+
+
+def _finish_snapshot(folder: Path, step: int, key: str, steady: FilmSolution) -> None:
+    """Add the film at rest to the snapshot that the march `key` has written, and draw both."""
+    path = step_file(folder, step)
+    stored = xr.load_dataset(path, engine="scipy") if path.exists() else None
+    if stored is None or stored.attrs.get("march") != key:
+        logger.warning(
+            "The march passed step %d before its film was asked for. For %s, march into another "
+            "folder.", step, path.name,
+        )  # fmt: skip
+        return
+    write_film_results(with_steady_film(stored, steady), folder)

@@ -1,0 +1,156 @@
+"""Steady films of line contacts, point contacts and contact lines of helical pairs."""
+
+from __future__ import annotations
+
+import logging
+import time
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.studies.films.datasets.helical_line import helical_dataset
+from gearlube.studies.films.datasets.line import line_dataset
+from gearlube.studies.films.datasets.point import point_dataset
+from gearlube.studies.films.helical_case import HelicalLineCase
+from gearlube.studies.films.results import finished
+from gearlube_core.ehl.case.contact_case import LineCase, PointCase
+from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
+from gearlube_core.ehl.gears.helical_film import HelicalFilm
+from gearlube_core.ehl.line.solver import solve_line
+from gearlube_core.ehl.line.thermal import solve_thermal_line
+from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
+from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from gearlube_core.progress import Progress, no_progress
+
+logger = logging.getLogger("gearlube")
+
+
+def run_line(
+    case: LineCase, *, folder: Path | None = None, progress: Progress = no_progress
+) -> xr.Dataset:
+    """Return the film of a line contact, isothermal or thermal as the case says.
+
+    Parameters
+    ----------
+    case
+        `LineCase.named` of a shipped case, `LineCase.from_toml` of a file or
+        `LineCase.from_data` of numbers.
+    folder
+        Where line.nc, summary.csv and figures are written; None: nothing is written.
+    progress
+        Called with the share done and what is done now.
+
+    Returns
+    -------
+    xr.Dataset
+        See `line_dataset`. A film that did not converge has the attribute `converged` 0.
+
+    Examples
+    --------
+    >>> case = LineCase.named("jamali_2015").varied({"solver.nodes": 201})
+    >>> film = run_line(case)
+    >>> f"{1e6 * film.attrs['minimum_film']:.2f} um"
+    '0.20 um'
+    """
+    _warn_of_heights(case)
+    _begin(folder, progress, f"film on {case.solver.nodes} nodes")
+    began = time.monotonic()
+    problem, settings = case.problem(), case.settings()
+    solution = (
+        solve_thermal_line(problem, *case.solids, settings, throw=False)
+        if case.temperature == "thermal"
+        else solve_line(problem, settings, throw=False)
+    )
+    seconds = time.monotonic() - began
+    dataset = line_dataset(solution, name=case.name, source=case.source, seconds=seconds)
+    return finished(dataset, folder, progress)
+
+
+def run_point(
+    case: PointCase, *, folder: Path | None = None, progress: Progress = no_progress
+) -> xr.Dataset:
+    """Return the film of a point contact, isothermal or thermal as the case says.
+
+    Parameters
+    ----------
+    case, folder, progress
+        As in `run_line`; the dataset is point.nc.
+
+    Returns
+    -------
+    xr.Dataset
+        See `point_dataset`. A film that did not converge has the attribute `converged` 0.
+
+    Examples
+    --------
+    >>> grid = {"solver.nodes_x": 33, "solver.nodes_y": 33}
+    >>> film = run_point(PointCase.named("mourier_2006").varied(grid))
+    >>> film["pressure"].dims
+    ('x', 'y')
+    """
+    _warn_of_heights(case)
+    _begin(folder, progress, f"film on {case.solver.nodes_x} x {case.solver.nodes_y} nodes")
+    problem, settings = case.problem(), case.settings()
+    solution = (
+        solve_thermal_point(problem, *case.solids, settings, throw=False)
+        if case.temperature == "thermal"
+        else solve_point_contact(problem, settings, throw=False)
+    )
+    dataset = point_dataset(solution, sliding=case.sliding, name=case.name, source=case.source)
+    return finished(dataset, folder, progress)
+
+
+def run_helical_line(
+    case: HelicalLineCase, *, folder: Path | None = None, progress: Progress = no_progress
+) -> xr.Dataset:
+    """Return the film on a helical pair's contact line, at rest at one position.
+
+    Parameters
+    ----------
+    case
+        Gear pair, operation, oil, grid and position.
+    folder, progress
+        As in `run_line`; the dataset is helical.nc.
+
+    Returns
+    -------
+    xr.Dataset
+        See `helical_dataset`. A film that did not converge has the attribute `converged` 0.
+
+    Raises
+    ------
+    ParameterError
+        The case is incomplete or out of range.
+    """
+    film = case.film()
+    step = case.step_of(film)
+    warn_of_ends(film)
+    _begin(folder, progress, f"film on {film.nodes[0]} x {film.nodes[1]} nodes")
+    # the settings of a march, so that both give one film where nothing moves
+    solution = solve_helical_line(film, step, MARCH_SETTINGS, throw=False)
+    dataset = helical_dataset(film, step, solution, name=case.file.name, source=case.file.source)
+    return finished(dataset, folder, progress)
+
+
+def warn_of_ends(film: HelicalFilm) -> None:
+    """Warn where lines end at the full face width."""
+    if film.modified.pinion.crown is None and film.modified.gear.crown is None:
+        logger.warning(
+            "Neither flank is crowned: the line ends abruptly, where the film may not converge."
+        )
+
+
+def _warn_of_heights(case: LineCase | PointCase) -> None:
+    if case.heights_travel:
+        logger.warning(
+            "The heights are held at rest while both surfaces move. Those that do not lie along "
+            "the motion would travel through the contact and squeeze its film."
+        )
+
+
+def _begin(folder: Path | None, progress: Progress, sentence: str) -> None:
+    """Make the folder before the film is solved, so that one that cannot be made stops here."""
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    progress(0.0, sentence)

@@ -1,0 +1,133 @@
+"""`gearlube sweep`."""
+
+from __future__ import annotations
+
+import logging
+import shlex
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
+from gearlube.cli.options import JobsOption, OilTemperatureOption, RoughnessOption
+from gearlube.cli.spread_values import SpreadingCommand
+
+logger = logging.getLogger("gearlube")
+
+_DEFAULT_SPEEDS = ("20:100:5",)
+_QUICK_SPEEDS = ("20:100:40",)
+_DEFAULT_PRELOADS = (2500.0, 6000.0)
+
+
+class SweepCommand(SpreadingCommand):
+    """The options that take several values after one flag."""
+
+    spreading = frozenset({"--speeds", "--preload"})
+
+
+def sweep(
+    speeds: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Vehicle speeds [km/h]: first:last:step and single values. Default 20:100:5.",
+            metavar="RANGE...",
+        ),
+    ] = None,
+    preload: Annotated[
+        list[float] | None,
+        typer.Option(
+            help="Bearing preloads [N], one or more. Default 2500 6000.", metavar="FORCE..."
+        ),
+    ] = None,
+    oil_temperature: OilTemperatureOption = 95.0,
+    oil: Annotated[
+        str, typer.Option(help="mohammadpour_2015 or karagiannis_2012.")
+    ] = "mohammadpour_2015",
+    roughness_um: RoughnessOption = 0.5,
+    equations: Annotated[
+        str, typer.Option(help="consistent, or as_printed in the paper.")
+    ] = "consistent",
+    friction: Annotated[
+        str, typer.Option(help="Flank friction: consistent, as_printed or off.")
+    ] = "consistent",
+    bearing_torque_loss: Annotated[
+        str, typer.Option(help="Drag torque of the bearings: palmgren or none.")
+    ] = "palmgren",
+    driver: Annotated[
+        str, typer.Option(help="vehicle: coupled driveline; hold: road load and speed hold.")
+    ] = "vehicle",
+    jobs: JobsOption = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(help="Address of a running Dask scheduler instead of local processes."),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_sweep"),
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Few speeds and short records, for a first look.")
+    ] = False,
+    fmu: Annotated[
+        Path | None, typer.Option(help="Axle FMU to run. Default: that of this installation.")
+    ] = None,
+    mesh_table: Annotated[
+        Path | None,
+        typer.Option(help="Mesh table (.nc) of another gear pair, built into the axle FMU."),
+    ] = None,
+) -> None:
+    """Sweep vehicle speed and bearing preload; write sweep.nc, summary.csv and report.html.
+
+    Finished points are kept in OUT/points: run the same command again to go on after a stop.
+    """
+    from gearlube.cli.console import console
+    from gearlube.cli.progress_report import progress_on
+    from gearlube.cli.ranges import numbers_from
+    from gearlube.studies.sweep import run
+    from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
+    from gearlube.studies.sweep.report import write_sweep_report
+    from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
+    from gearlube_core.checks import check_within
+    from gearlube_core.errors import ParameterError
+    from gearlube_core.units import celsius_to_kelvin
+
+    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        if fmu is not None and mesh_table is not None:
+            raise ParameterError(
+                "--mesh-table must not be given with --fmu, which has its own table, got both. "
+                "Build the FMU with `gearlube build-fmu --mesh-table`, or leave out --fmu."
+            )
+        settings = SweepSettings(
+            oil_temperature=celsius_to_kelvin(oil_temperature),
+            oil=oil,
+            roughness_rms=roughness_um * 1e-6,
+            equations=equations,
+            friction=friction,
+            bearing_torque_loss=bearing_torque_loss,
+            driver=driver,
+        )
+        ranges = speeds or (_QUICK_SPEEDS if quick else _DEFAULT_SPEEDS)
+        speeds_kmh = numbers_from(
+            "--speeds", ranges, "km/h", 1.0, 300.0, example="20:100:5", most=500
+        )
+        logger.info("Preparing the axle; the first time this compiles it, about 20 s.")
+        with progress_on(console, "sweep") as progress:
+            dataset = run.run_sweep(
+                quick_sweep_settings(settings) if quick else settings,
+                speeds_kmh=speeds_kmh,
+                preloads=preload or _DEFAULT_PRELOADS,
+                fmu=fmu,
+                mesh_table=mesh_table,
+                out=out,
+                jobs=jobs,
+                scheduler=scheduler,
+                progress=progress,
+                command_line=shlex.join(["gearlube", *sys.argv[1:]]),
+            )
+            progress(1.0, "report")
+            report = write_sweep_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
+        computed = dataset.attrs["computed_points"]
+        logger.info("%d points computed in %.1f s.", computed, dataset.attrs["wall_time"])
+        logger.info("Results: %s, %s, %s", report, out / "sweep.nc", out / "summary.csv")
+        failures = int((dataset["status"] == 0).sum())
+        exit_if_failed(f"{failures} points failed; the report says why." if failures else "")

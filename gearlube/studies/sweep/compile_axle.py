@@ -1,0 +1,30 @@
+"""Compile the axle before many processes need it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gearlube.studies.sweep.channels import CHANNELS
+from gearlube.studies.sweep.fmu_axle import FmuAxle
+from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
+from gearlube.studies.sweep.partner import operation
+from gearlube.studies.sweep.settings import SweepSettings
+from gearlube.studies.sweep.unpack import unpacked
+
+_SPEED_KMH = 50.0
+
+
+def compile_axle(fmu: Path, settings: SweepSettings) -> None:
+    """Initialise the FMU and take two steps.
+
+    The machine code stays in numba's cache on disk, from where the workers load it.
+    """
+    with unpacked(fmu) as directory, FmuAxle(directory, CHANNELS) as axle:
+        where = operation(settings, _SPEED_KMH, final_drive_of(mesh_table_of(directory)))
+        axle.set_parameters(settings.fmu_parameters)
+        axle.set_parameters({"pinion.speed_start": where.pinion_speed})
+        torques = where.driver.initial_torques()
+        axle.initialise(*torques, settings.oil_temperature)
+        for _ in range(2):
+            axle.step(settings.communication_step, *torques)
+            axle.read()

@@ -1,0 +1,251 @@
+"""A grid of speeds and preloads: compute what is missing, keep every finished point."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import BrokenExecutor
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.studies.sweep.compile_axle import compile_axle
+from gearlube.studies.sweep.datasets import merge, save
+from gearlube.studies.sweep.gear_pair import mesh_table_of
+from gearlube.studies.sweep.natural_frequencies import natural_frequencies
+from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
+from gearlube.studies.sweep.provenance import code_version
+from gearlube.studies.sweep.quantities import described
+from gearlube.studies.sweep.settings import SweepSettings
+from gearlube.studies.sweep.unpack import fmu_guid, unpacked
+from gearlube_core.checks import check_within
+from gearlube_core.errors import InterruptedRunError, ParameterError
+from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.process_pool import Pool, ProcessPool
+from gearlube_core.storage.result_store import DATASETS, ResultStore
+from gearlube_core.storage.resumable import resumable_results
+
+logger = logging.getLogger(__name__)
+
+_MOST_JOBS = 1024
+_PRELOAD_CURE = "A preload cannot pull; the paper has 2500 and 6000 N."
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepModel:
+    """The functions that compute a sweep.
+
+    Parameters
+    ----------
+    point : callable
+        Computes one point; the workers must be able to import it.
+    compile_first : callable, optional
+        Compiles the axle before local processes start, so that they do not all do it.
+    natural_frequencies : callable, optional
+        Gives the natural frequencies that the figures mark, at the middle speed.
+    """
+
+    point: PointFunction = run_point
+    compile_first: Callable[[Path, SweepSettings], None] | None = compile_axle
+    natural_frequencies: (
+        Callable[[Sequence[float], float, SweepSettings, MeshTable], xr.DataArray] | None
+    ) = natural_frequencies
+
+
+AXLE_MODEL = SweepModel()
+
+
+def run_sweep(
+    settings: SweepSettings | None = None,
+    *,
+    speeds_kmh: Sequence[float],
+    preloads: Sequence[float],
+    fmu: Path | str | None = None,
+    mesh_table: Path | None = None,
+    out: Path | str | None = None,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress = no_progress,
+    command_line: str = "",
+    model: SweepModel = AXLE_MODEL,
+) -> xr.Dataset:
+    """Run the axle FMU over a grid of vehicle speeds and bearing preloads.
+
+    Parameters
+    ----------
+    settings : SweepSettings
+        Shared by all points.
+    speeds_kmh, preloads : sequence of float
+        Grid [km/h], [N].
+    fmu : path
+        The axle FMU, as a file or as an unzipped folder. None: that of this installation, built
+        if need be.
+    mesh_table : path
+        Mesh table (.nc) of another gear pair, built into the FMU of this installation.
+    out : path
+        Folder of results: points/ holds every finished point; sweep.nc and summary.csv all.
+        Points that are already there are not computed again; failed ones are. None: no files.
+    jobs : int
+        Local processes [-]; all processors if None. Without effect on a cluster.
+    scheduler : str
+        Address of a running Dask scheduler, "tcp://host:port".
+    progress : callable
+        Called after every point with the share done [-] and a sentence on the point.
+    command_line : str
+        Noted in the dataset.
+    model : SweepModel
+        Replaces the simulation, e.g. in tests.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (preload, speed); also written to out/sweep.nc.
+
+    Raises
+    ------
+    ParameterError
+        The grid is empty, a value is out of range, or both `fmu` and `mesh_table` are given.
+    InterruptedRunError
+        After Ctrl-C, when the finished points have been saved.
+    """
+    settings = settings or SweepSettings()
+    speeds = sorted({check_within("speed", v, 1.0, 400.0, "km/h") for v in speeds_kmh})
+    loads = sorted({check_within("preload", p, 1.0, 1e5, "N", _PRELOAD_CURE) for p in preloads})
+    if not speeds or not loads:
+        raise ParameterError("A sweep needs at least one speed and one preload, got none.")
+    if jobs is not None:
+        check_within("jobs", jobs, 1, _MOST_JOBS, "", "Leave it out to use all processors.")
+    archive = _fmu(fmu, mesh_table)
+    folder = None if out is None else Path(out)
+    with unpacked(archive) as directory:
+        guid, mesh = fmu_guid(directory), mesh_table_of(directory)
+        keys = {
+            (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=code_version())
+            for p in loads
+            for v in speeds
+        }
+        compute, pool = _workers(archive, directory, settings, model, jobs, scheduler)
+        began = time.monotonic()
+        points, computed = _points(keys, compute, pool, folder, progress)
+    sweep = merge(loads, speeds, points).assign_attrs(
+        {
+            "title": "Speed sweep of a lubricated hypoid axle",
+            "gearlube_version": code_version(),
+            "fmu_guid": guid,
+            "mesh_table": mesh.name,
+            "mesh_table_source": mesh.source,
+            "command_line": command_line,
+            "scheduler": scheduler or "local processes",
+            "computed_points": computed,
+            "wall_time": time.monotonic() - began,
+            **{f"setting_{name}": value for name, value in settings.as_dict().items()},
+        }
+    )
+    if model.natural_frequencies is not None:
+        middle = speeds[len(speeds) // 2]
+        sweep["mode_frequency"] = model.natural_frequencies(loads, middle, settings, mesh)
+    described(sweep)
+    if folder is not None:
+        save(sweep, folder)
+    return sweep
+
+
+def _fmu(fmu: Path | str | None, mesh_table: Path | None) -> Path:
+    if fmu is None:
+        from fmu_src.fmu_cache import cached_hypoid_axle
+
+        return cached_hypoid_axle(mesh_table)
+    if mesh_table is not None:
+        raise ParameterError(
+            "mesh_table must not be given with fmu, which has its own table, got both. "
+            "Build the FMU with that table, or leave out fmu."
+        )
+    return Path(fmu)
+
+
+def _workers(
+    fmu: Path,
+    directory: Path,
+    settings: SweepSettings,
+    model: SweepModel,
+    jobs: int | None,
+    scheduler: str | None,
+) -> tuple[Callable[[Place], xr.Dataset], Pool]:
+    """Return the function that computes a point, and the workers that run it."""
+    if scheduler is not None:
+        from gearlube.studies.sweep.cluster import DaskPool, FmuOnWorker, run_on_worker
+
+        plugin = FmuOnWorker.of_file(fmu)
+        return partial(run_on_worker, plugin.name, model.point, settings), DaskPool(
+            scheduler, plugin
+        )
+    first = model.compile_first
+    before = None if first is None else partial(first, directory, settings)
+    pool = ProcessPool(jobs=jobs, prepare=_mute_fmu, always_spawn=True, before=before)
+    return partial(_run_here, model.point, directory, settings), pool
+
+
+def _run_here(
+    point: PointFunction, directory: Path, settings: SweepSettings, place: Place
+) -> xr.Dataset:
+    return point(directory, *place, settings)
+
+
+def _mute_fmu() -> None:
+    """Leave out what the FMU logs in a worker: it comes back with the failed points."""
+    logging.getLogger("fmu_src").addHandler(logging.NullHandler())
+
+
+def _points(
+    keys: dict[Place, str],
+    compute: Callable[[Place], xr.Dataset],
+    pool: Pool,
+    folder: Path | None,
+    progress: Progress,
+) -> tuple[dict[Place, xr.Dataset], int]:
+    """Return all points, failed ones too, and how many of them were computed now."""
+    store = ResultStore(None if folder is None else folder / "points", DATASETS)
+    points: dict[Place, xr.Dataset] = {}
+    computed = 0
+    try:
+        for place, dataset, stored in resumable_results(
+            list(keys),
+            keys.__getitem__,
+            compute,
+            store,
+            pool,
+            failed=_failure,
+            worth_keeping=_is_finished,
+        ):
+            points[place] = dataset
+            computed += not stored
+            if not _is_finished(dataset):
+                logger.warning("%g km/h, %g N failed: %s", *place, str(dataset["message"].values))
+            point = f"{place[0]:g} km/h, {place[1]:g} N"
+            progress(len(points) / len(keys), f"{point} (stored)" if stored else point)
+    except KeyboardInterrupt:
+        count = sum(map(_is_finished, points.values()))
+        where = (
+            "lost, as no folder is given"
+            if store.folder is None
+            else f"kept in {store.folder}. Run the same command again to compute the rest"
+        )
+        raise InterruptedRunError(
+            f"Stopped: {count} of {len(keys)} points are finished and {where}."
+        ) from None
+    return points, computed
+
+
+def _is_finished(dataset: xr.Dataset) -> bool:
+    return int(dataset["status"]) == FINISHED
+
+
+def _failure(place: Place, error: Exception) -> xr.Dataset:
+    """Return the row of a point that ended with an error: whatever goes wrong becomes a row."""
+    if isinstance(error, BrokenExecutor):
+        return failed_point(*place, f"The process of this point died several times: {error}")
+    return failed_point(*place, f"{type(error).__name__}: {error}")

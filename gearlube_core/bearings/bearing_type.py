@@ -1,0 +1,107 @@
+"""What a model of a shaft needs of a type of bearing.
+
+A bearing type is a NamedTuple of floats with the methods of `ShaftBearings`. It describes the two
+opposed bearings of one shaft. A new type is one new file; see `kernels.tuple_methods`.
+
+Coordinates are those of `cage_frame`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol, Self
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.kernels.tuple_methods import compile_methods
+from gearlube_core.oil.lubricant_state import LubricantState
+
+N_EXPANSION = 25  # largest number of floats in the expansion of the forces on one shaft
+
+
+class ShaftMotion(NamedTuple):
+    """Position and speed of a shaft in its bearings."""
+
+    r1: float  # radial displacements [m]
+    r2: float
+    axial: float  # axial displacement [m]
+    v1: float  # their rates [m/s]
+    v2: float
+    v_axial: float
+    cage_angle: float  # angle of roller 0 [rad]
+    speed: float  # of the shaft [rad/s]
+
+
+class ShaftBearings(Protocol):
+    """Two opposed bearings of one shaft; a NamedTuple of floats with these methods.
+
+    The methods are compiled: they take and return floats, NamedTuples and float64 arrays, do not
+    allocate and do not raise. `f_ref` is the reference frequency of the hysteresis [Hz].
+    """
+
+    @property
+    def cage_ratio(self) -> float:
+        """Cage speed over shaft speed [-]; 0 for a bearing without a cage."""
+
+    def expand_forces(
+        self,
+        motion: ShaftMotion,
+        f_ref: float,
+        oil: LubricantState,
+        expansion: NDArray[float64],
+    ) -> None:
+        """Write what `expanded_forces` needs near this motion into `expansion`, (N_EXPANSION,)."""
+
+    def expanded_forces(
+        self, motion: ShaftMotion, expansion: NDArray[float64]
+    ) -> tuple[float, float, float, float]:
+        """Return F_r1, F_r2, F_a of both bearings on the shaft [N] and the lost power [W]."""
+
+    def shaft_forces(
+        self, motion: ShaftMotion, f_ref: float, oil: LubricantState
+    ) -> tuple[float, float, float, float, float, float, float]:
+        """Return F_r1, F_r2, F_a of the first and of the second bearing [N], lost power [W]."""
+
+    def shaft_energy(self, motion: ShaftMotion, oil: LubricantState) -> float:
+        """Return the elastic energy of both bearings [J]."""
+
+    def roller_load_range(
+        self,
+        motion: ShaftMotion,
+        f_ref: float,
+        oil: LubricantState,
+        side: float,
+        rollers: NDArray[float64],
+    ) -> tuple[float, float, float]:
+        """Return the load of roller 0 and the largest and smallest load of one bearing [N].
+
+        `side` is +1 for the first bearing and -1 for the second; `rollers` is work space of shape
+        (ROLLERS_MAX,). All 0 for a bearing without rollers.
+        """
+
+    def shaft_drag(self, speed: float, axial_load: float, oil: LubricantState) -> float:
+        """Return the drag torque of one bearing with the sign of the speed [N m]."""
+
+    def without_loss(self) -> Self:
+        """Return these bearings without hysteresis; called from Python only."""
+
+
+class Bearing(Protocol):
+    """A bearing in engineering words, one type for both shafts of an axle."""
+
+    def parameters(self) -> ShaftBearings:
+        """Return the floats for the kernels."""
+
+    def preload_force(self) -> float:
+        """Return the axial force of either bearing at rest [N]."""
+
+
+compile_methods(
+    ShaftBearings,
+    "expand_forces",
+    "expanded_forces",
+    "shaft_forces",
+    "shaft_energy",
+    "roller_load_range",
+    "shaft_drag",
+)

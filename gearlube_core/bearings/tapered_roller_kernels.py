@@ -1,0 +1,130 @@
+"""Two opposed tapered roller bearings as a bearing type for models of shafts."""
+
+from __future__ import annotations
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.palmgren_1959 import drag_torque
+from gearlube_core.bearings.parameters import BearingParameters
+from gearlube_core.bearings.roller_loads import roller_loads
+from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
+from gearlube_core.bearings.shaft_expansion import expand_shaft_bearings, expanded_shaft_forces
+from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
+from gearlube_core.oil.lubricant_state import LubricantState
+
+
+class TaperedRollerParameters(BearingParameters):
+    """Two opposed tapered roller bearings of one shaft; see `bearing_type.ShaftBearings`."""
+
+    __slots__ = ()
+
+    def expand_forces(
+        self, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: NDArray[float64]
+    ) -> None:
+        """Write the expansion of the forces about this motion."""
+        expand_shaft_bearings(
+            motion.r1,
+            motion.r2,
+            motion.axial,
+            motion.v1,
+            motion.v2,
+            motion.v_axial,
+            motion.cage_angle,
+            motion.speed,
+            f_ref,
+            oil.eta0,
+            oil.alpha,
+            self,
+            expansion,
+        )
+
+    def expanded_forces(
+        self, motion: ShaftMotion, expansion: NDArray[float64]
+    ) -> tuple[float, float, float, float]:
+        """Return the forces on the shaft [N] and the lost power [W] near the expansion."""
+        return expanded_shaft_forces(
+            motion.r1,
+            motion.r2,
+            motion.axial,
+            motion.v1,
+            motion.v2,
+            motion.v_axial,
+            motion.cage_angle,
+            motion.speed,
+            self,
+            expansion,
+        )
+
+    def shaft_forces(
+        self, motion: ShaftMotion, f_ref: float, oil: LubricantState
+    ) -> tuple[float, float, float, float, float, float, float]:
+        """Return the forces of either bearing [N] and the lost power of both [W]."""
+        return shaft_bearing_forces(
+            motion.r1,
+            motion.r2,
+            motion.axial,
+            motion.v1,
+            motion.v2,
+            motion.v_axial,
+            motion.cage_angle,
+            motion.speed,
+            f_ref,
+            oil.eta0,
+            oil.alpha,
+            self,
+        )
+
+    def shaft_energy(self, motion: ShaftMotion, oil: LubricantState) -> float:
+        """Return the elastic energy of both bearings [J]."""
+        return shaft_bearing_energy(
+            motion.r1,
+            motion.r2,
+            motion.axial,
+            motion.cage_angle,
+            motion.speed,
+            oil.eta0,
+            oil.alpha,
+            self,
+        )
+
+    def roller_load_range(
+        self,
+        motion: ShaftMotion,
+        f_ref: float,
+        oil: LubricantState,
+        side: float,
+        rollers: NDArray[float64],
+    ) -> tuple[float, float, float]:
+        """Return the load of roller 0, the largest and the smallest load of one bearing [N]."""
+        roller_loads(
+            motion.r1,
+            motion.r2,
+            motion.axial,
+            motion.v1,
+            motion.v2,
+            motion.v_axial,
+            motion.cage_angle,
+            motion.speed,
+            f_ref,
+            oil.eta0,
+            oil.alpha,
+            self,
+            side,
+            rollers,
+        )
+        largest = rollers[0]
+        smallest = rollers[0]
+        for i in range(1, int(self.n_rollers)):
+            largest = max(largest, rollers[i])
+            smallest = min(smallest, rollers[i])
+        return rollers[0], largest, smallest
+
+    def shaft_drag(self, speed: float, axial_load: float, oil: LubricantState) -> float:
+        """Return the drag torque of one bearing [N m]."""
+        return drag_torque(speed, axial_load, oil.nu, self)
+
+    def without_loss(self) -> TaperedRollerParameters:
+        """Return the bearings without hysteresis."""
+        return self._replace(loss=0.0)

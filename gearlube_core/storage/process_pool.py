@@ -1,0 +1,90 @@
+"""Pools of workers: processes of this machine, or anything else that gives an Executor."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from multiprocessing import get_context
+from typing import Any, Protocol
+
+from threadpoolctl import threadpool_limits
+
+
+class Pool(Protocol):
+    """Workers that can be opened more than once."""
+
+    def open(self, tasks: int) -> AbstractContextManager[Executor | None]:
+        """Give an executor for `tasks` tasks; None: run them one by one in this process."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProcessPool:
+    """Processes of this machine; the linear algebra of each runs on one thread.
+
+    Parameters
+    ----------
+    jobs : int, optional
+        Processes, never more than tasks. Default: all processors that this process may use.
+    prepare : callable, optional
+        Called with `arguments` once in each process before its first task.
+    arguments : tuple
+    always_spawn : bool
+        Start a process even for one job. By default a single job runs in this process.
+    before : callable, optional
+        Called once in this process before the others start.
+    """
+
+    jobs: int | None = None
+    prepare: Callable[..., None] | None = None
+    arguments: tuple[Any, ...] = ()
+    always_spawn: bool = False
+    before: Callable[[], None] | None = None
+
+    @contextmanager
+    def open(self, tasks: int) -> Iterator[Executor | None]:
+        """Give an executor for `tasks` tasks, or None to run them in this process."""
+        if self.before is not None:
+            self.before()
+        count = min(self.jobs or processors(), tasks)
+        if count <= 1 and not self.always_spawn:
+            if self.prepare is not None:
+                self.prepare(*self.arguments)
+            yield None
+            return
+        executor = ProcessPoolExecutor(
+            max(count, 1),
+            mp_context=get_context("spawn"),
+            initializer=_start_worker,
+            initargs=(self.prepare, self.arguments),
+        )
+        try:
+            yield executor
+        finally:
+            executor.shutdown(wait=True, cancel_futures=True)
+
+
+def processors() -> int:
+    """Return the number of processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def single_threaded() -> threadpool_limits:
+    """Limit the linear algebra of this process to one thread; use as a context or for good.
+
+    Small matrix products lose more time to threads that wait for each other than they gain.
+    """
+    return threadpool_limits(1)
+
+
+def _start_worker(prepare: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the parent, which stops us
+    single_threaded()
+    if prepare is not None:
+        prepare(*arguments)

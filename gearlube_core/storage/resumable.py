@@ -1,0 +1,149 @@
+"""Many independent tasks, in parallel, with results that are kept and not computed twice."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from typing import Generic, NamedTuple, TypeVar
+
+from gearlube_core.storage.interrupts import deferred_interrupts
+from gearlube_core.storage.process_pool import Pool, single_threaded
+from gearlube_core.storage.result_store import ResultStore
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+logger = logging.getLogger(__name__)
+
+_POLL = 0.25  # s, time after which Ctrl-C is noticed
+_ATTEMPTS = 3  # pools, should processes die
+
+
+class Finished(NamedTuple, Generic[Task, Result]):
+    """A task with its result."""
+
+    task: Task
+    result: Result
+    stored: bool  # read from the store, not computed now
+
+
+def resumable_results(
+    tasks: Sequence[Task],
+    key: Callable[[Task], str],
+    compute: Callable[[Task], Result],
+    store: ResultStore[Result],
+    pool: Pool,
+    *,
+    failed: Callable[[Task, Exception], Result] | None = None,
+    worth_keeping: Callable[[Result], bool] = lambda result: True,
+) -> Iterator[Finished[Task, Result]]:
+    """Yield every task with its result: stored ones first, the others as they are finished.
+
+    Parameters
+    ----------
+    tasks
+        Inputs that can be hashed and, for a pool of processes, pickled.
+    key
+        Key of a task's result in the store: a hash of everything that decides it.
+    compute
+        Called in the workers, so it must be possible to pickle it.
+    store
+        Where finished results are found and kept.
+    pool
+        Where the tasks run.
+    failed
+        Result of a task that raised an error or whose process died several times. Without it such
+        an error ends the run.
+    worth_keeping
+        Whether the store keeps a result.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        After Ctrl-C, when the tasks under way are finished and kept. A second Ctrl-C does not
+        wait for them.
+    BrokenExecutor
+        A process died several times and `failed` is not given.
+    """
+    due = []
+    for task in tasks:
+        result = store.read(key(task))
+        if result is None:
+            due.append(task)
+        else:
+            yield Finished(task, result, True)
+    for task, result in _computed(due, compute, pool, failed):
+        if worth_keeping(result):
+            store.keep(key(task), result)
+        yield Finished(task, result, False)
+
+
+def _computed(
+    tasks: list[Task],
+    compute: Callable[[Task], Result],
+    pool: Pool,
+    failed: Callable[[Task, Exception], Result] | None,
+) -> Iterator[tuple[Task, Result]]:
+    """Compute all tasks; those whose process died are tried again in a new pool."""
+    due, attempt = dict.fromkeys(tasks), 0
+    while due:
+        attempt += 1
+        try:
+            with pool.open(len(due)) as executor:
+                for task, result in _in_pool(executor, list(due), compute, failed):
+                    del due[task]
+                    yield task, result
+        except BrokenExecutor as error:
+            if attempt < _ATTEMPTS:
+                logger.warning("A worker process died; trying its tasks again: %s", error)
+                continue
+            if failed is None:
+                raise
+            for task in due:
+                yield task, failed(task, error)
+            return
+
+
+def _in_pool(
+    executor: Executor | None,
+    tasks: list[Task],
+    compute: Callable[[Task], Result],
+    failed: Callable[[Task, Exception], Result] | None,
+) -> Iterator[tuple[Task, Result]]:
+    if executor is None:
+        for task in tasks:
+            with single_threaded():
+                result = _result(task, lambda task=task: compute(task), failed)  # type: ignore[misc]
+            yield task, result
+        return
+    with deferred_interrupts() as interrupt:
+        waiting: dict[Future[Result], Task] = {executor.submit(compute, t): t for t in tasks}
+        stopping = False
+        while waiting:
+            if interrupt.requested and not stopping:
+                stopping = True
+                logger.info("Stopping; tasks under way will be kept (Ctrl-C again drops them).")
+                waiting = {f: task for f, task in waiting.items() if not f.cancel()}
+            done, _ = wait(waiting, timeout=_POLL, return_when=FIRST_COMPLETED)
+            for future in done:
+                task = waiting.pop(future)
+                yield task, _result(task, future.result, failed)
+        if stopping:
+            raise KeyboardInterrupt
+
+
+def _result(
+    task: Task,
+    get: Callable[[], Result],
+    failed: Callable[[Task, Exception], Result] | None,
+) -> Result:
+    try:
+        return get()
+    except BrokenExecutor:
+        raise
+    except Exception as error:
+        if failed is None:
+            raise
+        logger.debug("%s failed", task, exc_info=error)
+        return failed(task, error)

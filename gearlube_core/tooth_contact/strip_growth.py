@@ -1,0 +1,76 @@
+"""Loaded contact on strips that are enlarged until they hold it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeVar
+
+from gearlube_core.errors import ConvergenceError
+from gearlube_core.tooth_contact.coupled_strips import CoupledSolution
+
+Strips = TypeVar("Strips")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StripGrowth:
+    """How strips are enlarged that contact leaves.
+
+    Parameters
+    ----------
+    factor : float
+        On the width of strips whose long sides carry load [-].
+    margin : float
+        Closing that is taken next, over the closing that was needed [-].
+    attempts : int
+    """
+
+    factor: float
+    margin: float
+    attempts: int
+
+
+def solve_on_growing_strips(
+    solve: Callable[[float, float], tuple[Strips, CoupledSolution]],
+    needed: Callable[[CoupledSolution], float],
+    *,
+    closing: float,
+    width: float,
+    growth: StripGrowth,
+    where: str,
+    cure: str = "",
+) -> tuple[Strips, CoupledSolution]:
+    """Return the strips that hold the contact, and its equilibrium on them.
+
+    Parameters
+    ----------
+    solve
+        Cuts strips for a closing and a width and solves the contact on them.
+    needed
+        The closing of a solution, in the unit of `closing`.
+    closing, width
+        First guesses: closing beyond first touch, width across the contact lines. Any unit.
+    growth
+        How both are enlarged.
+    where, cure
+        Words for the error.
+
+    Raises
+    ------
+    ConvergenceError
+        When contact keeps running out of the strips.
+    """
+    for _ in range(growth.attempts):
+        strips, solved = solve(closing, width)
+        reached = needed(solved)
+        sideways = any(bool((forces[[0, -1]] > 0.0).any()) for forces in solved.forces)
+        if reached <= closing and not sideways:
+            return strips, solved
+        if reached > closing:
+            closing = max(growth.margin * reached, growth.factor**0.5 * closing)
+        if sideways:
+            width *= growth.factor
+    raise ConvergenceError(
+        f"Contact at {where} still leaves its strips after {growth.attempts} enlargements. "
+        f"Reduce the torque{cure}."
+    )

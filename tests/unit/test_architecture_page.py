@@ -1,0 +1,16 @@
+"""docs/architecture.md says what the import contracts say."""
+
+from docs.architecture import make
+
+
+def test_page_and_picture_are_up_to_date():
+    """If not: python -m docs.architecture.make."""
+    assert make.page() == make.PAGE.read_text(encoding="utf-8")
+    assert make.picture() == make.PICTURE.read_text(encoding="utf-8")
+
+
+def test_every_room_says_what_it_holds():
+    for name in ("Inside gearlube", "Inside the core"):
+        floors, package = make.layers(name)
+        for room in (room for floor in floors for room in floor):
+            assert len(make.summary(f"{package}.{room}")) > 10, room

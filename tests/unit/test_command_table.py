@@ -1,0 +1,75 @@
+"""The table of commands: a study is a folder and a line, and is imported when it is used."""
+
+import subprocess
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+from gearlube.cli.lazy_commands import LazyCommand
+from gearlube.command import COMMANDS, command_line
+
+STUDY = '''
+import typer
+
+from gearlube.cli.exit_codes import exit_on_error
+
+
+def spring(stiffness: float = 2.0, force: float = 4.0) -> None:
+    """Stretch a spring."""
+    from gearlube_core.checks import check_positive
+
+    with exit_on_error():
+        check_positive("--stiffness", stiffness, "N/m")
+        typer.echo(f"{force / stiffness:g} m")
+'''
+HEAVY = ("numpy", "scipy", "numba", "xarray", "dask", "pandas", "matplotlib", "fmpy", "casadi")
+
+
+@pytest.fixture
+def app(tmp_path, monkeypatch):
+    """The command `gearlube` with a study that stands outside the package."""
+    folder = tmp_path / "spring_study"
+    folder.mkdir()
+    (folder / "__init__.py").touch()
+    (folder / "command.py").write_text(STUDY)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    for module in ("spring_study", "spring_study.command"):
+        sys.modules.pop(module, None)
+    line = LazyCommand(name="spring", target="spring_study.command:spring", summary="Hooke's law.")
+    return command_line([*COMMANDS, line])
+
+
+def test_a_study_needs_one_folder_and_one_line(app):
+    result = CliRunner().invoke(app, ["spring", "--force", "5"])
+    assert result.exit_code == 0
+    assert result.output.strip() == "2.5 m"
+
+
+def test_its_errors_have_the_exit_code_of_a_bad_argument(app, caplog):
+    assert CliRunner().invoke(app, ["spring", "--stiffness", "-1"]).exit_code == 2
+    assert "--stiffness" in caplog.text
+
+
+def test_the_list_of_commands_shows_the_summary_and_imports_no_study(app):
+    result = CliRunner().invoke(app, ["--help"])
+    assert result.exit_code == 0
+    assert "Hooke's law." in result.output
+    assert "spring_study" not in sys.modules
+
+
+@pytest.mark.parametrize("command", [entry.name for entry in COMMANDS])
+def test_every_line_of_the_table_leads_to_a_command(command):
+    result = CliRunner().invoke(command_line(COMMANDS), [command, "--help"])
+    assert result.exit_code == 0, result.output
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["sweep", "--help"], ["build-fmu", "--help"]])
+def test_help_imports_nothing_heavy(arguments):
+    code = (
+        "import sys; from gearlube.command import app\n"
+        f"try: app({arguments!r})\nexcept SystemExit: pass\n"
+        f"print('loaded:', *(m for m in {HEAVY!r} if m in sys.modules))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1].strip() == "loaded:"

@@ -1,0 +1,130 @@
+"""Results kept in a folder: found by their key, and never taken for another's."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gearlube_core.errors import ConvergenceError
+from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays
+from gearlube_core.storage.process_pool import ProcessPool
+from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
+from gearlube_core.storage.resumable import resumable_results
+
+ONE, OTHER = {"force": np.array([1.0, 2.0])}, {"force": np.array([3.0])}
+HERE = ProcessPool(jobs=1)
+
+
+def dataset(value):
+    return xr.Dataset({"force": ("speed", [value]), "message": "text of any length"})
+
+
+def test_arrays_come_back_bit_for_bit_and_without_the_key(tmp_path):
+    store = ResultStore(tmp_path / "made", ARRAYS)
+    assert store.read("a") is None
+    store.keep("a", ONE)
+    found = store.read("a")
+    assert found.keys() == ONE.keys()
+    np.testing.assert_array_equal(found["force"], ONE["force"])
+
+
+def test_datasets_come_back_bit_for_bit(tmp_path):
+    store = ResultStore(tmp_path, DATASETS)
+    store.keep("a", dataset(0.1))
+    xr.testing.assert_equal(store.read("a"), dataset(0.1))
+
+
+@pytest.mark.parametrize(
+    ("file_format", "result"), [(ARRAYS, ONE), (DATASETS, dataset(1.0))], ids=["arrays", "datasets"]
+)
+@pytest.mark.parametrize("damage", [b"", b"of another kind", None], ids=["empty", "foreign", "cut"])
+def test_a_damaged_file_counts_as_missing(tmp_path, file_format, result, damage):
+    store = ResultStore(tmp_path, file_format)
+    store.keep("a", result)
+    (path,) = tmp_path.iterdir()
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2] if damage is None else damage)
+    assert store.read("a") is None
+    store.keep("a", result)
+    assert store.read("a") is not None
+
+
+@pytest.mark.parametrize(
+    ("file_format", "result"), [(ARRAYS, ONE), (DATASETS, dataset(1.0))], ids=["arrays", "datasets"]
+)
+def test_a_file_renamed_to_another_key_counts_as_missing(tmp_path, file_format, result):
+    store = ResultStore(tmp_path, file_format)
+    store.keep("a", result)
+    (path,) = tmp_path.iterdir()
+    path.rename(path.with_stem("b"))
+    assert store.read("b") is None
+
+
+def test_arrays_of_an_older_version_are_found_by_their_name_alone(tmp_path):
+    np.savez(tmp_path / "a.npz", **ONE)
+    found = ResultStore(tmp_path, ARRAYS).read("a")
+    np.testing.assert_array_equal(found["force"], ONE["force"])
+
+
+def test_a_dataset_without_a_key_counts_as_missing(tmp_path):
+    dataset(1.0).to_netcdf(tmp_path / "a.nc", engine="netcdf4")
+    assert ResultStore(tmp_path, DATASETS).read("a") is None
+
+
+def write_half(path):
+    path.write_bytes(b"half")
+    raise OSError("the disk is full")
+
+
+def test_a_write_that_fails_leaves_the_older_file_and_nothing_else(tmp_path):
+    path = tmp_path / "a.npz"
+    write_arrays(path, ONE)
+    with pytest.raises(OSError, match="full"), atomic_write(path) as partial:
+        write_half(partial)
+    np.testing.assert_array_equal(read_arrays(path)["force"], ONE["force"])
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def square(x):
+    if x < 0.0:
+        raise ConvergenceError(f"{x:g} has no root")
+    return {"square": np.array(x * x)}
+
+
+def test_stored_results_come_first_and_are_not_computed_again(tmp_path):
+    store = ResultStore(tmp_path, ARRAYS)
+    list(resumable_results([2.0], str, square, store, HERE))
+    seen = list(resumable_results([1.0, 2.0], str, square, store, HERE))
+    assert [(done.task, float(done.result["square"]), done.stored) for done in seen] == [
+        (2.0, 4.0, True),
+        (1.0, 1.0, False),
+    ]
+
+
+def test_an_error_ends_the_run_and_what_was_finished_is_kept(tmp_path):
+    store = ResultStore(tmp_path, ARRAYS)
+    with pytest.raises(ConvergenceError, match="-1 has no root"):
+        list(resumable_results([3.0, -1.0, 4.0], str, square, store, HERE))
+    assert [path.stem for path in tmp_path.iterdir()] == ["3.0"]
+
+
+def test_an_error_can_be_a_result_which_is_tried_again_in_the_next_run(tmp_path):
+    store = ResultStore(tmp_path, ARRAYS)
+    for _ in range(2):
+        seen = resumable_results(
+            [-1.0, 4.0],
+            str,
+            square,
+            store,
+            HERE,
+            failed=lambda task, error: {"message": np.array(str(error))},
+            worth_keeping=lambda result: "square" in result,
+        )
+        results = {done.task: done for done in seen}
+        assert str(results[-1.0].result["message"]) == "-1 has no root"
+        assert not results[-1.0].stored
+    assert results[4.0].stored
+
+
+def test_without_a_folder_nothing_is_kept():
+    store = ResultStore(None, ARRAYS)
+    store.keep("a", ONE)
+    assert store.read("a") is None
