@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from gearlube.studies.films.formulas import line_film_formulas
 from scipy.integrate import cumulative_trapezoid
 
+from gearlube.studies.films.film_formulas import line_film_formulas
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.ehl.line.problem import LineSettings
 from gearlube_core.ehl.line.thermal import ThermalSettings, solve_thermal_line

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solution import LineSolution
@@ -12,8 +11,10 @@ from gearlube_core.ehl.point.problem import EllipticParaboloid, elliptical_conta
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.problem import MovingFilm
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.oil.film_oil import FilmOil
 
 R, LOAD, MODULUS, SPEED, SLIP = 0.0125, 15.0, 55e9, 0.5, 0.2
