@@ -1,4 +1,4 @@
-"""HelicalPair.fmu: the helical pair of `gearlube_core`, told in FMI names."""
+"""HelicalPair.fmu: the helical pair of `gearlube_core`, under FMI names."""
 
 from __future__ import annotations
 

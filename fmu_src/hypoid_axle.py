@@ -1,4 +1,4 @@
-"""HypoidAxle.fmu: the axle model of `gearlube_core`, told in FMI names."""
+"""HypoidAxle.fmu: the axle model of `gearlube_core`, under FMI names."""
 
 from __future__ import annotations
 

@@ -16,11 +16,11 @@ from gearlube_core.errors import ParameterError
 
 IDENTITY_FILE = "gearlube_identity.txt"
 # Modules that run inside every FMU, beside `Definition.modules`; the rest of this package builds
-# FMUs or is the command line.
+# FMUs.
 RUNTIME = (
-    "definition", "host_thread", "identity", "model_description", "phase", "registration",
+    "compile_ahead", "definition", "host_thread", "identity", "model_description", "phase", "registration",
     "shared_variables", "slave_base", "state_bytes", "units", "values", "variable",
-    "variable_kinds", "warm_start", "wrapper",
+    "variable_kinds", "wrapper",
 )  # fmt: skip
 _TEXT = {".py", ".toml"}
 _DATA = {".nc"}

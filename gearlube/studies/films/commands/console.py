@@ -30,7 +30,7 @@ _SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm"), "1": (
 @contextmanager
 def errors_ended(out: Path) -> Iterator[None]:
     """Turn errors into messages and exit codes; `out` is where results go."""
-    with exit_codes.told(f"Stopped; {out} may be incomplete. Run the same command again."):
+    with exit_codes.exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
         yield
 
 
