@@ -15,11 +15,10 @@ from fmu_src.wrapper import forget_search_path
 from gearlube_core.errors import ParameterError
 
 IDENTITY_FILE = "gearlube_identity.txt"
-# Modules that run inside every FMU, beside `Definition.modules`; the rest of this package builds
-# FMUs.
+# Modules that run inside every FMU, beside `Definition.modules`; the others build FMUs.
 RUNTIME = (
-    "compile_ahead", "definition", "host_thread", "identity", "model_description", "phase", "registration",
-    "shared_variables", "slave_base", "state_bytes", "units", "values", "variable",
+    "compile_ahead", "definition", "host_thread", "identity", "model_description", "phase",
+    "registration", "shared_variables", "slave_base", "state_bytes", "units", "values", "variable",
     "variable_kinds", "wrapper",
 )  # fmt: skip
 _TEXT = {".py", ".toml"}
