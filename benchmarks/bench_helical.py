@@ -103,8 +103,7 @@ def time_sweep() -> None:
 def time_loaded_contact() -> None:
     """Log the wall time of a loaded mesh period in one process, teeth from the cache."""
     asked = settings(positions=12)
-    run = lambda: analyse_loaded_contact(asked, None, 1, 1, lambda _: None, lambda _: None)  # noqa: E731
-    wall = _time(run, 1)
+    wall = _time(partial(analyse_loaded_contact, asked, jobs=1), 1)
     states = asked.positions * len(TORQUES)
     _LOGGER.info(
         "loaded contact: %d states, %.2f s, %.0f ms a state", states, wall, 1e3 * wall / states

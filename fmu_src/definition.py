@@ -47,8 +47,8 @@ class Definition:
         The table; the place in it is the value reference.
     output_names : tuple of str
         Names of the model's outputs in the order of `Model.outputs`.
-    start_model : callable
-        (parameters by name, input values) -> initialised `Model`.
+    start : callable
+        (parameters by `Variable.argument`, input values) -> initialised `Model`.
     stop_time, step_size : float
         Default experiment [s].
     modules : tuple of str
@@ -61,7 +61,7 @@ class Definition:
     description: str
     variables: tuple[Variable, ...]
     output_names: tuple[str, ...]
-    start_model: Callable[[Mapping[str, Value], Sequence[float]], Model]
+    start: Callable[[Mapping[str, Value], Sequence[float]], Model]
     stop_time: float
     step_size: float
     modules: tuple[str, ...]
@@ -71,6 +71,15 @@ class Definition:
     def references(self) -> dict[str, int]:
         """Value reference of every name."""
         return {variable.name: i for i, variable in enumerate(self.variables)}
+
+    @property
+    def arguments(self) -> dict[str, str]:
+        """Name under which the model takes each parameter."""
+        return {v.name: v.argument for v in self.variables if v.argument}
+
+    def start_model(self, parameters: Mapping[str, Value], inputs: Sequence[float]) -> Model:
+        """Return the initialised model; parameters by FMI name, enumerations by literal."""
+        return self.start({self.arguments[name]: v for name, v in parameters.items()}, inputs)
 
     def references_of(self, causality: str) -> list[int]:
         """Return the value references of all variables with this causality."""

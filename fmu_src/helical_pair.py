@@ -1,4 +1,4 @@
-"""HelicalPair.fmu: the helical pair of `gearlube_core`, under FMI names."""
+"""HelicalPair.fmu: the helical pair of `gearlube_core` under FMI names."""
 
 from __future__ import annotations
 
@@ -22,25 +22,6 @@ from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes, named_
 
 GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU's resources
 
-ARGUMENTS = {
-    "friction.model": "friction",
-    "friction.coefficient": "friction_coefficient",
-    "oil.name": "oil",
-    "flank.roughness_rms": "roughness_rms",
-    "mesh.backlash": "backlash",
-    "mesh.stiffness_density": "stiffness_density",
-    "mesh.damping_ratio": "mesh_damping_ratio",
-    "support.damping_ratio": "support_damping_ratio",
-    "support.radial_stiffness": "radial_stiffness",
-    "support.axial_stiffness": "axial_stiffness",
-    "support.bearing_distance": "bearing_distance",
-    "model.form": "form",
-    "model.equations": "equations",
-    "solver.steps_per_mesh_period": "steps_per_mesh_period",
-    "solver.steps_per_highest_period": "steps_per_highest_period",
-    "friction.updates_per_mesh_period": "friction_updates_per_mesh_period",
-}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CarriedPair:
@@ -51,21 +32,22 @@ class CarriedPair:
 
 
 def start_pair(
-    parameters: Mapping[str, Value], inputs: Sequence[float], carried: CarriedPair | None = None
+    arguments: Mapping[str, Value], inputs: Sequence[float], carried: CarriedPair | None = None
 ) -> HelicalPairModel:
     """Return an initialised pair.
 
     Parameters
     ----------
-    parameters : mapping
-        Value of every FMI parameter, enumerations by literal.
+    arguments : mapping
+        `pinion_speed`, `gear_name`, `stiffness_model` and arguments of `helical_march`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
     carried : CarriedPair, optional
         What gear.name = custom stands for.
     """
-    arguments: dict[str, Any] = {ARGUMENTS[n]: v for n, v in parameters.items() if n in ARGUMENTS}
-    name = str(parameters["gear.name"])
+    given: dict[str, Any] = dict(arguments)
+    speed = float(given.pop("pinion_speed"))
+    name = str(given.pop("gear_name"))
     if name == CUSTOM and carried is None:
         raise ParameterError(
             "gear.name must be one of the pairs that ship with gearlube, got custom: this FMU "
@@ -73,17 +55,17 @@ def start_pair(
         )
     own = carried if name == CUSTOM else None
     gear = own.gear if own else HelicalGearFile.named(name)
-    if parameters["mesh.stiffness_model"] == LINE_MESH:
-        arguments["line_mesh"] = own.line_mesh if own else named_line_mesh(name)
-        if arguments["line_mesh"] is None:
+    if given.pop("stiffness_model") == LINE_MESH:
+        given["line_mesh"] = own.line_mesh if own else named_line_mesh(name)
+        if given["line_mesh"] is None:
             raise ParameterError(
                 "mesh.stiffness_model must be uniform, got line_mesh: this FMU carries no line "
                 "mesh. Build one with `gearlube build-fmu --gear FILE --line-mesh FILE`."
             )
-    pair = HelicalPairModel(helical_march(gear, **arguments))
+    pair = HelicalPairModel(helical_march(gear, **given))
     pinion_torque, wheel_torque, oil_temperature = inputs
     pair.initialise(
-        pinion_speed=float(parameters["pinion.speed_start"]),
+        pinion_speed=speed,
         pinion_torque=pinion_torque,
         wheel_torque=wheel_torque,
         oil_temperature=oil_temperature,
@@ -97,7 +79,7 @@ DEFINITION = Definition(
     "contact lines, film, sliding friction, losses, transmission error and bearing forces",
     variables=HELICAL_PAIR,
     output_names=OUTPUT_NAMES,
-    start_model=start_pair,
+    start=start_pair,
     stop_time=0.1,
     step_size=1e-3,
     modules=("helical_pair", "helical_pair_slave", "helical_variables"),
@@ -161,7 +143,7 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
         description=f"{DEFINITION.description}; gear file {gear.name} "
         f"({pair.pinion_teeth}/{pair.gear_teeth} teeth){of_mesh}",
         variables=tuple(replace(v, start=starts.get(v.name, v.start)) for v in HELICAL_PAIR),
-        start_model=partial(start_pair, carried=CarriedPair(gear=gear, line_mesh=line_mesh)),
+        start=partial(start_pair, carried=CarriedPair(gear=gear, line_mesh=line_mesh)),
         resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}),
     )
 

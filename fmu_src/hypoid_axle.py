@@ -1,10 +1,11 @@
-"""HypoidAxle.fmu: the axle model of `gearlube_core`, under FMI names."""
+"""HypoidAxle.fmu: the axle model of `gearlube_core` under FMI names."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -16,43 +17,31 @@ from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_content
 from gearlube_core.mesh_table.table import MeshTable
 
-ARGUMENTS = {
-    "bearing.preload": "bearing_preload",
-    "flank.roughness_rms": "roughness_rms",
-    "mesh.backlash": "backlash",
-    "mesh.modal_loss_factor": "modal_loss_factor",
-    "model.equations": "equations",
-    "model.radii": "radii",
-    "model.mesh_stiffness": "mesh_stiffness",
-    "mesh.damping": "mesh_damping",
-    "friction.model": "friction",
-    "bearing.approach": "bearing_approach",
-    "bearing.torque_loss": "bearing_torque_loss",
-    "oil.name": "oil",
-    "solver.steps_per_mesh_period": "steps_per_mesh_period",
-    "solver.steps_per_highest_period": "steps_per_highest_period",
-}
-
 
 def start_axle(
-    parameters: Mapping[str, Value], inputs: Sequence[float], mesh: MeshTable | None = None
+    arguments: Mapping[str, Value], inputs: Sequence[float], mesh: MeshTable | None = None
 ) -> hypoid_axle.HypoidAxle:
     """Return an initialised axle.
 
     Parameters
     ----------
-    parameters : mapping
-        Value of every FMI parameter, enumerations by literal.
+    arguments : mapping
+        `pinion_speed`, arguments of `mohammadpour_2015_axle`, fields of `HypoidAxleParameters`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
     mesh : MeshTable, optional
         By default the table that ships with gearlube.
     """
-    arguments: dict[str, Any] = {ARGUMENTS[n]: v for n, v in parameters.items() if n in ARGUMENTS}
-    axle = hypoid_axle.HypoidAxle(hypoid_axle.mohammadpour_2015_axle(mesh=mesh, **arguments))
+    given: dict[str, Any] = dict(arguments)
+    speed = float(given.pop("pinion_speed"))
+    named = signature(hypoid_axle.mohammadpour_2015_axle).parameters
+    parameters = hypoid_axle.mohammadpour_2015_axle(
+        mesh=mesh, **{name: given.pop(name) for name in arguments if name in named}
+    )
+    axle = hypoid_axle.HypoidAxle(replace(parameters, **given))
     pinion_torque, wheel_torque, oil_temperature = inputs
     axle.initialise(
-        pinion_speed=float(parameters["pinion.speed_start"]),
+        pinion_speed=speed,
         pinion_torque=pinion_torque,
         wheel_torque=wheel_torque,
         oil_temperature=oil_temperature,
@@ -66,7 +55,7 @@ DEFINITION = Definition(
     "film, friction, losses, transmission error and bearing forces",
     variables=HYPOID_AXLE,
     output_names=tuple(hypoid_axle.OUTPUT_NAMES),
-    start_model=start_axle,
+    start=start_axle,
     stop_time=0.1,
     step_size=1e-3,
     modules=("hypoid_axle", "hypoid_axle_slave", "variables"),
@@ -91,7 +80,7 @@ def _definition_with(content: bytes) -> Definition:
         DEFINITION,
         description=f"{DEFINITION.description}; mesh table {mesh.name} "
         f"({mesh.pinion_teeth}/{mesh.gear_teeth} teeth){source}",
-        start_model=partial(start_axle, mesh=mesh),
+        start=partial(start_axle, mesh=mesh),
         resources={FILE_IN_FMU: content},
     )
 

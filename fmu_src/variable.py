@@ -36,6 +36,8 @@ class Variable:
         Typical magnitude, in `unit`.
     literals : tuple of str
         Items of an enumeration, in the order of their values 1, 2, ...
+    argument : str
+        Of a parameter: the name under which the model takes it.
     """
 
     name: str
@@ -49,6 +51,7 @@ class Variable:
     maximum: float | None = None
     nominal: float | None = None
     literals: tuple[str, ...] = ()
+    argument: str = ""
 
     def __post_init__(self) -> None:
         check_option(f"type of {self.name}", self.type, get_args(VariableType))
@@ -59,6 +62,8 @@ class Variable:
             raise ParameterError(f"{self.name} must have a unit if, and only if, it is Real.")
         if (self.type == "Enumeration") != bool(self.literals):
             raise ParameterError(f"{self.name} must have literals if it is an Enumeration.")
+        if (self.causality == "parameter") != bool(self.argument):
+            raise ParameterError(f"{self.name} must have an argument if it is a parameter.")
 
     @property
     def variability(self) -> str:

@@ -21,19 +21,21 @@ def parameter(name: str, unit: str, description: str, **limits: float | str) -> 
     )  # fmt: skip
 
 
-def option(name: str, description: str, *literals: str, start: str) -> Variable:
+def option(name: str, description: str, *literals: str, start: str, argument: str) -> Variable:
     """Return an enumeration that a model option is chosen with."""
     return Variable(
         name=name, type="Enumeration", causality="parameter", description=description,
-        start=1 + literals.index(start), literals=literals,
+        start=1 + literals.index(start), literals=literals, argument=argument,
     )  # fmt: skip
 
 
-def count(name: str, description: str, start: int, minimum: int, maximum: int) -> Variable:
+def count(
+    name: str, description: str, start: int, minimum: int, maximum: int, argument: str
+) -> Variable:
     """Return an Integer parameter."""
     return Variable(
         name=name, type="Integer", causality="parameter", description=description,
-        start=start, minimum=minimum, maximum=maximum,
+        start=start, minimum=minimum, maximum=maximum, argument=argument,
     )  # fmt: skip
 
 

@@ -21,31 +21,37 @@ _INPUTS = (
 
 _PARAMETERS = (
     parameter("bearing.preload", "N", "Axial preload of each bearing pair", display_unit="kN",
-              start=2500.0, minimum=0.0, maximum=1e5, nominal=1e3),
+              start=2500.0, minimum=0.0, maximum=1e5, nominal=1e3, argument="bearing_preload"),
     parameter("flank.roughness_rms", "m", "Composite root-mean-square roughness of the flanks",
-              display_unit="um", start=0.5e-6, minimum=1e-9, maximum=2e-5, nominal=1e-6),
+              display_unit="um", start=0.5e-6, minimum=1e-9, maximum=2e-5, nominal=1e-6,
+              argument="roughness_rms"),
     parameter("mesh.backlash", "m", "Total backlash along the line of action, 2 b",
-              display_unit="um", start=150e-6, minimum=0.0, maximum=2e-3, nominal=1e-4),
+              display_unit="um", start=150e-6, minimum=0.0, maximum=2e-3, nominal=1e-4,
+              argument="backlash"),
     parameter("pinion.speed_start", "rad/s", "Speed of the pinion at the start",
-              display_unit="rpm", start=200.0, minimum=-5e3, maximum=5e3, nominal=100.0),
+              display_unit="rpm", start=200.0, minimum=-5e3, maximum=5e3, nominal=100.0,
+              argument="pinion_speed"),
     parameter("mesh.modal_loss_factor", "1", "Loss factor of the mesh when mesh.damping = modal",
-              start=0.06, minimum=0.0, maximum=1.0, nominal=0.1),
+              start=0.06, minimum=0.0, maximum=1.0, nominal=0.1, argument="modal_loss_factor"),
     option("model.equations", "Equations of motion: with corrected misprints, or as printed",
-           "consistent", "as_printed", start="consistent"),
+           "consistent", "as_printed", start="consistent", argument="equations"),
     option("model.radii", "Radii on which the mesh force acts",
-           "consistent", "paper", "mean", start="consistent"),
-    option("mesh.damping", "Law of the mesh damping", "hysteretic", "modal", start="hysteretic"),
+           "consistent", "paper", "mean", start="consistent", argument="radii"),
+    option("mesh.damping", "Law of the mesh damping", "hysteretic", "modal", start="hysteretic",
+           argument="mesh_damping"),
     option("friction.model", "Flank friction",
-           "consistent", "as_printed", "off", start="consistent"),
+           "consistent", "as_printed", "off", start="consistent", argument="friction"),
     option("bearing.approach", "Roller approach under shaft displacement",
-           "full", "as_printed", start="full"),
+           "full", "as_printed", start="full", argument="bearing_approach"),
     option("bearing.torque_loss", "Drag torque of the bearings",
-           "none", "palmgren", start="palmgren"),
+           "none", "palmgren", start="palmgren", argument="bearing_torque_loss"),
     option("oil.name", "Lubricant",
-           "mohammadpour_2015", "karagiannis_2012", start="mohammadpour_2015"),
-    count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 64, 16, 4096),
+           "mohammadpour_2015", "karagiannis_2012", start="mohammadpour_2015", argument="oil"),
+    count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 64, 16, 4096,
+          argument="steps_per_mesh_period"),
     count("solver.steps_per_highest_period",
-           "Integration steps in one period of the highest natural frequency", 22, 8, 4096),
+           "Integration steps in one period of the highest natural frequency", 22, 8, 4096,
+          argument="steps_per_highest_period"),
 )  # fmt: skip
 
 
@@ -116,7 +122,7 @@ _ENERGIES = energies(
 # parameters younger than the first release: appended, so that value references stay
 _LATER_PARAMETERS = (
     option("model.mesh_stiffness", "Spring of the mesh: tangent at its load, or secant",
-           "tangent", "secant", start="tangent"),
+           "tangent", "secant", start="tangent", argument="mesh_stiffness"),
 )  # fmt: skip
 
 HYPOID_AXLE: tuple[Variable, ...] = (

@@ -84,8 +84,8 @@ def table(rows: list[RatioRow]) -> str:
     for row in rows:
         factor, unit = _UNITS.get(row.unit, (1.0, row.unit))
         numbers = (row.least, row.largest, row.load_weighted_mean)
-        told = " | ".join(f"{factor * value:.3g}" for value in numbers)
-        lines.append(f"| {row.quantity} | {row.source} | {told} | {unit} |")
+        texts = " | ".join(f"{factor * value:.3g}" for value in numbers)
+        lines.append(f"| {row.quantity} | {row.source} | {texts} | {unit} |")
     return "\n".join(lines) + "\n"
 
 

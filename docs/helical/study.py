@@ -6,8 +6,9 @@ import logging
 from pathlib import Path
 
 from docs.helical.cases import density
+from gearlube.studies.helical.results import HelicalResults
+from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import HelicalSettings
-from gearlube.studies.helical.study import HelicalStudy, Stage, study_helical_pair
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
@@ -16,7 +17,7 @@ logger = logging.getLogger("docs.helical")
 TORQUES = (25.0, 50.0, 100.0, 160.0, PINION_TORQUE, 300.0, 450.0)  # N.m
 
 
-def study(store: Path) -> HelicalStudy:
+def study(store: Path) -> HelicalResults:
     """Run the command's study with the density of `he_2007_pair`.
 
     Its speed sweep is left at one speed, and its branches with separation are followed here.
@@ -30,11 +31,12 @@ def study(store: Path) -> HelicalStudy:
         torques=TORQUES,
         separation_speeds=0,
     )
-    told: list[str] = []
+    logged: list[str] = []
 
-    def tell(stage: Stage) -> None:
-        if stage.name not in told:
-            told.append(stage.name)
-            logger.info(stage.name)
+    def log(_: float, sentence: str) -> None:
+        stage = sentence.partition(",")[0]
+        if stage not in logged:
+            logged.append(stage)
+            logger.info(stage)
 
-    return study_helical_pair(asked, tell, store=store)
+    return run_helical(asked, store=store, progress=log)

@@ -33,10 +33,9 @@ from docs.resonance.pages import (
     verdict_counts,
 )
 from docs.resonance.starts import starts
-from gearlube.studies.resonance import ResonanceSettings, study_resonance
-from gearlube.studies.resonance.cycle_dataset import cycle_dataset
-from gearlube.studies.resonance.datasets import resonance_dataset
 from gearlube.studies.resonance.figures import save_resonance_figures
+from gearlube.studies.resonance.run import run_resonance
+from gearlube.studies.resonance.settings import ResonanceSettings
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXTS = Path(__file__).parent / "text"
@@ -45,8 +44,8 @@ AGREE_AT = (0.3, 0.5, 0.65, 0.9, 1.0, 1.3)
 
 def study() -> tuple[xr.Dataset, xr.Dataset]:
     """Return what `gearlube resonance` writes with its defaults."""
-    found = study_resonance(ResonanceSettings())
-    return resonance_dataset(found), cycle_dataset(found)
+    found = run_resonance(ResonanceSettings())
+    return found.response, found.cycle
 
 
 def main() -> None:

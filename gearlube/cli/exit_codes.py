@@ -50,6 +50,3 @@ def exit_if_failed(reason: str) -> None:
     if reason:
         _LOGGER.error("%s", reason)
         raise typer.Exit(FAILED)
-
-
-told = exit_on_error  # until the last study uses the new name

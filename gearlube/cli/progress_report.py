@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from gearlube_core.progress import Progress
 from rich.console import Console
 
 from gearlube.cli.progress_bar import progress_bar
+from gearlube_core.progress import Progress
 
 
 @contextmanager

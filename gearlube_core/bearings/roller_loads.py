@@ -54,8 +54,7 @@ def bearing_forces(
 
     References
     ----------
-    [mohammadpour_2015 (24)] [mohammadpour_2015 (25)] [mohammadpour_2015 (26)]
-    [mohammadpour_2015 (27)]
+    [mohammadpour_2015 (24)]; `roller_contact` has the load of a roller.
     """
     film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)
     cos_c = math.cos(cage_angle)
@@ -123,7 +122,7 @@ def roller_loads(
 
     References
     ----------
-    [mohammadpour_2015 (25)], [mohammadpour_2015 (26)].
+    [mohammadpour_2015 (25)]
     """
     count = int(p.n_rollers)
     if out.shape[0] < count:

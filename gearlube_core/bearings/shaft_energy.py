@@ -122,8 +122,7 @@ def shaft_bearing_energy(
 
     References
     ----------
-    [mohammadpour_2015 (24)] [mohammadpour_2015 (25)] [mohammadpour_2015 (26)]
-    [mohammadpour_2015 (27)] integrated
+    [mohammadpour_2015 (25)] integrated over the approach
     """
     return bearing_energy(
         r1, r2, xa, cage_angle, shaft_speed, eta0, alpha, p, 1.0

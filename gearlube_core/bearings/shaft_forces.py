@@ -60,8 +60,7 @@ def shaft_bearing_forces(
 
     References
     ----------
-    [mohammadpour_2015 (24)] [mohammadpour_2015 (25)] [mohammadpour_2015 (26)]
-    [mohammadpour_2015 (27)]
+    [mohammadpour_2015 (24)]; `roller_loads.bearing_forces` has the rollers.
     """
     F1_r1, F1_r2, F1_a, lost_1 = bearing_forces(
         r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p, 1.0

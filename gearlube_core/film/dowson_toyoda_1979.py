@@ -45,10 +45,10 @@ def line_film_thickness(
 
     Notes
     -----
-    Fully flooded, isothermal, steady, piezoviscous-elastic regime, as the minimum film of Dowson
-    1968: U about 1e-13 to 1e-10, G about 2500 to 5000, W' about 3e-5 to 3e-4. At light load the
-    film of rigid solids, 4.9 R U/W' of [martin_1916], is the thicker one: below W' = 1.5e-6 at
-    U = 1e-11, or 3 N/mm on gears of this size.
+    Fully flooded, isothermal, steady, piezoviscous-elastic regime, as the minimum film of
+    [dowson_1968]: U about 1e-13 to 1e-10, G about 2500 to 5000, W' about 3e-5 to 3e-4. At light
+    load the film of rigid solids, 4.9 R U/W' of [martin_1916], is the thicker one: below
+    W' = 1.5e-6 at U = 1e-11, or 3 N/mm on gears of this size.
     Coefficient, exponents and groups are quoted from later literature, which agrees; the original
     was not at hand. That U has the mean speed and E' = 2 E* is checked against the inlet integral
     of Ertel and Grubin: within a fifth, where the sum of speeds would make it 1.6 times thinner.

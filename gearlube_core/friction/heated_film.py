@@ -99,8 +99,8 @@ def film_traction(
     -----
     tau falls with flash, so the solution lies between any trial and the rise that the stress at
     that trial would give. The viscosity falls from that at the heated surfaces.
-    (24) with the strength tau_l0 of junctions for tau0 and the sliding's tanh.
-    Source: [karagiannis_2012 (24)]
+    Source: [karagiannis_2012 (24)], which has tau0 for tau_l0, the strength of asperity junctions;
+    the tanh lets boundary friction fade with the sliding speed.
     """
     law = HoupertParameters(oil.log_viscosity, oil.temperature, oil.S0, oil.Z)
     slip = abs(sliding_speed)

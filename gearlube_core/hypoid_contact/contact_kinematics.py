@@ -95,7 +95,7 @@ class ContactKinematics:
 
     @property
     def R_sliding(self) -> Array:
-        """Radius of the gap along the sliding direction [m], (N,); R_zx of Karagiannis 2012."""
+        """Radius of the gap along the sliding direction [m], (N,); [karagiannis_2012 fig. 18a]."""
         return self.radius_along(self.xi)
 
     def radius_along(self, direction: Array) -> Array:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
@@ -16,12 +15,13 @@ from gearlube_core.hypoid_contact.placement import Placement, place_direction, p
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
+from gearlube_core.kernels.jit import kernel
 
 _PROFILE = np.linspace(0.02, 1.0, 25)
 _FACE = np.linspace(0.0, 1.0, 49)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _along_normals(
     motion: CuttingMotion,
     placement: Placement,

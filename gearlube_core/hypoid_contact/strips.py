@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
@@ -16,6 +15,7 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import Placement
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
+from gearlube_core.kernels.jit import kernel
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +163,7 @@ def strip_frame(gaps: GapMap, reach: float) -> StripFrame | None:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _facing_parameters(
     motion: CuttingMotion,
     placement: Placement,

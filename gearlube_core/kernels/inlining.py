@@ -11,16 +11,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from numba import njit
+from gearlube_core.kernels.compiled_cache import compiled
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def inlined(function: _Function) -> _Function:
     """Compile `function` so that its callers contain its body."""
-    return njit(cache=True, error_model="numpy", forceinline=True, fastmath={"contract"})(function)  # type: ignore[return-value, no-any-return]
+    return compiled(function, error_model="numpy", forceinline=True, fastmath={"contract"})
 
 
 def summing(function: _Function) -> _Function:
     """Compile `function`, whose sums may be taken in any order."""
-    return njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})(function)  # type: ignore[return-value, no-any-return]
+    return compiled(function, error_model="numpy", fastmath={"reassoc", "contract"})

@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from numba import njit
+from gearlube_core.kernels.compiled_cache import compiled
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def kernel(function: _Function) -> _Function:
     """Compile `function` with numba on first call and keep the machine code on disk."""
-    return njit(cache=True, error_model="numpy")(function)  # type: ignore[return-value, no-any-return]
+    return compiled(function, error_model="numpy")

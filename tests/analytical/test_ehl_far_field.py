@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from gearlube_core.ehl.point.border.far_field import FarField
+from gearlube_core.ehl.point.far_field import FarField
 from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.solver import solve_point_contact
@@ -43,7 +43,7 @@ def _kapitza_residual(nodes: int, wedge: str, angle: float) -> float:
     p = -12.0 * 0.02 * (u * x / (3.0 + 2.0 * R_x / R_y) + v * y / (3.0 + 2.0 * R_y / R_x)) / h**2
     state = level.state(scales.inward(p / scales.pressure), 0.0, scales.inward(h / scales.film))
     inner = (slice(3, -3), slice(3, -3))
-    wedge_size = np.abs(np.gradient(state.film, level.dx, axis=1)).mean()
+    wedge_size = np.abs(np.gradient(state.film, level.grid.dx, axis=1)).mean()
     return float(np.abs(state.residual[inner]).mean() / wedge_size)
 
 

@@ -8,19 +8,18 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from gearlube_core.ehl.point.equations.element_level import ElementLevel
 from gearlube_core.ehl.point.equations.finite_elements import (
     ELEMENT_OFFSETS,
     element_derivatives,
     element_residual,
     upwind_shares,
 )
-from gearlube_core.ehl.point.equations.state import Linearisation
 from gearlube_core.ehl.point.equations.stencil import (
     FlowSlopes,
     StencilParameters,
     apply_derivatives,
 )
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
 from gearlube_core.ehl.point.newton.newton import newton
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
@@ -29,6 +28,8 @@ from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import grid_shapes, solve_point_contact
+from gearlube_core.ehl.point.terms.elements import Elements
+from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.oil.film_oil import ehl_lubricant
 
 CROSS = 0.4  # xy component of the flow factor tensor; xx 1, yy 0.7
@@ -261,11 +262,13 @@ def element_film(problem, start, compliance=None):
     scales = PointScales.of(problem)
     assert not scales.swap
     shapes = grid_shapes(problem.nodes[::-1], (1.0, 1.0))
-    levels = [ElementLevel(problem, scales, shape) for shape in shapes]
+    levels = [
+        PointLevel(
+            problem, scales, shape, "central", scheme=lambda grid: Elements(grid, compliance)
+        )
+        for shape in shapes
+    ]
     transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
-    if compliance is not None:
-        for level in levels:
-            level.compliance = compliance
     state = levels[-1].state(
         scales.inward(start.pressure) / scales.pressure, start.approach / scales.film
     )

@@ -1,7 +1,7 @@
 """The command `gearlube contact`: what it writes, refuses and resumes."""
 
 import logging
-from functools import partial
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,13 +10,12 @@ from typer.testing import CliRunner
 
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube.studies.contact import console as contact_console
+from gearlube.studies.contact import run as contact_run
 from gearlube.studies.contact.figures import CONTACT_CATALOGUE
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.hypoid_contact import analysis, mesh_cycle
+from gearlube_core.hypoid_contact import mesh_cycle
 from gearlube_core.hypoid_contact.analysis import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
-from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
@@ -42,16 +41,26 @@ def run(*arguments):
 def coarse(monkeypatch, tmp_path):
     """The command with coarse teeth and cells, and a cache of its own."""
     monkeypatch.setenv("GEARLUBE_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(analysis, "ContactSettings", partial(ContactSettings, body=COARSE_BODY))
-    monkeypatch.setattr(mesh_cycle, "CycleSettings", partial(CycleSettings, loaded=COARSE_CELLS))
+    real = contact_run.run_contact
+
+    def run_coarse(file, settings, **options):
+        cycle = replace(settings.cycle, loaded=COARSE_CELLS)
+        return real(file, replace(settings, cycle=cycle, body=COARSE_BODY), **options)
+
+    monkeypatch.setattr(contact_run, "run_contact", run_coarse)
     return tmp_path / "out"
 
 
 @pytest.fixture
 def asked(monkeypatch):
-    """What the command would have analysed."""
+    """What the command would have analysed; it ends as a failed analysis does."""
     calls = []
-    monkeypatch.setattr(contact_console, "console_contact", lambda _, **given: calls.append(given))
+
+    def note(file, settings, **options):
+        calls.append({"file": file, "settings": settings, **options})
+        raise ConvergenceError("noted")
+
+    monkeypatch.setattr(contact_run, "run_contact", note)
     return calls
 
 
@@ -98,11 +107,11 @@ def test_quick_run_goes_on_after_a_stop_and_writes_table_dataset_and_figures(coa
 
 
 def test_default_is_the_shipped_pair_at_eight_torques(asked):
-    assert run().exit_code == 0
+    assert run().exit_code == FAILED
     (call,) = asked
     assert call["file"] == HypoidGearFile.named("mohammadpour_2015")
     assert call["settings"] == ContactSettings()
-    assert str(call["out"]) == "gearlube_contact"
+    assert str(call["folder"]) == "gearlube_contact"
 
 
 def test_options_reach_the_settings_in_si_units(asked):
@@ -111,7 +120,7 @@ def test_options_reach_the_settings_in_si_units(asked):
         *("--pinion-axial-um", "-20", "--gear-axial-um", "10", "--shaft-angle-mrad", "0.5"),
         *("--jobs", "2"),
     )
-    assert result.exit_code == 0, result.output
+    assert result.exit_code == FAILED, result.output
     (call,) = asked
     cycle = call["settings"].cycle
     assert cycle.torques == (30.0, 80.0)
@@ -126,7 +135,7 @@ def test_options_reach_the_settings_in_si_units(asked):
 def test_a_gear_file_is_read_from_its_path(asked, tmp_path, gear_text):
     path = tmp_path / "own.toml"
     path.write_text(gear_text.replace('name = "mohammadpour_2015"', 'name = "own"'))
-    assert run(path).exit_code == 0
+    assert run(path).exit_code == FAILED
     assert asked[0]["file"].name == "own"
 
 
@@ -188,10 +197,10 @@ def test_flanks_that_do_not_meet_end_with_bad_argument(coarse, tmp_path, gear_te
 
 @pytest.mark.parametrize("reason", [ConvergenceError("no equilibrium"), OSError("disk full")])
 def test_a_failed_analysis_says_why_and_fails(reason, monkeypatch, caplog):
-    def fail(_, **given):
+    def fail(*_, **__):
         raise reason
 
-    monkeypatch.setattr(contact_console, "console_contact", fail)
+    monkeypatch.setattr(contact_run, "run_contact", fail)
     with caplog.at_level(logging.ERROR, "gearlube"):
         assert run().exit_code == FAILED
     assert str(reason) in caplog.text
@@ -201,5 +210,5 @@ def test_a_failed_analysis_says_why_and_fails(reason, monkeypatch, caplog):
 def gear_text():
     from importlib.resources import files
 
-    data = files("gearlube_core.hypoid_geometry.flank") / "data" / "mohammadpour_2015.toml"
+    data = files("gearlube_core.hypoid_geometry") / "data" / "mohammadpour_2015.toml"
     return data.read_text(encoding="utf-8")

@@ -2,6 +2,7 @@
 
 import csv
 import logging
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,9 +11,10 @@ from typer.testing import CliRunner
 
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube.studies.helical import console as helical_console
-from gearlube.studies.helical import study, sweep_grid
+from gearlube.studies.helical import run as helical_run
+from gearlube.studies.helical import stages, sweep_grid
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
+from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import RPM, HelicalSettings
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
@@ -32,14 +34,14 @@ def run(*arguments):
 
 @pytest.fixture
 def asked(monkeypatch):
-    """What the command would have studied."""
+    """What the command would have studied; it ends as a failed study does."""
     calls = []
 
-    def note(_, **given):
-        calls.append(given)
-        return 0
+    def note(settings, **options):
+        calls.append({"settings": settings, **options})
+        raise ConvergenceError("noted")
 
-    monkeypatch.setattr(helical_console, "console_helical", note)
+    monkeypatch.setattr(helical_run, "run_helical", note)
     return calls
 
 
@@ -52,7 +54,7 @@ def small(monkeypatch):
         real(self, **given, stability_columns=4, stability_rows=2, separation_speeds=0)
 
     monkeypatch.setattr(HelicalSettings, "__init__", init)
-    monkeypatch.setattr(helical_console, "save_helical_figures", lambda *_: [])
+    monkeypatch.setattr(helical_run, "save_helical_figures", lambda *_: [])
     return ("--parts", "dynamics", "--mu", 0.1, 0.2, "--speeds-rpm", 1000, 3000, "--jobs", 1)
 
 
@@ -164,8 +166,17 @@ def test_geometry_of_the_thesis_comes_with_the_default_pair(small, tmp_path):
     assert set(found) == {"geometry", "geometry_jamali_2015_a", "geometry_jamali_2015_b"}
 
 
+def test_a_gear_file_says_what_it_is_compared_with():
+    file = HelicalGearFile.named("he_2007").varied({"name": "own", "compared_with": []})
+    settings = HelicalSettings(file=file, pinion_torque=100.0, pinion_speed=100.0, parts="geometry")
+    assert set(run_helical(settings).datasets) == {"geometry"}
+    both = file.varied({"compared_with": ["jamali_2015_b"]})
+    found = run_helical(replace(settings, file=both)).datasets
+    assert set(found) == {"geometry", "geometry_jamali_2015_b"}
+
+
 def test_defaults_are_those_of_the_paper(asked):
-    assert run().exit_code == 0
+    assert run().exit_code == FAILED
     settings = asked[0]["settings"]
     assert settings.file.name == "he_2007"
     assert settings.pinion_speed == pytest.approx(104.7198, rel=1e-6)  # 1000 rpm
@@ -183,7 +194,7 @@ def test_options_reach_the_settings_in_si_units(asked):
         *("--positions", 12, "--oil", "jamali_2015", "--oil-temperature", 90),
         *("--roughness-um", 0.4, "--friction", "constant", "--jobs", 2, "--out", "here"),
     )
-    assert result.exit_code == 0, result.output
+    assert result.exit_code == FAILED, result.output
     settings = asked[0]["settings"]
     assert settings.file.name == "jamali_2015_b"
     assert settings.pinion_torque == 500.0
@@ -193,7 +204,7 @@ def test_options_reach_the_settings_in_si_units(asked):
     assert settings.load_steps == (400.0, 800.0)
     assert settings.oil_temperature == pytest.approx(363.15)
     assert settings.roughness_rms == pytest.approx(0.4e-6)
-    assert (asked[0]["jobs"], str(asked[0]["out"])) == (2, "here")
+    assert (asked[0]["jobs"], str(asked[0]["folder"])) == (2, "here")
 
 
 @pytest.mark.parametrize(
@@ -259,10 +270,10 @@ def test_files_that_lack_something_are_refused(changes, word, asked, caplog, mon
 
 @pytest.mark.parametrize("reason", [ConvergenceError("no motion"), OSError("disk full")])
 def test_a_failed_study_says_why_and_fails(reason, monkeypatch, caplog):
-    def fail(_, **given):
+    def fail(*_, **__):
         raise reason
 
-    monkeypatch.setattr(helical_console, "console_helical", fail)
+    monkeypatch.setattr(helical_run, "run_helical", fail)
     with caplog.at_level(logging.ERROR, "gearlube"):
         assert run().exit_code == FAILED
     assert str(reason) in caplog.text
@@ -272,7 +283,7 @@ def test_a_stage_that_fails_leaves_the_others(small, tmp_path, monkeypatch, capl
     def fail(*_, **__):
         raise ConvergenceError("no map")
 
-    monkeypatch.setattr(study, "stability_dataset", fail)
+    monkeypatch.setattr(stages, "stability_dataset", fail)
     with caplog.at_level(logging.ERROR, "gearlube"):
         assert run(*small, "--out", tmp_path).exit_code == FAILED
     assert "parametric instability: no map" in caplog.text
@@ -283,7 +294,7 @@ def test_a_run_stopped_at_once_writes_the_summary_of_the_pair(small, tmp_path, m
     def stop(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(study, "operating_point", stop)
+    monkeypatch.setattr(stages, "operating_point", stop)
     assert run(*small, "--out", tmp_path).exit_code == INTERRUPTED
     assert not datasets(tmp_path)
     text = (tmp_path / "summary.csv").read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
-from gearlube.studies.resonance import console as resonance_console
+from gearlube.studies.resonance import run as resonance_run
 from gearlube.studies.resonance import study
 from gearlube.studies.resonance.figures import RESONANCE_CATALOGUE
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
@@ -23,14 +23,14 @@ def run(*arguments):
 
 @pytest.fixture
 def asked(monkeypatch):
-    """What the command would have studied."""
+    """What the command would have studied; it ends as a failed study does."""
     calls = []
 
-    def note(_, **given):
-        calls.append(given)
-        return True
+    def note(settings, **options):
+        calls.append({"settings": settings, **options})
+        raise ConvergenceError("noted")
 
-    monkeypatch.setattr(resonance_console, "console_resonance", note)
+    monkeypatch.setattr(resonance_run, "run_resonance", note)
     return calls
 
 
@@ -91,22 +91,23 @@ def test_options_reach_the_settings_in_si_units(asked):
     result = run(
         *("--mesh", "synthetic", "--mismatch", "0.3", "--radii", "paper", "--torque", "80"),
         *("--oil-temperature", "100", "--roughness-um", "0.4", "--range", "0.3:1.2"),
-        *("--frequencies", "50"),
+        *("--frequencies", "50", "--load-at", "0.9"),
     )
-    assert result.exit_code == 0, result.output
+    assert result.exit_code == FAILED, result.output
     settings = asked[0]["settings"]
     mesh = synthetic_mesh(radius_mismatch=0.003, torque=80.0)
     np.testing.assert_array_equal(settings.mesh.series["R_p"], mesh.series["R_p"])
     assert (settings.first, settings.last, settings.frequencies) == (0.3, 1.2, 50)
+    assert settings.load_at == 0.9
     assert settings.radii == "paper"
     assert settings.pinion_torque == 80.0
     assert settings.oil_temperature == pytest.approx(373.15)
     assert settings.roughness_rms == pytest.approx(0.4e-6)
-    assert str(asked[0]["out"]) == "gearlube_resonance"
+    assert str(asked[0]["folder"]) == "gearlube_resonance"
 
 
 def test_defaults_are_the_shipped_mesh_with_consistent_radii(asked):
-    assert run().exit_code == 0
+    assert run().exit_code == FAILED
     settings = asked[0]["settings"]
     assert settings.mesh.name == "mohammadpour_2015"
     assert (settings.radii, settings.friction, settings.frequencies) == (
@@ -118,7 +119,7 @@ def test_defaults_are_the_shipped_mesh_with_consistent_radii(asked):
 
 def test_a_mesh_table_is_read_from_its_file(asked, tmp_path):
     path = write_mesh_table(synthetic_mesh(stiffness=3e8), tmp_path / "own.nc")
-    assert run("--mesh", path).exit_code == 0
+    assert run("--mesh", path).exit_code == FAILED
     assert asked[0]["settings"].mesh.series["k_m"][0, 0, 0] == 3e8
 
 
@@ -140,6 +141,7 @@ def test_a_mesh_table_is_read_from_its_file(asked, tmp_path):
         ("--torque", "1e5"),
         ("--oil-temperature", "400"),
         ("--roughness-um", "-1"),
+        ("--load-at", "5"),
     ],
 )
 def test_bad_options_end_with_bad_argument(options, asked):
@@ -150,10 +152,10 @@ def test_bad_options_end_with_bad_argument(options, asked):
 
 @pytest.mark.parametrize("reason", [ConvergenceError("no motion"), OSError("disk full")])
 def test_a_failed_study_says_why_and_fails(reason, monkeypatch, caplog):
-    def fail(_, **given):
+    def fail(*_, **__):
         raise reason
 
-    monkeypatch.setattr(resonance_console, "console_resonance", fail)
+    monkeypatch.setattr(resonance_run, "run_resonance", fail)
     with caplog.at_level(logging.ERROR, "gearlube"):
         assert run().exit_code == FAILED
     assert str(reason) in caplog.text

@@ -95,12 +95,17 @@ def helical(gear_name: str = "he_2007", stiffness_model: str = "uniform", **sett
     return helical_march(HelicalGearFile.named(gear_name), line_mesh=mesh, **settings)
 
 
+def settings_of(definition: Definition) -> dict[str, str]:
+    """Names of the parameters of a model, without its start speed."""
+    return {n: a for n, a in definition.arguments.items() if a != "pinion_speed"}
+
+
 HYPOID_AXLE = Case(
     definition=hypoid_axle.DEFINITION,
     build=build.build_hypoid_axle,
     script="hypoid_axle_slave.py",
     snapshot="value_references.json",
-    arguments=hypoid_axle.ARGUMENTS,
+    arguments=settings_of(hypoid_axle.DEFINITION),
     parameters=mohammadpour_2015_axle,
     model=HypoidAxle,
     changed={"bearing.preload": 4000.0, "oil.name": 2, "pinion.speed_start": 150.0},
@@ -141,8 +146,7 @@ HELICAL_PAIR = Case(
     build=build.build_helical_pair,
     script="helical_pair_slave.py",
     snapshot="helical_value_references.json",
-    arguments=helical_pair.ARGUMENTS
-    | {"gear.name": "gear_name", "mesh.stiffness_model": "stiffness_model"},
+    arguments=settings_of(helical_pair.DEFINITION),
     parameters=helical,
     model=HelicalPairModel,
     changed={"support.radial_stiffness": 2e9, "friction.model": 2, "pinion.speed_start": 150.0},

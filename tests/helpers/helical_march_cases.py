@@ -10,7 +10,7 @@ import numpy as np
 
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.output_names import ENERGIES_AT, OUTPUT_INDEX
+from gearlube_core.dynamics.helical_pair.march.output_names import ENERGIES, OUTPUT_INDEX
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -67,7 +67,7 @@ def history(
 
 def energies(model: HelicalPairModel) -> np.ndarray:
     """Pinion work, wheel work, friction, mesh damping, bearing damping, stored [J]."""
-    return model.outputs[ENERGIES_AT : ENERGIES_AT + 6].copy()
+    return model.outputs[ENERGIES : ENERGIES + 6].copy()
 
 
 def unaccounted(before: np.ndarray, after: np.ndarray) -> float:

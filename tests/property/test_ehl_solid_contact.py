@@ -10,11 +10,11 @@ import pytest
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.point.dry_contact import dry_contact
-from gearlube_core.ehl.point.equations.solids import SolidShare
 from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact, SolidLayer
 from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.point.terms.solids import SolidShare
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import ehl_lubricant

@@ -13,7 +13,7 @@ from numba.core.dispatcher import Dispatcher
 
 from gearlube_core.bearings import bearing_type, shaft_expansion
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.dynamics import flank_force, hypoid_axle
+from gearlube_core.dynamics import flank_force, hypoid_axle, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
     flanks,
@@ -35,6 +35,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PINION_WORK,
     SIDE,
     TIME_IN_STEP,
+    WORK_MARK,
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
@@ -187,9 +188,8 @@ CASES = [
     ),
     (outputs.write_shaft, (*WRITE_SHAFT, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
     *(
-        (outputs.mean_power, (state, SLOPE, PINION_WORK + i))
-        for state in (STATE, AT_START)
-        for i in range(2)
+        (mean_power.mean_power, (STATE, SLOPE, PINION_WORK, WORK_MARK, duration))
+        for duration in (0.0, 1e-4)
     ),
     *((outputs.write_losses, (state, SLOPE, zeros(N_OUTPUTS))) for state in (STATE, AT_START)),
     *(
@@ -277,6 +277,7 @@ def test_compiled_kernel_equals_its_source(kernel, args):
 def test_no_kernel_of_these_modules_is_left_out():
     names = [f"{hypoid_axle.__name__}.{m.name}" for m in pkgutil.iter_modules(hypoid_axle.__path__)]
     names += [kernels.__name__, shaft_expansion.__name__, flank_force.__name__]
+    names += [mean_power.__name__]
     found = {
         value
         for name in names

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
@@ -53,7 +53,7 @@ def test_box_follows_the_pressure(grading):
 
 
 def test_box_of_a_part_leaves_the_rest_zero():
-    grid = level()
+    grid = level().grid
     window = WindowedDeflection(grid)
     window.follow(patch(slice(10, 20), slice(10, 20)))
     film = window(np.where(patch(slice(10, 20), slice(10, 20)), 1.0, 0.0))
@@ -62,6 +62,6 @@ def test_box_of_a_part_leaves_the_rest_zero():
 
 
 def test_box_of_nothing_is_there():
-    window = WindowedDeflection(level())
+    window = WindowedDeflection(level().grid)
     window.follow(np.zeros(SHAPE, dtype=bool))
     assert not window(np.zeros(SHAPE)).any()

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations import stencil as point_stencil
-from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.equations.reynolds import reynolds_residual
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.newton.transfer import Transfer
@@ -70,8 +70,8 @@ def test_derivatives_on_a_graded_grid_are_those_of_the_residual(wedge: str) -> N
     error = np.abs(level.apply(linear, change, 0.7) - numerical)
     assert error.max() < 1e-7 * np.abs(numerical).max()
     # the deflection is that of the matrix which the coarsest grid solves with
-    dense = (level.dense_deflection() @ pressure.ravel()).reshape(pressure.shape)
-    assert np.abs(dense - level.deflection(pressure)).max() < 1e-12 * dense.max()
+    dense = (level.grid.dense_deflection() @ pressure.ravel()).reshape(pressure.shape)
+    assert np.abs(dense - level.grid.deflection(pressure)).max() < 1e-12 * dense.max()
 
 
 def test_residuals_times_cells_add_up_to_what_flows_in_and_out() -> None:
@@ -84,7 +84,7 @@ def test_residuals_times_cells_add_up_to_what_flows_in_and_out() -> None:
         inflow = state.mass[1:-1, 0].sum()
         outflow = state.mass[1:-1, -2].sum()
         # without pressure and of first order: rho h u through the first and the last face
-        found = level.integral(state.residual) / (level.stencil.wedge_x * level.cell)
+        found = level.grid.integral(state.residual) / (level.stencil.wedge_x * level.grid.cell)
         assert found == pytest.approx(inflow - outflow, abs=1e-11 * inflow)
 
 
@@ -96,9 +96,9 @@ def test_compiled_stencils_equal_their_python() -> None:
         state.pressure,
         state.mass,
         state.film_flow,
-        level.source,
+        level.terms.storage.source,
     )
-    point_stencil.reynolds_residual.py_func(level.stencil, level.metric, *fields, residual)
+    reynolds_residual.py_func(level.stencil, level.grid.metric, *fields, residual)
     # same operations in the same order; contraction to fused products only
     assert np.abs(residual - state.residual).max() < 1e-12 * np.abs(residual).max()
 
@@ -148,7 +148,7 @@ def test_one_cycle_removes_half_of_a_rough_residual() -> None:
     )
     linear = level.linearise(state)
     cycle = MultigridCycle(hierarchy, linear)
-    share = level.cell / level.scales.load
+    share = level.grid.cell / level.scales.load
     residual = np.where(linear.free, np.random.default_rng(0).standard_normal(level.shape), 0.0)
     load = 0.0
     for _ in range(8):

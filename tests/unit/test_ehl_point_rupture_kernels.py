@@ -7,16 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.cavitation import let_rupture, refuse_rupture
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.rupture import carried_entries, pass_on, settle_oil
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.cavitation import refuse_rupture
+from gearlube_core.ehl.point.equations.rupture import fill_ruptured_nodes
+from gearlube_core.ehl.point.equations.rupture_transport import carried_entries, carry_downstream
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.ehl.point.terms.ruptured_transport import RupturedTransport
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ParameterError
 from tests.helpers.ehl_point_cases import moes_contact, sliding_along
 
@@ -30,9 +32,8 @@ def _patchy(angle: float, layer: float | None = None) -> tuple[PointLevel, FilmS
     scales = PointScales.of(problem)
     if layer is not None:
         problem = replace(problem, inlet_layer=layer * scales.film)
-    level = PointLevel(problem, scales, SHAPE, "upwind-2")
-    let_rupture([level], problem)
-    level.ease(3e-7, 1.0)  # pressure moves about as much oil as the surfaces
+    level = PointLevel(problem, scales, SHAPE, "upwind-2", cavitation="mass_conserving")
+    level.set_continuation(3e-7, 1.0)  # pressure moves about as much oil as the surfaces
     rng = np.random.default_rng(3)
     pressure = rng.uniform(0.0, 0.4, SHAPE)
     pressure[rng.uniform(size=SHAPE) < 0.5] = 0.0
@@ -45,7 +46,6 @@ def test_derivatives_with_carried_oil_are_those_of_differences(
     angle: float, layer: float | None
 ) -> None:
     level, state = _patchy(angle, layer)
-    assert state.ruptured is not None
     assert 10 < state.ruptured[1:-1, 1:-1].sum() < 200
     linear = level.linearise(state)
     rng = np.random.default_rng(4)
@@ -69,32 +69,31 @@ def test_the_preconditioner_knows_the_way_of_the_oil(angle: float) -> None:
     linear = level.linearise(state)
     step = np.where(linear.free, np.random.default_rng(5).normal(size=SHAPE), 0.0)
     exact = level.apply(linear, step, 0.0).copy()
-    known = sparse_operator(linear).apply(level, step, 0.0)
+    known = sparse_operator(linear).apply(level.grid, step, 0.0)
     # oil is followed down to a thousandth of what a node passes on
     assert np.abs(known - exact).max() < 5e-3 * np.abs(exact).max()
 
 
 def test_compiled_kernels_are_those_of_python() -> None:
     level, state = _patchy(0.5)
-    assert state.ruptured is not None
     full = state.density * state.film
     results = []
-    for kernel in (settle_oil, settle_oil.py_func):
+    for kernel in (fill_ruptured_nodes, fill_ruptured_nodes.py_func):
         mass, ruptured = full.copy(), np.zeros(SHAPE, dtype=np.bool_)
         residual = np.linspace(-1.0, 1.0, full.size).reshape(SHAPE)
         kernel(
-            level.stencil, level.metric, state.pressure, 0.01, np.ones(SHAPE[0]),
+            level.stencil, level.grid.metric, state.pressure, 0.01, np.ones(SHAPE[0]),
             np.zeros(SHAPE), full, mass, ruptured, residual,
         )  # fmt: skip
         results.append((mass, ruptured, residual))
     for one, other in zip(*results, strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-13, atol=1e-13)
     linear = level.linearise(state)
-    carriage = linear.carriage
-    assert carriage is not None
-    way = carriage.to_x, carriage.to_y, carriage.ruptured
+    transport = linear.transport
+    assert isinstance(transport, RupturedTransport)
+    way = transport.to_x, transport.to_y, transport.ruptured
     changes = []
-    for kernel in (pass_on, pass_on.py_func):
+    for kernel in (carry_downstream, carry_downstream.py_func):
         change = np.linspace(-1.0, 1.0, full.size).reshape(SHAPE)
         kernel(*way, change)
         changes.append(change)

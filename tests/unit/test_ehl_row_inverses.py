@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
@@ -40,13 +40,13 @@ def test_node_that_came_is_solved_though_its_row_is_not_inverted_again():
     later[1:-1, 5:50] = True
     before = later.copy()
     before[1:-1, 49] = False
-    inverses = RowInverses(level)
+    inverses = RowInverses(level.grid)
     assert inverses.renew(sparse_operator(level.linearise(state, rows=before))) == SHAPE[0]
     operator = sparse_operator(level.linearise(state, rows=later))
     # one node in 45 is too little of a change to invert a row for
     assert inverses.renew(operator) == 0
     residual = np.zeros(SHAPE)
     residual[24, 49] = 1.0
-    rest = residual - operator.apply(level, inverses(residual), 0.0)
+    rest = residual - operator.apply(level.grid, inverses(residual), 0.0)
     # damping leaves a tenth, and what it pushes to its neighbours is theirs
     assert abs(rest[24, 49]) < 0.2

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from gearlube.studies.resonance import ResonanceSettings, load_response
+from gearlube.studies.resonance import load_response
 from gearlube.studies.resonance.figures.load_curves import load_curves
+from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.periodic import solve_periodic

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube.studies.resonance import ResonanceSettings, study_resonance
 from gearlube.studies.resonance.cycle_dataset import cycle_dataset
 from gearlube.studies.resonance.datasets import resonance_dataset
 from gearlube.studies.resonance.measures import mesh_harmonics, rate_over_period
 from gearlube.studies.resonance.response import Response, follow_response
+from gearlube.studies.resonance.settings import ResonanceSettings
+from gearlube.studies.resonance.study import study_resonance
 from gearlube.studies.resonance.summary import main_special, summaries
 from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
@@ -137,9 +138,9 @@ def test_summary_of_a_softening_resonance():
 def test_an_interrupted_study_keeps_what_was_found():
     calls = []
 
-    def stop(stage):
-        calls.append(stage)
-        if "1-DOF" in stage.name and len([c for c in calls if "1-DOF" in c.name]) == 5:
+    def stop(_, sentence):
+        calls.append(sentence)
+        if "1-DOF" in sentence and len([c for c in calls if "1-DOF" in c]) == 5:
             raise KeyboardInterrupt
 
     study = study_resonance(dry(frequencies=10), stop)
@@ -220,6 +221,7 @@ def test_harmonics_of_a_known_series():
         {"pinion_torque": -1.0},
         {"pinion_torque": 1000.0},
         {"radii": "other"},
+        {"load_at": 5.0},
     ],
 )
 def test_settings_out_of_range_are_refused(changes):

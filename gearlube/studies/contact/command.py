@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import logging
+import time
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+from rich.table import Table
 
-from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import JobsOption
+from gearlube.cli.progress_report import progress_on
 from gearlube.cli.spread_values import SpreadingCommand
-from gearlube_core.errors import GearLubeError, ParameterError
+
+if TYPE_CHECKING:  # the study is loaded when the command runs
+    from gearlube.studies.contact.summary import ContactSummary
 
 logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
-
-_QUICK_TORQUES = (20.0, 50.0, 150.0)
-_QUICK_POSITIONS = 8
 
 
 class ContactCommand(SpreadingCommand):
@@ -77,35 +80,62 @@ def contact(
 
     Finished positions are kept in OUT/positions: run the same command again to go on after a stop.
     """
-    from gearlube.studies.contact.console import console_contact
-    from gearlube_core.hypoid_contact.analysis import ContactSettings
-    from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
-    from gearlube_core.hypoid_contact.placement import Misalignment
+    from gearlube.studies.contact import run
+    from gearlube.studies.contact.gear_solids import write_gears
+    from gearlube.studies.contact.settings import QUICK, ContactSettings, Misalignment
+    from gearlube.studies.contact.summary import contact_summary, gear_file_warnings
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
-    defaults = CycleSettings()
-    try:
+    began = time.monotonic()
+    with exit_on_error(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
         file = HypoidGearFile.given(gear)
-        chosen = torques or (_QUICK_TORQUES if quick else defaults.torques)
-        settings = ContactSettings(
-            cycle=CycleSettings(
-                positions=positions or (_QUICK_POSITIONS if quick else defaults.positions),
-                torques=tuple(sorted(chosen)),
-                misalignment=Misalignment(
-                    pinion_offset=1e-6 * offset_error_um,
-                    pinion_axial=1e-6 * pinion_axial_um,
-                    gear_axial=1e-6 * gear_axial_um,
-                    shaft_angle=1e-3 * shaft_angle_mrad,
-                ),
-            )
+        usual = QUICK if quick else ContactSettings()
+        cycle = replace(
+            usual.cycle,
+            positions=positions or usual.cycle.positions,
+            torques=tuple(sorted(torques or usual.cycle.torques)),
+            misalignment=Misalignment(
+                pinion_offset=1e-6 * offset_error_um,
+                pinion_axial=1e-6 * pinion_axial_um,
+                gear_axial=1e-6 * gear_axial_um,
+                shaft_angle=1e-3 * shaft_angle_mrad,
+            ),
         )
-        console_contact(console, file=file, settings=settings, out=out, jobs=jobs, export=export)
-    except KeyboardInterrupt:
-        logger.warning("Stopped. Run the same command again to go on from %s.", out / "positions")
-        raise typer.Exit(INTERRUPTED) from None
-    except ParameterError as error:
-        logger.error("%s", error)
-        raise typer.Exit(BAD_ARGUMENT) from None
-    except (GearLubeError, OSError) as error:
-        logger.error("%s", error)
-        raise typer.Exit(FAILED) from None
+        for sentence in gear_file_warnings(file):
+            logger.warning("%s", sentence)
+        with progress_on(console, "contact", 2 * cycle.positions) as progress:
+            results = run.run_contact(
+                file, replace(usual, cycle=cycle), folder=out, jobs=jobs, progress=progress
+            )
+            if export:
+                progress(1.0, "gears")
+                write_gears(file, out / "gears")
+        console.print(_table(file.name, contact_summary(results.contact)))
+        table = out / f"{file.name}.nc"
+        logger.info("Analysed in %.1f s.", time.monotonic() - began)
+        logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")
+
+
+def _table(name: str, rows: list[ContactSummary]) -> Table:
+    table = Table(title=f"{name}: loaded tooth contact, means over the mesh")
+    for heading in (
+        "flanks",
+        "torque [N·m]",
+        "secant k [N/µm]",
+        "tangent k [N/µm]",
+        "R_p [mm]",
+        "pairs",
+        "highest pressure [GPa]",
+    ):
+        table.add_column(heading, justify="right")
+    for row in rows:
+        table.add_row(
+            row.side,
+            f"{row.torque:g}",
+            f"{1e-6 * row.secant_stiffness:.0f}",
+            f"{1e-6 * row.tangent_stiffness:.0f}",
+            f"{1e3 * row.pinion_arm:.2f}",
+            f"{row.pairs:.2f}",
+            f"{1e-9 * row.highest_pressure:.2f}",
+        )
+    return table

@@ -1,4 +1,4 @@
-"""What a solution of a line or point contact found, beside Hertz and film formulas."""
+"""The numbers of a line, a point or a helical pair's line, beside Hertz and film formulas."""
 
 from __future__ import annotations
 

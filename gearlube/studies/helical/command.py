@@ -5,13 +5,15 @@ from __future__ import annotations
 import logging
 import shlex
 import sys
+import time
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+from rich.table import Table
 
-from gearlube.cli.exit_codes import INTERRUPTED, told
+from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
 from gearlube.cli.options import (
     HelicalGearArgument,
     JobsOption,
@@ -20,16 +22,18 @@ from gearlube.cli.options import (
     SpeedOfFileOption,
     TorqueOfFileOption,
 )
+from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
 from gearlube.cli.spread_values import SpreadingCommand
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.units import celsius_to_kelvin
+from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
+
+if TYPE_CHECKING:  # the study is loaded when the command runs
+    from gearlube.studies.helical.summary import Row
 
 logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
-
-_RPM = 0.10471975511965977  # rad/s
 
 
 class HelicalCommand(SpreadingCommand):
@@ -110,11 +114,13 @@ def helical(
     oil film, geometry. Finished parts are kept in OUT/parts: run the same command again to go on
     after a stop.
     """
-    from gearlube.studies.helical.console import console_helical
+    from gearlube.studies.helical import run
     from gearlube.studies.helical.settings import HelicalSettings, quick_settings
+    from gearlube.studies.helical.summary import remarks, summary_rows
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
-    with told(f"Stopped while results were written; {out} may be incomplete."):
+    began = time.monotonic()
+    with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
         file = HelicalGearFile.given(gear)
         if jobs is not None:
             check_within("--jobs", jobs, 1, 1024)
@@ -137,9 +143,9 @@ def helical(
         settings = HelicalSettings(
             file=file,
             pinion_torque=torque,
-            pinion_speed=speed_rpm * _RPM,
+            pinion_speed=rpm_to_rads(speed_rpm),
             mu=numbers_from("--mu", mu or ("0:0.3:0.01",), "", 0.0, 1.0, example="0:0.3:0.01"),
-            speeds=tuple(speed * _RPM for speed in speeds),
+            speeds=tuple(rpm_to_rads(speed) for speed in speeds),
             friction=friction,
             mesh=mesh,
             density=None if density is None else 1e9 * density,
@@ -150,14 +156,36 @@ def helical(
             roughness_rms=1e-6 * roughness_um,
             parts=parts,
         )
-        outcome = console_helical(
-            console,
-            settings=quick_settings(settings) if quick else settings,
-            out=out,
-            jobs=jobs,
-            command_line=shlex.join(["gearlube", *sys.argv[1:]]),
+        with progress_on(console, "helical pair") as progress:
+            results = run.run_helical(
+                quick_settings(settings) if quick else settings,
+                folder=out,
+                jobs=jobs,
+                progress=progress,
+                command_line=shlex.join(["gearlube", *sys.argv[1:]]),
+            )
+        console.print(_table(file.name, summary_rows(results)))
+        for sentence in remarks(results):
+            logger.warning("%s", sentence)
+        logger.info("Studied in %.1f s.", time.monotonic() - began)
+        logger.info("Results: %s", out)
+    for name, reason in results.failures.items():
+        logger.error("%s: %s", name, reason)
+    if results.interrupted:
+        logger.warning("Stopped. Run the same command again to go on from %s.", out / run.PARTS)
+        raise typer.Exit(INTERRUPTED)
+    if results.failures:
+        raise typer.Exit(FAILED)
+
+
+def _table(name: str, rows: list[Row]) -> Table:
+    table = Table(title=f"{name}: helical pair")
+    for heading in ("", "quantity", "value", "unit"):
+        table.add_column(heading, justify="right" if heading == "value" else "left")
+    topic = ""
+    for row in rows:
+        table.add_row(
+            "" if row.topic == topic else row.topic, row.quantity, f"{row.value:.4g}", row.unit
         )
-    if outcome == INTERRUPTED:
-        logger.warning("Stopped. Run the same command again to go on from %s.", out / "parts")
-    if outcome:
-        raise typer.Exit(outcome)
+        topic = row.topic
+    return table

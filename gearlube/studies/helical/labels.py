@@ -74,7 +74,7 @@ def _provenance(file: HelicalGearFile) -> dict[str, str]:
 
 
 def pair_attributes(parameters: HelicalPairParameters) -> dict[str, Any]:
-    """Return the pair's numbers that its vibration hangs on, in SI."""
+    """Return the pair's numbers that decide its vibration, in SI."""
     return {
         "pinion_teeth": parameters.pair.pinion_teeth,
         "gear_teeth": parameters.pair.gear_teeth,

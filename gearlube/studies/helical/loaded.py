@@ -1,20 +1,15 @@
-"""Loaded contact of the pair: dataset, line mesh and the constant density beside it."""
+"""Loaded contact of the pair with ISO 6336-1, and the constant density beside it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from gearlube.studies.helical.settings import HelicalSettings
-from gearlube_core.helical_contact.contact_dataset import contact_dataset
-from gearlube_core.helical_contact.line_mesh import line_mesh
-from gearlube_core.helical_contact.mesh_cycle import CycleProgress, run_cycle
-from gearlube_core.helical_contact.tooth_body import pair_stiffness
+from gearlube_core.helical_contact.analysis import ContactSettings, HelicalContact, analyse_contact
 from gearlube_core.helical_geometry.contact_line import (
     ContactPlane,
     clip_line,
@@ -27,54 +22,45 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import (
     stiffness_density,
     tangential_line_load,
 )
-from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.progress import Progress, no_progress
 
 _PHASES = 240
 
 
-class LoadedContact(NamedTuple):
-    """Results of the loaded contact."""
-
-    dataset: xr.Dataset
-    mesh: LineMesh
-
-
 def analyse_loaded_contact(
     settings: HelicalSettings,
-    store: Path | None,
-    jobs: int | None,
-    cycle_jobs: int | None,
-    announce: Callable[[str], None],
-    observe: Callable[[float], None],
-) -> LoadedContact:
-    """Return the loaded mesh period of a study; finished positions are kept in `store`.
+    *,
+    store: Path | None = None,
+    jobs: int | None = None,
+    cycle_jobs: int | None = None,
+    progress: Progress = no_progress,
+) -> HelicalContact:
+    """Return the loaded mesh period of a study, with ISO 6336-1 in the dataset's attributes.
 
     Parameters
     ----------
     settings : HelicalSettings
     store : Path, optional
+        Folder that keeps finished positions.
     jobs : int, optional
         Processes for the teeth; all processors by default.
     cycle_jobs : int, optional
-        The same for the positions.
-    announce : callable
-        Told in words what begins.
-    observe : callable
-        Told the share that is done [-].
+        The same for the positions, if other than `jobs`.
+    progress : callable, optional
+        Called with the share of positions that is done [-] and a sentence on what runs.
     """
-    modified, cycle = settings.file.modified_pair(), settings.cycle()
-    announce("elastic teeth (kept for the next run)")
-    stiffness = pair_stiffness(modified.pair, settings.body, jobs=jobs)
-    announce("loaded contact")
-
-    def tell(progress: CycleProgress) -> None:
-        observe(progress.done / progress.total)
-
-    record = run_cycle(modified, stiffness, cycle, store=store, jobs=cycle_jobs, observer=tell)
-    dataset = contact_dataset(modified, cycle, record)
+    modified = settings.file.modified_pair()
+    found = analyse_contact(
+        modified,
+        ContactSettings(cycle=settings.cycle(), body=settings.body),
+        store=store,
+        jobs=jobs,
+        cycle_jobs=cycle_jobs,
+        progress=progress,
+    )
     pair = modified.pair
     iso = iso_stiffness(pair, line_load=tangential_line_load(pair, settings.pinion_torque))
-    dataset.attrs |= {
+    found.dataset.attrs |= {
         "contact_start": pair.contact_start,
         "contact_end": pair.contact_end,
         "pitch_point": pair.pitch_point,
@@ -86,7 +72,7 @@ def analyse_loaded_contact(
         "iso_density_units": "N/m2",
         "iso_outside": "; ".join(iso.outside) or "none",
     }
-    return LoadedContact(dataset, line_mesh(modified, cycle, record))
+    return found
 
 
 def constant_density_stiffness(settings: HelicalSettings, density: float) -> xr.Dataset:

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
-from gearlube.studies.helical.study import HelicalStudy
 
 _MOTIONS = ("delta_z", "u_xp", "u_yp", "u_zp")
 _FORCES = ("F_xp", "F_yp", "F_zp")
@@ -24,9 +24,9 @@ class Row(NamedTuple):
     unit: str
 
 
-def summary_rows(study: HelicalStudy) -> list[Row]:
+def summary_rows(results: HelicalResults) -> list[Row]:
     """Return the numbers of a study in the order of its stages."""
-    pair, found = study.settings.file.helical_pair(), study.datasets
+    pair, found = results.settings.file.helical_pair(), results.datasets
     rows = [
         Row("pair", "transverse contact ratio", pair.transverse_contact_ratio, "1"),
         Row("pair", "overlap ratio", pair.overlap_ratio, "1"),
@@ -43,6 +43,19 @@ def summary_rows(study: HelicalStudy) -> list[Row]:
         if name in found:
             rows += of(found[name])
     return rows
+
+
+def remarks(results: HelicalResults) -> list[str]:
+    """Return what to be careful with, a sentence each."""
+    found, sentences = results.datasets, []
+    if results.settings.file.completed:
+        fields = ", ".join(results.settings.file.completed)
+        sentences.append(f"Not in the pair's source, completed: {fields}.")
+    if "contact" in found and found["contact"].attrs["iso_outside"] != "none":
+        sentences.append(f"ISO 6336-1 does not hold here: {found['contact'].attrs['iso_outside']}.")
+    if "sweep" in found and bool((found["sweep"]["stability_margin"] <= 0.0).any()):
+        sentences.append("Unstable within the speed sweep: rows without values in sweep.nc.")
+    return sentences
 
 
 def summary_csv(rows: list[Row]) -> str:

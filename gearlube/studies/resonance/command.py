@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import logging
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+from rich.table import Table
 
-from gearlube.cli.exit_codes import INTERRUPTED, told
+from gearlube.cli.exit_codes import INTERRUPTED, exit_on_error
 from gearlube.cli.options import OilTemperatureOption, RoughnessOption
+from gearlube.cli.progress_report import progress_on
 from gearlube_core.checks import check_finite, check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # the study is loaded when the command runs
+    from gearlube.studies.resonance.summary import ModelSummary
     from gearlube_core.mesh_table.table import MeshTable
 
 logger = logging.getLogger("gearlube")
@@ -87,10 +91,12 @@ def resonance(
     Stable and unstable periodic motions of the dry 2-DOF and 1-DOF models and of the lubricated
     2-DOF model, with time sweeps as a check. Stopped with Ctrl-C, it writes what was found.
     """
-    from gearlube.studies.resonance import ResonanceSettings, quick_settings
-    from gearlube.studies.resonance.console import console_resonance
+    from gearlube.studies.resonance import run
+    from gearlube.studies.resonance.settings import MODELS, ResonanceSettings, quick_settings
+    from gearlube.studies.resonance.summary import summaries
 
-    with told(f"Stopped while results were written; {out} may be incomplete."):
+    began = time.monotonic()
+    with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
         first, last = _range(frequency_range)
         check_option("--radii", radii, _RADII)
         check_option("--friction", friction, _FRICTION)
@@ -105,16 +111,23 @@ def resonance(
             first=first,
             last=last,
             frequencies=frequencies,
-        )
-        if load_at is not None:
-            check_within("--load-at", load_at, 0.05, 3.0, "", "0.9 shows the bistable range.")
-        finished = console_resonance(
-            console,
-            settings=quick_settings(settings) if quick else settings,
-            out=out,
             load_at=load_at,
         )
-    if not finished:
+        with progress_on(console, "resonance") as progress:
+            results = run.run_resonance(
+                quick_settings(settings) if quick else settings, folder=out, progress=progress
+            )
+        found = summaries(results.response)
+        if found:
+            console.print(_table(found))
+        if "natural_frequency" in results.response.attrs:
+            logger.info("Natural frequency %.0f Hz.", results.response.attrs["natural_frequency"])
+        for summary in found:
+            for sentence in summary.remarks:
+                logger.warning("%s: %s", MODELS[summary.model], sentence)
+        logger.info("Studied in %.1f s.", time.monotonic() - began)
+        logger.info("Results: %s, %s, %s", out / "resonance.nc", out / "cycle.nc", out / "figures")
+    if results.interrupted:
         logger.warning("Stopped. What was found until then is in %s.", out)
         raise typer.Exit(INTERRUPTED)
 
@@ -145,3 +158,32 @@ def _range(text: str) -> tuple[float, float]:
         raise ParameterError(f"--range must be two numbers, got {text!r}. {cure}")
     first, last = (check_finite("--range", piece, "", cure) for piece in pieces)  # type: ignore[arg-type]
     return first, last
+
+
+def _table(found: list[ModelSummary]) -> Table:
+    from gearlube.studies.resonance.settings import MODELS
+
+    table = Table(title="Resonance; mesh frequencies over the natural frequency")
+    for heading in (
+        "model",
+        "folds, bifurcations",
+        "p-p [µm]",
+        "at",
+        "apart, rising",
+        "apart, falling",
+    ):
+        table.add_column(heading, justify="left" if heading == "model" else "right")
+    for summary in found:
+        table.add_row(
+            MODELS[summary.model],
+            "\n".join(f"{kind} {at:.4f}" for kind, at in summary.special) or "none",
+            f"{1e6 * summary.peak:.2f}",
+            f"{summary.peak_at:.3f}",
+            _ranges(summary.separated_up),
+            _ranges(summary.separated_down),
+        )
+    return table
+
+
+def _ranges(ranges: list[tuple[float, float]]) -> str:
+    return "\n".join(f"{first:.3f} to {last:.3f}" for first, last in ranges) or "none"

@@ -54,6 +54,9 @@ class ResonanceSettings:
         Of the time sweeps; 0 for none.
     section_starts : int
         Starts of the Poincare section; 0 for none.
+    load_at : float, optional
+        Also follow the response over the pinion torque, at this mesh over natural frequency [-],
+        0.05 to 3.
     steps_per_mesh_period, lubricated_steps : int
         Of the integrator, without and with friction. Where contact is lost close to a fold,
         fewer steps than 512 show folds that are not there.
@@ -70,6 +73,7 @@ class ResonanceSettings:
     frequencies: int = 200
     sweep_frequencies: int = 60
     section_starts: int = 24
+    load_at: float | None = None
     steps_per_mesh_period: int = 512
     lubricated_steps: int = 128
 
@@ -83,6 +87,8 @@ class ResonanceSettings:
         check_within("frequencies", self.frequencies, 2, 5000)
         check_within("sweep_frequencies", self.sweep_frequencies, 0, 5000)
         check_within("section_starts", self.section_starts, 0, 1000)
+        if self.load_at is not None:
+            check_within("load_at", self.load_at, 0.05, 3.0, "", "0.9 shows the bistable range.")
         self.parameters("two_dof")
         if self.mesh is not None and self.pinion_torque > 1.5 * self.mesh.torque[-1]:
             raise ParameterError(

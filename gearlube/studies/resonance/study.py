@@ -1,4 +1,4 @@
-"""A resonance study: all models, motions and flank contacts, one stage after another."""
+"""The solutions of a resonance study: all models, motions and flank contacts, in stages."""
 
 from __future__ import annotations
 
@@ -24,19 +24,12 @@ from gearlube.studies.resonance.settings import HOT, MODELS, SWEPT, ResonanceSet
 from gearlube.studies.resonance.traction_curve import TractionCurve, traction_curve
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import Direction, TimeSweep, time_sweep
+from gearlube_core.progress import Progress, no_progress
 
 SWEEP_STEPS = 256
 DIRECTIONS: tuple[Direction, Direction] = ("up", "down")
 
 
-class Stage(NamedTuple):
-    """Progress of a study: what runs, and how much of all is done [-]."""
-
-    name: str
-    done: float
-
-
-Observer = Callable[[Stage], None]
 # running time of the lubricated response over that of a dry one
 _LUBRICATED_COST = 8.0
 
@@ -78,15 +71,15 @@ class _Stopped(Exception):  # noqa: N818
 
 
 def study_resonance(
-    settings: ResonanceSettings, observer: Observer | None = None
+    settings: ResonanceSettings, progress: Progress = no_progress
 ) -> ResonanceStudy:
     """Run a study; on KeyboardInterrupt return what was found until then.
 
     Parameters
     ----------
     settings : ResonanceSettings
-    observer : callable, optional
-        Called with a `Stage` whenever something was done.
+    progress : callable, optional
+        Called with the share that is done [-] and what runs.
 
     Raises
     ------
@@ -101,41 +94,39 @@ def study_resonance(
     try:
         for stage in stages:
 
-            def observe(share: float, stage: _Task = stage, before: float = before) -> None:
-                if observer is not None:
-                    observer(Stage(stage.name, (before + share * stage.cost) / total))
+            def observe(share: float, stage: _Stage = stage, before: float = before) -> None:
+                progress((before + share * stage.cost) / total, stage.name)
 
             observe(0.0)
             stage.run(observe)
             before += stage.cost
-        if observer is not None:
-            observer(Stage("done", 1.0))
+        progress(1.0, "done")
     except (KeyboardInterrupt, _Stopped):
         study.interrupted = True
     return study
 
 
-class _Task(NamedTuple):
+class _Stage(NamedTuple):
     name: str
     cost: float  # running time over that of a dry response
     run: Callable[[Callable[[float], None]], None]
 
 
-def _stages(study: ResonanceStudy) -> list[_Task]:
+def _stages(study: ResonanceStudy) -> list[_Stage]:
     settings = study.settings
     stages = []
     for model in settings.models:
         cost = _LUBRICATED_COST if model == "two_dof_lubricated" else 1.0
-        stages.append(_Task(f"{MODELS[model]}: branches", cost, partial(_respond, study, model)))
+        stages.append(_Stage(f"{MODELS[model]}: branches", cost, partial(_respond, study, model)))
         if model in SWEPT and settings.sweep_frequencies > 0:
             stages.append(
-                _Task(f"{MODELS[model]}: time sweeps", 1.0, partial(_sweep, study, model))
+                _Stage(f"{MODELS[model]}: time sweeps", 1.0, partial(_sweep, study, model))
             )
-    stages.append(_Task("motions", 1.0, partial(_keep_motions, study)))
+    stages.append(_Stage("motions", 1.0, partial(_keep_motions, study)))
     if settings.section_starts > 0:
-        stages.append(_Task("Poincare section", 0.5, partial(_cut, study)))
+        stages.append(_Stage("Poincare section", 0.5, partial(_cut, study)))
     if settings.friction != "off":
-        stages.append(_Task("flank contacts", 1.0, partial(_flanks, study)))
+        stages.append(_Stage("flank contacts", 1.0, partial(_flanks, study)))
     return stages
 
 

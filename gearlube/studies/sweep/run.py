@@ -11,7 +11,6 @@ from functools import partial
 from pathlib import Path
 
 import xarray as xr
-from gearlube_core.progress import Progress, no_progress
 
 from gearlube.studies.sweep.compile_axle import compile_axle
 from gearlube.studies.sweep.datasets import merge, save
@@ -25,6 +24,7 @@ from gearlube.studies.sweep.unpack import fmu_guid, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import Pool, ProcessPool
 from gearlube_core.storage.result_store import DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results

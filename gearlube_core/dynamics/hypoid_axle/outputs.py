@@ -53,6 +53,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     WORK_MARK,
     X,
 )
+from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, SHARE
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import N_SERIES, pair_channels
@@ -151,18 +152,6 @@ def write_shaft(
 
 
 @kernel
-def mean_power(s: NDArray[float64], rates: NDArray[float64], energy: int) -> float:
-    """Return the mean rate of an energy of the state over the last communication step [W].
-
-    Before the first step: the present rate.
-    """
-    duration = s[TIME_IN_STEP]
-    if duration > 0.0:
-        return (s[energy] - s[WORK_MARK + energy - PINION_WORK]) * (1.0 / duration)
-    return rates[energy]
-
-
-@kernel
 def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[float64]) -> None:
     """Write powers lost and efficiencies, averaged over the last communication step.
 
@@ -173,21 +162,23 @@ def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[floa
     ----------
     [mohammadpour_2015 (20)] [mohammadpour_2015 (21)]
     """
-    pinion = mean_power(s, rates, PINION_WORK)
-    boundary = mean_power(s, rates, BOUNDARY)
-    friction = mean_power(s, rates, VISCOUS) + boundary
-    mesh = mean_power(s, rates, MESH_DAMPING)
-    rollers = mean_power(s, rates, BEARING_DAMPING)
-    drag = mean_power(s, rates, BEARING_TORQUE)
+    duration = s[TIME_IN_STEP]
+    pinion = mean_power(s, rates, PINION_WORK, WORK_MARK, duration)
+    wheel = mean_power(s, rates, WHEEL_WORK, WORK_MARK + 1, duration)
+    viscous = mean_power(s, rates, VISCOUS, WORK_MARK + 2, duration)
+    boundary = mean_power(s, rates, BOUNDARY, WORK_MARK + 3, duration)
+    mesh = mean_power(s, rates, MESH_DAMPING, WORK_MARK + 4, duration)
+    rollers = mean_power(s, rates, BEARING_DAMPING, WORK_MARK + 5, duration)
+    drag = mean_power(s, rates, BEARING_TORQUE, WORK_MARK + 6, duration)
+    friction = viscous + boundary
     out[at.FRICTION_LOSS] = friction
     out[at.BOUNDARY_LOSS] = boundary
     out[at.BEARING_LOSS] = drag
     out[at.DAMPING_LOSS] = mesh + rollers
     out[at.EFFICIENCY] = 0.0
     out[at.AXLE_EFFICIENCY] = 0.0
-    duration = s[TIME_IN_STEP]
-    idle_power = _IDLE_WORK / duration if duration > 0.0 else _IDLE_WORK
-    put_in = pinion if pinion > 0.0 else -mean_power(s, rates, WHEEL_WORK)
+    idle_power = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
+    put_in = pinion if pinion > 0.0 else -wheel
     if put_in > idle_power:
         out[at.EFFICIENCY] = 1.0 - friction / put_in
         out[at.AXLE_EFFICIENCY] = 1.0 - (friction + mesh + rollers + drag) / put_in

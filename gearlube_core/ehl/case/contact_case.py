@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from gearlube_core.contact.solid import Solid, reduced_modulus
+from gearlube_core.ehl.case.film_case import FilmCase, Heat, refused
 from gearlube_core.ehl.case.grids import LineDomain, LineSolver, PointDomain, PointSolver
 from gearlube_core.ehl.case.sections import Body, Modulus, Oil
 from gearlube_core.ehl.case.surfaces import (
@@ -27,31 +28,22 @@ from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_cont
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.thermal.solver import check_thermal
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.input_file import InputFile, read_toml
+from gearlube_core.input_file.input_file import read_toml
 from gearlube_core.units import MILLIMETRE
 
 _GIGA, _MICRO = 1e9, 1e-6
 
-Text = Annotated[str, Field(min_length=1)]
 Radius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Speed = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
 LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]
 Fill = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
-Heat = Annotated[
-    Literal["isothermal", "thermal"],
-    Field(description="thermal: with the energy balance of oil and bodies"),
-]
 
 
-class EhlCase(InputFile):
-    """What line and point contacts share: names, speeds along x, solids, oil."""
+class ContactCase(FilmCase):
+    """What line and point contacts share: speeds along x, solids, oil."""
 
-    package: ClassVar[str] = "gearlube_core.ehl.case"
-
-    name: Text = Field(description="What reports and plots call the case")
-    source: Text = Field(description="Where the numbers are from")
     speed_1_m_s: Speed = Field(description="Surface speed of body 1, below, along x")
     speed_2_m_s: Speed = Field(description="Surface speed of body 2, above, along x")
     reduced_modulus_gpa: Modulus | None = Field(
@@ -84,7 +76,12 @@ class EhlCase(InputFile):
         return self.speed_1_m_s != 0.0 and self.speed_2_m_s != 0.0
 
     def moved(self, entrainment: float | None, slide_roll: float | None) -> Self:
-        """Return the case with another mean speed along x or slide-roll ratio.
+        """Return the case at the speeds of `speeds_at`."""
+        speeds = self.speeds_at(entrainment, slide_roll)
+        return self.varied(speeds) if speeds else self
+
+    def speeds_at(self, entrainment: float | None, slide_roll: float | None) -> dict[str, float]:
+        """Return the fields of another mean speed along x or slide-roll ratio.
 
         Parameters
         ----------
@@ -93,13 +90,18 @@ class EhlCase(InputFile):
         slide_roll
             2 (u1 - u2)/(u1 + u2) [-]; None keeps it.
 
+        Returns
+        -------
+        dict
+            Of both surface speeds [m/s], for `varied`; empty if both arguments are None.
+
         Raises
         ------
         ParameterError
-            When the speeds leave their range, or the case has no mean speed to keep a ratio to.
+            The case has no mean speed, so no slide-roll ratio.
         """
         if entrainment is None and slide_roll is None:
-            return self
+            return {}
         mean = 0.5 * (self.speed_1_m_s + self.speed_2_m_s)
         if mean == 0.0:
             raise ParameterError(
@@ -108,11 +110,10 @@ class EhlCase(InputFile):
             )
         ratio = (self.speed_1_m_s - self.speed_2_m_s) / mean if slide_roll is None else slide_roll
         u = mean if entrainment is None else entrainment
-        speeds = {"speed_1_m_s": u * (1.0 + 0.5 * ratio), "speed_2_m_s": u * (1.0 - 0.5 * ratio)}
-        return self.varied(speeds)
+        return {"speed_1_m_s": u * (1.0 + 0.5 * ratio), "speed_2_m_s": u * (1.0 - 0.5 * ratio)}
 
 
-class LineCase(EhlCase):
+class LineCase(ContactCase):
     """A lubricated line contact."""
 
     title: ClassVar[str] = "line contact"
@@ -123,20 +124,29 @@ class LineCase(EhlCase):
     inlet_fill: Fill = Field(
         default=1.0, description="Share of the inlet gap that holds oil; 1: flooded"
     )
-    temperature: Heat = "isothermal"
+    temperature: Heat = Field(
+        default="isothermal", description="thermal: with the energy balance of oil and bodies"
+    )
     domain: LineDomain | None = None
     profile: ProfileFile | None = None
     solver: LineSolver = LineSolver()
 
     @model_validator(mode="after")
-    def _hangs_together(self) -> LineCase:
-        _in_si(self._smooth, self.settings)
-        _refused(self.problem)
+    def _consistent(self) -> LineCase:
+        with refused("In SI units: "):
+            smooth = self._smooth()
+            self.settings()
+        with refused():
+            self._shaped(smooth)
         return self
 
     def problem(self) -> LineProblem:
         """Return the contact, in SI units."""
-        smooth, given = self._smooth(), self.profile
+        return self._shaped(self._smooth())
+
+    def _shaped(self, smooth: LineProblem) -> LineProblem:
+        """Return the contact with the heights of its profile."""
+        given = self.profile
         if given is None:
             return smooth
         profile = given.surface()
@@ -168,7 +178,7 @@ class LineCase(EhlCase):
         return LineSettings(**self.solver.model_dump())
 
 
-class PointCase(EhlCase):
+class PointCase(ContactCase):
     """A lubricated point contact."""
 
     title: ClassVar[str] = "point contact"
@@ -184,7 +194,9 @@ class PointCase(EhlCase):
         description="Oil that both surfaces together bring to the inlet, for mass_conserving "
         "cavitation; left out: flooded",
     )
-    temperature: Heat = "isothermal"
+    temperature: Heat = Field(
+        default="isothermal", description="thermal: with the energy balance of oil and bodies"
+    )
     domain: PointDomain = PointDomain()
     height_map: MapFile | None = None
     ridge: RidgeShape | None = None
@@ -193,12 +205,14 @@ class PointCase(EhlCase):
     solver: PointSolver = PointSolver()
 
     @model_validator(mode="after")
-    def _hangs_together(self) -> PointCase:
-        _in_si(self._smooth, self.settings)
-        _in_si(lambda: check_cavitation(self._smooth(), self.settings()))
-        _refused(self.problem)
-        if self.temperature == "thermal":
-            _refused(lambda: check_thermal(self._smooth(), self.settings()))
+    def _consistent(self) -> PointCase:
+        with refused("In SI units: "):
+            smooth, settings = self._smooth(), self.settings()
+            check_cavitation(smooth, settings)
+        with refused():
+            self._shaped(smooth)
+            if self.temperature == "thermal":
+                check_thermal(smooth, settings)
         return self
 
     @property
@@ -219,7 +233,10 @@ class PointCase(EhlCase):
 
     def problem(self) -> PointContactProblem:
         """Return the contact, in SI units."""
-        smooth = self._smooth()
+        return self._shaped(self._smooth())
+
+    def _shaped(self, smooth: PointContactProblem) -> PointContactProblem:
+        """Return the contact with the heights of its surfaces."""
         given = (self.ridge, self.dent, self.waviness, self.height_map)
         shapes = [one.surface() for one in given if one is not None]
         if not shapes:
@@ -259,17 +276,3 @@ class PointCase(EhlCase):
     def settings(self) -> PointSolverSettings:
         """Return how it is solved."""
         return PointSolverSettings(**self.solver.model_dump(exclude={"nodes_x", "nodes_y"}))
-
-
-def _in_si(*builders: Any) -> None:
-    """Refuse what no field can see alone, where messages are in SI units."""
-    _refused(*builders, head="In SI units: ")
-
-
-def _refused(*builders: Any, head: str = "") -> None:
-    """Refuse as pydantic wants it refused."""
-    try:
-        for build in builders:
-            build()
-    except ParameterError as reason:
-        raise ValueError(f"{head}{str(reason).removesuffix('.')}") from None

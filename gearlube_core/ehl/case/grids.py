@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from gearlube_core.ehl.case.film_case import Wedge
 from gearlube_core.input_file.input_file import Section
 
 Place = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
@@ -57,9 +58,7 @@ class PointSolver(Section):
 
     nodes_x: PointNodes = Field(default=129, description="Along x, border included")
     nodes_y: PointNodes = Field(default=129, description="Along y, border included")
-    wedge: Literal["upwind-1", "upwind-2", "central", "quick"] = Field(
-        default="upwind-2", description="Stencil of the wedge"
-    )
+    wedge: Wedge = Field(default="upwind-2", description="Stencil of the wedge")
     discretisation: Literal["differences", "elements"] = Field(
         default="differences",
         description="Differences of finite volumes, or finite elements: Galerkin's, upwinded where "

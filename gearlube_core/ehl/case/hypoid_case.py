@@ -7,14 +7,14 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from gearlube_core.ehl.case.film_case import FilmCase, Heat, Text, Wedge
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.input_file.input_file import Section
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
-Text = Annotated[str, Field(min_length=1)]
 Speed = Annotated[float, Field(ge=1.0, le=47000.0, allow_inf_nan=False)]
 Torque = Annotated[float, Field(ge=-10000.0, le=10000.0, allow_inf_nan=False)]
 Temperature = Annotated[float, Field(ge=-60.0, le=200.0, allow_inf_nan=False)]
@@ -36,21 +36,16 @@ class HypoidSolver(Section):
     steady: Annotated[int, Field(ge=2, le=1000)] = Field(
         default=17, description="Positions with a steady film"
     )
-    wedge: Literal["upwind-1", "upwind-2", "central", "quick"] = Field(
-        default="quick", description="Stencil of the wedge"
-    )
+    wedge: Wedge = Field(default="quick", description="Stencil of the wedge")
     tolerance: Tolerance = Field(default=1e-5, description="Unbalanced flow")
 
 
-class HypoidCase(InputFile):
+class HypoidCase(FilmCase):
     """One tooth pair of a hypoid axle through its engagement."""
 
-    package: ClassVar[str] = "gearlube_core.ehl.case"
     title: ClassVar[str] = "hypoid flank"
     prefix: ClassVar[str] = "hypoid_"
 
-    name: Text = Field(description="What reports and plots call the case")
-    source: Text = Field(description="Where the numbers are from")
     mesh_table: Text = Field(
         default="mohammadpour_2015", description="Shipped mesh table, or a file (.nc)"
     )
@@ -75,10 +70,10 @@ class HypoidCase(InputFile):
         default="eyring",
         description="Of the film; newtonian: the Eyring stress acts on friction alone",
     )
-    temperature: Literal["isothermal", "thermal"] = Field(
+    temperature: Heat = Field(
         default="isothermal",
-        description="thermal: also steady films with the energy balance of oil and flanks; films "
-        "in time are isothermal and have to be left out",
+        description="thermal: also steady films with the energy balance of oil and flanks; "
+        "transient thermal films are not implemented",
     )
     oil_temperature_degc: Temperature = Field(default=95.0, description="At the inlet")
     roughness_um: Roughness = Field(

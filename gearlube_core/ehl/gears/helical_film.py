@@ -23,10 +23,10 @@ from gearlube_core.oil.film_oil import EhlLubricant
 from gearlube_core.oil.named_film_oils import jamali_2015_oil
 
 JAMALI_2015_MODULUS = 0.5 * 227.5e9  # E*, Pa; E 207 GPa, nu 0.3: from [jamali_2015 ch. 7]
-_TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: Jamali 2015 ch. 4
+_TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: [jamali_2015 ch. 4]
 _LARGEST_GAP = 50e-6  # m
 _OPEN_FILM = 10e-6  # m
-_DOMAIN = (-2.75, 1.775)  # of the largest Hertz semi-width; Jamali 2015 covers 4.5 of them
+_DOMAIN = (-2.75, 1.775)  # of the largest Hertz semi-width; 4.5 in [jamali_2015 ch. 4]
 _SOLIDS = SolidContact()
 _SLENDEST = 2000.0  # R_y/R_x that stands for a line
 

@@ -145,7 +145,7 @@ class LineSettings:
         Of the finest grid.
     stencil
         Of the wedge: "upwind-2" (default), "central", "upwind-1", or "galerkin" for the finite
-        elements of Jamali 2015.
+        elements of [jamali_2015 (3.14)].
     cavitation
         "reynolds": pressure and its gradient vanish where the film breaks. "mass_conserving":
         the void share of [jakobsson_floberg_1957] and [olsson_1965] is solved as well.

@@ -1,13 +1,10 @@
-"""Cavitation of a point contact: what goes with mass conservation, and the grids that have it."""
+"""Which point contacts may be solved with mass-conserving cavitation."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
-from gearlube_core.ehl.point.equations.fill import BrokenFilm
 from gearlube_core.ehl.point.equations.film_shear import ALIGNED
-from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.errors import ParameterError
@@ -41,13 +38,6 @@ def check_cavitation(problem: PointContactProblem, settings: PointSolverSettings
                 f"{along:g} and {across:g} m/s. Turn the axes along sliding, or take a Newtonian "
                 "oil."
             )
-
-
-def let_rupture(levels: Sequence[PointLevel], problem: PointContactProblem) -> None:
-    """Give the grids of a problem mass-conserving cavitation."""
-    layer = math.inf if problem.inlet_layer is None else problem.inlet_layer
-    for level in levels:
-        level.broken = BrokenFilm(level.metric, level.dx, level.shape, layer / level.scales.film)
 
 
 def refuse_rupture(settings: PointSolverSettings, film: str) -> None:

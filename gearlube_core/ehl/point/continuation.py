@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from gearlube_core.ehl.point.equations.state import FilmState
 from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord, newton
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.terms.state import FilmState
 
 _THICKER = (0.25, 1.0 / 16.0, 1.0 / 64.0)  # mobilities
 _LARGEST_FACTOR = 4.0  # from one mobility to the next
@@ -84,7 +84,7 @@ def solve_level(
 
     def attempt(begin: FilmState, mobility: float, order: float) -> FilmState | None:
         nonlocal last
-        level.ease(mobility, order)
+        level.set_continuation(mobility, order)
         easy = (mobility < 1.0 or order < 1.0) and not exact
         state, report = newton(
             hierarchy,
@@ -102,7 +102,7 @@ def solve_level(
             last = state
         return state if report.converged else None
 
-    starved = level.broken is not None and level.broken.starved and settings.wedge != "upwind-1"
+    starved = level.terms.cavitation.starved and settings.wedge != "upwind-1"
     state = None if starved else attempt(start, 1.0, 1.0)
     if state is None and only_start:
         for mobility in (1.0, *_THICKER):
@@ -125,5 +125,5 @@ def solve_level(
             if state is not None:
                 record.converged = record.first_order = True
                 return state
-    level.ease(1.0, 1.0)
+    level.set_continuation(1.0, 1.0)
     return level.state(last.pressure, last.approach) if state is None else state

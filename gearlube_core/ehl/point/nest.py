@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.terms.state import FilmState
 
 COARSE_TOLERANCE = 1e-3  # of the flow residual on all but the finest grid
 

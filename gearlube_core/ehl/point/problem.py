@@ -11,7 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
-from gearlube_core.ehl.point.border.far_field import FarField
+from gearlube_core.ehl.point.far_field import FarField
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry

@@ -7,14 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.border.border_pressure import border_pressure
-from gearlube_core.ehl.point.equations.level import PointLevel
 from gearlube_core.ehl.point.equations.limiter import limited_faces
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import Touch
+from gearlube_core.ehl.point.terms.state import FilmState
 
 _CURE = "Take more nodes where the film is thin, upwind-1 to start from, or a lower load first."
 _LIMITED = 0.01  # share of first-order faces worth a word
@@ -74,7 +73,7 @@ class PointOutcome:
         touch = Touch.of(
             problem.solids,
             state.film * scales.film,
-            level.cells * scales.length**2,
+            level.grid.cells * scales.length**2,
             problem.load,
         )
         sound = bool(np.isfinite(state.pressure).all())
@@ -97,15 +96,10 @@ class PointOutcome:
             good += f" {100.0 * share:.1f} % of the faces are of first order: too few nodes at"
             good += " the inlet or the sides for this film; take more."
         good += record.fallen_back(settings.wedge) + touch.sentence
-        outside, border = 0.0, level.border
-        if border is not None:
-            outside = border.load(state.approach)[0] / scales.load
-            good += f" Oil beyond the domain carries {100.0 * outside:.2g} % of the load."
-        cut = border_pressure(
-            scales.outward(state.pressure),
-            scales.outward(state.film),
-            None if border is None else scales.outward(border.beside(state.approach)),
-        )
+        boundary = level.terms.boundary
+        outside = boundary.load(state.approach)[0] / level.load
+        good += boundary.sentence(outside)
+        cut = boundary.border_pressure(state.pressure, state.film, state.approach, scales.outward)
         sentence = (
             good
             if not failed

@@ -8,12 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from gearlube_core.ehl.point.border.open_border import OpenBorder
-from gearlube_core.ehl.point.cavitation import check_cavitation, let_rupture
+from gearlube_core.ehl.point.cavitation import check_cavitation
 from gearlube_core.ehl.point.continuation import solve_level
-from gearlube_core.ehl.point.equations.element_level import ElementLevel
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.nest import COARSE_TOLERANCE, bordered, carried
 from gearlube_core.ehl.point.newton.newton import NewtonRecord
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
@@ -23,6 +20,9 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointOutcome, PointSolution
 from gearlube_core.ehl.point.starvation import Starvation
+from gearlube_core.ehl.point.terms.differences import Differences
+from gearlube_core.ehl.point.terms.elements import Elements
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ConvergenceError
 
 _DIRECT_NODES = 1300  # of the grid that is solved directly
@@ -60,6 +60,7 @@ def build_hierarchy(
     scales: PointScales,
     wedge: str,
     discretisation: str = "differences",
+    cavitation: str = "reynolds",
 ) -> Hierarchy:
     """Return the grids of a problem."""
     nx, ny = problem.nodes
@@ -67,11 +68,11 @@ def build_hierarchy(
     dy = (problem.y_limits[1] - problem.y_limits[0]) / (ny - 1)
     nodes, steps = ((nx, ny), (dx, dy)) if scales.swap else ((ny, nx), (dy, dx))
     shapes = grid_shapes(nodes, steps)
-    grid = ElementLevel if discretisation == "elements" else PointLevel
-    levels = [grid(problem, scales, shape, wedge) for shape in shapes]
-    if problem.oil_beyond:
-        for level in levels:
-            level.open_border(OpenBorder(problem, scales, level.shape))
+    scheme = Elements if discretisation == "elements" else Differences
+    levels = [
+        PointLevel(problem, scales, shape, wedge, scheme=scheme, cavitation=cavitation)
+        for shape in shapes
+    ]
     transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
     return Hierarchy(levels, transfers)
 
@@ -84,15 +85,12 @@ def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     """
     a_x, a_y, _ = problem.hertz_contact
     film = expected_film(problem)
-    scales, (ny, nx) = level.scales, level.shape
-    nodes = (ny, nx) if scales.swap else (nx, ny)
-    x = np.linspace(*problem.x_limits, nodes[0])
-    y = np.linspace(*problem.y_limits, nodes[1])
+    scales, x, y = level.scales, level.grid.x, level.grid.y
     a_x = max(math.sqrt(a_x**2 + problem.hertz.R_x * film), 2.5 * (x[1] - x[0]))
     a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
     ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
     pressure = bordered(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
-    pressure *= scales.load / level.integral(pressure)
+    pressure *= level.load / level.grid.integral(pressure)
     return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
 
 
@@ -144,9 +142,9 @@ def nested_film(
 ) -> tuple[Hierarchy, FilmState, NewtonRecord]:
     """Return the film on nested grids: the grids, the state on the finest, what was done."""
     scales = PointScales.of(problem)
-    hierarchy = build_hierarchy(problem, scales, settings.wedge, settings.discretisation)
-    if settings.cavitation == "mass_conserving":
-        let_rupture(hierarchy.levels, problem)
+    hierarchy = build_hierarchy(
+        problem, scales, settings.wedge, settings.discretisation, settings.cavitation
+    )
     record = NewtonRecord()
     state = _hertz_start(problem, hierarchy.levels[0])
     count = len(hierarchy.levels)

@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from gearlube_core.ehl.point.continuation import solve_level
-from gearlube_core.ehl.point.equations.state import FilmState
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, newton
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.terms.state import FilmState
 
 _FACTOR = 0.5  # from one layer to the next
 _LARGEST_FACTOR = 0.95
@@ -53,13 +53,12 @@ def thin_layer(
     has to; from a dry inlet it would have to come upstream node by node.
     """
     level = hierarchy.levels[-1]
-    broken = level.broken
-    assert broken is not None
     factor, state = _FACTOR, start
-    level.ease(1.0, 0.0)
-    found = min(broken.layer, float(state.film[1:-1, 0].min()))
+    level.set_continuation(1.0, 0.0)
+    found = min(level.terms.cavitation.inlet_layer, float(state.film[1:-1, 0].min()))
     while found > layer and factor < _LARGEST_FACTOR:
-        broken.layer = max(factor * found, layer)
+        thinner = max(factor * found, layer)
+        level.set_inlet_layer(thinner)
         trial, report = newton(
             hierarchy,
             level.state(state.pressure, state.approach),
@@ -71,11 +70,11 @@ def thin_layer(
         record.residuals += report.residuals
         record.krylov += report.krylov
         if report.converged:
-            state, found = trial, broken.layer
+            state, found = trial, thinner
         else:
             factor **= 0.5
-    broken.layer = found
-    level.ease(1.0, 1.0)
+    level.set_inlet_layer(found)
+    level.set_continuation(1.0, 1.0)
     return state
 
 
@@ -86,25 +85,23 @@ class Starvation:
         self, hierarchy: Hierarchy, settings: PointSolverSettings, record: NewtonRecord
     ) -> None:
         self._settings, self._record = settings, record
-        broken = [level.broken for level in hierarchy.levels if level.broken is not None]
-        self._layer = self._nested = broken[-1].layer
-        for one in broken:
-            one.layer = math.inf
+        self._layer = self._nested = hierarchy.levels[-1].terms.cavitation.inlet_layer
+        for level in hierarchy.levels:
+            level.set_inlet_layer(math.inf)
 
     def start(self, part: Hierarchy, state: FilmState, last: bool) -> FilmState:
         """Return the start on the finest grid of `part`, which gets its layer."""
         level = part.levels[-1]
-        assert level.broken is not None
         if len(part.levels) == 1:
             state = solve_level(part, state, self._settings, _TOLERANCE, self._record, True)
             pressed = state.pressure >= 0.8 * state.pressure.max()
             self._nested = max(self._layer, _NESTED * float(np.mean(state.mass[pressed])))
         else:
-            level.broken.layer = self._nested
+            level.set_inlet_layer(self._nested)
             state = level.state(state.pressure, state.approach)
         if last and len(part.levels) > 1 and self._nested > self._layer:
             state = solve_level(part, state, self._settings, _TOLERANCE, self._record, True)
         target = self._layer if last else self._nested
         state = thin_layer(part, state, target, self._settings, self._record)
-        level.broken.layer = self._layer if last else self._nested
+        level.set_inlet_layer(target)
         return level.state(state.pressure, state.approach)

@@ -9,7 +9,7 @@ import numpy as np
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.contact.half_space import HalfSpaceConvolution
 from gearlube_core.contact.half_space_graded import GradedConvolution
-from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.grid import PointGrid
 
 _Span = tuple[int, int]
 
@@ -27,17 +27,17 @@ class WindowedDeflection:
 
     Parameters
     ----------
-    level
+    grid
         Grid.
     """
 
-    def __init__(self, level: PointLevel) -> None:
-        self._coefficients = level.coefficients
+    def __init__(self, grid: PointGrid) -> None:
+        self._coefficients = grid.coefficients
         self._whole: GradedConvolution | None = None
-        if level.graded:
-            self._whole = GradedConvolution(level.coefficients, single=True)
+        if grid.graded:
+            self._whole = GradedConvolution(grid.coefficients, single=True)
         self._spans: tuple[_Span, _Span] | None = None
-        self._result: Any = np.zeros(level.shape, dtype=np.float32)
+        self._result: Any = np.zeros(grid.shape, dtype=np.float32)
 
     def follow(self, free: Flags) -> None:
         """Cut the box anew if it misses nodes, shape (ny, nx), or is much too large."""

@@ -9,10 +9,9 @@ from itertools import pairwise
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.border.border_pressure import border_pressure
-from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.border_pressure import border_pressure
 from gearlube_core.ehl.point.equations.mesh import Grading, cell_faces, x_nodes
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.newton import flow_residual
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.newton.transfer import Transfer
@@ -21,6 +20,7 @@ from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import NO_TOUCH, SolidContact, Touch
 from gearlube_core.ehl.point.solver import grid_shapes
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.level import Conditions, MovingLevel
 from gearlube_core.ehl.transient.rows import row_shapes
 from gearlube_core.oil.film_oil import EhlLubricant
@@ -135,7 +135,7 @@ class MovingFilm:
         finest = grids.levels[-1]
         rows = self._hierarchy(row_shapes(finest.shape), wedge, finest)
         for level in rows.levels:
-            level.scales = finest.scales
+            level.set_load(finest.load)
         return rows
 
     def _hierarchy(
@@ -159,9 +159,9 @@ def impose(film: MovingFilm, grids: Hierarchy, time: float, finest_only: bool = 
     for level in grids.levels:
         assert isinstance(level, MovingLevel)
         if level is finest or not finest_only:
-            level.impose(film.conditions(level.x, level.y, time))
+            level.set_conditions(film.conditions(level.grid.x, level.grid.y, time))
     for level in grids.levels:
-        level.scales = finest.scales
+        level.set_load(finest.load)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -257,8 +257,8 @@ def film_solution(
     failed = _failures(state.pressure, state.film, residual, state.load_error, settings)
     pressure = scales.outward(state.pressure) * scales.pressure
     height = scales.outward(state.film) * scales.film
-    load = level.integral(state.pressure) * scales.pressure * scales.length**2
-    cells = level.cells[:, None] * scales.length**2
+    load = level.grid.integral(state.pressure) * scales.pressure * scales.length**2
+    cells = level.grid.cells[:, None] * scales.length**2
     touch = Touch.of(film.solids, height, cells, load)
     cut = border_pressure(pressure, height).sentence
     return FilmSolution(

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.ehl.point.equations.state import FilmState
 from gearlube_core.ehl.point.equations.stencil import CENTRE
 from gearlube_core.ehl.point.newton.newton import flow_residual
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.kernels.jit import kernel
 
@@ -100,22 +100,19 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
         return state, size
     opening = (state.pressure <= 0.0) & state.free
     flow = np.where(opening, state.residual, 0.0)
-    if level.integral(flow) < _SHARE * level.integral(
+    if level.grid.integral(flow) < _SHARE * level.grid.integral(
         np.where(state.free, np.abs(state.residual), 0.0)
     ):
         return state, size
     band = np.zeros(level.shape, dtype=np.bool_)
     mark_band(flow > _FEW * flow.max(), _BACK, _AHEAD, _BESIDE, band)
-    if state.closed is not None:
-        band &= state.closed
-    if state.solids is not None:
-        band &= state.solids.pressure <= 0.0
+    band = state.contact.apart(state.boundary.within(band))
     linear = level.linearise(state, rows=band.copy())
     change = np.zeros(level.shape)
     relax_band(
         linear.offsets,
         linear.by_pressure,
-        linear.by_pressure[CENTRE] + level.own_deflection * linear.by_film[CENTRE],
+        linear.by_pressure[CENTRE] + level.grid.own_deflection * linear.by_film[CENTRE],
         np.argwhere(band),
         state.pressure,
         linear.right,

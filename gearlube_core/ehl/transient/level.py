@@ -8,16 +8,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_finite, check_positive, check_within
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.mesh import Grading, x_nodes
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.checks import check_positive, check_within
+from gearlube_core.ehl.point.equations.mesh import Grading
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.terms.boundary import AmbientOutside
+from gearlube_core.ehl.point.terms.entrainment import RowEntrainment
+from gearlube_core.ehl.point.terms.film_terms import film_shear
+from gearlube_core.ehl.point.terms.storage import Storage
 from gearlube_core.errors import ParameterError
 
 _STEEPEST = 20.0  # of entrainment against x
-_EVEN = 1e-9  # spread of sliding along x over that along y
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,15 +75,11 @@ class MovingLevel(PointLevel):
                 f"{problem.entrainment} m/s. Turn the axes."
             )
         super().__init__(problem, scales, shape, wedge, grading)
-        ny, nx = shape
-        self.x: Array = x_nodes(problem.x_limits, nx, grading)
-        self.y: Array = np.linspace(*problem.y_limits, ny)
-        self.rate = np.ones((ny, 1))
-        self.storage = np.zeros(shape)
-        if problem.lubricant.tau0 > 0.0:
-            self.shear = self._film_shear(problem, (0.0, 0.0))
+        # it slides as the conditions of a time say
+        shear = film_shear(problem, scales, self.grid, (0.0, 0.0))
+        self.terms = replace(self.terms, shear=shear)
 
-    def impose(self, conditions: FilmConditions) -> None:
+    def set_conditions(self, conditions: FilmConditions) -> None:
         """Set gap, load and speeds; storage is kept."""
         check_positive("load", conditions.load, "N")
         mean = 0.5 * (conditions.speed_1 + conditions.speed_2)
@@ -92,41 +90,21 @@ class MovingLevel(PointLevel):
             )
         check_within("slope", conditions.slope, 0.0, _STEEPEST, "", "Turn the y axis or the axes.")
         scales = self.scales
-        unit = scales.pressure * scales.length**2
-        self.scales = replace(scales, load=conditions.load / unit)
+        self.set_load(conditions.load / (scales.pressure * scales.length**2))
         # of a row's own speed along x
-        self.stencil = self.stencil._replace(wedge_y=conditions.slope / self.dy)
-        self.flow_rate = self.stencil.wedge_x + self.stencil.wedge_y
+        self.stencil = self.stencil._replace(wedge_y=conditions.slope / self.grid.dy)
         self.gap = np.ascontiguousarray(conditions.gap.T / scales.film)
-        self.rate = (mean / scales.speed)[:, None]
-        if self.shear is not None:
-            sliding = conditions.speed_2 - conditions.speed_1
-            self.shear.slide(sliding, _side_sliding(conditions, sliding))
-
-    def open_where_thicker(self, film: Array, limit: float) -> None:
-        """Hold ambient pressure where a film [m over the unit of films] passes a limit [m]."""
-        self.closed = film <= limit / self.scales.film
-
-    def keep(self, storage: Array | float, source: Array | float) -> None:
-        """Set storage and what earlier times give, both in units of the scales."""
-        self.storage = np.broadcast_to(np.asarray(storage, dtype=np.float64), self.shape)
-        self.source = np.ascontiguousarray(
-            np.broadcast_to(np.asarray(source, dtype=np.float64), self.shape)
+        sliding = conditions.speed_2 - conditions.speed_1
+        self.terms = replace(
+            self.terms,
+            entrainment=RowEntrainment(mean / scales.speed),
+            shear=self.terms.shear.with_sliding(sliding, conditions.side_sliding),
         )
 
-    def outflow(self, state: FilmState) -> Array:
-        """Return what flows into every node without storage and source."""
-        assert self.storage is not None
-        return np.asarray(state.residual - self.source + self.storage * state.mass)
+    def hold_ambient_above(self, film: Array, limit: float) -> None:
+        """Hold ambient pressure where a film, (ny, nx) [-], passes a limit [m]."""
+        self.set_boundary(AmbientOutside(film <= limit / self.scales.film))
 
-
-def _side_sliding(conditions: FilmConditions, along: Array) -> float:
-    """Return the sliding along y [m/s] where all rows slide in one direction."""
-    side = check_finite("side_sliding", conditions.side_sliding, "m/s")
-    spread = float(np.ptp(along))
-    if side != 0.0 and spread > _EVEN * abs(side):
-        raise ParameterError(
-            f"sliding along x must not vary over the rows where side_sliding is {side:.4g} m/s, "
-            f"got a spread of {spread:.4g} m/s. Turn the axes along sliding."
-        )
-    return side
+    def set_storage(self, rate: Array | float, source: Array) -> None:
+        """Set the rate at which rho h is stored and what is stored already, (ny, nx) [-]."""
+        self.terms = replace(self.terms, storage=Storage.of(rate, source, self.shape))

@@ -11,11 +11,12 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.point.cavitation import refuse_rupture
-from gearlube_core.ehl.point.equations.state import FilmState, Linearisation
 from gearlube_core.ehl.point.nest import bordered
 from gearlube_core.ehl.point.newton.newton import NewtonRecord
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.terms.linearisation import Linearisation
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.film import (
     FilmSolution,
     MovingFilm,
@@ -117,7 +118,9 @@ class FilmMarch:
         if record is None:
             impose(film, self._grids, start_time)
             state, work = self._steady()
-            self._past = _Past(state, state.mass, state.mass, level.outflow(state), None)
+            self._past = _Past(
+                state, state.mass, state.mass, level.terms.storage.inflow(state), None
+            )
             count, krylov = len(work.residuals), work.krylov
         else:
             self._resume(record)
@@ -149,7 +152,7 @@ class FilmMarch:
         self.steps += 1
         impose(self.film, self._grids, self.time, finest_only=True)
         self._set_storage()
-        level.open_where_thicker(
+        level.hold_ambient_above(
             level.film(past.state.pressure, past.state.approach), self.film.open_film
         )
         state, record = self._attempt(self._predicted())
@@ -167,7 +170,7 @@ class FilmMarch:
             if divided is not None:
                 state, record = divided, replace(record, converged=True)
         rise = (state.pressure - past.state.pressure, state.approach - past.state.approach)
-        self._past = _Past(state, state.mass, past.mass, level.outflow(state), rise)
+        self._past = _Past(state, state.mass, past.mass, level.terms.storage.inflow(state), rise)
         self.solution = self._solution(
             state, record.newton_steps, record.krylov_steps, clock.perf_counter() - begin
         )
@@ -197,7 +200,7 @@ class FilmMarch:
             start_time=self.start_time,
             time_step=self.time_step,
             scheme=self.scheme,
-            positions=self._level.positions,
+            positions=self._level.grid.positions,
             pressure=past.state.pressure,
             approach=past.state.approach,
             mass=past.mass,
@@ -228,7 +231,9 @@ class FilmMarch:
                 f"{record.time_step:.6g} s, got {level.shape}, {self.scheme} and "
                 f"{self.time_step:.6g} s. Start anew."
             )
-        if not np.allclose(record.positions, level.positions, rtol=0.0, atol=1e-9 * level.dx):
+        if not np.allclose(
+            record.positions, level.grid.positions, rtol=0.0, atol=1e-9 * level.grid.dx
+        ):
             raise ParameterError(
                 "the record must belong to this march, got nodes at other places along x. "
                 "Start anew, or take the grading that it was made with."
@@ -246,7 +251,7 @@ class FilmMarch:
         state, work = steady_state(self.film, grids, self.settings)
         finest = grids.levels[-1]
         assert isinstance(finest, MovingLevel)
-        self._level.closed = finest.closed
+        self._level.set_boundary(finest.terms.boundary)
         return self._level.state(state.pressure, state.approach), work
 
     def _set_storage(self) -> None:
@@ -256,11 +261,11 @@ class FilmMarch:
             loaded = past.state.pressure > 0.0
             storage = np.where(loaded, 2.0, 1.0) / unit
             source = storage * past.mass + np.where(loaded, past.inflow, 0.0)
-            self._level.keep(storage, source)
+            self._level.set_storage(storage, source)
         elif self.steps == 1:
-            self._level.keep(1.0 / unit, past.mass / unit)
+            self._level.set_storage(1.0 / unit, past.mass / unit)
         else:
-            self._level.keep(1.5 / unit, (2.0 * past.mass - 0.5 * past.mass_before) / unit)
+            self._level.set_storage(1.5 / unit, (2.0 * past.mass - 0.5 * past.mass_before) / unit)
 
     def _predicted(self) -> FilmState:
         past = self._past
@@ -285,9 +290,9 @@ class FilmMarch:
         for left in reversed(range(parts)):
             time = self.time - left * self.time_step / parts
             impose(self.film, self._grids, time, finest_only=True)
-            level.keep(rate, rate * mass)
+            level.set_storage(rate, rate * mass)
             film = level.film(state.pressure, state.approach)
-            level.open_where_thicker(film, self.film.open_film)
+            level.hold_ambient_above(film, self.film.open_film)
             state, record = self._attempt(level.state(state.pressure, state.approach))
             if not record.converged:
                 impose(self.film, self._grids, self.time, finest_only=True)

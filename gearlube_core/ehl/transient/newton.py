@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.equations.state import FilmState, Linearisation
-from gearlube_core.ehl.point.equations.stencil import CENTRE
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
 from gearlube_core.ehl.point.newton.newton import flow_residual
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
+from gearlube_core.ehl.point.terms.linearisation import Linearisation
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
 from gearlube_core.ehl.transient.front import advance_front
 from gearlube_core.ehl.transient.level import MovingLevel
@@ -70,9 +70,8 @@ class KeptCycle:
         self._free = self._new = np.zeros(0, dtype=np.bool_)
         self._linear: Linearisation | None = None
         level = hierarchy.levels[-1]
-        self.deflection = WindowedDeflection(level)
-        # what touching solids answer to
-        self._local = None if level.solids is None else level.own_deflection
+        self.deflection = WindowedDeflection(level.grid)
+        self._level = level
 
     def renew(self, linear: Linearisation) -> None:
         """Build the cycle at a linearisation."""
@@ -105,10 +104,8 @@ class KeptCycle:
         pressure, approach = self._cycle(np.where(self._free, residual, 0.0), load_residual)
         pressure[~self._linear.free] = 0.0
         new = self._new
-        slope = self._linear.by_pressure[CENTRE][new]
-        if self._local is not None:
-            slope = slope + self._local[new] * self._linear.by_film[CENTRE][new]
-        pressure[new] = residual[new] / slope
+        solids = self._level.terms.solids
+        pressure[new] = residual[new] / solids.own_slope(self._linear, new, self._level.grid)
         return pressure, approach
 
 
@@ -160,7 +157,7 @@ def step_newton(
         pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h, kept.deflection).copy(),
-                level.integral(p) / level.scales.load,
+                level.grid.integral(p) / level.load,
             ),
             kept,
             linear.right,

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array, Flags
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.state import Linearisation
+from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.coarse import CoarseSolution
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator, coarse_operator, sparse_operator
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.newton.wave import wave_deflection
+from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
 from gearlube_core.kernels.jit import kernel
 
@@ -145,15 +145,15 @@ class RowInverses:
     Rows whose derivatives have hardly changed keep their inverse when others are inverted anew.
     """
 
-    def __init__(self, level: PointLevel) -> None:
-        self._local = wave_deflection(level, _WAVE / level.dy)
+    def __init__(self, grid: PointGrid) -> None:
+        self._local = wave_deflection(grid, _WAVE / grid.dy)
         self._held = slice(0, 0)
-        self._free = np.zeros(level.shape, dtype=np.bool_)
-        self._centre = np.zeros(level.shape, dtype=np.complex128)
-        self._transposed = np.empty((level.shape[0], 0, 0), dtype=np.float32)
-        self._products = np.empty((level.shape[0], 0))
+        self._free = np.zeros(grid.shape, dtype=np.bool_)
+        self._centre = np.zeros(grid.shape, dtype=np.complex128)
+        self._transposed = np.empty((grid.shape[0], 0, 0), dtype=np.float32)
+        self._products = np.empty((grid.shape[0], 0))
         # nodes that came to rows whose inverse serves on are solved on their own
-        self._new = np.zeros(level.shape, dtype=np.bool_)
+        self._new = np.zeros(grid.shape, dtype=np.bool_)
         self._alone = np.zeros(0)
 
     def renew(self, operator: SparseOperator) -> int:
@@ -245,8 +245,8 @@ class RowCycle:
     ) -> None:
         self._levels, self._transfers = grids.levels, grids.transfers
         if before is None:
-            self._rows = [RowInverses(level) for level in self._levels[1:]]
-            self._deflections = [WindowedDeflection(level) for level in self._levels[:-1]]
+            self._rows = [RowInverses(level.grid) for level in self._levels[1:]]
+            self._deflections = [WindowedDeflection(level.grid) for level in self._levels[:-1]]
         else:
             self._rows, self._deflections = before._rows, before._deflections
         operator = sparse_operator(linear)
@@ -256,7 +256,7 @@ class RowCycle:
             operator = coarse_operator(operator, self._transfers[k - 1])
             self._deflections[k - 1].follow(operator.free)
             self._operators.insert(0, _Halved.of(operator))
-        self._direct = CoarseSolution(self._levels[0], operator)
+        self._direct = CoarseSolution(self._levels[0].grid, operator, self._levels[0].load)
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
         """Return pressure, shape (ny, nx), and approach that cancel most of a residual."""

@@ -10,12 +10,12 @@ import numpy as np
 from gearlube_core.ehl.point.cavitation import refuse_rupture
 from gearlube_core.ehl.point.continuation import solve_level
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
-from gearlube_core.ehl.point.equations.state import FilmState
 from gearlube_core.ehl.point.nest import COARSE_TOLERANCE, bordered, carried
 from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
 from gearlube_core.ehl.point.problem import expected_film
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm, film_solution, impose
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.rows import RowCycle
@@ -27,22 +27,22 @@ def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
     scales = level.scales
     length = scales.length
     # on a uniform grid of as many nodes
-    x = np.linspace(*film.x_limits, level.x.size)
-    gap = np.array([np.interp(x, level.x, row) for row in level.gap])
+    x = np.linspace(*film.x_limits, level.grid.x.size)
+    gap = np.array([np.interp(x, level.grid.x, row) for row in level.gap])
     dry = dry_contact_of_gap(
         gap.T * scales.film,
         x[1] - x[0],
-        level.dy * length,
+        level.grid.dy * length,
         film.contact_modulus,
-        scales.load * scales.pressure * length**2,
+        level.load * scales.pressure * length**2,
         tolerance=1e-3,
     )
-    spread = [np.interp(level.x, x, column) for column in dry.pressure.T / scales.pressure]
+    spread = [np.interp(level.grid.x, x, column) for column in dry.pressure.T / scales.pressure]
     pressure = bordered(np.array(spread))
-    pressure *= scales.load / level.integral(pressure)
+    pressure *= level.load / level.grid.integral(pressure)
     lowest = float(level.film(pressure, 0.0).min())
     approach = expected_film(film.reference()) / scales.film - lowest
-    level.open_where_thicker(level.film(pressure, approach), film.open_film)
+    level.hold_ambient_above(level.film(pressure, approach), film.open_film)
     return level.state(pressure, approach)
 
 
@@ -62,7 +62,7 @@ def steady_state(
         assert isinstance(level, MovingLevel)
         if k:
             pressure = bordered(grids.transfers[k - 1].up_smoothly(state.pressure))
-            level.open_where_thicker(level.film(pressure, state.approach), film.open_film)
+            level.hold_ambient_above(level.film(pressure, state.approach), film.open_film)
             state = carried(level, pressure, state)
         last = k == count - 1
         goal = settings.tolerance if last else COARSE_TOLERANCE

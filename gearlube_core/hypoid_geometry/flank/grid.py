@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.surface_point import CONVERGED, locate, surface_point
+from gearlube_core.kernels.jit import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def march(motion: CuttingMotion, radius: Array, axial: Array, starts: Array) -> Array:
     """Locate places (N,) [m] from `starts` (N, 3); return u [m], th, ph [rad], (N, 3), or NaN."""
     found = starts.copy()
@@ -20,7 +20,7 @@ def march(motion: CuttingMotion, radius: Array, axial: Array, starts: Array) -> 
     return found
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def sample_surface(motion: CuttingMotion, outward: float, parameters: Array) -> Array:
     """Return (N, 16): r, normal, tangent_1, tangent_2, k_11, k_12, k_22, regularity."""
     out = np.full((parameters.shape[0], 16), np.nan)

@@ -130,4 +130,5 @@ def _changed(
     ):
         if value is not None:
             check_finite(name, value, unit)
-    return (case.varied(given) if given else case).moved(entrainment, slide_roll)
+    given |= case.speeds_at(entrainment, slide_roll)
+    return case.varied(given) if given else case

@@ -75,14 +75,14 @@ def hypoid_dataset(
     march: FilmCurves | None = None,
     thermal: FilmCurves | None = None,
 ) -> xr.Dataset:
-    """Return films, formulas and what acts, over `position` (steady) and `step` (in time).
+    """Return films, formulas, load and motion over `position` (steady) and `step` (in time).
 
     Parameters
     ----------
     flank
         What was solved.
     steady
-        Films as if each position had lasted; those kept whole lie along `instant`.
+        Steady films; those kept whole lie along `instant`.
     march
         Films in time; None: left out.
     thermal

@@ -15,7 +15,7 @@ from gearlube.plotting.style import (
     house_style,
     new_figure,
 )
-from gearlube.studies.films.figures.point_contact import contour_levels
+from gearlube.studies.films.figures.parts import film_contours, pressure_contours
 
 _PANELS = (
     ("pressure_max", 1e-9, "largest pressure [GPa]", BLUE),
@@ -66,14 +66,10 @@ def cycle_map(dataset: xr.Dataset) -> Any:
         places = (dataset["step"].values, 1e3 * dataset["y"].values)
         pressure = 1e-9 * dataset["line_pressure"].values.T
         film = 1e6 * dataset["line_film"].values.T
-        levels = contour_levels(0.0, float(np.nanmax(pressure)))[1:]
-        drawn = top.contourf(*places, pressure, levels=levels, cmap="magma_r")
-        figure.colorbar(drawn, ax=top, label="pressure [GPa]")
+        pressure_contours(top, places, pressure)
         top.set_title("largest pressure across the line")
         lowest = float(np.nanmin(film))
-        levels = contour_levels(lowest, max(_THICK * lowest, 0.05))
-        drawn = bottom.contourf(*places, film, levels=levels, cmap="viridis", extend="max")
-        figure.colorbar(drawn, ax=bottom, label="film [µm]")
+        film_contours(bottom, places, film, (lowest, max(_THICK * lowest, 0.05)))
         bottom.set_title("smallest film across the line")
         for ax in (top, bottom):
             ax.set_ylabel("along the line, y [mm]")

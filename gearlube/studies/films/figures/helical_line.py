@@ -8,10 +8,16 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
-from gearlube.studies.films.figures.point_contact import contour_levels
+from gearlube.studies.films.figures.parts import (
+    HEADROOM,
+    film_contours,
+    legend_of_both,
+    pressure_contours,
+    titled,
+    two_scales,
+)
 
 _SIDE = 2.0  # half widths that are shown
-_HEADROOM = 4.0  # films over the central one that are shown
 _THICK = 2.0  # films over the central one that have contours
 
 
@@ -23,15 +29,11 @@ def helical_contours(dataset: xr.Dataset) -> Any:
         of = dataset.attrs
         pressure, film = 1e-9 * dataset["pressure"].values, 1e6 * dataset["film"].values
         places = (1e3 * dataset["y"].values, 1e3 * dataset["x"].values)
-        levels = contour_levels(0.0, float(pressure.max()))[1:]
-        drawn = top.contourf(*places, pressure, levels=levels, cmap="magma_r")
-        figure.colorbar(drawn, ax=top, label="pressure [GPa]")
+        pressure_contours(top, places, pressure)
         top.plot(1e3 * of["pressure_max_y"], 1e3 * of["pressure_max_x"], "+", color=BLUE)
         top.set_title(f"pressure, up to {1e-9 * of['pressure_max']:.3f} GPa (cross)")
         lowest, central = 1e6 * of["minimum_film"], 1e6 * of["central_film"]
-        levels = contour_levels(lowest, max(_THICK * central, 1.1 * lowest))
-        drawn = bottom.contourf(*places, film, levels=levels, cmap="viridis", extend="max")
-        figure.colorbar(drawn, ax=bottom, label="film [µm]")
+        film_contours(bottom, places, film, (lowest, max(_THICK * central, 1.1 * lowest)))
         bottom.plot(1e3 * of["minimum_film_y"], 1e3 * of["minimum_film_x"], "+", color=VERMILLION)
         bottom.set_title(f"film, smallest {lowest:.3f} µm (cross)")
         for ax in (top, bottom):
@@ -55,7 +57,7 @@ def helical_along(dataset: xr.Dataset) -> Any:
         right = left.twinx()
         smallest = 1e6 * dataset["film"].min("x").values
         right.plot(y, smallest, color=VERMILLION, label="smallest film")
-        right.set_ylim(0.0, 1e6 * _HEADROOM * dataset.attrs["central_film"])
+        right.set_ylim(0.0, 1e6 * HEADROOM * dataset.attrs["central_film"])
         two_scales(left, right)
         left.set(xlim=(y[0], y[-1]), ylim=(0.0, None), xlabel="along the line, y [mm]")
         figure.legend(ncols=2, loc="outside lower center")
@@ -80,23 +82,13 @@ def helical_sections(dataset: xr.Dataset) -> Any:
             film.plot(x, 1e6 * section["film"].values, color=VERMILLION, label="film")
             ax.axvline(0.0, color=GREY, lw=0.8, ls=":")
             ax.set(xlim=across_limits(dataset), ylim=(0.0, top))
-            film.set_ylim(0.0, 1e6 * _HEADROOM * of["central_film"])
+            film.set_ylim(0.0, 1e6 * HEADROOM * of["central_film"])
             two_scales(ax, film)
             ax.set_title(f"{what}, y = {1e3 * float(section['y']):.2f} mm")
         ax.set_xlabel("across the line, x [mm]")
-        handles, labels = ax.get_legend_handles_labels()
-        more, names = film.get_legend_handles_labels()
-        figure.legend(handles + more, labels + names, ncols=2, loc="outside lower center")
+        legend_of_both(ax, film, 2)
         figure.suptitle(line_title(dataset), fontsize=11.5)
     return figure
-
-
-def two_scales(left: Any, right: Any) -> None:
-    """Label the axes of a figure of pressure, on the left, and film."""
-    left.set_ylabel("pressure [GPa]", color=BLUE)
-    right.set_ylabel("film [µm]", color=VERMILLION)
-    right.spines["right"].set_visible(True)
-    right.grid(visible=False)
 
 
 def across_limits(dataset: xr.Dataset) -> tuple[float, float]:
@@ -117,8 +109,5 @@ def loaded_rows(dataset: xr.Dataset) -> Any:
 def line_title(dataset: xr.Dataset) -> str:
     """Return pair, position and load of a line."""
     of = dataset.attrs
-    state = "" if of["converged"] else "NOT CONVERGED, "
-    return (
-        f"{of['name']}: {state}line at $s_i$ = {1e3 * of['position']:.2f} mm "
-        f"(step {of['step']:.4g}), {1e-3 * of['load']:.2f} kN"
-    )
+    place = f"line at $s_i$ = {1e3 * of['position']:.2f} mm (step {of['step']:.4g})"
+    return titled(dataset, f"{place}, {1e-3 * of['load']:.2f} kN")

@@ -7,15 +7,15 @@ from typing import Any
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
-from gearlube.studies.films.figures.helical_line import (
-    across_limits,
-    line_title,
-    loaded_rows,
+from gearlube.studies.films.figures.helical_line import across_limits, line_title, loaded_rows
+from gearlube.studies.films.figures.parts import (
+    HEADROOM,
+    contour_levels,
+    legend_of_both,
     two_scales,
 )
-from gearlube.studies.films.figures.point_contact import contour_levels
 
-_THICK, _HEADROOM = 2.0, 4.0  # films over the central one: with contours, shown in sections
+_THICK = 2.0  # films over the central one that have contours
 _SHARES = (0.05, 0.15, 0.35, 0.65, 0.85, 0.95)  # of the loaded length
 
 
@@ -71,12 +71,10 @@ def step_sections(dataset: xr.Dataset) -> Any:
                     label=f"film, {state}",
                 )  # fmt: skip
             ax.set(xlim=across_limits(dataset), ylim=(0.0, top))
-            film.set_ylim(0.0, 1e6 * _HEADROOM * of["central_film"])
+            film.set_ylim(0.0, 1e6 * HEADROOM * of["central_film"])
             two_scales(ax, film)
             ax.set_title(f"y = {1e3 * float(section['y']):.2f} mm")
-        handles, labels = axes[0].get_legend_handles_labels()
-        more, names = film.get_legend_handles_labels()
-        figure.legend(handles + more, labels + names, ncols=4, loc="outside lower center")
+        legend_of_both(axes[0], film, 4)
         figure.suptitle(_title(dataset), fontsize=11.5)
     return figure
 

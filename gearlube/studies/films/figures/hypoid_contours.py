@@ -8,7 +8,11 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import house_style, new_figure
-from gearlube.studies.films.figures.point_contact import contour_levels
+from gearlube.studies.films.figures.parts import (
+    dry_outline,
+    film_contours,
+    pressure_contours,
+)
 
 _SIDE = 1.45  # semi-axes of the largest contact that are shown
 _THICK = 1.8  # central films that have contours
@@ -30,13 +34,8 @@ def hypoid_contours(dataset: xr.Dataset) -> Any:
             position = int(one["instant_position"])
             pressure, film = 1e-9 * one["pressure"].values, 1e6 * one["film"].values
             central = 1e6 * float(dataset["steady_central_film"][position])
-            levels = contour_levels(0.0, float(pressure.max()))[1:]
-            drawn = left.contourf(*place, pressure, levels=levels, cmap="magma_r")
-            figure.colorbar(drawn, ax=left, label="pressure [GPa]")
-            levels = contour_levels(float(film.min()), _THICK * central)
-            drawn = right.contourf(*place, film, levels=levels, cmap="viridis", extend="max")
-            right.contour(*place, film, levels=levels, colors="white", linewidths=0.3)
-            figure.colorbar(drawn, ax=right, label="film [µm]")
+            pressure_contours(left, place, pressure)
+            film_contours(right, place, film, (float(film.min()), _THICK * central), 0.3)
             phase = float(dataset["steady_phase"][position])
             load = float(dataset["steady_load"][position])
             psi, chi = (float(dataset[f"steady_{name}"][position]) for name in ("psi", "chi"))
@@ -60,14 +59,7 @@ def hypoid_contours(dataset: xr.Dataset) -> Any:
 
 
 def _plan(ax: Any, one: xr.Dataset, reach: list[float], colour: str) -> None:
-    turn = np.linspace(0.0, 2.0 * np.pi, 181)
-    ax.plot(
-        1e3 * float(one["semi_axis_y"]) * np.cos(turn),
-        1e3 * float(one["semi_axis_x"]) * np.sin(turn),
-        color=colour,
-        lw=0.9,
-        ls="--",
-    )
+    dry_outline(ax, (float(one["semi_axis_y"]), float(one["semi_axis_x"])), colour, 0.9)
     low, high = (1e3 * float(one["y"][end]) for end in (0, -1))
     ax.set(xlim=(max(low, -reach[0]), min(high, reach[0])), ylim=(-1.6 * reach[1], reach[1]))
     ax.grid(visible=False)

@@ -7,9 +7,9 @@ from typing import Any
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
+from gearlube.studies.films.figures.parts import HEADROOM, shown_range, titled, two_scales
 
 _SIDE = 2.0  # half widths that are shown, at most
-_HEADROOM = 4.0  # films over the largest between the solids that are shown
 
 
 def line_profile(dataset: xr.Dataset) -> Any:
@@ -38,7 +38,7 @@ def line_shear(dataset: xr.Dataset) -> Any:
         figure.legend(ncols=3, loc="outside lower center")
         coefficient = dataset.attrs["friction_coefficient"]
         figure.suptitle(
-            _title(dataset, f"shear, coefficient of friction {abs(coefficient):.4f}"), fontsize=11.5
+            titled(dataset, f"shear, coefficient of friction {abs(coefficient):.4f}"), fontsize=11.5
         )
     return figure
 
@@ -59,7 +59,7 @@ def line_temperature(dataset: xr.Dataset) -> Any:
         ax.plot(_milli(dataset), rise.max(axis=1), color=GREY, ls=":", label="highest")
         ax.set(xlim=_shown(dataset), xlabel="x [mm]", ylabel="temperature above the inlet [K]")
         figure.legend(ncols=4, loc="outside lower center")
-        figure.suptitle(_title(dataset, "temperature"), fontsize=11.5)
+        figure.suptitle(titled(dataset, "temperature"), fontsize=11.5)
     return figure
 
 
@@ -87,17 +87,14 @@ def _profile(dataset: xr.Dataset, dry: bool) -> Any:
                 label="dry gap + central film",
             )  # fmt: skip
         top = 1e-9 * max(dataset.attrs["pressure_max"], dataset.attrs["hertz_pressure_max"])
-        left.set(xlim=low_high, ylim=(0.0, 1.12 * top), xlabel="x [mm]", ylabel="pressure [GPa]")
-        highest = 1e6 * _HEADROOM * dataset.attrs["central_film"]
-        right.set(ylim=(0.0, highest), ylabel="film [µm]")
-        right.spines["right"].set_visible(True)
-        right.grid(visible=False)
-        left.yaxis.label.set_color(BLUE)
-        right.yaxis.label.set_color(VERMILLION)
+        left.set(xlim=low_high, ylim=(0.0, 1.12 * top), xlabel="x [mm]")
+        highest = 1e6 * HEADROOM * dataset.attrs["central_film"]
+        right.set(ylim=(0.0, highest))
+        two_scales(left, right)
         figure.legend(ncols=4, loc="outside lower center")
         of = dataset.attrs
         figure.suptitle(
-            _title(
+            titled(
                 dataset,
                 f"{1e-9 * of['pressure_max']:.3f} GPa, central film {1e6 * of['central_film']:.3f}"
                 f" µm, smallest {1e6 * of['minimum_film']:.3f} µm",
@@ -112,14 +109,4 @@ def _milli(dataset: xr.Dataset) -> Any:
 
 
 def _shown(dataset: xr.Dataset) -> tuple[float, float]:
-    """Return the limits of x [mm]: where something happens, inside the domain."""
-    x, pressure = dataset["x"].values, dataset["pressure"].values
-    side = _SIDE * dataset.attrs["half_width"]
-    loaded = x[pressure > 0.01 * pressure.max()]
-    low, high = min(-side, float(loaded[0])), max(side, float(loaded[-1]))
-    return 1e3 * max(low, float(x[0])), 1e3 * min(high, float(x[-1]))
-
-
-def _title(dataset: xr.Dataset, what: str) -> str:
-    state = "" if dataset.attrs["converged"] else "NOT CONVERGED, "
-    return f"{dataset.attrs['name']}: {state}{what}"
+    return shown_range(dataset, "x", _SIDE * dataset.attrs["half_width"], 0.01)

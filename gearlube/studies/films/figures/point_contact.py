@@ -4,15 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
+from gearlube.studies.films.figures.parts import (
+    HEADROOM,
+    contour_levels,
+    dry_outline,
+    film_contours,
+    legend_of_both,
+    pressure_contours,
+    shown_range,
+    titled,
+    two_scales,
+)
 
 _SIDE = 1.8  # semi-axes that are shown, at most
-_HEADROOM = 4.0  # films over the central one that are shown
 _THICK = 1.6  # films over the central one that have contours
-_LINES = 14
 _SLENDER = 2.5  # height over width beyond which the plan is stretched
 _ARROW = 0.13  # of the axes
 
@@ -25,20 +33,15 @@ def point_contours(dataset: xr.Dataset) -> Any:
         left, right = figure.subplots(1, 2)
         pressure, film = 1e-9 * dataset["pressure"].values.T, 1e6 * dataset["film"].values.T
         places = (1e3 * dataset["x"].values, 1e3 * dataset["y"].values)
-        levels = contour_levels(0.0, float(pressure.max()))[1:]
-        drawn = left.contourf(*places, pressure, levels=levels, cmap="magma_r")
-        figure.colorbar(drawn, ax=left, label="pressure [GPa]")
+        pressure_contours(left, places, pressure)
         left.set_title(f"pressure, up to {1e-9 * of['pressure_max']:.3f} GPa")
         lowest, central = 1e6 * of["minimum_film"], 1e6 * of["central_film"]
-        levels = contour_levels(lowest, max(_THICK * central, 1.1 * lowest))
-        drawn = right.contourf(*places, film, levels=levels, cmap="viridis", extend="max")
-        right.contour(*places, film, levels=levels, colors="white", linewidths=0.4)
-        figure.colorbar(drawn, ax=right, label="film [µm]")
+        film_contours(right, places, film, (lowest, max(_THICK * central, 1.1 * lowest)), 0.4)
         right.set_title(f"film, central {central:.3f} µm, smallest {lowest:.3f} µm")
         for ax, colour in ((left, GREY), (right, "white")):
             _plan(ax, dataset, colour)
         what = f"dry contact dashed, entrainment as the arrow{_stretch(dataset)}"
-        figure.suptitle(_title(dataset, what), fontsize=11.5)
+        figure.suptitle(titled(dataset, what), fontsize=11.5)
     return figure
 
 
@@ -58,16 +61,11 @@ def point_sections(dataset: xr.Dataset) -> Any:
             film.plot(place, 1e6 * section["film"].values, color=VERMILLION, label="film")
             top = 1e-9 * max(dataset.attrs["pressure_max"], dataset.attrs["hertz_pressure_max"])
             ax.set(xlim=_shown(dataset, along), ylim=(0.0, 1.12 * top), xlabel=f"{along} [mm]")
-            ax.set_ylabel("pressure [GPa]", color=BLUE)
-            film.set_ylim(0.0, 1e6 * _HEADROOM * dataset.attrs["central_film"])
-            film.set_ylabel("film [µm]", color=VERMILLION)
-            film.spines["right"].set_visible(True)
-            film.grid(visible=False)
+            film.set_ylim(0.0, 1e6 * HEADROOM * dataset.attrs["central_film"])
+            two_scales(ax, film)
             ax.set_title(f"along {along}, at {across} = 0")
-        handles, labels = ax.get_legend_handles_labels()
-        more, names = film.get_legend_handles_labels()
-        figure.legend(handles + more, labels + names, ncols=3, loc="outside lower center")
-        figure.suptitle(_title(dataset, "sections through the centre"), fontsize=11.5)
+        legend_of_both(ax, film, 3)
+        figure.suptitle(titled(dataset, "sections through the centre"), fontsize=11.5)
     return figure
 
 
@@ -77,18 +75,12 @@ def point_shear(dataset: xr.Dataset) -> Any:
         figure = new_figure(6.4, 5.0)
         ax = figure.subplots()
         stress = 1e-6 * dataset["mean_stress"].values.T
-        drawn = ax.contourf(
-            1e3 * dataset["x"].values,
-            1e3 * dataset["y"].values,
-            stress,
-            levels=contour_levels(0.0, float(stress.max()))[1:],
-            cmap="magma_r",
-        )
-        figure.colorbar(drawn, ax=ax, label="shear stress along the sliding [MPa]")
+        places = (1e3 * dataset["x"].values, 1e3 * dataset["y"].values)
+        pressure_contours(ax, places, stress, "shear stress along the sliding [MPa]")
         _plan(ax, dataset, GREY)
         coefficient = dataset.attrs["friction_coefficient"]
         what = f"coefficient of friction {coefficient:.4f}{_stretch(dataset)}"
-        figure.suptitle(_title(dataset, what), fontsize=11.5)
+        figure.suptitle(titled(dataset, what), fontsize=11.5)
     return figure
 
 
@@ -108,15 +100,8 @@ def point_temperature(dataset: xr.Dataset) -> Any:
             ax.set_title(f"{title}, up to {rise.max():.3g} K")
             _plan(ax, dataset, GREY)
         what = f"temperature, friction {dataset.attrs['friction_coefficient']:.4f}"
-        figure.suptitle(_title(dataset, what + _stretch(dataset)), fontsize=11.5)
+        figure.suptitle(titled(dataset, what + _stretch(dataset)), fontsize=11.5)
     return figure
-
-
-def contour_levels(low: float, high: float) -> Any:
-    """Return round numbers from the one below `low` to the one above `high`."""
-    from matplotlib.ticker import MaxNLocator
-
-    return MaxNLocator(_LINES).tick_values(low, high)
 
 
 def _plan(ax: Any, dataset: xr.Dataset, colour: str) -> None:
@@ -124,14 +109,8 @@ def _plan(ax: Any, dataset: xr.Dataset, colour: str) -> None:
 
     Slender contacts are stretched across; the arrow then is as well.
     """
-    of, turn = dataset.attrs, np.linspace(0.0, 2.0 * np.pi, 181)
-    ax.plot(
-        1e3 * of["semi_axis_x"] * np.cos(turn),
-        1e3 * of["semi_axis_y"] * np.sin(turn),
-        color=colour,
-        lw=1.0,
-        ls="--",
-    )
+    of = dataset.attrs
+    dry_outline(ax, (of["semi_axis_x"], of["semi_axis_y"]), colour, 1.0)
     (x_low, x_high), (y_low, y_high) = _shown(dataset, "x"), _shown(dataset, "y")
     width, height = x_high - x_low, y_high - y_low
     ax.set(xlim=(x_low, x_high), ylim=(y_low, y_high), xlabel="x [mm]", ylabel="y [mm]")
@@ -156,15 +135,4 @@ def _stretch(dataset: xr.Dataset) -> str:
 
 
 def _shown(dataset: xr.Dataset, axis: str) -> tuple[float, float]:
-    """Return the limits of an axis [mm]: where something happens, inside the domain."""
-    place = dataset[axis].values
-    carried = dataset["pressure"].max("y" if axis == "x" else "x").values
-    loaded = place[carried > 0.01 * carried.max()]
-    side = _SIDE * dataset.attrs[f"semi_axis_{axis}"]
-    low, high = min(-side, float(loaded[0])), max(side, float(loaded[-1]))
-    return 1e3 * max(low, float(place[0])), 1e3 * min(high, float(place[-1]))
-
-
-def _title(dataset: xr.Dataset, what: str) -> str:
-    state = "" if dataset.attrs["converged"] else "NOT CONVERGED, "
-    return f"{dataset.attrs['name']}: {state}{what}"
+    return shown_range(dataset, axis, _SIDE * dataset.attrs[f"semi_axis_{axis}"], 0.01)

@@ -1,4 +1,4 @@
-"""How the point of contact of a hypoid pair wanders, in the axes of its contact ellipse."""
+"""Velocity of a hypoid pair's point of contact, in the axes of its contact ellipse."""
 
 from __future__ import annotations
 
@@ -33,7 +33,8 @@ def contact_motion(gear: str, torque: float, phase: Array) -> Array:
 
     Notes
     -----
-    Along the minor and the major axis, both turned so that entrainment points to larger values.
+    Along the minor and the major axis, both turned so that entrainment points to larger values, as
+    in `HypoidFilm`. The velocity itself is that of `contact_migration`.
     The path is that of the unloaded flanks; the centre of force of loaded ones stays close to it.
     """
     pair = FlankPair.from_file(HypoidGearFile.given(gear), "drive" if torque > 0.0 else "coast")

@@ -1,4 +1,4 @@
-"""A hypoid tooth pair's film from a case: mesh table, axle motion and oil put together."""
+"""The film of a hypoid tooth pair from a case: mesh table, motion of the axle, oil."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class HypoidFlank:
     film
         Contact through the loaded part of the engagement.
     drive
-        The same samples as the axle gave them.
+        Load and speed at the same samples, with film and friction of the axle model.
     """
 
     case: HypoidCase

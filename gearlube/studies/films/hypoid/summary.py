@@ -29,8 +29,8 @@ _RATIOS = (
     ("friction", "axle, with asperities", "axle_friction", _FRICTION),
     ("friction", "Eyring, isothermal", "steady_traction_eyring", _FRICTION),
 )
-# of thermal films, where there are any
-_WARM = (
+# of thermal films, if there are any
+_THERMAL = (
     ("central film", "thermal, over isothermal", "warm_central_film", "warm_cold_central_film"),
     ("minimum film", "thermal, over isothermal", "warm_minimum_film", "warm_cold_minimum_film"),
     ("friction", "thermal, over heated Eyring", "warm_traction", _FRICTION),
@@ -51,7 +51,7 @@ _SQUEEZE = (
 
 
 class RatioRow(NamedTuple):
-    """One quantity over the cycle: solved range in SI, and what another source makes of it."""
+    """One quantity over the cycle: its range in SI units, or another source over the solution."""
 
     quantity: str
     source: str
@@ -95,7 +95,7 @@ def ratio_rows(dataset: xr.Dataset) -> list[RatioRow]:
         ]
         rows += [
             row(quantity, source, (dataset[one] / dataset[other]).values, "ratio")
-            for quantity, source, one, other in _WARM
+            for quantity, source, one, other in _THERMAL
         ]
     rows += [
         row(quantity, "in time", dataset[name].values, "over steady")
@@ -110,7 +110,7 @@ def ratio_csv(rows: list[RatioRow]) -> str:
 
     def written(row: RatioRow) -> list[str]:
         numbers = (row.least, row.largest, row.load_weighted_mean)
-        told = [f"{value:.5g}" if math.isfinite(value) else "" for value in numbers]
-        return [row.quantity, row.source, *told, row.unit]
+        texts = [f"{value:.5g}" if math.isfinite(value) else "" for value in numbers]
+        return [row.quantity, row.source, *texts, row.unit]
 
     return csv_text(RatioRow._fields, map(written, rows))

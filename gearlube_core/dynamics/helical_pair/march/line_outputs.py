@@ -7,15 +7,11 @@ import math
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.dynamics.helical_pair.march import output_names as at
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import line_point
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
-from gearlube_core.dynamics.helical_pair.march.output_names import (
-    LINES_AT,
-    LINES_MAX,
-    N_LINE_QUANTITIES,
-)
 from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE, W_P
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
@@ -34,19 +30,19 @@ def write_lines(
 ) -> float:
     """Write the quantities of every line of the flank in `view`; return the thinnest film [m].
 
-    Means are weighted with the load. A line without load has no film to speak of: zeros, and the
-    temperature of the oil. `mu_at` is the place of the flank's friction coefficients in `s`.
+    Means are weighted with the load. A line without load has no film: zeros, and the temperature of
+    the oil. `mu_at` is the place of the flank's friction coefficients in `s`.
     """
     lines = int(p.motion.flanks.lines)
-    for i in range(LINES_MAX):
-        at = LINES_AT + i * N_LINE_QUANTITIES
-        for j in range(N_LINE_QUANTITIES - 1):
-            out[at + j] = 0.0
-        out[at + N_LINE_QUANTITIES - 1] = oil_temperature
+    for i in range(at.LINES_MAX):
+        first = at.LINES + i * at.N_LINE_QUANTITIES
+        for j in range(at.N_LINE_QUANTITIES):
+            out[first + j] = 0.0
+        out[first + at.TEMPERATURE] = oil_temperature
     thinnest = math.inf
     for line in range(lines):
         slot = pair_slot(view.phase, line, lines)
-        at = LINES_AT + slot * N_LINE_QUANTITIES
+        first = at.LINES + slot * at.N_LINE_QUANTITIES
         total = film_sum = mu_sum = slide_sum = rise_sum = length_sum = 0.0
         thin = math.inf
         for place in range(POINTS_PER_LINE):
@@ -63,14 +59,14 @@ def write_lines(
                 if p.friction_form > 0.0:
                     rise_sum += part * state.temperature_rise
                 thin = min(thin, state.film_thickness)
-        out[at + 1] = length_sum
+        out[first + at.LINE_LENGTH] = length_sum
         if total > 0.0:
-            out[at] = total
-            out[at + 2] = thin
-            out[at + 3] = film_sum / total
-            out[at + 4] = thin / p.surface.sigma
-            out[at + 5] = mu_sum / total
-            out[at + 6] = slide_sum / total
-            out[at + 7] = oil_temperature + rise_sum / total
+            out[first + at.LINE_LOAD] = total
+            out[first + at.FILM_THICKNESS_MIN] = thin
+            out[first + at.FILM_THICKNESS_MEAN] = film_sum / total
+            out[first + at.FILM_RATIO] = thin / p.surface.sigma
+            out[first + at.FRICTION_COEFFICIENT] = mu_sum / total
+            out[first + at.SLIDING_SPEED] = slide_sum / total
+            out[first + at.TEMPERATURE] = oil_temperature + rise_sum / total
             thinnest = min(thinnest, thin)
     return thinnest if thinnest < math.inf else 0.0

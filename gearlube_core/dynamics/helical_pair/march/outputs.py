@@ -7,6 +7,7 @@ import math
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.dynamics.helical_pair.march import output_names as at
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, SupportConstants
 from gearlube_core.dynamics.helical_pair.march.flank_views import (
     coast_view,
@@ -17,15 +18,6 @@ from gearlube_core.dynamics.helical_pair.march.flank_wrench import flank_wrench,
 from gearlube_core.dynamics.helical_pair.march.line_outputs import write_lines
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import mesh_at_torque
-from gearlube_core.dynamics.helical_pair.march.output_names import (
-    BEARINGS_AT,
-    DISPLACEMENTS_AT,
-    ENERGIES_AT,
-    LOSSES_AT,
-    MESH_AT,
-    N_BEARING_QUANTITIES,
-    N_BEARINGS,
-)
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,
@@ -47,6 +39,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     W_P,
     WORK_MARK,
 )
+from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -71,14 +64,14 @@ def member_energy(s: NDArray[float64], u: int, v: int, k: SupportConstants) -> f
 @kernel
 def write_bearings(s: NDArray[float64], bearings: NDArray[float64], out: NDArray[float64]) -> None:
     """Write the forces of the four bearings on their shafts."""
-    for j in range(N_BEARINGS):
+    for j in range(at.N_BEARINGS):
         u = U_P if j < 2 else U_G
         v = V_P if j < 2 else V_G
         b = bearings[j * BEARING_FIELDS : (j + 1) * BEARING_FIELDS]
-        at = BEARINGS_AT + j * N_BEARING_QUANTITIES
-        out[at] = -(b[0] * s[u] + b[1] * s[u + 4] + b[5] * s[v])
-        out[at + 1] = -(b[2] * s[u + 1] + b[3] * s[u + 3] + b[6] * s[v + 1])
-        out[at + 2] = -(b[4] * s[u + 2] + b[7] * s[v + 2])
+        first = at.BEARINGS + j * at.N_BEARING_QUANTITIES
+        out[first] = -(b[0] * s[u] + b[1] * s[u + 4] + b[5] * s[v])
+        out[first + 1] = -(b[2] * s[u + 1] + b[3] * s[u + 3] + b[6] * s[v + 1])
+        out[first + 2] = -(b[4] * s[u + 2] + b[7] * s[v + 2])
 
 
 @kernel
@@ -89,23 +82,21 @@ def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[floa
     side that drives; 0 where no work is put in.
     """
     duration = s[TIME_IN_STEP]
-    averaged = duration > 0.0
-    scale = 1.0 / duration if averaged else 1.0
-    at = PINION_WORK
-    pinion = (s[at] - s[WORK_MARK]) * scale if averaged else rates[at]
-    wheel = (s[at + 1] - s[WORK_MARK + 1]) * scale if averaged else rates[at + 1]
-    friction = (s[at + 2] - s[WORK_MARK + 2]) * scale if averaged else rates[at + 2]
-    mesh = (s[at + 3] - s[WORK_MARK + 3]) * scale if averaged else rates[at + 3]
-    bearings = (s[at + 4] - s[WORK_MARK + 4]) * scale if averaged else rates[at + 4]
-    out[LOSSES_AT] = friction
-    out[LOSSES_AT + 1] = mesh
-    out[LOSSES_AT + 2] = bearings
+    pinion = mean_power(s, rates, PINION_WORK, WORK_MARK, duration)
+    wheel = mean_power(s, rates, PINION_WORK + 1, WORK_MARK + 1, duration)
+    friction = mean_power(s, rates, PINION_WORK + 2, WORK_MARK + 2, duration)
+    mesh = mean_power(s, rates, PINION_WORK + 3, WORK_MARK + 3, duration)
+    bearings = mean_power(s, rates, PINION_WORK + 4, WORK_MARK + 4, duration)
+    out[at.FRICTION_LOSS] = friction
+    out[at.DAMPING_LOSS] = mesh
+    out[at.BEARING_LOSS] = bearings
+    out[at.EFFICIENCY] = 0.0
+    out[at.PAIR_EFFICIENCY] = 0.0
+    idle_power = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
     put_in = pinion if pinion > 0.0 else -wheel
-    out[LOSSES_AT + 3] = 0.0
-    out[LOSSES_AT + 4] = 0.0
-    if put_in > _IDLE_WORK * scale:
-        out[LOSSES_AT + 3] = 1.0 - friction / put_in
-        out[LOSSES_AT + 4] = 1.0 - (friction + mesh + bearings) / put_in
+    if put_in > idle_power:
+        out[at.EFFICIENCY] = 1.0 - friction / put_in
+        out[at.PAIR_EFFICIENCY] = 1.0 - (friction + mesh + bearings) / put_in
 
 
 @kernel
@@ -140,35 +131,35 @@ def write_outputs(
     direction = friction_direction(s[W_P])
     force = flank_wrench(on_drive, direction, plane)
     back = turned_wrench(flank_wrench(on_coast, -direction, plane), flanks)
-    out[0] = s[PHI_P]
-    out[1] = s[PHI_G]
-    out[2] = s[W_P]
-    out[3] = s[W_G]
-    out[4] = rates[W_P]
-    out[5] = rates[W_G]
-    out[MESH_AT] = s[PSI] + s[U_P] - s[U_G]
-    out[MESH_AT + 1] = on_drive.N - on_coast.N
-    out[MESH_AT + 2] = force.F_x + back.F_x
-    out[MESH_AT + 3] = force.F_y + back.F_y
-    out[MESH_AT + 4] = force.F_z + back.F_z
-    out[MESH_AT + 5] = 1.0 if on_drive.N == 0.0 and on_coast.N == 0.0 else 0.0
-    out[MESH_AT + 6] = 1.0 if on_coast.N > 0.0 else 0.0
+    out[at.PINION_ANGLE] = s[PHI_P]
+    out[at.WHEEL_ANGLE] = s[PHI_G]
+    out[at.PINION_SPEED] = s[W_P]
+    out[at.WHEEL_SPEED] = s[W_G]
+    out[at.PINION_ACCELERATION] = rates[W_P]
+    out[at.WHEEL_ACCELERATION] = rates[W_G]
+    out[at.DTE] = s[PSI] + s[U_P] - s[U_G]
+    out[at.MESH_LOAD] = on_drive.N - on_coast.N
+    out[at.MESH_FORCE] = force.F_x + back.F_x
+    out[at.MESH_FORCE + 1] = force.F_y + back.F_y
+    out[at.MESH_FORCE + 2] = force.F_z + back.F_z
+    out[at.SEPARATED] = 1.0 if on_drive.N == 0.0 and on_coast.N == 0.0 else 0.0
+    out[at.COAST_CONTACT] = 1.0 if on_coast.N > 0.0 else 0.0
     touching = on_drive.stiffness + on_coast.stiffness
-    out[MESH_AT + 7] = plane.cos_b * plane.cos_b * touching
-    out[MESH_AT + 8] = p.teeth * s[W_P] / (2.0 * math.pi)
+    out[at.MESH_STIFFNESS] = plane.cos_b * plane.cos_b * touching
+    out[at.MESH_FREQUENCY] = p.teeth * s[W_P] / (2.0 * math.pi)
     oil = lubricant_state(p.oil, oil_temperature)
     view = drive if on_drive.N >= on_coast.N else coast
     mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
-    out[MESH_AT + 9] = write_lines(view, mu_at, s, oil_temperature, data, oil, p, out)
+    out[at.THINNEST_FILM] = write_lines(view, mu_at, s, oil_temperature, data, oil, p, out)
     write_losses(s, rates, out)
     for i in range(N_LATERAL):
-        out[DISPLACEMENTS_AT + i] = s[U_P + i]
+        out[at.DISPLACEMENTS + i] = s[U_P + i]
     write_bearings(s, bearings, out)
     for i in range(N_ENERGIES):
-        out[ENERGIES_AT + i] = s[PINION_WORK + i]
+        out[at.ENERGIES + i] = s[PINION_WORK + i]
     stored = 0.5 * s[W_P] * s[W_P] / p.motion.pinion.mobility_r
     stored += 0.5 * s[W_G] * s[W_G] / p.motion.gear.mobility_r
     stored += member_energy(s, U_P, V_P, p.motion.pinion) + member_energy(
         s, U_G, V_G, p.motion.gear
     )
-    out[ENERGIES_AT + N_ENERGIES] = stored + on_drive.energy + on_coast.energy
+    out[at.STORED_ENERGY] = stored + on_drive.energy + on_coast.energy

@@ -113,6 +113,6 @@ def _blend(
 
 @kernel
 def constant_friction(mu: float, points: Array, n: int) -> None:
-    """Give the first `n` points one coefficient of friction [-]: He et al. 2007, Coulomb's law."""
+    """Give the first `n` points one friction coefficient [-]: Coulomb's law, [he_2007 sec. 2]."""
     for i in range(n):
         points[i, MU] = mu

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,8 +11,12 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.ehl.flow.flow_factors import eyring_factors
-from gearlube_core.ehl.point.equations.cross_flow import CrossFlow
-from gearlube_core.ehl.point.equations.stencil import FilmFlow, FlowSlopes
+from gearlube_core.ehl.point.equations.shear_factors import (
+    AlignedFactors,
+    NewtonianFactors,
+    ObliqueFactors,
+)
+from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_oil import EhlLubricant
 
@@ -20,6 +24,7 @@ from gearlube_core.oil.film_oil import EhlLubricant
 _SMALL_STRESS = 1.0e-2
 # of the product of cosine and sine: flow along an axis does not feel the slope along the other
 ALIGNED = 1.0e-12
+_EVEN = 1.0e-9  # spread of sliding along x over sliding along y
 
 
 @kernel
@@ -103,58 +108,8 @@ def fill_shear_factors(
 
 
 @dataclass(frozen=True, slots=True)
-class ShearFactors:
-    """Tensor of the flow by pressure over its Newtonian value, and how it answers; (ny, nx) [-].
-
-    flow = -rho h^3/(12 eta) [[xx, xy], [xy, yy]] grad p
-    """
-
-    xx: Array
-    xy: Array | None  # None: sliding is along an axis
-    yy: Array
-    slope_xx: Array  # what a change of grad p meets, as without dp/dr
-    slope_xy: Array | None
-    slope_yy: Array
-    stiffness: Array  # -d ln(flow)/d ln(eta) along sliding
-    film_power: Array  # d ln(flow)/d ln(h) along sliding
-
-    def flow(self, cubic: Array, fluidity: Array, log_viscosity: Array) -> FilmFlow:
-        """Return what pressure along x and y drives oil with; `cubic` is rho h^3."""
-        return FilmFlow(
-            cubic,
-            fluidity * self.xx,
-            fluidity * self.yy,
-            log_viscosity - np.log(self.xx),
-            log_viscosity - np.log(self.yy),
-        )
-
-    def slopes(self, cubic: Array, densening: Array, thickening: Array) -> FlowSlopes:
-        """Return how it answers, from d ln(rho)/dp and d ln(eta)/dp."""
-        return FlowSlopes(
-            cubic * self.slope_xx,
-            cubic * self.slope_yy,
-            np.zeros_like(cubic) if self.slope_xy is None else cubic * self.slope_xy,
-            densening + (1.0 - self.stiffness) * thickening,
-            self.film_power,
-            self.stiffness,
-        )
-
-    def cross(self) -> CrossFlow:
-        """Return the flow across the slope of pressure, of sliding at an angle to the axes."""
-        assert self.xy is not None
-        assert self.slope_xy is not None
-        return CrossFlow(
-            self.xy / self.xx, self.xy / self.yy, self.slope_xy / self.xx, self.slope_xy / self.yy
-        )
-
-    def relative(self, slopes: FlowSlopes) -> FlowSlopes:
-        """Return slopes whose `slope_x` and `slope_y` are over their flow factors."""
-        return slopes._replace(slope_x=slopes.slope_x / self.xx, slope_y=slopes.slope_y / self.yy)
-
-
-@dataclass(slots=True)
 class FilmShear:
-    """Constants of an Eyring film on one grid; build it with `of`."""
+    """Shear of an Eyring film on one grid; build it with `of`."""
 
     unit: float  # shear stress over tau0 of sliding at 1 m/s, times film and fluidity [s/m]
     sigma_x: float  # stress drop over tau0, over film and pressure between the nodes beside
@@ -228,20 +183,38 @@ class FilmShear:
             limit_slope=lubricant.limit_slope * pressure / tau0,
         )
 
-    def slide(self, along: Array, across: float) -> None:
-        """Set the sliding of the rows along x, (rows,), and of all of them along y [m/s].
+    def with_sliding(self, along: Array, across: float) -> FilmShear:
+        """Return the film with other sliding.
 
-        All rows slide in one direction: where there is sliding along y, that along x is even.
+        Parameters
+        ----------
+        along : ndarray, shape (rows,)
+            Of the rows along x [m/s]; all the same where there is sliding along y.
+        across
+            Of all rows along y [m/s].
+
+        Raises
+        ------
+        ParameterError
+            Rows would slide in different directions.
         """
+        across, spread = check_finite("side_sliding", across, "m/s"), float(np.ptp(along))
         if across == 0.0:
-            self.cosine, self.sine = 1.0, 0.0
-            self.couette = self.unit * along
-            return
+            return replace(self, cosine=1.0, sine=0.0, couette=self.unit * along)
+        if spread > _EVEN * abs(across):
+            raise ParameterError(
+                f"sliding along x must not vary over the rows where side_sliding is {across:.4g} "
+                f"m/s, got a spread of {spread:.4g} m/s. Turn the axes along sliding."
+            )
         speed = math.hypot(float(along[0]), across)
-        self.cosine, self.sine = float(along[0]) / speed, across / speed
-        self.couette = np.full(along.size, self.unit * speed)
+        return replace(
+            self,
+            cosine=float(along[0]) / speed,
+            sine=across / speed,
+            couette=np.full(along.size, self.unit * speed),
+        )
 
-    def factors(self, pressure: Array, film: Array, fluidity: Array) -> ShearFactors:
+    def factors(self, pressure: Array, film: Array, fluidity: Array) -> AlignedFactors:
         """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
         along, across, steepness, stiffness = np.empty((4, *pressure.shape))
         fill_shear_factors(
@@ -265,15 +238,35 @@ class FilmShear:
         film_power = 1.0 + steepness + stiffness
         if abs(c * s) < ALIGNED:
             if abs(c) > abs(s):
-                return ShearFactors(along, None, across, slope, None, across, stiffness, film_power)
-            return ShearFactors(across, None, along, across, None, slope, stiffness, film_power)
-        return ShearFactors(
-            c * c * along + s * s * across,
-            c * s * (along - across),
-            s * s * along + c * c * across,
-            c * c * slope + s * s * across,
-            c * s * (slope - across),
-            s * s * slope + c * c * across,
-            stiffness,
-            film_power,
+                return AlignedFactors(along, across, slope, across, stiffness, film_power)
+            return AlignedFactors(across, along, across, slope, stiffness, film_power)
+        return ObliqueFactors(
+            xx=c * c * along + s * s * across,
+            xy=c * s * (along - across),
+            yy=s * s * along + c * c * across,
+            slope_xx=c * c * slope + s * s * across,
+            slope_xy=c * s * (slope - across),
+            slope_yy=s * s * slope + c * c * across,
+            stiffness=stiffness,
+            film_power=film_power,
         )
+
+
+@dataclass(frozen=True, slots=True)
+class NewtonianShear:
+    """Shear of a Newtonian film: its flow factors are 1 whatever the sliding."""
+
+    ones: NewtonianFactors
+
+    @classmethod
+    def of(cls, shape: tuple[int, int]) -> NewtonianShear:
+        """Return that of a grid with `shape` rows and columns."""
+        return cls(NewtonianFactors(shape))
+
+    def with_sliding(self, along: Array, across: float) -> NewtonianShear:
+        """Return the same."""
+        return self
+
+    def factors(self, pressure: Array, film: Array, fluidity: Array) -> NewtonianFactors:
+        """Return the factors, all 1."""
+        return self.ones

@@ -6,26 +6,34 @@ import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
 
 
 class CoarseSolution:
-    """Factored matrix of pressure and approach at the free nodes of a Galerkin operator."""
+    """Factored matrix of pressure and approach at the free nodes of a Galerkin operator.
 
-    def __init__(self, level: PointLevel, operator: SparseOperator) -> None:
+    Parameters
+    ----------
+    grid, operator
+        Coarse grid and its derivatives.
+    load
+        Integral of the pressure that balances the load [-].
+    """
+
+    def __init__(self, grid: PointGrid, operator: SparseOperator, load: float) -> None:
         free = operator.free.ravel()
         self._nodes = np.flatnonzero(free)
         n = self._nodes.size
         matrix = np.empty((n + 1, n + 1), order="F")
         rows = operator.matrix[self._nodes]
-        matrix[:n, :n] = rows.imag @ level.dense_deflection()[:, self._nodes]
+        matrix[:n, :n] = rows.imag @ grid.dense_deflection()[:, self._nodes]
         matrix[:n, :n] += rows.real[:, self._nodes].toarray()
         matrix[:n, n] = operator.by_approach.ravel()[self._nodes]
-        matrix[n, :n] = level.cells[self._nodes % level.shape[1]] / level.scales.load
+        matrix[n, :n] = grid.cells[self._nodes % grid.shape[1]] / load
         matrix[n, n] = 0.0
         self._factors = lu_factor(matrix, overwrite_a=True, check_finite=False)
-        self._shape = level.shape
+        self._shape = grid.shape
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
         """Return pressure, shape (ny, nx), and approach with the residual and the load given."""

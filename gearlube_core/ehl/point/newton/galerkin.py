@@ -8,9 +8,9 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from gearlube_core.arrays import Array, Flags
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.state import Linearisation
+from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.kernels.jit import kernel
 
 _LEAST_FREE = 0.25  # share of free fine nodes around a free coarse node
@@ -92,10 +92,10 @@ class SparseOperator:
     free: Flags
     by_approach: Array
 
-    def apply(self, level: PointLevel, pressure: Array, approach: float) -> Array:
+    def apply(self, grid: PointGrid, pressure: Array, approach: float) -> Array:
         """Return the change of the residual, shape (ny, nx)."""
-        film = np.ascontiguousarray(level.deflection(pressure))
-        result = np.empty(level.shape)
+        film = np.ascontiguousarray(grid.deflection(pressure))
+        result = np.empty(grid.shape)
         multiply_rows(
             self.matrix.indptr,
             self.matrix.indices,
@@ -128,11 +128,9 @@ def sparse_operator(linear: Linearisation) -> SparseOperator:
         entry,
     )
     matrix = csr_matrix((entry[:count], column[:count], start), shape=(size, size))
-    if linear.carriage is not None:
-        matrix = matrix + linear.carriage.matrix(
-            linear.offsets, linear.by_pressure, linear.by_film, linear.free
-        )
-        matrix.sort_indices()
+    matrix = linear.transport.added_to(
+        matrix, linear.offsets, linear.by_pressure, linear.by_film, linear.free
+    )
     return SparseOperator(matrix, linear.free, linear.by_approach)
 
 

@@ -9,24 +9,25 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.state import FilmState, Linearisation
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.terms.linearisation import Linearisation
+from gearlube_core.ehl.point.terms.state import FilmState
 
 Inverse = Callable[[Array, float], tuple[Array, float]]
 Build = Callable[[Hierarchy, Linearisation], Inverse]
 
 _THINNEST = 0.2  # of the film before a step
 _GROWTH = 1.05  # of the residual that a step may cost
-_BROKEN_GROWTH = 20.0  # where the edge of the oil moves: a node of it comes and goes
+_RUPTURED_GROWTH = 20.0  # where the edge of the oil moves: a node of it comes and goes
 _CUTS = 3
 _UNSOLVED = 0.3  # of a linear residual: the state is too rough to step from
 _FIRST_SHIFT = 0.3  # of the flow through a cell, as a fictitious squeeze rate
 _LARGEST_SHIFT = 100.0
 _LOAD_WEIGHT = 0.1
 _PATIENCE = 9  # steps within which the residual must halve or so
-_BROKEN_PATIENCE = 14
+_RUPTURED_PATIENCE = 14
 
 
 @dataclass(slots=True)
@@ -51,9 +52,8 @@ def flow_residual(level: PointLevel, state: FilmState) -> float:
     Nodes without pressure count only where flow gathers that no pressure drives away. What
     touching solids carry beyond the pressure counts as a flow.
     """
-    unbalanced = level.integral(np.where(state.free, np.abs(state.residual), 0.0))
-    if state.solids is not None:
-        unbalanced += level.integral(state.solids.unbalanced(state.residual))
+    unbalanced = level.grid.integral(np.where(state.free, np.abs(state.residual), 0.0))
+    unbalanced += state.contact.unbalanced(state.residual, level.grid)
     middle = float(state.film[state.pressure >= 0.8 * state.pressure.max()].mean())
     if not middle > 0.0:
         return math.inf
@@ -100,9 +100,9 @@ def newton(
     level = hierarchy.levels[-1]
     record = NewtonRecord()
     shift = 0.0
-    broken = level.broken is not None
-    growth = _BROKEN_GROWTH if broken else _GROWTH
-    patience = _BROKEN_PATIENCE if broken else _PATIENCE
+    ruptures = level.terms.cavitation.conserves_mass
+    growth = _RUPTURED_GROWTH if ruptures else _GROWTH
+    patience = _RUPTURED_PATIENCE if ruptures else _PATIENCE
     size = flow_residual(level, state)
     record.residuals.append(size)
     for _ in range(most):
@@ -113,7 +113,7 @@ def newton(
         pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
                 level.apply(linear, p, h).copy(),
-                level.integral(p) / level.scales.load + h * linear.load_by_approach,
+                level.grid.integral(p) / level.load + h * linear.load_by_approach,
             ),
             cycle,
             linear.right,

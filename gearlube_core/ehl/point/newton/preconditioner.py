@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.state import Linearisation
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.coarse import CoarseSolution
 from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_operator
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
 from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.terms.linearisation import Linearisation
 
 Lines = RowSmoother | ColumnSmoother
 
@@ -51,13 +51,13 @@ class MultigridCycle:
         for k in range(len(self._levels) - 1, 0, -1):
             fine, coarse = self._levels[k], self._levels[k - 1]
             halved = (coarse.shape[0] < fine.shape[0], coarse.shape[1] < fine.shape[1])
-            lines: list[Lines] = [RowSmoother(fine, operator, halved, _DAMPING)]
-            if fine.stencil.wedge_y > _OBLIQUE * fine.stencil.wedge_x and not fine.graded:
-                lines.append(ColumnSmoother(fine, operator, halved, _DAMPING))
+            lines: list[Lines] = [RowSmoother(fine.grid, operator, halved, _DAMPING)]
+            if fine.stencil.wedge_y > _OBLIQUE * fine.stencil.wedge_x and not fine.grid.graded:
+                lines.append(ColumnSmoother(fine.grid, operator, halved, _DAMPING))
             self._smoothers.insert(0, lines)
             operator = coarse_operator(operator, self._transfers[k - 1])
             self._operators.insert(0, operator)
-        self._direct = CoarseSolution(self._levels[0], operator)
+        self._direct = CoarseSolution(self._levels[0].grid, operator, self._levels[0].load)
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
         """Return pressure, shape (ny, nx), and approach that cancel most of a residual."""
@@ -68,13 +68,13 @@ class MultigridCycle:
             return self._direct(residual, load_residual)
         level, operator, transfer = self._levels[k], self._operators[k], self._transfers[k - 1]
         pressure = self._smooth(k, residual)
-        carried = level.integral(pressure) / level.scales.load
-        rest = residual - operator.apply(level, pressure, 0.0)
+        carried = level.grid.integral(pressure) / level.load
+        rest = residual - operator.apply(level.grid, pressure, 0.0)
         coarse, approach = self._cycle(k - 1, transfer.down(rest), load_residual - carried)
         correction = transfer.up(coarse)
         correction[~operator.free] = 0.0
         pressure += correction
-        rest = residual - operator.apply(level, pressure, approach)
+        rest = residual - operator.apply(level.grid, pressure, approach)
         pressure += self._smooth(k, rest)
         return pressure, approach
 
@@ -88,7 +88,7 @@ class MultigridCycle:
         pressure, rest = np.zeros(level.shape), residual
         for count, lines in enumerate(self._smoothers[k - 1]):
             if count:
-                rest = residual - operator.apply(level, pressure, 0.0)
+                rest = residual - operator.apply(level.grid, pressure, 0.0)
             change = lines(rest)
             change -= transfer.up(transfer.down(change))
             change[~operator.free] = 0.0

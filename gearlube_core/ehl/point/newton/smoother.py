@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.linalg.lapack import sgbtrf, sgbtrs
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
-from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection, wave_deflection
+from gearlube_core.ehl.point.newton.wave import TransposedGrid, wave_deflection
 from gearlube_core.kernels.jit import kernel
 
 REACH = 4  # nodes over which the local deflection acts to each side
@@ -65,33 +63,23 @@ def fill_rows(
                         band[row + offset, diagonal - offset] += slope * local[ii, i + offset]
 
 
-@dataclass(frozen=True, slots=True)
-class TurnedGrid:
-    """What a smoother knows of a uniform grid, here with rows and columns interchanged."""
-
-    shape: tuple[int, int]
-    dx: float
-    dy: float
-    modulus: float
-
-
 class RowSmoother:
     """Factored rows of one linearisation; float32 is enough for a preconditioner."""
 
     def __init__(
         self,
-        level: PointLevel | TurnedGrid,
+        grid: PointGrid | TransposedGrid,
         operator: SparseOperator,
         halved: tuple[bool, bool],
         damping: float,
     ) -> None:
-        ny, nx = level.shape
+        ny, nx = grid.shape
         # the shortest waves that the coarser grid lacks
         wave_number = max(
-            0.55 * np.pi / level.dy if halved[0] else 0.0,
-            0.35 * np.pi / level.dx if halved[1] else 0.0,
+            0.55 * np.pi / grid.dy if halved[0] else 0.0,
+            0.35 * np.pi / grid.dx if halved[1] else 0.0,
         )
-        shortest = min(wave_number * level.dy, 0.55 * np.pi)
+        shortest = min(wave_number * grid.dy, 0.55 * np.pi)
         across = np.cos(shortest * np.arange(5.0))
         band = np.zeros((ny * nx, 2 * _BELOW + _ABOVE + 1), dtype=np.float32)
         fill_rows(
@@ -99,14 +87,12 @@ class RowSmoother:
             operator.matrix.indices,
             operator.matrix.data,
             operator.free,
-            wave_deflection(level, wave_number)
-            if isinstance(level, PointLevel)
-            else uniform_wave_deflection(level.shape[1], level.dx, level.modulus, wave_number),
+            wave_deflection(grid, wave_number),
             across,
             band,
         )
         self._factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)
-        self._shape = level.shape
+        self._shape = grid.shape
         self._damping = damping
         self._free = operator.free
 
@@ -118,20 +104,19 @@ class RowSmoother:
 
 
 class ColumnSmoother:
-    """Factored columns of one linearisation, on a uniform grid: rows of the turned operator."""
+    """Factored columns of one linearisation, on a uniform grid: rows of the transposed operator."""
 
     def __init__(
-        self, level: PointLevel, operator: SparseOperator, halved: tuple[bool, bool], damping: float
+        self, grid: PointGrid, operator: SparseOperator, halved: tuple[bool, bool], damping: float
     ) -> None:
-        ny, nx = level.shape
+        ny, nx = grid.shape
         order = np.arange(ny * nx).reshape(ny, nx).T.ravel()
         matrix = operator.matrix[order][:, order].tocsr()
         matrix.sort_indices()
-        turned = SparseOperator(
+        transposed = SparseOperator(
             matrix, np.ascontiguousarray(operator.free.T), operator.by_approach.T
         )
-        grid = TurnedGrid((nx, ny), level.dy, level.dx, level.modulus)
-        self._rows = RowSmoother(grid, turned, halved[::-1], damping)
+        self._rows = RowSmoother(TransposedGrid.of(grid), transposed, halved[::-1], damping)
 
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""

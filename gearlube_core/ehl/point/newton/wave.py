@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import toeplitz
 from scipy.special import iti0k0
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.equations.level import PointLevel
+from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.mesh import cell_faces
 
 _SPECTRUM = 512
@@ -23,12 +24,30 @@ def uniform_wave_deflection(nodes: int, dx: float, modulus: float, wave_number: 
     return np.asarray(toeplitz(np.fft.ifft(symbol).real[:nodes]))
 
 
-def wave_deflection(level: PointLevel, wave_number: float | Array) -> Array:
+@dataclass(frozen=True, slots=True)
+class TransposedGrid:
+    """Uniform grid with rows and columns interchanged, as far as smoothers use it."""
+
+    shape: tuple[int, int]
+    dx: float
+    dy: float
+    modulus: float
+    positions: Array  # of the columns along x [-]
+    graded: bool = False
+
+    @classmethod
+    def of(cls, grid: PointGrid) -> TransposedGrid:
+        """Return the transpose of a uniform grid."""
+        ny, nx = grid.shape
+        return cls((nx, ny), grid.dy, grid.dx, grid.modulus, np.arange(ny) * grid.dy)
+
+
+def wave_deflection(grid: PointGrid | TransposedGrid, wave_number: float | Array) -> Array:
     """Return the deflection at the nodes of a row under unit pressure on its cells.
 
     Parameters
     ----------
-    level
+    grid
         Grid.
     wave_number
         k of the wave across the rows, above zero; on a graded grid also one for every node,
@@ -44,9 +63,9 @@ def wave_deflection(level: PointLevel, wave_number: float | Array) -> Array:
     Inverse transform of 2/(E* sqrt(k_x^2 + k^2)): over the waves of a uniform grid, else in
     closed form, 2/(pi E*) int K0(k |x|) dx over cells.
     """
-    if not level.graded:
-        return uniform_wave_deflection(level.shape[1], level.dx, level.modulus, float(wave_number))
-    wave = np.broadcast_to(wave_number, level.positions.shape)[:, None]
-    distance = cell_faces(level.positions) - level.positions[:, None]
+    if not grid.graded:
+        return uniform_wave_deflection(grid.shape[1], grid.dx, grid.modulus, float(wave_number))
+    wave = np.broadcast_to(wave_number, grid.positions.shape)[:, None]
+    distance = cell_faces(grid.positions) - grid.positions[:, None]
     integral = np.sign(distance) * iti0k0(wave * np.abs(distance))[1] / wave
-    return np.asarray(2.0 / (math.pi * level.modulus) * np.diff(integral, axis=1))
+    return np.asarray(2.0 / (math.pi * grid.modulus) * np.diff(integral, axis=1))

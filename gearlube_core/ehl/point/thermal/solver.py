@@ -12,13 +12,13 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.point.cavitation import check_cavitation, refuse_rupture
-from gearlube_core.ehl.point.equations.state import FilmState
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual, newton
 from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import nested_film, point_solution
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
 
@@ -169,7 +169,7 @@ def solve_thermal_point(
             good = False
             break
         energy.turn(film)
-        level.warm = energy.factors(film)
+        level.set_thermal_factors(*energy.factors(film))
         state = _warm_film(hierarchy, state, settings, energy.balance, record)
     energy.judge(energy.film(state), everywhere=True)
     record.converged = good

@@ -10,9 +10,9 @@ from scipy.sparse.linalg import LinearOperator, gmres
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.line.energy import FilmFields, fill_thermal_oil
-from gearlube_core.ehl.point.equations.level import PointLevel
-from gearlube_core.ehl.point.equations.state import FilmState
+from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.anderson_mixing import AndersonMixing
 from gearlube_core.ehl.point.thermal.energy import (
     PointFilm,
@@ -70,7 +70,7 @@ class FilmTemperature:
     ) -> None:
         self.level, self.oil = level, problem.lubricant
         scales, (ny, nx) = level.scales, level.shape
-        self.steps = level.dx * scales.length, level.dy * scales.length
+        self.steps = level.grid.dx * scales.length, level.grid.dy * scales.length
         u, v = scales.turned(problem.entrainment)
         su, sv = scales.turned(problem.sliding or (0.0, 0.0))
         self.speed, self.sliding = scales.speed, math.hypot(su, sv)
@@ -98,14 +98,12 @@ class FilmTemperature:
         scales, oil = self.level.scales, self.oil
         p = state.oil * scales.pressure
         h = np.maximum(state.film * scales.film, 1e-12)
-        p_y, p_x = np.gradient(p, self.steps[1], self.steps[0])
+        p_y, p_x = (np.asarray(s) for s in np.gradient(p, self.steps[1], self.steps[0]))
         c, s = self.direction
         flow = state.film_flow
         mobility = h * h / (12.0 * oil.eta0)
         u, v = -mobility * flow.fluidity_x * p_x, -mobility * flow.fluidity_y * p_y
-        if state.shear is not None and state.shear.xy is not None:
-            cross = mobility * state.fluidity * state.shear.xy
-            u, v = u - cross * p_y, v - cross * p_x
+        u, v = state.shear.with_cross_velocity((u, v), mobility, state.fluidity, (p_x, p_y))
         # oil is not pumped back faster than it is carried in; where the grid says so it is coarse
         size = np.maximum(np.hypot(u, v) / self.speed, 1.0)
         rho = np.asarray(state.density * oil.rho0)
@@ -174,7 +172,7 @@ class FilmTemperature:
         warm_surfaces(change.reshape(2, -1), self._shape, self.T)
 
     def factors(self, film: PointFilm) -> tuple[Array, Array]:
-        """Return what the grid's `warm` takes: factors of viscosity and density, (ny, nx)."""
+        """Return the thermal factors of viscosity and density, both (ny, nx) [-]."""
         cooling, dilation = np.empty((2, *self.level.shape))
         p = film.along.p
         fill_thermal_oil(

@@ -1,0 +1,90 @@
+"""Tooth contact of a hypoid pair as a library call: from a gear file to dataset and mesh table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.studies.contact.figures import save_contact_figures
+from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
+from gearlube_core.hypoid_contact.contact_table import contact_table
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.mesh_table.netcdf import write_mesh_table
+from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import write_dataset
+
+POSITIONS = "positions"  # folder of finished positions, in that of the results
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactResults:
+    """What a tooth contact analysis found.
+
+    Parameters
+    ----------
+    contact : xarray.Dataset
+        Unloaded and loaded contact on both sides, see `contact_dataset`.
+    mesh_table : MeshTable
+        The same as the dynamics read it.
+    """
+
+    contact: xr.Dataset
+    mesh_table: MeshTable
+
+
+def run_contact(
+    file: HypoidGearFile,
+    settings: ContactSettings,
+    *,
+    folder: Path | None = None,
+    jobs: int | None = None,
+    progress: Progress = no_progress,
+) -> ContactResults:
+    """Return the tooth contact of a gear file, unloaded and loaded.
+
+    Parameters
+    ----------
+    file : HypoidGearFile
+    settings : ContactSettings
+    folder : Path, optional
+        Gets the results as `write_contact` writes them. Finished positions are kept there in
+        `positions`: the same call goes on after a stop.
+    jobs : int, optional
+        Processes; default: all processors.
+    progress : callable, optional
+        Called with the share of positions that is done [-] and a sentence on what runs.
+
+    Raises
+    ------
+    ParameterError
+        A flank is missing or the flanks do not meet.
+    ConvergenceError
+        A position finds no equilibrium.
+
+    Examples
+    --------
+    >>> from gearlube.studies.contact.settings import QUICK
+    >>> found = run_contact(HypoidGearFile.named("mohammadpour_2015"), QUICK)  # doctest: +SKIP
+    >>> float(found.contact["k_m"].sel(side="drive", torque=50.0).mean())  # doctest: +SKIP
+    """
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    store = None if folder is None else folder / POSITIONS
+    dataset = analyse_contact(file, settings, store=store, jobs=jobs, progress=progress)
+    results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
+    if folder is not None:
+        progress(1.0, "figures")
+        write_contact(results, folder)
+    return results
+
+
+def write_contact(results: ContactResults, folder: Path) -> Path:
+    """Write the mesh table as NAME.nc, contact.nc and figures/; return the file of the table."""
+    folder.mkdir(parents=True, exist_ok=True)
+    table = write_mesh_table(results.mesh_table, folder / f"{results.contact.attrs['name']}.nc")
+    write_dataset(results.contact, folder / "contact.nc")
+    save_contact_figures(results.contact, folder / "figures")
+    return table

@@ -1,0 +1,63 @@
+"""The main numbers of a tooth contact analysis, and what is unsound about its gear file."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import xarray as xr
+
+from gearlube_core.hypoid_contact.analysis import check_settings_meet
+from gearlube_core.hypoid_contact.mesh_cycle import SIDES
+from gearlube_core.hypoid_geometry.flank.flank import Role
+from gearlube_core.hypoid_geometry.flank.setting_check import setting_report
+from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+
+_ROLES: tuple[Role, Role] = ("pinion", "gear")
+_TOUCHES = 1e-3  # share of the torque above which a pair counts as in contact
+
+
+class ContactSummary(NamedTuple):
+    """Means over the mesh of one side at one torque, in SI units."""
+
+    side: str
+    torque: float  # on the pinion [N.m]
+    secant_stiffness: float  # [N/m]
+    tangent_stiffness: float  # [N/m]
+    pinion_arm: float  # of the mesh force [m]
+    pairs: float  # in contact [-]
+    highest_pressure: float  # [Pa], not a mean
+
+
+def contact_summary(contact: xr.Dataset) -> list[ContactSummary]:
+    """Return the main numbers of each side and torque."""
+    rows = []
+    for side in SIDES:
+        for torque in contact["torque"].values:
+            state = contact.sel(side=side, torque=torque)
+            rows.append(
+                ContactSummary(
+                    side,
+                    float(torque),
+                    float(state["k_m"].mean()),
+                    float(state["k_t"].mean()),
+                    float(state["R_p"].mean()),
+                    float((state["share"] > _TOUCHES).sum("pair").mean()),
+                    float(state["pressure_max"].max()),
+                )
+            )
+    return rows
+
+
+def gear_file_warnings(file: HypoidGearFile) -> list[str]:
+    """Return what is unsound about the machine settings and the teeth, one sentence each.
+
+    Raises
+    ------
+    ParameterError
+        The cutters miss the teeth.
+    """
+    check_settings_meet(file)
+    return setting_report(file) + [
+        line for role in _ROLES for line in tooth_form(file, role).report()
+    ]

@@ -1,0 +1,36 @@
+"""What a study of a helical pair found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import xarray as xr
+
+from gearlube.studies.helical.settings import HelicalSettings
+from gearlube_core.mesh_table.line_mesh import LineMesh
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HelicalResults:
+    """What was found; what a stopped study has not reached is absent.
+
+    Parameters
+    ----------
+    settings : HelicalSettings
+    datasets : mapping of str to xarray.Dataset
+        "contact", "response", "friction_sweep", "sweep", "stability", "separation", "film",
+        "geometry" and "geometry_" with each name in the gear file's `compared_with`.
+    mesh : LineMesh, optional
+        Of the loaded contact.
+    failures : mapping of str to str
+        Why a stage found nothing, by its name.
+    interrupted : bool
+        Whether it was stopped by KeyboardInterrupt.
+    """
+
+    settings: HelicalSettings
+    datasets: Mapping[str, xr.Dataset]
+    mesh: LineMesh | None
+    failures: Mapping[str, str]
+    interrupted: bool

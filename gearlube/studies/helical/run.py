@@ -1,0 +1,129 @@
+"""A study of a helical pair as a library call: from settings to datasets and line mesh."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gearlube.studies.helical.figures.catalogue import save_helical_figures
+from gearlube.studies.helical.labels import study_attributes
+from gearlube.studies.helical.results import HelicalResults
+from gearlube.studies.helical.settings import HelicalSettings
+from gearlube.studies.helical.stages import RunningStudy, StageReport, stages_of
+from gearlube.studies.helical.summary import summary_csv, summary_rows
+from gearlube_core.errors import GearLubeError
+from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
+from gearlube_core.progress import Progress, no_progress, part_of
+from gearlube_core.storage.atomic_file import write_dataset, write_text
+
+PARTS = "parts"  # folder of finished parts, in that of the results
+_COMPUTING = 0.95  # share of the running time before files and figures
+
+
+def run_helical(
+    settings: HelicalSettings,
+    *,
+    folder: Path | None = None,
+    store: Path | None = None,
+    jobs: int | None = None,
+    progress: Progress = no_progress,
+    command_line: str = "",
+) -> HelicalResults:
+    """Return loaded contact, vibration, instability, separation, film and geometry of a pair.
+
+    On KeyboardInterrupt, returns what was found until then.
+
+    Parameters
+    ----------
+    settings : HelicalSettings
+    folder : Path, optional
+        Gets the results as `write_helical` writes them.
+    store : Path, optional
+        Folder that keeps finished parts: the same call goes on after a stop. By default `parts` in
+        `folder`.
+    jobs : int, optional
+        Processes; all processors by default.
+    progress : callable, optional
+        Called with the share that is done [-] and a sentence on what runs.
+    command_line : str
+        Kept in the datasets.
+
+    Raises
+    ------
+    GearLubeError
+        The loaded contact failed whose mesh all else needs. Failures of other stages are in
+        `failures`.
+
+    Examples
+    --------
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> settings = HelicalSettings(
+    ...     file=HelicalGearFile.named("jamali_2015_a"), pinion_torque=1060.0, pinion_speed=235.6,
+    ...     parts="geometry",
+    ... )
+    >>> found = run_helical(settings)
+    >>> list(found.datasets)
+    ['geometry']
+    >>> print(f"{found.datasets['geometry'].attrs['transverse_contact_ratio']:.2f}")
+    1.73
+    """
+    if store is None and folder is not None:
+        store = folder / PARTS
+    results = _solved(settings, store, jobs, part_of(progress, 0.0, _COMPUTING), command_line)
+    if folder is not None:
+        progress(_COMPUTING, "stopped" if results.interrupted else "files and figures")
+        write_helical(results, folder)
+    if not results.interrupted:
+        progress(1.0, "done")
+    return results
+
+
+def write_helical(results: HelicalResults, folder: Path) -> None:
+    """Write NAME.nc for each dataset, line_mesh.nc, summary.csv and figures/.
+
+    A stopped study has no figures.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, dataset in results.datasets.items():
+        write_dataset(dataset, folder / f"{name}.nc")
+    if results.mesh is not None:
+        write_line_mesh(results.mesh, folder / "line_mesh.nc")
+    write_text(summary_csv(summary_rows(results)), folder / "summary.csv")
+    if not results.interrupted:
+        save_helical_figures(results.datasets, folder / "figures")
+
+
+def _solved(
+    settings: HelicalSettings,
+    store: Path | None,
+    jobs: int | None,
+    progress: Progress,
+    command_line: str,
+) -> HelicalResults:
+    study = RunningStudy(settings=settings, store=store, jobs=jobs)
+    stages = stages_of(settings)
+    total, before = sum(stage.cost for stage in stages), 0.0
+    failures: dict[str, str] = {}
+    interrupted = False
+    try:
+        for stage in stages:
+            part = part_of(progress, before / total, (before + stage.cost) / total)
+            report = StageReport(part, stage.name)
+            report(0.0)
+            try:
+                stage.run(study, report)
+            except GearLubeError as reason:
+                if stage.needed:
+                    raise
+                failures[stage.name] = str(reason)
+            before += stage.cost
+    except KeyboardInterrupt:
+        interrupted = True
+    for dataset in study.datasets.values():
+        dataset.attrs = study_attributes(settings, command_line) | dataset.attrs
+    return HelicalResults(
+        settings=settings,
+        datasets=study.datasets,
+        mesh=study.mesh,
+        failures=failures,
+        interrupted=interrupted,
+    )

@@ -1,0 +1,182 @@
+"""The stages of a study of a helical pair: contact, vibration, stability, friction, geometry."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.helical.film_friction import film_dataset
+from gearlube.studies.helical.geometry_dataset import gear_file_geometry
+from gearlube.studies.helical.labels import pair_attributes
+from gearlube.studies.helical.loaded import analyse_loaded_contact, constant_density_stiffness
+from gearlube.studies.helical.operating_point import operating_point
+from gearlube.studies.helical.separation import separation_dataset
+from gearlube.studies.helical.settings import SHOWN_MU, HelicalSettings
+from gearlube.studies.helical.stability import stability_dataset
+from gearlube.studies.helical.sweep_grid import sweep_dataset
+from gearlube_core.dynamics.helical_pair.linear.periodic_response import with_friction
+from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.progress import Progress
+
+
+@dataclass(slots=True, kw_only=True)
+class RunningStudy:
+    """What a study has found so far, and how it computes.
+
+    Parameters
+    ----------
+    settings : HelicalSettings
+    store : Path, optional
+        Folder that keeps finished parts of the long stages.
+    jobs : int, optional
+        Processes; all processors by default.
+    datasets : dict of str to xarray.Dataset
+    mesh : LineMesh, optional
+        Of the loaded contact.
+    """
+
+    settings: HelicalSettings
+    store: Path | None = None
+    jobs: int | None = None
+    datasets: dict[str, xr.Dataset] = field(default_factory=dict)
+    mesh: LineMesh | None = None
+
+    @property
+    def parameters(self) -> HelicalPairParameters:
+        """The vibrating pair with the mesh that was asked for."""
+        return self.settings.parameters(self.mesh if self.settings.mesh == "contact" else None)
+
+    def processes(self, seconds: float) -> int | None:
+        """Return how many processes are worth it for work of so many seconds of one processor."""
+        return 1 if seconds < _FEW else self.jobs
+
+
+@dataclass(frozen=True, slots=True)
+class StageReport:
+    """Reports the share of a stage that is done [-], with the stage's name where none is given."""
+
+    progress: Progress
+    name: str
+
+    def __call__(self, share: float, sentence: str = "") -> None:
+        """Report a share of the stage."""
+        self.progress(share, sentence or self.name)
+
+
+class Stage(NamedTuple):
+    """One part of a study."""
+
+    name: str
+    cost: float  # typical running time [s]
+    run: Callable[[RunningStudy, StageReport], None]
+    needed: bool = False  # by all that follow
+
+
+# seconds of one processor; a process costs two or three before it begins
+_STATE, _POINT, _CELL, _FEW = 0.07, 0.006, 0.002, 5.0
+
+
+def stages_of(settings: HelicalSettings) -> list[Stage]:
+    """Return the stages that settings ask for, in the order in which they run."""
+    stages = []
+    if settings.with_contact:
+        stages.append(Stage("loaded contact", 30.0, _contact, settings.mesh == "contact"))
+    if settings.with_dynamics:
+        stages.append(Stage("operating point", 2.0, _respond))
+        stages.append(Stage("friction and speed", 25.0, _sweep))
+        stages.append(Stage("parametric instability", 15.0, _stability))
+        if settings.separation_speeds > 0:
+            stages.append(Stage("tooth separation", 12.0, _separation))
+        if settings.friction == "film":
+            stages.append(Stage("friction of the oil film", 1.0, _film))
+    if settings.with_geometry:
+        stages.append(Stage("geometry", 2.0, _geometry))
+    return stages
+
+
+def _contact(study: RunningStudy, report: StageReport) -> None:
+    settings = study.settings
+    work = _STATE * settings.positions * len(settings.load_steps)
+    found = analyse_loaded_contact(
+        settings, store=study.store, jobs=study.jobs, cycle_jobs=study.processes(work),
+        progress=report,
+    )  # fmt: skip
+    density = settings.stiffness_density
+    dataset = found.dataset.merge(constant_density_stiffness(settings, density))
+    dataset.attrs = found.dataset.attrs | {"density": density, "density_units": "N/m2"}
+    study.datasets["contact"] = dataset
+    study.mesh = found.line_mesh
+
+
+def _respond(study: RunningStudy, report: StageReport) -> None:
+    settings, parameters = study.settings, study.parameters
+    response = operating_point(parameters, settings.pinion_speed, SHOWN_MU)
+    response.attrs |= pair_attributes(parameters)
+    study.datasets["response"] = response
+    report(0.3)
+    over_friction = sweep_dataset(
+        replace(parameters, film=None),
+        np.array(settings.mu),
+        np.array([settings.pinion_speed]),
+        jobs=1,
+    )
+    over_friction.attrs |= pair_attributes(parameters)
+    study.datasets["friction_sweep"] = over_friction
+
+
+def _sweep(study: RunningStudy, report: StageReport) -> None:
+    settings, parameters = study.settings, study.parameters
+    speeds = settings.swept_speeds(parameters)
+    sweep = sweep_dataset(
+        parameters,
+        np.array(settings.mu),
+        speeds,
+        store=study.store,
+        jobs=study.processes(_POINT * speeds.size * len(settings.mu)),
+        observe=report,
+    )
+    sweep.attrs |= pair_attributes(parameters)
+    study.datasets["sweep"] = sweep
+
+
+def _stability(study: RunningStudy, report: StageReport) -> None:
+    settings, parameters = study.settings, replace(study.parameters, film=None)
+    columns, rows = settings.stability_columns, settings.stability_rows
+    stability = stability_dataset(
+        parameters,
+        columns,
+        rows,
+        store=study.store,
+        jobs=study.processes(3.0 * _CELL * columns * rows),
+        observe=report,
+    )
+    stability.attrs |= pair_attributes(parameters)
+    study.datasets["stability"] = stability
+
+
+def _separation(study: RunningStudy, report: StageReport) -> None:
+    parameters = with_friction(replace(study.parameters, film=None), SHOWN_MU[-1])
+    separation = separation_dataset(parameters, study.settings.separation_speeds, report)
+    separation.attrs |= pair_attributes(parameters)
+    study.datasets["separation"] = separation
+
+
+def _film(study: RunningStudy, report: StageReport) -> None:
+    study.datasets["film"] = film_dataset(study.settings, study.parameters.mesh, report)
+
+
+def _geometry(study: RunningStudy, report: StageReport) -> None:
+    settings = study.settings
+    study.datasets["geometry"] = gear_file_geometry(
+        settings.file, settings.pinion_torque, settings.pinion_speed
+    )
+    for name in settings.file.compared_with:
+        report(0.5)
+        study.datasets[f"geometry_{name}"] = gear_file_geometry(HelicalGearFile.named(name))

@@ -1,0 +1,37 @@
+"""What all case files of lubricated films share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_file import InputFile
+
+Text = Annotated[str, Field(min_length=1)]
+Heat = Literal["isothermal", "thermal"]
+Wedge = Literal["upwind-1", "upwind-2", "central", "quick"]
+
+
+class FilmCase(InputFile):
+    """A lubricated contact with its name; shipped cases lie in gearlube_core/ehl/case/data."""
+
+    package: ClassVar[str] = "gearlube_core.ehl.case"
+
+    name: Text = Field(description="What reports and plots call the case")
+    source: Text = Field(description="Where the numbers are from")
+
+
+@contextmanager
+def refused(head: str = "") -> Iterator[None]:
+    """Turn a ParameterError into the ValueError that pydantic expects of a validator.
+
+    `head` begins the message.
+    """
+    try:
+        yield
+    except ParameterError as reason:
+        raise ValueError(f"{head}{str(reason).removesuffix('.')}") from None

@@ -1,1 +1,0 @@
-"""Oil that goes on beyond the domain of a point contact."""

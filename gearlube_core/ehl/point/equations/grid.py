@@ -1,0 +1,114 @@
+"""Nodes of one grid of a point contact, their cells and the deflection under pressure on them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
+from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
+from gearlube_core.ehl.point.equations.mesh import (
+    Grading,
+    cell_faces,
+    central_metric,
+    mesh_metric,
+    x_nodes,
+)
+from gearlube_core.ehl.point.equations.stencil import MeshMetric
+from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.scaling import PointScales
+
+
+class PointGrid:
+    """Grid of shape (ny, nx) in the units of the scales; it does not change.
+
+    Parameters
+    ----------
+    problem, scales, shape
+        Contact, its units, rows and columns.
+    grading
+        Of the spacing along x, for entrainment along x; None: uniform.
+
+    Attributes
+    ----------
+    x, y : ndarray
+        Nodes along the axes of the problem [m].
+    dx, dy : float
+        Spacing; the smallest along x [-].
+    positions : ndarray, shape (nx,)
+        Of the columns along x [-].
+    graded : bool
+        The spacing along x varies.
+    metric : MeshMetric
+        Spacing along x against dx.
+    modulus : float
+        E* [-].
+    coefficients : ndarray
+        Deflection under unit pressure on a cell, as the convolutions take it [-].
+    cell : float
+        dx dy [-].
+    cells : ndarray, shape (nx,)
+        Areas of the cells of a row [-].
+    """
+
+    def __init__(
+        self,
+        problem: PointContactProblem,
+        scales: PointScales,
+        shape: tuple[int, int],
+        grading: Grading | None = None,
+    ) -> None:
+        self.shape = ny, nx = shape
+        nodes = (ny, nx) if scales.swap else (nx, ny)
+        self.x = x = x_nodes(problem.x_limits, nodes[0], grading)
+        self.y = y = np.linspace(*problem.y_limits, nodes[1])
+        step_x, step_y = float(np.diff(x).min()) if grading else x[1] - x[0], y[1] - y[0]
+        if scales.swap:
+            step_x, step_y = step_y, step_x
+        self.dx, self.dy = step_x / scales.length, step_y / scales.length
+        self.modulus = problem.contact_modulus * scales.film / (scales.pressure * scales.length)
+        self.positions = x / scales.length if grading else np.arange(nx) * self.dx
+        self.graded = grading is not None
+        if self.graded:
+            self.metric = mesh_metric(self.positions, self.dx)
+            self.coefficients = graded_coefficients(
+                cell_faces(self.positions), self.positions, self.dy, ny, self.modulus
+            )
+        else:
+            self.metric = MeshMetric(np.ones(nx), np.ones(nx))
+            self.coefficients = love_coefficients(self.dy, self.dx, ny, nx, 1.0) * (
+                self.dx * self.dy / self.modulus
+            )
+        self.deflection = self.convolution()
+        self.cell = self.dx * self.dy
+        self.cells = self.cell / self.metric.narrow
+        self._dense: Array | None = None
+
+    def convolution(self, single: bool = False) -> HalfSpaceConvolution | GradedConvolution:
+        """Return the deflection under a pressure as a function, in float32 for preconditioners."""
+        kind = GradedConvolution if self.graded else HalfSpaceConvolution
+        return kind(self.coefficients, single=single)
+
+    @property
+    def own_deflection(self) -> Array:
+        """Return the deflection of nodes under unit pressure on their own cell, (ny, nx) [-]."""
+        own = self.coefficients[0].diagonal() if self.graded else self.coefficients[0, 0]
+        return np.broadcast_to(own, self.shape)
+
+    def dense_deflection(self) -> Array:
+        """Return the matrix of deflection per unit pressure, shape (ny nx, ny nx) [-]."""
+        if self._dense is None:
+            rows, columns = (n.ravel() for n in np.indices(self.shape))
+            apart = abs(columns[:, None] - columns)
+            along = (columns[:, None], columns) if self.graded else (apart,)
+            self._dense = self.coefficients[(abs(rows[:, None] - rows), *along)]
+        return self._dense
+
+    def central_spacing(self) -> Array | None:
+        """Return dx over the central spacing of the columns, (nx,) [-]; None: 1 everywhere."""
+        return central_metric(self.positions, self.dx) if self.graded else None
+
+    # of the pressure: the load [jamali_2015 (4.5)]
+    def integral(self, values: Array) -> float:
+        """Return the sum of values, shape (ny, nx), times the areas of their cells."""
+        return float(values.sum(axis=0) @ self.cells)

@@ -1,0 +1,242 @@
+"""Reynolds equation of a point contact: residual and derivatives by differences, kernels.
+
+Arrays and units are those of `stencil`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gearlube_core.ehl.point.equations.stencil import (
+    CENTRE,
+    EAST,
+    NEIGHBOURS,
+    NORTH,
+    SOUTH,
+    WEST,
+    FilmFlow,
+    FlowSlopes,
+    MeshMetric,
+    StencilParameters,
+    face_weights,
+    mean_fluidity,
+    node_slopes,
+)
+from gearlube_core.kernels.jit import kernel
+
+
+@kernel
+def reynolds_residual(
+    parameters: StencilParameters,
+    metric: MeshMetric,
+    pressure: np.ndarray,
+    mass: np.ndarray,
+    film_flow: FilmFlow,
+    source: np.ndarray,
+    residual: np.ndarray,
+) -> None:
+    """Write the residual of all inner nodes.
+
+    R = Lambda [d/dx(rho h^3 f_x dp/dx) + d/dy(rho h^3 f_y dp/dy)] - d(u rho h)/dx
+        - d(v rho h)/dy - squeeze rho h + source
+
+    Parameters
+    ----------
+    parameters, metric
+        Of the grid.
+    pressure, mass, source : ndarray, shape (ny, nx)
+        p, rho h, and what the squeeze term takes from earlier times [-].
+    film_flow
+        Of the nodes.
+    residual : ndarray, shape (ny, nx)
+        Result; zero on the border [-].
+
+    Notes
+    -----
+    Fluxes are differences between faces, so mass is balanced to rounding over any set of nodes.
+    rho h^3 of a face is the geometric mean of both nodes: nothing is pumped out of a node as its
+    film vanishes, and the error in steep gaps is half that of the plain mean.
+    Source: [jamali_2015 (3.1)] [jamali_2015 (3.1a)] [jamali_2015 (3.8)] [jamali_2015 (3.10)]
+    [jamali_2015 (3.11)] [jamali_2015 (3.12)]
+    (3.11) and (3.12) in the form that carries mass and not split by the product rule.
+    """
+    ny, nx = pressure.shape
+    residual[:] = 0.0
+    cubic = film_flow.cubic
+    fluidity_x, resistance_x = film_flow.fluidity_x, film_flow.resistance_x
+    fluidity_y, resistance_y = film_flow.fluidity_y, film_flow.resistance_y
+    px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
+    for j in range(1, ny):
+        for i in range(1, nx):
+            if j < ny - 1:
+                rise = resistance_x[j, i] - resistance_x[j, i - 1]
+                mean, _, _ = mean_fluidity(
+                    fluidity_x[j, i],
+                    fluidity_x[j, i - 1],
+                    rise,
+                    pressure[j, i] > pressure[j, i - 1],
+                )
+                flow = 2.0 * math.sqrt(cubic[j, i] * cubic[j, i - 1]) * mean
+                flow *= px * metric.near[i] * (pressure[j, i] - pressure[j, i - 1])
+                far, near, there = mass[j, max(i - 2, 0)], mass[j, i - 1], mass[j, i]
+                f0, f1, f2 = face_weights(parameters, i - 1, far, near, there)
+                flow -= parameters.wedge_x * (f0 * near + f1 * far + f2 * there)
+                if i < nx - 1:
+                    residual[j, i] -= (
+                        metric.narrow[i] * flow + parameters.squeeze * mass[j, i] - source[j, i]
+                    )
+                if i > 1:
+                    residual[j, i - 1] += metric.narrow[i - 1] * flow
+            if i < nx - 1:
+                rise = resistance_y[j, i] - resistance_y[j - 1, i]
+                mean, _, _ = mean_fluidity(
+                    fluidity_y[j, i],
+                    fluidity_y[j - 1, i],
+                    rise,
+                    parameters.wedge_y > 0.0 and pressure[j, i] > pressure[j - 1, i],
+                )
+                flow = 2.0 * math.sqrt(cubic[j, i] * cubic[j - 1, i]) * mean
+                flow *= py * (pressure[j, i] - pressure[j - 1, i])
+                far, near, there = mass[max(j - 2, 0), i], mass[j - 1, i], mass[j, i]
+                f0, f1, f2 = face_weights(parameters, j - 1, far, near, there)
+                flow -= parameters.wedge_y * (f0 * near + f1 * far + f2 * there)
+                if j < ny - 1:
+                    residual[j, i] -= flow
+                if j > 1:
+                    residual[j - 1, i] += flow
+
+
+@kernel
+def reynolds_derivatives(
+    parameters: StencilParameters,
+    metric: MeshMetric,
+    pressure: np.ndarray,
+    film_flow: FilmFlow,
+    viscosity_slope: np.ndarray,
+    density: np.ndarray,
+    density_slope: np.ndarray,
+    film: np.ndarray,
+    slopes: FlowSlopes,
+    free: np.ndarray,
+    by_pressure: np.ndarray,
+    by_film: np.ndarray,
+) -> None:
+    """Write the derivatives of the residual with respect to pressure and film of each neighbour.
+
+    Parameters
+    ----------
+    parameters, metric, pressure, film_flow
+        As in `reynolds_residual`.
+    viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
+        d ln eta/dp, rho, d rho/dp, h [-].
+    slopes
+        Of the flow by pressure; `slope_x` and `slope_y` over their flow factors.
+    free : ndarray of bool, shape (ny, nx)
+        Nodes whose equation is solved; rows of the others become zero.
+    by_pressure, by_film : ndarray, shape (7 or 11, ny, nx)
+        Result [-]; corners are zero.
+    """
+    ny, nx = pressure.shape
+    by_pressure[:] = 0.0
+    by_film[:] = 0.0
+    cubic = film_flow.cubic
+    fluidity_x, resistance_x = film_flow.fluidity_x, film_flow.resistance_x
+    fluidity_y, resistance_y = film_flow.fluidity_y, film_flow.resistance_y
+    px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
+    uy = parameters.wedge_y
+    down = (0, 0, 0, 0, -1, 1, -2)
+    right = (0, -1, 1, -2, 0, 0, 0)
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            if not free[j, i]:
+                continue
+            here = density[j, i] * film[j, i]
+            west, far = density[j, i - 1] * film[j, i - 1], max(i - 2, 0)
+            far_mass, east = density[j, far] * film[j, far], density[j, i + 1] * film[j, i + 1]
+            w0, w1, w2 = face_weights(parameters, i - 1, far_mass, west, here)
+            e0, e1, e2 = face_weights(parameters, i, west, here, east)
+            south, far = density[j - 1, i] * film[j - 1, i], max(j - 2, 0)
+            far_mass, north = density[far, i] * film[far, i], density[j + 1, i] * film[j + 1, i]
+            s0, s1, s2 = face_weights(parameters, j - 1, far_mass, south, here)
+            n0, n1, n2 = face_weights(parameters, j, south, here, north)
+            p = pressure[j, i]
+            ux = parameters.wedge_x * metric.narrow[i]
+            thick, thin, dense = node_slopes(slopes, viscosity_slope, j, i)
+            h = max(film[j, i], 1e-30)
+            for k in (WEST, EAST, SOUTH, NORTH):
+                jj, ii = j + down[k], i + right[k]
+                if right[k] != 0:
+                    unit = px * metric.narrow[i] * metric.near[max(i, ii)]
+                    f, there_f = fluidity_x[j, i], fluidity_x[jj, ii]
+                    rise = resistance_x[j, i] - resistance_x[jj, ii]
+                    slope = slopes.slope_x[j, i] * slopes.slope_x[jj, ii]
+                else:
+                    unit = py
+                    f, there_f = fluidity_y[j, i], fluidity_y[jj, ii]
+                    rise = resistance_y[j, i] - resistance_y[jj, ii]
+                    slope = slopes.slope_y[j, i] * slopes.slope_y[jj, ii]
+                step = pressure[jj, ii] - p
+                steep = (right[k] + down[k]) * step > 0.0 and (right[k] != 0 or uy > 0.0)
+                mean, m, mt = mean_fluidity(f, there_f, rise, steep)
+                flow = 2.0 * unit * mean * math.sqrt(slope)
+                total = 2.0 * unit * math.sqrt(cubic[j, i] * cubic[jj, ii]) * step
+                c = 0.5 * total * mean
+                by_pressure[CENTRE, j, i] += c * dense - total * m * thick - flow
+                by_film[CENTRE, j, i] += c * (3.0 / h) + total * m * thin / h
+                thick_there, thin_there, dense_there = node_slopes(slopes, viscosity_slope, jj, ii)
+                there_h = max(film[jj, ii], 1e-30)
+                by_pressure[k, j, i] = flow + c * dense_there - total * mt * thick_there
+                by_film[k, j, i] = c * 3.0 / there_h + total * mt * thin_there / there_h
+            wedge = (
+                -ux * (e0 - w2) - uy * (n0 - s2) - parameters.squeeze,
+                -ux * (e1 - w0),
+                -ux * e2,
+                ux * w1,
+                -uy * (n1 - s0),
+                -uy * n2,
+                uy * s1,
+            )
+            for k in range(NEIGHBOURS):
+                jj, ii = max(j + down[k], 0), max(i + right[k], 0)
+                by_pressure[k, j, i] += wedge[k] * density_slope[jj, ii] * film[jj, ii]
+                by_film[k, j, i] += wedge[k] * density[jj, ii]
+
+
+@kernel
+def apply_derivatives(
+    offsets: np.ndarray,
+    by_pressure: np.ndarray,
+    by_film: np.ndarray,
+    pressure: np.ndarray,
+    film: np.ndarray,
+    result: np.ndarray,
+) -> None:
+    """Write the change of the residual under changes of pressure and film, shape (ny, nx) [-].
+
+    Parameters
+    ----------
+    offsets : ndarray of int, shape (n, 2)
+        Steps to the neighbours along y and x, at least.
+    by_pressure, by_film : ndarray, shape (m, ny, nx), m <= n
+        Derivatives with respect to each of them.
+    pressure, film : ndarray, shape (ny, nx)
+        Changes.
+    result : ndarray, shape (ny, nx)
+        Zero on the border and where rows are zero.
+    """
+    ny, nx = pressure.shape
+    result[:] = 0.0
+    for j in range(1, ny - 1):
+        for k in range(by_pressure.shape[0]):
+            down, right = offsets[k, 0], offsets[k, 1]
+            if j + down < 0:
+                continue
+            first = max(1, -right)
+            row = result[j, first : nx - 1]
+            p = pressure[j + down, first + right : nx - 1 + right]
+            h = film[j + down, first + right : nx - 1 + right]
+            a, b = by_pressure[k, j, first : nx - 1], by_film[k, j, first : nx - 1]
+            for i in range(row.size):
+                row[i] += a[i] * p[i] + b[i] * h[i]

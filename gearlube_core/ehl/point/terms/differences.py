@@ -1,0 +1,114 @@
+"""Reynolds equation on one grid by differences between the faces of finite volumes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gearlube_core.arrays import Array, Flags, Offsets
+from gearlube_core.ehl.point.equations.grid import PointGrid
+from gearlube_core.ehl.point.equations.reynolds import reynolds_derivatives, reynolds_residual
+from gearlube_core.ehl.point.equations.stencil import (
+    CENTRE,
+    OFFSETS,
+    FlowSlopes,
+    StencilParameters,
+)
+from gearlube_core.ehl.point.terms.state import FilmState
+
+# rho h at a face over that of the node upstream of it; reached where the film halves in a cell
+_LEAST_FACE = 0.5
+_MOST_FACE = 2.0
+
+Derivatives = tuple[Offsets, Array, Array]
+
+
+class Differences:
+    """Finite volumes around the nodes of a grid.
+
+    Parameters
+    ----------
+    grid
+        Grid.
+    """
+
+    centre = CENTRE  # number of the node itself among its neighbours
+    face_limits = _LEAST_FACE, _MOST_FACE
+
+    def __init__(self, grid: PointGrid) -> None:
+        self._metric = grid.metric
+
+    @staticmethod
+    def wedge(name: str) -> str:
+        """Return the wedge stencil that is used for the one asked for."""
+        return name
+
+    def residual(
+        self, stencil: StencilParameters, state: FilmState, carried: Array, source: Array
+    ) -> None:
+        """Write the residual of a state without storage.
+
+        Parameters
+        ----------
+        stencil
+            Its constants.
+        state
+            Its `residual` is written.
+        carried : ndarray, shape (ny, nx)
+            rho h times the entrainment of the row [-].
+        source : ndarray, shape (ny, nx)
+            What is stored already [-].
+        """
+        flow = state.film_flow
+        reynolds_residual(stencil, self._metric, state.oil, carried, flow, source, state.residual)
+        state.shear.add_cross_flow(stencil, self._metric, state.oil, flow, state.residual)
+
+    def derivatives(
+        self,
+        stencil: StencilParameters,
+        state: FilmState,
+        density: tuple[Array, Array],
+        slopes: FlowSlopes,
+        rows: Flags,
+    ) -> Derivatives:
+        """Return steps to the neighbours and derivatives by their pressure and film, (n, ny, nx).
+
+        Parameters
+        ----------
+        stencil, state
+            As in `residual`.
+        density : tuple of ndarray, shapes (ny, nx)
+            rho and d rho/dp times the entrainment of the row [-].
+        slopes
+            Of the flow by pressure, flow factors included.
+        rows : ndarray of bool, shape (ny, nx)
+            Nodes whose derivatives are wanted; those of the others are zero.
+        """
+        shear = state.shear
+        slopes, flow = shear.relative(slopes), state.film_flow
+        by_pressure, by_film = np.empty((2, shear.neighbours, *state.film.shape))
+        reynolds_derivatives(
+            stencil,
+            self._metric,
+            state.oil,
+            flow,
+            state.viscosity_slope,
+            *density,
+            state.film,
+            slopes,
+            rows,
+            by_pressure,
+            by_film,
+        )
+        shear.add_cross_derivatives(
+            stencil,
+            self._metric,
+            state.oil,
+            flow,
+            state.viscosity_slope,
+            state.film,
+            slopes,
+            rows,
+            by_pressure,
+            by_film,
+        )
+        return OFFSETS, by_pressure, by_film

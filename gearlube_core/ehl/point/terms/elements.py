@@ -1,0 +1,91 @@
+"""Reynolds equation on one grid in finite elements."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gearlube_core.arrays import Array, Flags
+from gearlube_core.ehl.point.equations.finite_elements import (
+    ELEMENT_CENTRE,
+    ELEMENT_NEIGHBOURS,
+    ELEMENT_OFFSETS,
+    element_derivatives,
+    element_residual,
+)
+from gearlube_core.ehl.point.equations.grid import PointGrid
+from gearlube_core.ehl.point.equations.stencil import FlowSlopes, StencilParameters
+from gearlube_core.ehl.point.terms.differences import Derivatives
+from gearlube_core.ehl.point.terms.state import FilmState
+
+
+class Elements:
+    """Galerkin equations of bilinear elements; takes the place of `Differences`.
+
+    Parameters
+    ----------
+    grid
+        Uniform grid.
+    compliance
+        Deflection per pressure that sets the upwinding [-]; None: of waves of the length 2 d on a
+        half-space, 2/(E* k), k = pi/d.
+    """
+
+    centre = ELEMENT_CENTRE  # number of the node itself among its neighbours
+    face_limits = -math.inf, math.inf
+
+    def __init__(self, grid: PointGrid, compliance: float | None = None) -> None:
+        waves = 2.0 * min(grid.dx, grid.dy) / (math.pi * grid.modulus)
+        self._compliance = waves if compliance is None else compliance
+
+    @staticmethod
+    def wedge(name: str) -> str:
+        """Return the wedge stencil: `upwind-1` for upwinding of first order everywhere."""
+        return name if name == "upwind-1" else "central"
+
+    def residual(
+        self, stencil: StencilParameters, state: FilmState, carried: Array, source: Array
+    ) -> None:
+        """Write the residual of a state without storage, as `Differences.residual`."""
+        element_residual(
+            stencil,
+            state.oil,
+            carried,
+            state.cubic_x,
+            state.shear.cubic_xy(state.cubic),
+            state.cubic_y,
+            state.fluidity,
+            source,
+            self._compliance,
+            state.density,
+            state.residual,
+        )
+
+    def derivatives(
+        self,
+        stencil: StencilParameters,
+        state: FilmState,
+        density: tuple[Array, Array],
+        slopes: FlowSlopes,
+        rows: Flags,
+    ) -> Derivatives:
+        """Return neighbours and derivatives, as `Differences.derivatives`."""
+        by_pressure, by_film = np.empty((2, ELEMENT_NEIGHBOURS, *state.film.shape))
+        element_derivatives(
+            stencil,
+            state.oil,
+            state.cubic_x,
+            state.shear.cubic_xy(state.cubic),
+            state.cubic_y,
+            state.fluidity,
+            state.viscosity_slope,
+            *density,
+            state.film,
+            slopes,
+            self._compliance,
+            rows,
+            by_pressure,
+            by_film,
+        )
+        return ELEMENT_OFFSETS, by_pressure, by_film

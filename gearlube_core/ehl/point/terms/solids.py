@@ -1,0 +1,152 @@
+"""Solids on one grid of a film: what they take of the pressure where they touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlube_core.arrays import Array, Flags
+from gearlube_core.ehl.point.equations.grid import PointGrid
+from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
+from gearlube_core.ehl.point.solid_contact import SolidLayer
+from gearlube_core.ehl.point.terms.linearisation import Linearisation
+
+# pressure of oil between touching solids, as a flow, over what flows out of a node as it drains
+_DRAINING = 1.0e2
+
+
+@dataclass(frozen=True, slots=True)
+class NoContact:
+    """No solids touch: the oil has all the pressure."""
+
+    oil: Array  # pressure of the oil, (ny, nx) [-]
+
+    def undrained(self, free: Flags, residual: Array) -> Flags:
+        """Return the nodes of `free` whose oil has a pressure of its own."""
+        return free
+
+    def apart(self, nodes: Flags) -> Flags:
+        """Return the nodes where no solids touch."""
+        return nodes
+
+    def unbalanced(self, residual: Array, grid: PointGrid) -> float:
+        """Return what is left of the equations of solids, as a flow [-]."""
+        return 0.0
+
+    def add_derivatives(self, linear: Linearisation, residual: Array) -> None:
+        """Leave the derivatives as they are."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactPressure:
+    """What touching solids take of the pressure on one grid; arrays of shape (ny, nx) [-]."""
+
+    pressure: Array  # of the solids
+    slope: Array  # by the film
+    left: Array  # whole pressure less that of the solids
+    oil: Array  # the same where it is above zero
+    weight: float  # of what is left beside the flow that is not balanced
+
+    def drained(self, residual: Array) -> Flags:
+        """Return where solids touch and p_f = 0 holds: more oil flows out than pressure there.
+
+        max(R, -c p_f) = 0 is p_f >= 0, R <= 0, p_f R = 0 for any c; a large one leaves the
+        Reynolds equation to nodes that hold little oil for a while.
+        """
+        return (self.pressure > 0.0) & (residual < -_DRAINING * self.weight * self.left)
+
+    def undrained(self, free: Flags, residual: Array) -> Flags:
+        """Return the nodes of `free` whose oil has a pressure of its own."""
+        return free & ~self.drained(residual)
+
+    def apart(self, nodes: Flags) -> Flags:
+        """Return the nodes where no solids touch."""
+        return nodes & (self.pressure <= 0.0)
+
+    def unbalanced(self, residual: Array, grid: PointGrid) -> float:
+        """Return what is left of the equations of solids, as a flow [-].
+
+        Flow that gathers counts at drained nodes, too: else a step that ends their draining would
+        look like one that unbalances them.
+        """
+        dry = self.drained(residual)
+        wrong = np.where(dry, np.abs(self.left), np.maximum(-self.left, 0.0))
+        return grid.integral(self.weight * wrong + np.where(dry, np.maximum(residual, 0.0), 0.0))
+
+    def add_derivatives(self, linear: Linearisation, residual: Array) -> None:
+        """Turn derivatives by the pressure of the oil into those by the whole pressure.
+
+        p_f = p - p_s(h), so dp_f = dp - p_s' dh. Drained nodes get the equation p_s - p = 0.
+
+        Parameters
+        ----------
+        linear
+            With the derivatives by the oil's pressure; changed.
+        residual : ndarray, shape (ny, nx)
+            Of the flow [-].
+        """
+        offsets, right = linear.neighbours, linear.right
+        by_pressure, by_film = linear.by_pressure, linear.by_film
+        dry = self.drained(residual)
+        dry[[0, -1]] = False
+        dry[:, [0, -1]] = False
+        # the equations were taken at an oil pressure of zero where p - p_s is below
+        change, lacking = np.empty(right.shape), self.oil - self.left
+        none = np.zeros(right.shape)
+        apply_derivatives(offsets, by_pressure, by_film, lacking, none, change)
+        right += change
+        right[dry] = self.weight * self.left[dry]
+        for k in range(by_film.shape[0]):
+            down, along = offsets[k]
+            # rows on the border are zero: what comes round does not count
+            by_film[k] -= by_pressure[k] * np.roll(self.slope, (-down, -along), axis=(0, 1))
+        by_pressure[linear.centre][dry] = -self.weight
+        by_film[linear.centre][dry] = self.weight * self.slope[dry]
+        linear.free |= dry
+
+
+class NoSolids:
+    """The oil carries the whole load."""
+
+    def share(self, pressure: Array, film: Array, flow_rate: float) -> NoContact:
+        """Return what solids take of a pressure: nothing."""
+        return NoContact(pressure)
+
+    def own_slope(self, linear: Linearisation, nodes: Flags, grid: PointGrid) -> Array:
+        """Return the derivative of nodes by their own pressure, for a preconditioner."""
+        return linear.by_pressure[linear.centre][nodes]
+
+
+@dataclass(frozen=True, slots=True)
+class TouchingSolids:
+    """Solids that touch where the film is thinner than their layer."""
+
+    layer: SolidLayer  # in units of the grid
+
+    def share(self, pressure: Array, film: Array, flow_rate: float) -> NoContact | ContactPressure:
+        """Return what solids take of a pressure.
+
+        Parameters
+        ----------
+        pressure, film : ndarray, shape (ny, nx)
+            p and h [-].
+        flow_rate
+            Flow through a cell over its film [-].
+        """
+        layer = self.layer
+        if not float(film.min()) < layer.thickness:
+            return NoContact(pressure)
+        touching, slope = layer(film)
+        left = pressure - touching
+        weight = flow_rate * layer.thickness / layer.pressure
+        return ContactPressure(touching, slope, left, np.maximum(left, 0.0), weight)
+
+    def own_slope(self, linear: Linearisation, nodes: Flags, grid: PointGrid) -> Array:
+        """Return the derivative of nodes by their own pressure, their deflection included."""
+        slope = linear.by_pressure[linear.centre][nodes]
+        return slope + grid.own_deflection[nodes] * linear.by_film[linear.centre][nodes]
+
+
+Contact = NoContact | ContactPressure
+Solids = NoSolids | TouchingSolids

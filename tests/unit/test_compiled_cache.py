@@ -1,0 +1,152 @@
+"""Compiled code is loaded from disk while its sources are unchanged, and compiled anew after."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import gearlube_core
+from gearlube_core.kernels.source_files import source_files, source_stamp
+
+ROOT = Path(str(gearlube_core.__file__)).parents[1]
+SOURCES = {
+    "package/__init__.py": "",
+    "package/constants.py": "GAIN = 2.0\n",
+    "package/law.py": """
+from typing import NamedTuple
+from package.constants import GAIN
+class Law(NamedTuple):
+    slope: float
+    def value(self, x):
+        return GAIN * self.slope * x
+""",
+    "package/solver.py": """
+from numba import types
+from numba.extending import overload_method
+from gearlube_core.kernels.jit import kernel
+OFFSET = 0.0
+@overload_method(types.BaseNamedTuple, "value", strict=False)
+def _value(law, x):
+    return law.instance_class.value
+@kernel
+def solve(law, x):
+    return law.value(x)
+""",
+    "package/caller.py": """
+from gearlube_core.kernels.jit import kernel
+from package.inner import inner
+@kernel
+def outer(x):
+    return inner(x)
+""",
+    "package/inner.py": """
+from gearlube_core.kernels.jit import kernel
+from package import constants
+@kernel
+def inner(x):
+    return constants.GAIN * x
+""",
+    "run.py": """
+from package.caller import outer
+from package.law import Law
+from package.solver import solve
+print(outer(1.0), solve(Law(10.0), 1.0))
+for one in (outer, solve):
+    print(sum(one.stats.cache_hits.values()), sum(one.stats.cache_misses.values()))
+""",
+}
+
+
+def _package(folder: Path) -> None:
+    for name, text in SOURCES.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(text)
+
+
+def _run(folder: Path) -> tuple[list[float], list[list[int]]]:
+    """Return both results, then hits and misses of either kernel."""
+    paths = os.pathsep.join((str(folder), str(ROOT)))
+    done = subprocess.run(
+        [sys.executable, "-B", str(folder / "run.py")],
+        env=dict(os.environ, PYTHONPATH=paths),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    values, *counts = done.stdout.splitlines()
+    return [float(v) for v in values.split()], [[int(c) for c in line.split()] for line in counts]
+
+
+def test_a_constant_in_another_file_reaches_compiled_callers(tmp_path: Path) -> None:
+    _package(tmp_path)
+    assert _run(tmp_path) == ([2.0, 20.0], [[0, 1], [0, 1]])
+    assert _run(tmp_path) == ([2.0, 20.0], [[1, 0], [1, 0]])
+    # the solver does not import the law, which imports the constant
+    (tmp_path / "package/constants.py").write_text("GAIN = 3.0\n")
+    assert _run(tmp_path) == ([3.0, 30.0], [[0, 1], [0, 1]])
+    # kernels that do not come from a file keep their code
+    law = tmp_path / "package/law.py"
+    law.write_text(law.read_text().replace("GAIN * ", "-GAIN * "))
+    assert _run(tmp_path) == ([3.0, -30.0], [[1, 0], [0, 1]])
+
+
+def _write(folder: Path, **files: str) -> None:
+    for name, text in files.items():
+        (folder / f"{name}.py").write_text(text)
+
+
+def _names(path: Path) -> set[str]:
+    return {Path(file).name for file in source_files(str(path))}
+
+
+def test_sources_are_found_through_all_kinds_of_import(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    inner = tmp_path / "around/inner"
+    inner.mkdir(parents=True)
+    _write(
+        inner.parent,
+        __init__="",
+        a="from . import b, missing\nfrom .inner import (\n  c,  # (one)\n d)",
+        b="import math, numpy as np\n",
+        e="import around.inner.c",
+        f="def f():\n    import around.b",
+    )
+    _write(inner, __init__="", c="from ..f import f as g", d="from .. import e")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    # `missing` may be defined in around/__init__.py, all other names are modules
+    modules = {"a.py", "b.py", "c.py", "d.py", "e.py", "f.py"}
+    assert _names(inner.parent / "a.py") == modules | {"__init__.py"}
+    assert _names(inner.parent / "b.py") == {"b.py"}
+    assert _names(inner.parent / "e.py") == {"e.py", "c.py", "f.py", "b.py"}
+
+
+def test_imports_for_type_checkers_are_no_sources(tmp_path: Path) -> None:
+    (tmp_path / "user.py").write_text(
+        "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from gearlube_core import units\n"
+        "\n    import numpy\nfrom gearlube_core import errors\n"
+    )
+    assert _names(tmp_path / "user.py") == {"user.py", "errors.py"}
+
+
+def test_a_film_kernel_has_the_sources_of_its_oil() -> None:
+    """A kernel of the package, by files that name each other: film, friction, then the oil."""
+    friction = ROOT / "gearlube_core/friction/mixed_friction.py"
+    names = {Path(file).relative_to(ROOT).as_posix() for file in source_files(str(friction))}
+    assert "gearlube_core/oil/roelands_1966.py" in names
+    assert not any(name.startswith(("gearlube_core/ehl", "gearlube/")) for name in names)
+
+
+def test_the_stamp_of_a_file_follows_its_contents(tmp_path: Path) -> None:
+    file = tmp_path / "one.py"
+    file.write_text("A = 1\n")
+    before = source_stamp(str(file))
+    assert source_stamp(str(file)) == before
+    file.write_text("A = 10\n")
+    assert source_stamp(str(file)) != before
+    file.write_text("A = 1\n")
+    assert source_stamp(str(file)) == before
