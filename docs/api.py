@@ -22,9 +22,9 @@ _HEAD = """# Public names
 import gearlube as gl
 ```
 
-Every name below is an attribute of `gl`. A module is imported when one of its names is first used. All
-quantities are in SI units; other units stand in names (`speed_kmh`). Names that are not on this page
-may change without notice. Whole scripts stand in `examples/`:
+Every name below is an attribute of `gl`. A module is imported when one of its names is first used.
+All quantities are in SI units; other units stand in names (`speed_kmh`). Names that are not on this
+page may change without notice. Whole scripts stand in `examples/`:
 [an axle under a torque ramp](../examples/axle_torque_ramp.py),
 [a film with your own oil](../examples/film_with_own_oil.py),
 [from a helical gear to its transmission error](../examples/helical_transmission_error.py),

@@ -56,8 +56,9 @@ def package_tags() -> list[Tag]:
             found += _python_tags(path)
         for path in sorted((ROOT / package).rglob("*.toml")):
             text = path.read_text(encoding="utf-8")
-            comments = "\n".join(line for line in text.splitlines() if line.startswith("#"))
-            found += [_tag(match, path, "") for match in _TAG.finditer(comments)]
+            # a line that begins with a bracket is the heading of a table
+            lines = "\n".join(line for line in text.splitlines() if not line.startswith("["))
+            found += [_tag(match, path, "") for match in _TAG.finditer(lines)]
     return found
 
 

@@ -22,8 +22,6 @@ from gearlube_core.errors import GearLubeError, ParameterError
 MODELS = ("hypoid-axle", "helical-pair")
 DEFINITIONS = (hypoid_axle.DEFINITION, helical_pair.DEFINITION)
 _HERE = Path(__file__).parent
-_HYPOID_AXLE_SCRIPT = _HERE / "hypoid_axle_slave.py"
-_HELICAL_PAIR_SCRIPT = _HERE / "helical_pair_slave.py"
 
 
 @contextmanager
@@ -57,8 +55,8 @@ def _packed_by_pythonfmu(script: Path) -> dict[str, bytes]:
     return {entry: data for entry, data in content.items() if entry.startswith(kept)}
 
 
-def _build(definition: Definition, script: Path, out_dir: Path) -> Path:
-    content = _packed_by_pythonfmu(script)
+def _build(definition: Definition, out_dir: Path) -> Path:
+    content = _packed_by_pythonfmu(_HERE / f"{definition.slave}.py")
     content["modelDescription.xml"] = model_description(definition, str(guid_of(definition)))
     content[f"resources/{IDENTITY_FILE}"] = identity_text(definition).encode()
     content |= {f"resources/{name}": data for name, data in definition.resources.items()}
@@ -88,13 +86,20 @@ def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None)
     Notes
     -----
     The same sources give the same bytes. The file appears in one atomic move.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     build_hypoid_axle(folder).name
+    'HypoidAxle.fmu'
     """
     definition = (
         hypoid_axle.DEFINITION
         if mesh_table is None
         else hypoid_axle.definition_with_table(mesh_table)
     )
-    return _build(definition, _HYPOID_AXLE_SCRIPT, Path(out_dir))
+    return _build(definition, Path(out_dir))
 
 
 def build_helical_pair(
@@ -116,9 +121,16 @@ def build_helical_pair(
     ------
     GearLubeError
         When a file is missing or wrong, or the two do not fit together.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     build_helical_pair(folder).name
+    'HelicalPair.fmu'
     """
     definition = helical_pair.definition_with(gear, line_mesh)
-    return _build(definition, _HELICAL_PAIR_SCRIPT, Path(out_dir))
+    return _build(definition, Path(out_dir))
 
 
 def build_models(

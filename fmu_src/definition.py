@@ -51,8 +51,10 @@ class Definition:
         (parameters by `Variable.argument`, input values) -> initialised `Model`.
     stop_time, step_size : float
         Default experiment [s].
-    modules : tuple of str
-        Modules of this package that run inside this FMU and in no other.
+    slave : str
+        Module of this package that is the script inside the FMU.
+    shipped_data : tuple of str
+        Files of the installed packages that the model reads, as `glob` patterns.
     resources : mapping of str to bytes
         Files that the FMU carries for its model, by name.
     """
@@ -64,7 +66,8 @@ class Definition:
     start: Callable[[Mapping[str, Value], Sequence[float]], Model]
     stop_time: float
     step_size: float
-    modules: tuple[str, ...]
+    slave: str
+    shipped_data: tuple[str, ...]
     resources: Mapping[str, bytes] = field(default_factory=dict)
 
     @cached_property

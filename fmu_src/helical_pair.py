@@ -82,7 +82,12 @@ DEFINITION = Definition(
     start=start_pair,
     stop_time=0.1,
     step_size=1e-3,
-    modules=("helical_pair", "helical_pair_slave", "helical_variables"),
+    slave="helical_pair_slave",
+    shipped_data=(
+        "gearlube_core/helical_geometry/data/*.toml",
+        "gearlube_core/mesh_table/data/line_mesh_*.nc",
+        "gearlube_core/oil/lubricants.toml",
+    ),
 )
 
 

@@ -58,7 +58,11 @@ DEFINITION = Definition(
     start=start_axle,
     stop_time=0.1,
     step_size=1e-3,
-    modules=("hypoid_axle", "hypoid_axle_slave", "variables"),
+    slave="hypoid_axle_slave",
+    shipped_data=(
+        "gearlube_core/mesh_table/data/mohammadpour_2015.nc",
+        "gearlube_core/oil/lubricants.toml",
+    ),
 )
 
 

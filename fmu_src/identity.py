@@ -7,45 +7,48 @@ from functools import cache
 from pathlib import Path
 from uuid import UUID
 
-import fmu_src
-import gearlube_core
 from fmu_src.definition import Definition
 from fmu_src.model_description import model_description
 from fmu_src.wrapper import forget_search_path
 from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.source_code import code_of
+from gearlube_core.kernels.source_files import source_files
 
 IDENTITY_FILE = "gearlube_identity.txt"
-# Modules that run inside every FMU, beside `Definition.modules`; the others build FMUs.
-RUNTIME = (
-    "compile_ahead", "definition", "host_thread", "identity", "model_description", "phase",
-    "registration", "shared_variables", "slave_base", "state_bytes", "units", "values", "variable",
-    "variable_kinds", "wrapper",
-)  # fmt: skip
-_TEXT = {".py", ".toml"}
-_DATA = {".nc"}
+_HERE = Path(__file__).parent  # beside it lie the packages of this project
+
+
+def contents(definition: Definition) -> dict[str, bytes]:
+    """Return all code and shipped data that an FMU computes with, by path in the package.
+
+    These are the slave's module and what it imports, without comments and docstrings, and the
+    data that the definition names.
+    """
+    slave = str(_HERE / f"{definition.slave}.py")
+    code = {
+        _name(Path(path)): code_of(Path(path).read_text(encoding="utf-8")).encode()
+        for path in source_files(slave)
+    }
+    data = {
+        _name(path): path.read_bytes()
+        for pattern in definition.shipped_data
+        for path in _HERE.parent.glob(pattern)
+    }
+    for name in data:
+        if name.endswith(".toml"):
+            data[name] = data[name].replace(b"\r\n", b"\n")
+    return code | data
+
+
+def _name(path: Path) -> str:
+    return path.relative_to(_HERE.parent).as_posix()
 
 
 @cache
-def source_digest(modules: tuple[str, ...]) -> bytes:
-    """Return SHA-256 over all sources and data that decide the results of an FMU.
-
-    Parameters
-    ----------
-    modules : tuple of str
-        `Definition.modules`.
-    """
-    core = Path(str(gearlube_core.__file__)).parent
-    slave = Path(str(fmu_src.__file__)).parent
-    files = {
-        path.relative_to(core.parent).as_posix(): path
-        for path in core.rglob("*")
-        if path.suffix in _TEXT | _DATA
-    } | {f"{slave.name}/{module}.py": slave / f"{module}.py" for module in (*RUNTIME, *modules)}
+def source_digest(definition: Definition) -> bytes:
+    """Return SHA-256 over `contents`."""
     digest = hashlib.sha256()
-    for name in sorted(files):
-        content = files[name].read_bytes()
-        if files[name].suffix in _TEXT:
-            content = content.replace(b"\r\n", b"\n")
+    for name, content in sorted(contents(definition).items()):
         digest.update(f"{name}\0".encode() + hashlib.sha256(content).digest())
     return digest.digest()
 
@@ -59,7 +62,7 @@ def interface_digest(definition: Definition) -> bytes:
 @cache
 def guid_of(definition: Definition) -> UUID:
     """Return the GUID: equal content has an equal GUID, on every machine."""
-    digest = hashlib.sha256(interface_digest(definition) + source_digest(definition.modules))
+    digest = hashlib.sha256(interface_digest(definition) + source_digest(definition))
     for name in sorted(definition.resources):
         content = hashlib.sha256(definition.resources[name]).digest()
         digest.update(f"{name}\0".encode() + content)

@@ -14,7 +14,9 @@ from gearlube_core.bearings.tapered_roller_bearing import (
 )
 
 # -- Helical pair
-from gearlube_core.dynamics.helical_pair.gear_file_pair import gear_file_pair as gear_file_pair
+from gearlube_core.dynamics.helical_pair.gear_file_pair import (
+    helical_pair_parameters as helical_pair_parameters,
+)
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     periodic_response as periodic_response,
 )
@@ -37,7 +39,7 @@ from gearlube_core.mesh_table.shipped import shipped_mesh_table as shipped_mesh_
 # -- Film formulas
 from gearlube_core.film.chittenden_1985 import central_film_thickness as chittenden_central_film
 from gearlube_core.film.chittenden_1985 import minimum_film_thickness as chittenden_minimum_film
-from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness as dowson_toyoda_film
+from gearlube_core.film.dowson_toyoda_1979 import central_line_film as dowson_toyoda_film
 from gearlube_core.film.hamrock_dowson_1977 import hamrock_dowson_films as hamrock_dowson_films
 
 # -- Films solved in full
@@ -52,23 +54,28 @@ from gearlube_core.ehl.point.solver import solve_point_contact as solve_point_co
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact
-from gearlube.studies.contact.run import write_contact as write_contact
 
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
 from gearlube.studies.helical.run import run_helical as run_helical
-from gearlube.studies.helical.run import write_helical as write_helical
 
 # -- Study: resonance
 from gearlube.studies.resonance.settings import ResonanceSettings as ResonanceSettings
 from gearlube.studies.resonance.run import run_resonance as run_resonance
-from gearlube.studies.resonance.run import write_resonance as write_resonance
 
 # -- Study: lubricated films
 from gearlube_core.ehl.case.contact_case import LineCase as LineCase
 from gearlube_core.ehl.case.contact_case import PointCase as PointCase
+from gearlube_core.ehl.case.hypoid_case import HypoidCase as HypoidCase
+from gearlube.studies.films.helical_case import HelicalLineCase as HelicalLineCase
 from gearlube.studies.films.run_steady import run_line as run_line
 from gearlube.studies.films.run_steady import run_point as run_point
+from gearlube.studies.films.run_steady import run_helical_line as run_helical_line
+from gearlube.studies.films.run_march import MarchSteps as MarchSteps
+from gearlube.studies.films.run_march import run_helical_march as run_helical_march
+from gearlube.studies.films.run_hypoid import run_hypoid as run_hypoid
+from gearlube.studies.films.compare import compare_marches as compare_marches
+from gearlube.studies.films.results import write_film_results as write_film_results
 
 # -- Study: vehicle speed sweep
 from gearlube.studies.sweep.settings import SweepSettings as SweepSettings

@@ -12,7 +12,6 @@ from typing import Annotated
 import typer
 
 from gearlube.cli.lazy_commands import MARKUP, LazyCommand, lazy_group
-from gearlube_core import __version__
 
 # A new study needs a folder in gearlube/studies and its line here.
 COMMANDS = (
@@ -75,6 +74,8 @@ def command_line(commands: Sequence[LazyCommand]) -> typer.Typer:
 
 def _show_version(wanted: bool) -> None:
     if wanted:
+        from gearlube_core import __version__
+
         typer.echo(f"gearlube {__version__}")
         raise typer.Exit
 

@@ -2,11 +2,28 @@
 
 
 class GearLubeError(Exception):
-    """Base of every error that gearlube raises on purpose."""
+    """Base of every error that gearlube raises on purpose.
+
+    Examples
+    --------
+    >>> from gearlube_core.units import celsius_to_kelvin
+    >>> from gearlube_core.oil.lubricant import Lubricant
+    >>> try:
+    ...     Lubricant.named("mohammadpour_2015").dynamic_viscosity(95.0)
+    ... except GearLubeError as error:
+    ...     print(str(error)[:31])
+    temperature must be within 273.
+    """
 
 
 class ParameterError(GearLubeError, ValueError):
-    """An input lies outside the range in which the model means anything."""
+    """An input lies outside the range in which the model means anything.
+
+    Examples
+    --------
+    >>> issubclass(ParameterError, ValueError)
+    True
+    """
 
 
 class ConvergenceError(GearLubeError):

@@ -10,7 +10,13 @@ DEGREE = math.pi / 180.0  # rad
 
 
 def celsius_to_kelvin(temperature_degc: float) -> float:
-    """Return the absolute temperature [K] of `temperature_degc` [degC]."""
+    """Return the absolute temperature [K] of `temperature_degc` [degC].
+
+    Examples
+    --------
+    >>> celsius_to_kelvin(95.0)
+    368.15
+    """
     return temperature_degc + ZERO_CELSIUS
 
 
@@ -25,7 +31,13 @@ def kmh_to_ms(speed_kmh: float) -> float:
 
 
 def rpm_to_rads(speed_rpm: float) -> float:
-    """Return the angular speed [rad/s] of `speed_rpm` [1/min]."""
+    """Return the angular speed [rad/s] of `speed_rpm` [1/min].
+
+    Examples
+    --------
+    >>> round(rpm_to_rads(3000.0), 2)
+    314.16
+    """
     return speed_rpm * math.pi / 30.0
 
 

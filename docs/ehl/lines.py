@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.storage.atomic_file import write_arrays
 
 COLUMNS = (

@@ -17,9 +17,9 @@ import numpy as np
 from docs.ehl.store import MissingFilmError, Store
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import EllipticParaboloid
-from gearlube_core.ehl.transient.film import MovingFilm
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.oil.film_oil import ehl_lubricant
 from gearlube_core.storage.atomic_file import write_arrays

@@ -94,7 +94,7 @@ def _constants(q: Array, plane: ContactPlane, x_g: float) -> tuple[float, float,
 
 
 def _deflection(q: Array, plane: ContactPlane, part: tuple[float, ...], x_g: float) -> float:
-    """Eq. (10b) between (x_l, z_l) and (x_h, z_h)."""
+    """[he_2007 (10b)] between (x_l, z_l) and (x_h, z_h)."""
     x_l, z_l, x_h, z_h = part
     c1, c2, c3 = _constants(q, plane, x_g)
     return float(
@@ -108,7 +108,7 @@ def _deflection(q: Array, plane: ContactPlane, part: tuple[float, ...], x_g: flo
 def _moments(
     q: Array, plane: ContactPlane, part: tuple[float, ...], end: tuple[float, float], x_g: float
 ) -> tuple[float, float]:
-    """Eq. (18a), (18b); `end` is (x_f, z_f) of the whole line."""
+    """[he_2007 (18a)] [he_2007 (18b)]; `end` is (x_f, z_f) of the whole line."""
     x_l, z_l, x_h, z_h = part
     x_f, z_f = end
     c1, c2, c3 = _constants(q, plane, x_g)

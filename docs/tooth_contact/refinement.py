@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from gearlube_core.hypoid_contact.analysis import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
+from gearlube_core.hypoid_contact.strips import StripSettings
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
@@ -46,7 +47,7 @@ def refinements() -> list[Refinement]:
         Refinement(
             "cells",
             "64 x 96 cells",
-            _settings(loaded=LoadedSettings(cells_across=64, cells_along=96)),
+            _settings(loaded=LoadedSettings(strips=StripSettings(cells_across=64, cells_along=96))),
         ),
         Refinement(
             "elements",

@@ -1,23 +1,19 @@
 """What a model of a shaft needs of a type of bearing.
 
 A bearing type is a NamedTuple of floats with the methods of `ShaftBearings`. It describes the two
-opposed bearings of one shaft. Inside a kernel numba compiles the methods of the class that it
-finds, so a new type is one new file and costs the other types nothing.
+opposed bearings of one shaft. A new type is one new file; see `kernels.tuple_methods`.
 
 Coordinates are those of `cage_frame`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from inspect import signature
-from typing import Any, NamedTuple, Protocol, Self
+from typing import NamedTuple, Protocol, Self
 
-from numba import types
-from numba.extending import overload_method
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.kernels.tuple_methods import compile_methods
 from gearlube_core.oil.lubricant_state import LubricantState
 
 N_EXPANSION = 25  # largest number of floats in the expansion of the forces on one shaft
@@ -100,24 +96,12 @@ class Bearing(Protocol):
         """Return the axial force of either bearing at rest [N]."""
 
 
-def _compile_method(name: str) -> None:
-    """Let kernels call the method `name` of a NamedTuple."""
-
-    def method(self: Any, *args: Any) -> Callable[..., Any] | None:
-        return getattr(self.instance_class, name, None)
-
-    # numba compares the names of the arguments with those of the method that it compiles
-    method.__signature__ = signature(getattr(ShaftBearings, name))  # type: ignore[attr-defined]
-    compiled: Any = overload_method  # its stub lacks jit_options
-    compiled(types.BaseNamedTuple, name, jit_options={"error_model": "numpy"})(method)
-
-
-for _name in (
+compile_methods(
+    ShaftBearings,
     "expand_forces",
     "expanded_forces",
     "shaft_forces",
     "shaft_energy",
     "roller_load_range",
     "shaft_drag",
-):
-    _compile_method(_name)
+)

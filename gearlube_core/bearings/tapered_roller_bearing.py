@@ -65,6 +65,12 @@ class TaperedRollerBearing:
     interference : float or None
         Approach of every roller at rest, negative for a clearance [m]. Not with `preload`: the
         two describe the same approach.
+
+    Examples
+    --------
+    >>> bearing = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0)
+    >>> round(bearing.cage_ratio, 4)  # cage speed over shaft speed
+    0.3987
     """
 
     bore_diameter: float

@@ -6,10 +6,10 @@ import math
 from typing import Any
 
 import numpy as np
-import pyfftw
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
+from gearlube_core.contact.fftw import pyfftw
 from gearlube_core.errors import ParameterError
 
 _FAR = 8.0  # longer sides of a cell; there the closed mean and Gauss' rule agree to 1e-8

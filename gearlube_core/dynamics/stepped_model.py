@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
+from difflib import get_close_matches
 from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_within
-from gearlube_core.errors import ConvergenceError, StepError
+from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -44,8 +45,10 @@ class SteppedModel(ABC, Generic[Control]):
 
     Parameters
     ----------
-    states, outputs
+    states
         How many there are.
+    output_names
+        Of the outputs, in their order.
     control
         What the integrator step is tied to, before `initialise`; its values are part of the state.
     oil
@@ -60,7 +63,7 @@ class SteppedModel(ABC, Generic[Control]):
         self,
         *,
         states: int,
-        outputs: int,
+        output_names: tuple[str, ...],
         control: Control,
         oil: Lubricant,
         torque_limits: tuple[float, float],
@@ -68,7 +71,8 @@ class SteppedModel(ABC, Generic[Control]):
     ) -> None:
         self._state = np.zeros(states)
         self._trial = np.zeros(states)
-        self._outputs = np.zeros(outputs)
+        self.output_names = output_names
+        self._outputs = np.zeros(len(output_names))
         self._inputs = np.zeros(_N_INPUTS)
         self._control_type = type(control)
         self._control_values = flatten(control)
@@ -171,6 +175,22 @@ class SteppedModel(ABC, Generic[Control]):
         inputs[0] = pinion_torque
         inputs[1] = wheel_torque
         inputs[2] = oil_temperature
+
+    def output(self, name: str) -> float:
+        """Return one output by its name, an entry of `output_names`; units as in docs/fmu.md.
+
+        Raises
+        ------
+        ParameterError
+            The model has no output of this name.
+        """
+        if name not in self.output_names:
+            near = get_close_matches(name, self.output_names, n=3)
+            cure = f"Did you mean {' or '.join(near)}?" if near else "`output_names` lists them."
+            raise ParameterError(
+                f"name must be an output of the {self._words.name}, got {name!r}. {cure}"
+            )
+        return float(self._outputs[self.output_names.index(name)])
 
     def get_state(self) -> Array:
         """Return everything that the future depends on: states, inputs, step control."""

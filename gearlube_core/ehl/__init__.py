@@ -1,38 +1,98 @@
-"""Elastohydrodynamic lubrication: Reynolds' equation, deflection and load solved in full.
+"""Elastohydrodynamic films: pressure and film of lubricated contacts of elastic bodies.
 
-A film is solved in three steps: an oil, a problem in SI units, a solver. Case files are a short way
-to the problem and not needed.
+=========  ========================================================================
+line       Line contacts: steady, in time, and with heat.
+point      Point contacts: steady, isothermal and with heat.
+transient  Point contacts whose gap, load and speeds change in time.
+gears      Films on the flanks of helical and hypoid pairs through their mesh cycle.
+case       Contacts as TOML files describe them.
+gap        Shapes of the gap: ridges, dents, waviness, measured surfaces.
+flow       Flow of an oil film under pressure and shear.
+=========  ========================================================================
 
-A line contact, here of steel rollers with a relative radius of 14 mm:
+Each folder of a solver has `problem`, `settings`, `solution` and `solver` on top; its other files
+are the inner parts. All quantities are in SI. The names below can be imported from here; a module
+is loaded when one of its names is first used.
 
->>> from gearlube_core.ehl.line.problem import LineProblem, LineSettings
->>> from gearlube_core.ehl.line.solver import solve_line
->>> from gearlube_core.oil.lubricant import Lubricant
->>> from gearlube_core.oil.named_film_oils import lubricant_from_library
->>> oil = lubricant_from_library(Lubricant.named("karagiannis_2012"), 353.15)  # at 80 degC
->>> contact = LineProblem(lubricant=oil, radius=0.014, line_load=2e5, reduced_modulus=230e9,
-...                       speed_1=6.0, speed_2=5.0)
->>> film = solve_line(contact, LineSettings(nodes=201))
->>> film.converged
-True
->>> f"{1e6 * film.minimum_film:.2f} um"
-'0.44 um'
+Examples
+--------
+The film of a line contact, of 2 kN over 10 mm, that rolls at 2 m/s:
 
-A point contact; `elliptical_contact` chooses the domain, `PointContactProblem` takes any gap:
+>>> from gearlube_core.ehl import LineProblem, LineSettings, solve_line
+>>> from gearlube_core.oil.film_oil import ehl_lubricant
+>>> oil = ehl_lubricant(eta0=0.04, alpha=2e-8)  # Pa s, 1/Pa
+>>> line = solve_line(
+...     LineProblem(lubricant=oil, radius=0.01, line_load=2e5, reduced_modulus=2.3e11,
+...                 speed_1=2.0, speed_2=2.0),
+...     LineSettings(nodes=401),
+... )
+>>> bool(line.converged), round(1e6 * line.minimum_film, 1)  # um
+(True, 0.4)
 
->>> from gearlube_core.ehl.point.problem import elliptical_contact
->>> from gearlube_core.ehl.point.solver import solve_point_contact
->>> contact = elliptical_contact(R_x=0.012, R_y=0.06, entrainment=(2.0, 0.0), load=80.0,
-...                              contact_modulus=115e9, lubricant=oil, nodes=(33, 33))
->>> film = solve_point_contact(contact)
->>> f"{1e6 * film.central_film:.2f} um"
-'0.22 um'
+The film of a ball of the same radius on a flat, under 20 N:
 
-With heat: `line.thermal.solve_thermal_line` and `point.thermal.solver.solve_thermal_point` take the
-same problems, both solids and an oil with law="houpert". In time: `line.transient` for lines,
-`transient.march.FilmMarch` for points, `gears.helical_cycle` and `gears.hypoid_cycle` for gears.
+>>> from gearlube_core.ehl import PointSolverSettings, elliptical_contact, solve_point_contact
+>>> ball = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0,
+...                           contact_modulus=1.15e11, lubricant=oil, nodes=(65, 65))
+>>> point = solve_point_contact(ball, PointSolverSettings(tolerance=1e-6))
+>>> point.outcome.converged, round(1e6 * point.central_film, 2)  # um
+(True, 0.38)
+
+With heat, `solve_thermal_line` and `solve_thermal_point` take the same problems, both solids and an
+oil with law="houpert". In time: `LineMarch` for lines, `FilmMarch` for points.
 
 Solvers raise `ConvergenceError` if a film does not converge; with throw=False they return what was
-reached, marked as not converged. Case files of films are read by `case`. Datasets, files and
-figures of these solutions: `gearlube.studies.films`.
+reached, marked as not converged. Case files are read by `case`. Datasets, files and figures of
+these solutions: `gearlube.studies.films`.
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+_NAMES = {
+    "LineProblem": "line.problem",
+    "LineSettings": "line.problem",
+    "LineSolution": "line.solution",
+    "solve_line": "line.solver",
+    "LineMarch": "line.transient",
+    "ThermalSettings": "line.thermal",
+    "ThermalLineSolution": "line.thermal",
+    "solve_thermal_line": "line.thermal",
+    "PointContactProblem": "point.problem",
+    "EllipticParaboloid": "point.problem",
+    "elliptical_contact": "point.problem",
+    "SolidContact": "point.solid_contact",
+    "PointSolverSettings": "point.settings",
+    "PointSolution": "point.solution",
+    "solve_point_contact": "point.solver",
+    "PointThermalSettings": "point.thermal.solver",
+    "ThermalPointSolution": "point.thermal.solver",
+    "solve_thermal_point": "point.thermal.solver",
+    "FilmConditions": "transient.conditions",
+    "MovingFilm": "transient.problem",
+    "FilmSolution": "transient.solution",
+    "solve_steady_film": "transient.steady",
+    "FilmMarch": "transient.march",
+    "FilmCurves": "transient.curves",
+    "HelicalFilm": "gears.helical_film",
+    "solve_helical_line": "gears.helical_cycle",
+    "march_helical_cycle": "gears.helical_cycle",
+    "HypoidFilm": "gears.hypoid_film",
+    "steady_films": "gears.hypoid_cycle",
+    "march_flank": "gears.hypoid_cycle",
+}
+__all__ = tuple(_NAMES)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _NAMES:
+        raise AttributeError(f"{__name__} has no public name {name!r}.")
+    value = getattr(import_module(f"{__name__}.{_NAMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_NAMES})

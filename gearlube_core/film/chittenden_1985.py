@@ -124,6 +124,13 @@ def central_film_thickness(
     two surface speeds, U' = 2 u; reading the mean into it makes the film 2^0.68 = 1.60 times
     too thin. The load exponent is printed there as +0.073; the film falls with load.
     Source: [chittenden_1985]; [mohammadpour_2015 (22)].
+
+    Examples
+    --------
+    >>> R_e, side_flow = film_geometry(0.03, 0.3, 0.0)
+    >>> h = central_film_thickness(R_e, side_flow, 0.02, 2e-8, 5.0, 2000.0, 2.3e11)
+    >>> round(1e6 * h, 2)  # um
+    0.8
     """
     product = _power_product(R_e, eta0, alpha, entrainment_speed, load, reduced_modulus)
     return _CENTRAL_COEFFICIENT * side_flow * product
@@ -145,6 +152,13 @@ def minimum_film_thickness(
 
     Parameters, range and source as in `central_film_thickness`, with `side_flow` from
     `minimum_film_geometry`. Returns h_m [m].
+
+    Examples
+    --------
+    >>> R_e, side_flow = minimum_film_geometry(0.03, 0.3, 0.0)
+    >>> h = minimum_film_thickness(R_e, side_flow, 0.02, 2e-8, 5.0, 2000.0, 2.3e11)
+    >>> round(1e6 * h, 2)  # um
+    0.65
     """
     product = _power_product(R_e, eta0, alpha, entrainment_speed, load, reduced_modulus)
     return _MINIMUM_COEFFICIENT * side_flow * product

@@ -38,6 +38,12 @@ def hamrock_dowson_films(U: float, G: float, W: float, k: float) -> tuple[float,
     Fully flooded, isothermal, steady, Newtonian, elastic solids and an oil that thickens with
     pressure; fitted over k from 1 to 8. Source: [hamrock_dowson_1977]; the
     smallest film is also [jamali_2015 (4.6)].
+
+    Examples
+    --------
+    >>> central, minimum = hamrock_dowson_films(1e-11, 5000.0, 1e-6, 1.0)
+    >>> round(1e6 * 0.01 * central, 3), round(1e6 * 0.01 * minimum, 3)  # um on a ball of 10 mm
+    (0.187, 0.106)
     """
     central = 2.69 * U**0.67 * G**0.53 * W**-0.067 * (1.0 - 0.61 * math.exp(-0.73 * k))
     minimum = 3.63 * U**0.68 * G**0.49 * W**-0.073 * (1.0 - math.exp(-0.68 * k))

@@ -49,6 +49,13 @@ class HelicalGearFile(InputFile):
     -----
     What a file leaves out is completed: roots from the basic rack, inertia as a steel disc.
     `provenance` says of every field whether its source prints it.
+
+    Examples
+    --------
+    >>> HelicalGearFile.shipped()
+    ('he_2007', 'jamali_2015_a', 'jamali_2015_b')
+    >>> HelicalGearFile.named("he_2007").helical_pair().ratio
+    1.24
     """
 
     package: ClassVar[str] = "gearlube_core.helical_geometry"

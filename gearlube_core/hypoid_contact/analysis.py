@@ -42,6 +42,12 @@ class ContactSettings:
     ----------
     cycle : CycleSettings
     body : ToothBodySettings
+
+    Examples
+    --------
+    >>> from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
+    >>> ContactSettings(cycle=CycleSettings(torques=(10.0, 50.0), positions=12)).cycle.positions
+    12
     """
 
     cycle: CycleSettings = field(default_factory=CycleSettings)

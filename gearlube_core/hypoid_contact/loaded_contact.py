@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.sparse import csr_array, hstack
@@ -13,7 +13,13 @@ from gearlube_core.checks import check_positive, check_within
 from gearlube_core.hypoid_contact.gap_map import GapMap, gap_map
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
-from gearlube_core.hypoid_contact.strips import Strip, StripFrame, cut_strip, strip_frame
+from gearlube_core.hypoid_contact.strips import (
+    Strip,
+    StripFrame,
+    StripSettings,
+    cut_strip,
+    strip_frame,
+)
 from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
 from gearlube_core.tooth_contact.coupled_strips import (
     CoupledSolution,
@@ -35,19 +41,15 @@ class LoadedSettings:
 
     Parameters
     ----------
-    cells_across, cells_along : int
-        Cells of a strip across and along the contact line.
+    strips : StripSettings
     tolerance : float
         Of the unilateral contact's residual [-].
     """
 
-    cells_across: int = 32
-    cells_along: int = 48
+    strips: StripSettings = field(default_factory=StripSettings)
     tolerance: float = 1e-5
 
     def __post_init__(self) -> None:
-        check_within("cells_across", self.cells_across, 8, 256)
-        check_within("cells_along", self.cells_along, 8, 512)
         check_within("tolerance", self.tolerance, 1e-10, 1e-3)
 
 
@@ -191,7 +193,6 @@ class MeshPosition:
         stiffness: PairStiffness,
         settings: LoadedSettings,
     ) -> _Strips:
-        shape = settings.cells_across, settings.cells_along
         strips = []
         for phase, gaps in zip(self.phases, self.maps, strict=True):
             # turned to first touch: with backlash to close, arms that differ by per cents would
@@ -201,7 +202,7 @@ class MeshPosition:
             if frame is None:
                 continue
             half = _WIDE * width * self._hertz_half_width(frame, force, stiffness.contact_modulus)
-            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, half, shape)
+            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, half, settings.strips)
             if strip.usable.any():
                 strips.append((phase, strip))
         return strips

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
 from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_line
 from gearlube_core.hypoid_contact.gap_map import GapMap, closing_arm, gear_arm, within_tooth
 from gearlube_core.hypoid_contact.pair import FlankPair
@@ -16,6 +17,24 @@ from gearlube_core.hypoid_contact.placement import Placement
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.kernels.jit import kernel
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StripSettings:
+    """How finely a strip is resolved.
+
+    Parameters
+    ----------
+    cells_across, cells_along : int
+        Cells across and along the contact line.
+    """
+
+    cells_across: int = 32
+    cells_along: int = 48
+
+    def __post_init__(self) -> None:
+        check_within("cells_across", self.cells_across, 8, 256)
+        check_within("cells_along", self.cells_along, 8, 512)
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,7 +228,7 @@ def cut_strip(
     pinion_angle: float,
     frame: StripFrame,
     half_width: float,
-    shape: tuple[int, int],
+    settings: StripSettings,
 ) -> Strip:
     """Return the strip's cells: both flanks met along the normal of the tangent plane.
 
@@ -221,10 +240,10 @@ def cut_strip(
     frame : StripFrame
     half_width : float
         Across the contact line [m].
-    shape : tuple of int
-        Cells across and along.
+    settings : StripSettings
+        Numbers of cells.
     """
-    nx, ny = shape
+    nx, ny = settings.cells_across, settings.cells_along
     cell = 2.0 * half_width / nx, 2.0 * frame.half_length / ny
     x: Array = (np.arange(nx, dtype=np.float64) - 0.5 * (nx - 1)) * cell[0]
     y: Array = (np.arange(ny, dtype=np.float64) - 0.5 * (ny - 1)) * cell[1]

@@ -6,8 +6,8 @@ as one float64 array: handing over a NamedTuple costs a Python attribute look-up
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, cast, get_type_hints
+from collections.abc import Iterator, Sequence
+from typing import Any, get_type_hints
 
 import numpy as np
 from numba import types
@@ -31,54 +31,53 @@ def flatten(values: tuple[Any, ...]) -> NDArray[np.float64]:
     return np.fromiter(leaves(values), dtype=np.float64)
 
 
-def count_floats(tuple_class: type, variant: type | None = None) -> int:
-    """Return the number of floats in a NamedTuple class; `variant` as in `tuple_from_array`."""
-    return sum(
-        1 if part is float else count_floats(part, variant) for part in _parts(tuple_class, variant)
-    )
+def count_floats(tuple_class: type, *variants: type) -> int:
+    """Return the number of floats in a NamedTuple class; `variants` as in `tuple_from_array`."""
+    return sum(1 if part is float else count_floats(part) for part in _parts(tuple_class, variants))
 
 
-def _parts(tuple_class: type, variant: type | None) -> list[type]:
+def _parts(tuple_class: type, variants: Sequence[type] = ()) -> list[type]:
     """Return float or the NamedTuple class of every field."""
-    return [
-        hint if hint is float or issubclass(hint, tuple) else cast(type, variant)
-        for hint in get_type_hints(tuple_class).values()
-    ]
+    hints = list(get_type_hints(tuple_class).values())
+    interfaces = dict.fromkeys(h for h in hints if h is not float and not issubclass(h, tuple))
+    chosen = dict(zip(interfaces, variants, strict=True))
+    return [chosen.get(hint, hint) for hint in hints]
 
 
-def tuple_from_array(array: NDArray[np.float64], tuple_class: Any, variant: Any = None) -> Any:
+def tuple_from_array(array: NDArray[np.float64], tuple_class: Any, *variants: Any) -> Any:
     """Return the NamedTuple `tuple_class` built from the first floats of a contiguous array.
 
     Parameters
     ----------
-    array : ndarray, shape (>= count_floats(tuple_class, variant),)
+    array : ndarray, shape (>= count_floats(tuple_class, *variants),)
         As `flatten` returns it.
     tuple_class : type
-        NamedTuple class whose fields are floats, NamedTuples or an interface.
-    variant : type or None
-        NamedTuple class of the fields that are declared as an interface.
+        NamedTuple class whose fields are floats, NamedTuples or interfaces.
+    variants : type
+        For each interface among the fields, in order, the NamedTuple class that stands there.
     """
     floats = iter(array.tolist())
 
-    def build(kind: type) -> Any:
+    def build(kind: type, chosen: Sequence[type]) -> Any:
         return kind(
-            *(next(floats) if part is float else build(part) for part in _parts(kind, variant))
+            *(next(floats) if part is float else build(part, ()) for part in _parts(kind, chosen))
         )
 
-    return build(tuple_class)
+    return build(tuple_class, variants)
 
 
-def _tuple_type(tuple_class: type, variant: type | None) -> Type:
+def _tuple_type(tuple_class: type, variants: Sequence[type] = ()) -> Type:
     parts = [
-        types.float64 if part is float else _tuple_type(part, variant)
-        for part in _parts(tuple_class, variant)
+        types.float64 if part is float else _tuple_type(part)
+        for part in _parts(tuple_class, variants)
     ]
     return types.BaseTuple.from_types(parts, tuple_class)
 
 
-def _load_tuple(typingctx: Any, array: Any, tuple_class: Any, variant: Any) -> Any:
+def _load_tuple(typingctx: Any, array: Any, tuple_class: Any, variants: Any) -> Any:
     """Return the code that loads a tuple; see `tuple_from_array`."""
-    result = _tuple_type(tuple_class.instance_class, getattr(variant, "instance_class", None))
+    chosen = [variant.instance_class for variant in variants]
+    result = _tuple_type(tuple_class.instance_class, chosen)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         data = arrayobj.make_array(array)(context, builder, arguments[0]).data
@@ -97,15 +96,15 @@ def _load_tuple(typingctx: Any, array: Any, tuple_class: Any, variant: Any) -> A
 
         return build(result)
 
-    return result(array, tuple_class, variant), generate
+    return result(array, tuple_class, variants), generate
 
 
 _load_kernel: Any = intrinsic(_load_tuple)
 
 
 @overload(tuple_from_array)
-def _tuple_from_array(array: Any, tuple_class: Any, variant: Any = None) -> Any:
-    def load(array: Any, tuple_class: Any, variant: Any = None) -> Any:
-        return _load_kernel(array, tuple_class, variant)
+def _tuple_from_array(array: Any, tuple_class: Any, *variants: Any) -> Any:
+    def load(array: Any, tuple_class: Any, *variants: Any) -> Any:
+        return _load_kernel(array, tuple_class, variants)
 
     return load

@@ -70,7 +70,15 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
 
 
 def read_mesh_table(path: str | Path) -> MeshTable:
-    """Read a table written by `write_mesh_table`; raise TableError when it is none."""
+    """Read a table written by `write_mesh_table`; raise TableError when it is none.
+
+    Examples
+    --------
+    >>> from importlib.resources import files
+    >>> table = read_mesh_table(files("gearlube_core.mesh_table") / "data" / "mohammadpour_2015.nc")
+    >>> table.gear_teeth
+    36
+    """
     return mesh_table_from_bytes(read_content(path), str(path))
 
 

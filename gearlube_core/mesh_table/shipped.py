@@ -16,6 +16,11 @@ def shipped_mesh_table(name: str) -> MeshTable:
     ------
     TableError
         No table has that name.
+
+    Examples
+    --------
+    >>> round(shipped_mesh_table("mohammadpour_2015").ratio, 3)
+    2.769
     """
     resource = files("gearlube_core.mesh_table") / "data" / f"{name}.nc"
     if not resource.is_file():

@@ -108,6 +108,13 @@ class MeshTable:
     [karagiannis_2012 (26)] [karagiannis_2012 (27)] [karagiannis_2012 (28)] [karagiannis_2012 (29)]
     The papers' flank functions of period contact_ratio do not repeat with the mesh for non-integer
     contact ratios; windows in a period of `PAIRS` mesh periods do.
+
+    Examples
+    --------
+    >>> from gearlube_core.mesh_table.shipped import shipped_mesh_table
+    >>> table = shipped_mesh_table("mohammadpour_2015")
+    >>> table.pinion_teeth, table.gear_teeth
+    (13, 36)
     """
 
     name: str

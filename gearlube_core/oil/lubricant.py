@@ -66,6 +66,13 @@ class Lubricant:
     -----
     `Lubricant.named` reads the library of published oils, `with_two_viscosities` takes the two
     numbers of an oil data sheet.
+
+    Examples
+    --------
+    >>> oil = Lubricant.named("mohammadpour_2015")
+    >>> own = oil.with_two_viscosities(1.5e-4, 313.15, 1.6e-5, 373.15, name="own oil")
+    >>> round(own.dynamic_viscosity(363.15), 4)  # Pa s at 90 degC
+    0.0183
     """
 
     name: str
@@ -189,5 +196,11 @@ class Lubricant:
 
 
 def lubricant_names() -> tuple[str, ...]:
-    """Return the names that `Lubricant.named` knows."""
+    """Return the names that `Lubricant.named` knows.
+
+    Examples
+    --------
+    >>> lubricant_names()
+    ('jamali_2015', 'karagiannis_2012', 'mohammadpour_2015')
+    """
     return tuple(read_library())

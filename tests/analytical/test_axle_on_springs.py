@@ -1,19 +1,12 @@
-"""The axle on a bearing type from outside the package: linear springs.
+"""The axle on a bearing type from outside the package: linear springs."""
 
-The axle runs in a process of its own, because numba would keep code for this type beside that of
-the package.
-"""
-
-import json
-import os
-import subprocess
-import sys
 from functools import cache
 
 import numpy as np
 import pytest
 
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_NAMES, mohammadpour_2015_axle
+from tests.helpers.own_process import INTERPRETED, report_of
 from tests.helpers.spring_bearing import STIFFNESS, TORQUE, along_axes, quantity
 
 PARAMETERS = mohammadpour_2015_axle()
@@ -22,16 +15,9 @@ NORMAL = np.array([MESH.mean(key, TORQUE) for key in ("n_x", "n_y", "n_z")])
 R_P = MESH.mean("R_p", TORQUE)
 
 
-def run(**environment):
-    command = [sys.executable, "-c", "from tests.helpers.spring_bearing import report; report()"]
-    env = dict(os.environ, PYTHONPATH=os.pathsep.join(filter(None, sys.path)), **environment)
-    out = subprocess.run(command, env=env, capture_output=True, text=True, check=True, timeout=300)
-    return json.loads(out.stdout)
-
-
 @cache
 def interpreted():
-    return run(NUMBA_DISABLE_JIT="1")
+    return report_of("spring_bearing", **INTERPRETED)
 
 
 def test_shafts_move_along_the_mesh_normal_by_force_over_stiffness():
@@ -73,7 +59,7 @@ def test_each_bearing_carries_half_of_the_spring_force():
 
 @pytest.mark.slow
 def test_compiled_axle_on_springs_equals_the_interpreted_one(tmp_path):
-    compiled = run(NUMBA_CACHE_DIR=str(tmp_path))
+    compiled = report_of("spring_bearing", NUMBA_CACHE_DIR=str(tmp_path))
     for state in ("at rest", "moving"):
         for name, one, two in zip(OUTPUT_NAMES, compiled[state], interpreted()[state], strict=True):
             # rounding of some 1e2 operations; forces and speeds are differences of larger terms

@@ -13,7 +13,7 @@ from gearlube_core.ehl.gears.hypoid_traction import flank_traction
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from tests.helpers.hypoid_film_cases import BETA, flank_cycle, hypoid_film, lasting
 

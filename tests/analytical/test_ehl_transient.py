@@ -10,9 +10,9 @@ import pytest
 from gearlube_core.ehl.point.equations.mesh import Grading
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.film import MovingFilm
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError

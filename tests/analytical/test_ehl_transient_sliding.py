@@ -11,9 +11,9 @@ from gearlube_core.ehl.flow.flow_factors import eyring_flow
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.transient.film import MovingFilm
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.oil.film_oil import density, ehl_lubricant, viscosity
 
 R, W, MODULUS, TAU0 = 0.0125, 15.0, 55e9, 5e5

@@ -21,7 +21,7 @@ from tests.helpers.helical_dynamics_cases import loaded_points, random_state
 
 
 def _constants(q: np.ndarray, plane: ContactPlane) -> tuple[float, float, float]:
-    """Eq. (18c)-(18e); x_e, the end of the contact zone, is a misprint of x_g."""
+    """[he_2007 (18c)] [he_2007 (18d)] [he_2007 (18e)] with x_g for the misprinted x_e."""
     c1 = (q[0] - q[6]) - (plane.r_bp * q[5] + plane.r_bg * q[11])
     c2 = q[4] - q[10]
     c3 = (q[2] - q[8]) + (plane.r_bp * q[3] + plane.r_bg * q[9]) - plane.x_g * q[10]
@@ -29,7 +29,7 @@ def _constants(q: np.ndarray, plane: ContactPlane) -> tuple[float, float, float]
 
 
 def _compression(q: np.ndarray, plane: ContactPlane, ends: tuple[float, ...]) -> float:
-    """Eq. (10b) between (x_l, z_l) and (x_h, z_h), sign reversed to compression."""
+    """[he_2007 (10b)] between (x_l, z_l) and (x_h, z_h), sign reversed to compression."""
     x_l, z_l, x_h, z_h = ends
     c1, c2, c3 = _constants(q, plane)
     printed = (
@@ -44,7 +44,7 @@ def _compression(q: np.ndarray, plane: ContactPlane, ends: tuple[float, ...]) ->
 def _moments(
     q: np.ndarray, plane: ContactPlane, ends: tuple[float, ...], x_f: float, z_f: float
 ) -> tuple[float, float]:
-    """Eq. (18a), (18b), sign reversed; (x_f, z_f) is the upper end of the whole line."""
+    """[he_2007 (18a)] [he_2007 (18b)], sign reversed; (x_f, z_f) ends the whole line."""
     x_l, z_l, x_h, z_h = ends
     c1, c2, c3 = _constants(q, plane)
     tan_b = plane.sin_b / plane.cos_b

@@ -8,10 +8,11 @@ from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
+from gearlube_core.hypoid_contact.strips import StripSettings
 from tests.helpers.contact_cases import shipped_pair
 from tests.helpers.loaded_cases import MODULUS, stiffness
 
-FINE = LoadedSettings(cells_across=48, cells_along=64, tolerance=1e-7)
+FINE = LoadedSettings(strips=StripSettings(cells_across=48, cells_along=64), tolerance=1e-7)
 RIGID_TEETH = stiffness(0.0)
 SOFT_TEETH = stiffness()
 
@@ -91,7 +92,7 @@ def test_energy_is_the_integral_of_torque_over_closing():
 
 def test_tangent_stiffness_is_the_slope_of_torque_over_closing():
     position = MeshPosition.at(shipped_pair("coast"), 0.1)
-    settings = LoadedSettings(cells_across=48, tolerance=1e-7)
+    settings = LoadedSettings(strips=StripSettings(cells_across=48), tolerance=1e-7)
     low, middle, high = (position.load(t, SOFT_TEETH, settings) for t in (45.0, 50.0, 55.0))
     slope = 10.0 / (high.rotation - low.rotation)
     # each load has cells of its own, whose discrete edges move the closing by some 1e-3

@@ -14,11 +14,13 @@ from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats
 from gearlube_core.mesh_table.kernels import N_SERIES
 
-COMMUNICATION_STEP = axle_kernels(TaperedRollerParameters).communication_step
-N_PARAMETERS = count_floats(AxleParameters, TaperedRollerParameters)
+KINDS = (TaperedRollerParameters, MixedFlankFriction)
+COMMUNICATION_STEP = axle_kernels(*KINDS).communication_step
+N_PARAMETERS = count_floats(AxleParameters, *KINDS)
 N_CONTROL = count_floats(StepControl)
 ORDERS, NODES, LEVELS = 5, 192, 7
 SERIES = LEVELS * N_SERIES * (2 * ORDERS + 1)

@@ -21,13 +21,13 @@ from gearlube_core.ehl.point.equations.stencil import (
 )
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
 from gearlube_core.ehl.point.newton.newton import newton
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.solver import grid_shapes, solve_point_contact
+from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.oil.film_oil import ehl_lubricant

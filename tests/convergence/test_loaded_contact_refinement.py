@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
+from gearlube_core.hypoid_contact.strips import StripSettings
 from tests.helpers.contact_cases import shipped_pair
 from tests.helpers.loaded_cases import stiffness
 
@@ -15,7 +16,9 @@ TEETH = stiffness()
 def test_closing_changes_by_less_than_one_percent_on_refined_cells(torque, phase):
     position = MeshPosition.at(shipped_pair("drive"), phase)
     coarse = position.load(torque, TEETH, LoadedSettings())
-    fine = position.load(torque, TEETH, LoadedSettings(cells_across=72, cells_along=96))
+    fine = position.load(
+        torque, TEETH, LoadedSettings(strips=StripSettings(cells_across=72, cells_along=96))
+    )
     closing = [s.rotation - position.unloaded_rotation for s in (coarse, fine)]
     assert closing[0] == pytest.approx(closing[1], rel=0.01)
 

@@ -16,6 +16,7 @@ from gearlube_core.errors import ConvergenceError
 from gearlube_core.hypoid_contact import mesh_cycle
 from gearlube_core.hypoid_contact.analysis import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
+from gearlube_core.hypoid_contact.strips import StripSettings
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
@@ -30,7 +31,7 @@ COARSE_BODY = ToothBodySettings(
         density=MeshDensity(profile=6, lengthwise=12, thickness=2, fillet=2, slot=1, rim=1),
     ),
 )
-COARSE_CELLS = LoadedSettings(cells_across=12, cells_along=16)
+COARSE_CELLS = LoadedSettings(strips=StripSettings(cells_across=12, cells_along=16))
 
 
 def run(*arguments):

@@ -28,7 +28,6 @@ class Case:
 
     definition: Definition
     build: Callable[..., Path]
-    script: str
     snapshot: str
     arguments: dict[str, str]
     parameters: Callable[..., Any]
@@ -41,6 +40,10 @@ class Case:
     torque_limits: tuple[float, float]  # N.m
     display: dict[str, str]
     units_unused: set[str] = field(default_factory=set)
+
+    @property
+    def script(self) -> str:
+        return f"{self.definition.slave}.py"
 
     @property
     def name(self) -> str:
@@ -103,7 +106,6 @@ def settings_of(definition: Definition) -> dict[str, str]:
 HYPOID_AXLE = Case(
     definition=hypoid_axle.DEFINITION,
     build=build.build_hypoid_axle,
-    script="hypoid_axle_slave.py",
     snapshot="value_references.json",
     arguments=settings_of(hypoid_axle.DEFINITION),
     parameters=mohammadpour_2015_axle,
@@ -144,7 +146,6 @@ HYPOID_AXLE = Case(
 HELICAL_PAIR = Case(
     definition=helical_pair.DEFINITION,
     build=build.build_helical_pair,
-    script="helical_pair_slave.py",
     snapshot="helical_value_references.json",
     arguments=settings_of(helical_pair.DEFINITION),
     parameters=helical,

@@ -18,7 +18,7 @@ from docs.ehl.lines import COLUMNS, GivenUpError, Lines, March, write_arrays
 from docs.ehl.runs import Run, all_runs
 from docs.ehl.sections import section
 from docs.ehl.store import Steady, Store
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 
 CLAIMS = {claim.name: claim for claim in (*CYCLES, *RELIEFS, *MOTIONS, *FACETED_FLANKS)}
 

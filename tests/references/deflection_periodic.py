@@ -6,11 +6,11 @@ import math
 from typing import Any
 
 import numpy as np
-import pyfftw
 from scipy.special import iti0k0, zeta
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
+from gearlube_core.contact.fftw import pyfftw
 from gearlube_core.errors import ParameterError
 
 _REACH = 38.0  # K0 has fallen to e^-38 there

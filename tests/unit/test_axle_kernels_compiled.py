@@ -201,7 +201,7 @@ CASES = [
         (STATE, TORQUES, OIL, TABLE, P, WORK, zeros(ROLLERS_MAX), zeros(N_OUTPUTS)),
     ),
 ]
-COMPILED = axle_kernels(type(P.bearing_p))
+COMPILED = axle_kernels(type(P.bearing_p), type(P.flank_law))
 CASES += [
     (
         COMPILED.communication_step,

@@ -39,7 +39,7 @@ def patch(rows: slice, columns: slice) -> np.ndarray:
 
 @pytest.mark.parametrize("grading", [None, Grading((-1e-3, 0.0, 1e-3), (2.0, 1.0, 1.0))])
 def test_box_follows_the_pressure(grading):
-    grid, random = level(grading), np.random.default_rng(3)
+    grid, random = level(grading).grid, np.random.default_rng(3)
     window = WindowedDeflection(grid)
     # a line that grows, moves on and shrinks
     for rows in (slice(1, 9), slice(1, 60), slice(5, 62), slice(40, 96), slice(90, 96)):

@@ -9,8 +9,8 @@ import pytest
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.transient.film import MovingFilm
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import ehl_lubricant

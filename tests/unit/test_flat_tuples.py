@@ -10,6 +10,7 @@ from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameter
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 
 
@@ -41,7 +42,7 @@ def restore_outer(array):
 
 @njit
 def restore_axle(array):
-    return tuple_from_array(array, AxleParameters, TaperedRollerParameters)
+    return tuple_from_array(array, AxleParameters, TaperedRollerParameters, MixedFlankFriction)
 
 
 @njit
@@ -82,7 +83,7 @@ def test_floats_beyond_the_tuple_are_left_alone():
 def test_the_parameters_of_the_axle_come_back_to_the_bit():
     parameters = mohammadpour_2015_axle().kernel_parameters()
     array = flatten(parameters)
-    assert array.size == count_floats(AxleParameters, TaperedRollerParameters)
+    assert array.size == count_floats(AxleParameters, TaperedRollerParameters, MixedFlankFriction)
     assert restore_axle(array) == parameters
 
 

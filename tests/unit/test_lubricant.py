@@ -45,7 +45,7 @@ def test_unknown_lubricant_is_answered_with_the_known_names() -> None:
         ("alpha = [1.44e-8,", "alpha = [14.4,", r"14.4 1/GPa is 1.44e-08 1/Pa"),
         ("kinematic_2_mm2_s = [16.7,", "kinematic_2_mm2_s = [216.7,", "must fall"),
         ('density = [870.0, "printed", "Table 2"]', "density = 870.0", r"\[value, tag, source\]"),
-        ('"printed", "eq. (24), m"', '"guessed", "eq. (24), m"', "must be one of printed"),
+        ('"printed", "m of [', '"guessed", "m of [', "must be one of printed"),
         ('heat_capacity = [2000.0, "completed"', 'heat = [2000.0, "completed"', "missing"),
         ("temperature_1_degc = [40.0,", "temperature = [40.0,", "needs temperature_1_degc"),
         ("[karagiannis_2012.viscosity]", "[karagiannis_2012.visc]", "has no viscosity"),

@@ -7,11 +7,14 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact import mesh_cycle
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES, CycleSettings, run_cycle
+from gearlube_core.hypoid_contact.strips import StripSettings
 from tests.helpers.loaded_cases import FILE, stiffness
 from tests.helpers.reports import Reports
 
 SMALL = CycleSettings(
-    positions=4, torques=(30.0,), loaded=LoadedSettings(cells_across=12, cells_along=16)
+    positions=4,
+    torques=(30.0,),
+    loaded=LoadedSettings(strips=StripSettings(cells_across=12, cells_along=16)),
 )
 TEETH = dict.fromkeys(SIDES, stiffness())
 

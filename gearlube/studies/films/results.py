@@ -8,9 +8,9 @@ import xarray as xr
 
 from gearlube.studies.films.figures.catalogue import save_film_figures
 from gearlube.studies.films.hypoid.summary import ratio_csv, ratio_rows
-from gearlube.studies.films.progress import Progress, silent
 from gearlube.studies.films.summary import summary_csv, summary_rows
 from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 
 _NAMES = {
@@ -59,7 +59,7 @@ def write_film_results(dataset: xr.Dataset, folder: Path) -> None:
 
 
 def finished(
-    dataset: xr.Dataset, folder: Path | None, progress: Progress = silent, share: float = 0.5
+    dataset: xr.Dataset, folder: Path | None, progress: Progress = no_progress, share: float = 0.5
 ) -> xr.Dataset:
     """Write the dataset that a run has found if `folder` is given, and return it.
 

@@ -10,13 +10,13 @@ import xarray as xr
 
 from gearlube.studies.films.datasets.hypoid import hypoid_dataset, hypoid_key
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
-from gearlube.studies.films.progress import Progress, counted, silent
 from gearlube.studies.films.results import finished
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.gears.hypoid_cycle import march_flank, steady_films
 from gearlube_core.ehl.gears.hypoid_thermal import thermal_films
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.houpert_1985 import houpert_parameters
+from gearlube_core.progress import Progress, no_progress
 
 logger = logging.getLogger("gearlube")
 
@@ -28,7 +28,7 @@ def run_hypoid(
     kept: int = 3,
     record_every: int = 10,
     folder: Path | None = None,
-    progress: Progress = silent,
+    progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Return the films of a hypoid tooth pair through its engagement, beside the formulas.
 
@@ -72,7 +72,11 @@ def run_hypoid(
     times = np.linspace(cycle.time[0], cycle.time[-1], solver.steady)
     rows = tuple(np.linspace(0, solver.steady - 1, kept + 2).round().astype(int)[1:-1].tolist())
     films = solver.steady * (2 if thermal else 1) + (solver.steps if march else 0)
-    report = counted(progress, films)
+
+    def report(solved: int, sentence: str) -> None:
+        # files and figures count as much as one more film
+        progress(solved / (films + 1), sentence)
+
     report(0, "steady films")
 
     def observe(solved: int, what: str, minimum_film: float) -> None:

@@ -16,14 +16,14 @@ from gearlube.studies.films.datasets.helical_cycle import (
 )
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
-from gearlube.studies.films.progress import Progress, counted, silent
 from gearlube.studies.films.results import finished, step_file, write_film_results
 from gearlube.studies.films.run_steady import warn_of_ends
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
-from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
 
 logger = logging.getLogger("gearlube")
@@ -56,7 +56,7 @@ def run_helical_march(
     steps: MarchSteps | None = None,
     *,
     folder: Path | None = None,
-    progress: Progress = silent,
+    progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Return the film of a contact line over the steps of its meshing cycle, with squeeze.
 
@@ -97,7 +97,11 @@ def run_helical_march(
         folder.mkdir(parents=True, exist_ok=True)
     lines = CycleLines(None if folder is None else folder / f"lines_{key}.npz")
     films = last - first + len(steps.snapshots)
-    report = counted(progress, films)
+
+    def report(solved: int, sentence: str) -> None:
+        # files and figures count as much as one more film
+        progress(solved / (films + 1), sentence)
+
     report(0, "steady film at the first step")
 
     def observe(step: int, _: int, solution: FilmSolution) -> None:

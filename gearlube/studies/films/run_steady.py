@@ -12,7 +12,6 @@ from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.datasets.line import line_dataset
 from gearlube.studies.films.datasets.point import point_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
-from gearlube.studies.films.progress import Progress, silent
 from gearlube.studies.films.results import finished
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
@@ -22,12 +21,13 @@ from gearlube_core.ehl.line.thermal import solve_thermal_line
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from gearlube_core.progress import Progress, no_progress
 
 logger = logging.getLogger("gearlube")
 
 
 def run_line(
-    case: LineCase, *, folder: Path | None = None, progress: Progress = silent
+    case: LineCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
     """Return the film of a line contact, isothermal or thermal as the case says.
 
@@ -68,7 +68,7 @@ def run_line(
 
 
 def run_point(
-    case: PointCase, *, folder: Path | None = None, progress: Progress = silent
+    case: PointCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
     """Return the film of a point contact, isothermal or thermal as the case says.
 
@@ -102,7 +102,7 @@ def run_point(
 
 
 def run_helical_line(
-    case: HelicalLineCase, *, folder: Path | None = None, progress: Progress = silent
+    case: HelicalLineCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
     """Return the film on a helical pair's contact line, at rest at one position.
 

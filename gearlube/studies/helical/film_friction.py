@@ -44,7 +44,7 @@ def film_dataset(
     mesh : LineMesh
         Whose static line loads press.
     observe : callable
-        Told the share that is done [-].
+        Called with the share that is done [-].
 
     Returns
     -------

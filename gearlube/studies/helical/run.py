@@ -64,7 +64,7 @@ def run_helical(
     >>> list(found.datasets)
     ['geometry']
     >>> print(f"{found.datasets['geometry'].attrs['transverse_contact_ratio']:.2f}")
-    1.73
+    1.55
     """
     if store is None and folder is not None:
         store = folder / PARTS

@@ -46,7 +46,7 @@ def separation_dataset(
     speeds : int
         Rows asked for; a branch adds its own between them.
     observe : callable
-        Told the share that is done [-].
+        Called with the share that is done [-].
 
     Returns
     -------

@@ -12,7 +12,7 @@ from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
-    gear_file_pair,
+    helical_pair_parameters,
     iso_mesh,
 )
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
@@ -81,6 +81,13 @@ class HelicalSettings:
         Rows of the branch with tooth separation; 0 for none.
     body : HelicalBodySettings
         Elastic teeth.
+
+    Examples
+    --------
+    >>> file = HelicalGearFile.named("he_2007")
+    >>> settings = HelicalSettings(file=file, pinion_torque=200.0, pinion_speed=104.7)
+    >>> settings.positions
+    24
     """
 
     file: HelicalGearFile
@@ -184,7 +191,9 @@ class HelicalSettings:
 
         `film` is set where the oil film is asked for.
         """
-        pair = gear_file_pair(self.file, mesh or self.constant_mesh(), self.pinion_torque, 0.0)
+        pair = helical_pair_parameters(
+            self.file, pinion_torque=self.pinion_torque, mesh=mesh or self.constant_mesh()
+        )
         return replace(pair, film=self.film()) if self.friction == "film" else pair
 
     def cycle(self) -> CycleSettings:

@@ -90,7 +90,7 @@ def sweep_dataset(
     jobs : int, optional
         Processes; all processors by default.
     observe : callable
-        Told the share that is done [-].
+        Called with the share that is done [-].
 
     Returns
     -------

@@ -60,6 +60,12 @@ class ResonanceSettings:
     steps_per_mesh_period, lubricated_steps : int
         Of the integrator, without and with friction. Where contact is lost close to a fold,
         fewer steps than 512 show folds that are not there.
+
+    Examples
+    --------
+    >>> from gearlube_core.mesh_table.shipped import shipped_mesh_table
+    >>> ResonanceSettings(mesh=shipped_mesh_table("mohammadpour_2015"), friction="off").friction
+    'off'
     """
 
     mesh: MeshTable | None = None

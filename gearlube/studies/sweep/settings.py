@@ -59,6 +59,11 @@ class SweepSettings:
         Least length of the record [s].
     cage_turns : float
         Least length of the record in turns of the pinion bearing cages [-].
+
+    Examples
+    --------
+    >>> SweepSettings(oil_temperature=353.15, oil="karagiannis_2012").oil
+    'karagiannis_2012'
     """
 
     oil_temperature: float = celsius_to_kelvin(95.0)
@@ -123,7 +128,13 @@ class SweepSettings:
 
 
 def quick_sweep_settings(settings: SweepSettings) -> SweepSettings:
-    """Return `settings` with a settling time and a record just long enough for a first look."""
+    """Return `settings` with a settling time and a record just long enough for a first look.
+
+    Examples
+    --------
+    >>> quick_sweep_settings(SweepSettings()).oil
+    'mohammadpour_2015'
+    """
     values = {field.name: getattr(settings, field.name) for field in fields(settings)}
     values.update(settling_time=0.15, record_time=0.15, cage_turns=0.9)
     return SweepSettings(**values)

@@ -33,11 +33,12 @@ def gear_file_support(file: HelicalGearFile, role: Role) -> ShaftSupport:
     return ShaftSupport(first=first, second=second)
 
 
-def gear_file_pair(
+def helical_pair_parameters(
     file: HelicalGearFile,
-    mesh: LineMesh,
+    *,
     pinion_torque: float,
-    mu: float,
+    mu: float = 0.0,
+    mesh: LineMesh | None = None,
     pair: HelicalPair | None = None,
 ) -> HelicalPairParameters:
     """Return the vibrating pair of a gear file, with linear contact.
@@ -46,12 +47,13 @@ def gear_file_pair(
     ----------
     file
         With bearings, and one damping ratio for translation and tilt.
-    mesh
-        Contact lines of the pair.
     pinion_torque
         [N.m]
     mu
         Constant coefficient of friction [-].
+    mesh
+        Contact lines of the pair with their stiffness; by default that of ISO 6336-1 at the
+        torque, see `iso_mesh`.
     pair
         Another geometry with the same bodies and bearings.
 
@@ -59,6 +61,13 @@ def gear_file_pair(
     ------
     ParameterError
         The file lacks bearings, or its damping ratios of translation and tilt differ.
+
+    Examples
+    --------
+    >>> file = HelicalGearFile.named("he_2007")
+    >>> parameters = helical_pair_parameters(file, pinion_torque=200.0, mu=0.05)
+    >>> round(parameters.pinion_mass, 2)  # kg
+    2.21
     """
     if file.damping.translation != file.damping.tilt:
         raise ParameterError(
@@ -66,9 +75,10 @@ def gear_file_pair(
             f"{file.damping.tilt:g} and {file.damping.translation:g}. Give one value."
         )
     pinion, gear = file.body("pinion"), file.body("gear")
+    geometry = file.helical_pair() if pair is None else pair
     return HelicalPairParameters(
-        pair=file.helical_pair() if pair is None else pair,
-        mesh=mesh,
+        pair=geometry,
+        mesh=iso_mesh(geometry, pinion_torque) if mesh is None else mesh,
         pinion_torque=pinion_torque,
         pinion_mass=pinion.mass,
         pinion_inertia=pinion.diametral_inertia,

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.dynamics.helical_pair.gear_file_pair import (
-    gear_file_pair,
-    iso_mesh,
-)
+from gearlube_core.dynamics.helical_pair.gear_file_pair import helical_pair_parameters
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.pair import HelicalPair
@@ -31,5 +28,4 @@ def he_2007_pair(mu: float, pair: HelicalPair | None = None) -> HelicalPairParam
     damping of every motion.
     """
     file = HelicalGearFile.named("he_2007")
-    geometry = file.helical_pair() if pair is None else pair
-    return gear_file_pair(file, iso_mesh(geometry, PINION_TORQUE), PINION_TORQUE, mu, geometry)
+    return helical_pair_parameters(file, pinion_torque=PINION_TORQUE, mu=mu, pair=pair)

@@ -1,7 +1,8 @@
 """The kernels that Python and C call: one communication step, and the outputs of a state.
 
-They take the parameters as one flat array, whose meaning depends on the type of the bearings. So
-they are made once for each type; every kernel below takes an `AxleParameters` of any type.
+They take the parameters as one flat array, whose meaning depends on the type of the bearings
+and on the law of flank friction. So they are made once for each pair of these; every kernel below
+takes any `AxleParameters`.
 """
 
 from __future__ import annotations
@@ -19,25 +20,28 @@ from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshLevels
 from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 
 
 class AxleKernels(NamedTuple):
-    """Compiled functions of an axle on one type of bearing."""
+    """Compiled functions of an axle with one type of bearing and one law of flank friction."""
 
     communication_step: Callable[..., int]
     outputs: Callable[..., None]
 
 
 @cache
-def axle_kernels(bearing: type[ShaftBearings]) -> AxleKernels:
-    """Return the compiled step and outputs of an axle on bearings of this type.
+def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKernels:
+    """Return the compiled step and outputs of an axle with these bearings and flanks.
 
     Parameters
     ----------
     bearing : type
         The bearing type, a NamedTuple class; see `bearing_type.ShaftBearings`.
+    law : type
+        The law of flank friction, likewise; see `flank_law.FlankLaw`.
     """
 
     @kernel
@@ -71,7 +75,7 @@ def axle_kernels(bearing: type[ShaftBearings]) -> AxleKernels:
         Others as in `MeshLevels`, `advance` and `write_outputs`.
         """
         table = MeshLevels(levels, series, n_orders, windows, n_nodes)
-        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing)
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
         control: StepControl = tuple_from_array(control_values, StepControl)
         torques = (pinion_torque, wheel_torque)
         for i in range(N_STATE):
@@ -101,7 +105,7 @@ def axle_kernels(bearing: type[ShaftBearings]) -> AxleKernels:
     ) -> None:
         """Write the outputs of the state `s`; arguments as in `communication_step`."""
         table = MeshLevels(levels, series, n_orders, windows, n_nodes)
-        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing)
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
         torques = (pinion_torque, wheel_torque)
         write_outputs(s, torques, oil_temperature, table, p, work, rollers, out)
 

@@ -22,7 +22,6 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Y,
     XI_Z,
 )
-from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
@@ -70,15 +69,12 @@ def pair_friction(
     p: AxleParameters,
 ) -> FlankState:
     """Return the state of one flank under `load` [N] that slides at `sliding` [m/s]."""
-    return flank_friction(
+    return p.flank_law.flank_state(
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,
         ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE]),
         oil,
-        p.surface,
-        p.solid,
-        int(p.friction_form),
     )
 
 
@@ -128,7 +124,7 @@ def flank_sum(
     f_z = 0.0
     viscous = 0.0
     boundary = 0.0
-    if p.friction_form >= 0.0 and force != 0.0:
+    if p.friction != 0.0 and force != 0.0:
         for pair in range(_PAIRS):
             pair_channels(window, n_nodes, p.z_p, s[PHI_P], pair, N_CHANNELS, channels)
             load = abs(force) * channels[SHARE]

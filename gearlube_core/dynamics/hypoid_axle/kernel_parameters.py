@@ -5,15 +5,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftBearings
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
-from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.oil.lubricant import LubricantParameters
 
 
 class AxleParameters(NamedTuple):
     """Constants of one axle; built by `HypoidAxleParameters.kernel_parameters`.
 
-    The bearings are a NamedTuple of floats of any bearing type.
+    Bearings and flank law are NamedTuples of floats of any class with their methods.
     """
 
     I_p: float  # kg m2
@@ -27,11 +26,10 @@ class AxleParameters(NamedTuple):
     modal_damping: float  # N s/m; zero selects [mohammadpour_2015 (4)]
     lateral_sign: float  # +1 consistent, -1 as printed in [mohammadpour_2015 (1)] c-h
     consistent: float  # 1 with the terms that make the mesh conserve energy, 0 as printed
-    friction_form: float  # 0 consistent, 1 as printed, -1 off
+    friction: float  # 1 with flank friction, 0 without
     drag: float  # 1 with bearing drag torque, 0 without
     preload: float  # axial preload of a bearing, for its drag [N]
     bearing_p: ShaftBearings
     bearing_g: ShaftBearings
-    surface: SurfaceParameters
-    solid: SolidParameters
+    flank_law: FlankLaw
     oil: LubricantParameters

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,20 +11,26 @@ from numpy.typing import NDArray
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_ODE, U_G, U_P, V_G, V_P, W_G, W_P, X
-from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
+from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES, PackedMesh
 from gearlube_core.oil.lubricant_state import lubricant_state
-
-if TYPE_CHECKING:
-    from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-
 
 ANGLE_STEP = 1e-8  # rad, of the central differences
 LENGTH_STEP = 1e-9  # m
 SPEED_STEP = 1e-5  # rad/s or m/s
 # generalised coordinates: pinion and gear rotation, then their displacements
 COORDINATES = ("phi_p", "phi_g", "x_p", "y_p", "z_p", "x_g", "y_g", "z_g")
+
+
+class AxleInState(Protocol):
+    """What of an axle is linearised."""
+
+    parameters: HypoidAxleParameters
+    kernel_parameters: AxleParameters
+    packed: PackedMesh
+    state_view: Array  # shape (N_STATE,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +73,7 @@ class LinearAxle:
         return np.linalg.eigvals(np.vstack([upper, lower])).astype(np.complex128)
 
 
-def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> LinearAxle:
+def linearise(axle: AxleInState, oil_temperature: float, torque: float) -> LinearAxle:
     """Return the axle linearised about its present state at constant pinion angle.
 
     Central differences of the right-hand side, with the periodic data held at their means, film
@@ -76,12 +82,13 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     Parameters
     ----------
     axle : HypoidAxle
+        Or any other object with what `AxleInState` names.
     oil_temperature : float
         [K]
     torque : float
         Pinion torque at which the mesh table is read [N.m].
     """
-    p = axle.kernel_parameters._replace(friction_form=-1.0)
+    p = axle.kernel_parameters._replace(friction=0.0)
     elastic = p._replace(
         loss=0.0,
         bearing_p=p.bearing_p.without_loss(),
@@ -133,7 +140,7 @@ def linearise(axle: HypoidAxle, oil_temperature: float, torque: float) -> Linear
     return LinearAxle(np.diag(masses), damping, stiffness, with_losses - stiffness)
 
 
-def modes(axle: HypoidAxle, oil_temperature: float, torque: float) -> dict[str, float]:
+def modes(axle: AxleInState, oil_temperature: float, torque: float) -> dict[str, float]:
     """Return the natural frequencies [Hz] of the axle by name.
 
     A mode is named after the coordinate that carries most of its kinetic energy: `pinion axial`,

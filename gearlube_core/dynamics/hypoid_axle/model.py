@@ -19,7 +19,7 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
-from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -75,6 +75,17 @@ class HypoidAxle(SteppedModel[StepControl]):
     References
     ----------
     [mohammadpour_2015]
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> axle = HypoidAxle(mohammadpour_2015_axle())
+    >>> axle.initialise(
+    ...     pinion_speed=209.4, pinion_torque=50.0, wheel_torque=140.0, oil_temperature=333.15
+    ... )
+    >>> axle.step(1e-4, 50.0, 140.0, 333.15)
+    >>> round(axle.output("mesh.force"), 1)  # N
+    2400.1
     """
 
     def __init__(self, parameters: HypoidAxleParameters) -> None:
@@ -88,7 +99,7 @@ class HypoidAxle(SteppedModel[StepControl]):
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         super().__init__(
             states=N_STATE,
-            outputs=N_OUTPUTS,
+            output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0, 1.0, 0.0),
             oil=parameters.oil,
             torque_limits=(MAX_TORQUE, MAX_WHEEL_TORQUE),
@@ -106,7 +117,8 @@ class HypoidAxle(SteppedModel[StepControl]):
             flatten(self.kernel_parameters),
         )
         work, rollers = np.zeros(work_size(mesh.orders, mesh.nodes)), np.zeros(ROLLERS_MAX)
-        kernels = axle_kernels(type(self.kernel_parameters.bearing_p))
+        p = self.kernel_parameters
+        kernels = axle_kernels(type(p.bearing_p), type(p.flank_law))
         return Kernels(
             kernels.communication_step,
             (*data, self._control_values, work, rollers, self._outputs),
@@ -157,7 +169,7 @@ class HypoidAxle(SteppedModel[StepControl]):
     def _settle(self, pinion_torque: float, oil_temperature: float) -> None:
         """Solve the six displacements and the transmission error for static equilibrium."""
         s = self._state
-        p = self.kernel_parameters._replace(friction_form=-1.0)
+        p = self.kernel_parameters._replace(friction=0.0)
         mesh = self.packed
         oil = lubricant_state(p.oil, oil_temperature)
         series = self._series_at(pinion_torque)

@@ -109,7 +109,7 @@ def write_flanks(
             flank = pair_friction(s, load, sliding_speed(s, channels), channels, oil, p)
             out[first + at.FILM_THICKNESS] = flank.film_thickness
             out[first + at.FILM_RATIO] = flank.film_ratio
-            if p.friction_form >= 0.0:
+            if p.friction != 0.0:
                 out[first + at.FRICTION_COEFFICIENT] = flank.friction_coefficient
                 out[first + at.TEMPERATURE] = oil_temperature + flank.temperature_rise
 

@@ -13,6 +13,8 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_pa
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.errors import ParameterError
+from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
+from gearlube_core.friction.flank_laws import FLANK_LAWS
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
@@ -28,7 +30,6 @@ TorqueLoss = Literal["none", "palmgren"]
 HYSTERETIC_LOSS = 0.009  # [-], [mohammadpour_2015 (4)], [mohammadpour_2015 (25)]
 FREQUENCY_FLOOR = 50.0  # Hz; [mohammadpour_2015 (4)] diverges at rest; the sweep starts at 100 Hz
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
-FRICTION_FORMS = {"consistent": 0.0, "as_printed": 1.0, "off": -1.0}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,8 +65,8 @@ class HypoidAxleParameters:
         [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
-    friction : {"consistent", "as_printed", "off"}
-        See `gearlube_core.friction`.
+    friction : {"consistent", "as_printed", "off"} or callable
+        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`.
     bearing_torque_loss : {"none", "palmgren"}
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
@@ -77,6 +78,13 @@ class HypoidAxleParameters:
     References
     ----------
     [mohammadpour_2015 Table 1] and its Tables A1 to A4.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> dry = replace(mohammadpour_2015_axle(), friction="off")
+    >>> round(dry.equivalent_mass, 2)  # kg
+    3.39
     """
 
     mesh: MeshTable
@@ -94,7 +102,7 @@ class HypoidAxleParameters:
     mesh_stiffness: MeshStiffness
     mesh_damping: MeshDamping
     modal_loss_factor: float
-    friction: Friction
+    friction: Friction | FlankLawMaker
     bearing_torque_loss: TorqueLoss
     steps_per_mesh_period: int
     steps_per_highest_period: int
@@ -106,7 +114,8 @@ class HypoidAxleParameters:
         check_option("radii", self.radii, get_args(Radii))
         check_option("mesh_stiffness", self.mesh_stiffness, get_args(MeshStiffness))
         check_option("mesh_damping", self.mesh_damping, get_args(MeshDamping))
-        check_option("friction", self.friction, get_args(Friction))
+        if isinstance(self.friction, str):
+            check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
         for name, unit in (
             ("pinion_inertia", "kg m2"),
@@ -147,6 +156,14 @@ class HypoidAxleParameters:
         stiffness = self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
         return float(self.modal_loss_factor * (stiffness * self.equivalent_mass) ** 0.5)
 
+    def _flank_law(self) -> FlankLaw:
+        """Return the law of friction; without friction it still gives the film."""
+        if callable(self.friction):
+            make = self.friction
+        else:
+            make = FLANK_LAWS["consistent" if self.friction == "off" else self.friction]
+        return make(gear_flanks(self.roughness_rms), solid_parameters(self.solid, self.solid))
+
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""
         bearing = self.bearing.parameters()
@@ -163,13 +180,12 @@ class HypoidAxleParameters:
             modal_damping=self.modal_damping,
             lateral_sign=-1.0 if as_printed else 1.0,
             consistent=0.0 if as_printed else 1.0,
-            friction_form=FRICTION_FORMS[self.friction],
+            friction=0.0 if self.friction == "off" else 1.0,
             drag=1.0 if self.bearing_torque_loss == "palmgren" else 0.0,
             preload=self.bearing.preload_force(),
             bearing_p=bearing,
             bearing_g=bearing,
-            surface=gear_flanks(self.roughness_rms),
-            solid=solid_parameters(self.solid, self.solid),
+            flank_law=self._flank_law(),
             oil=self.oil.parameters(),
         )
 
@@ -212,6 +228,11 @@ def mohammadpour_2015_axle(
         [mohammadpour_2015 (26)] with the full approach, or halved as printed.
 
     See `HypoidAxleParameters` for the other parameters and for the errors.
+
+    Examples
+    --------
+    >>> mohammadpour_2015_axle(bearing_preload=6000.0).gear_mass  # kg
+    49.9
     """
     check_option("bearing_approach", bearing_approach, get_args(Approach))
     check_within(

@@ -114,7 +114,16 @@ class ContactCase(FilmCase):
 
 
 class LineCase(ContactCase):
-    """A lubricated line contact."""
+    """A lubricated line contact.
+
+    Examples
+    --------
+    >>> LineCase.shipped()
+    ('jamali_2015', 'jamali_2015_thermal')
+    >>> case = LineCase.named("jamali_2015").varied({"load_n_per_mm": 100.0})
+    >>> case.load_n_per_mm
+    100.0
+    """
 
     title: ClassVar[str] = "line contact"
     prefix: ClassVar[str] = "line_"
@@ -179,7 +188,13 @@ class LineCase(ContactCase):
 
 
 class PointCase(ContactCase):
-    """A lubricated point contact."""
+    """A lubricated point contact.
+
+    Examples
+    --------
+    >>> PointCase.named("mourier_2006").varied({"solver.nodes_x": 97}).solver.nodes_x
+    97
+    """
 
     title: ClassVar[str] = "point contact"
     prefix: ClassVar[str] = "point_"

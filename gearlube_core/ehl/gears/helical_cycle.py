@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from gearlube_core.checks import check_within
+from gearlube_core.ehl.gears.film_columns import film_row
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curves
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
 
 COLUMNS = (
@@ -29,26 +30,6 @@ COLUMNS = (
     "touching_area",
     "solid_pressure",
 )
-
-
-def _row(step: int, solution: FilmSolution) -> list[float]:
-    return [
-        float(step),
-        solution.load,
-        solution.maximum_pressure,
-        solution.maximum_pressure_place[1],
-        solution.minimum_film,
-        *solution.minimum_film_place,
-        solution.loaded_length,
-        solution.load_error,
-        float(solution.converged),
-        float(solution.newton_steps),
-        float(solution.krylov_steps),
-        solution.seconds,
-        solution.touch.share,
-        solution.touch.area,
-        solution.touch.largest,
-    ]
 
 
 def solve_helical_line(
@@ -113,7 +94,7 @@ def march_helical_cycle(
     return march_curves(
         film.moving_film(),
         COLUMNS,
-        _row,
+        lambda step, solution: film_row(COLUMNS, solution, step=float(step)),
         steps=(first, last),
         start_time=first * film.time_step,
         step_time=film.time_step,

@@ -12,8 +12,8 @@ from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.point.equations.mesh import Grading
 from gearlube_core.ehl.point.problem import EllipticParaboloid
 from gearlube_core.ehl.point.solid_contact import SolidContact
-from gearlube_core.ehl.transient.film import MovingFilm
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.helical_geometry.load_sharing import CONVENTIONS, shared_load
 from gearlube_core.helical_geometry.meshing_steps import MeshingSteps, jamali_2015_steps
 from gearlube_core.helical_geometry.modification import ModifiedPair

@@ -8,12 +8,13 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
+from gearlube_core.ehl.gears.film_columns import film_row
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_traction import flank_traction
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curves
-from gearlube_core.ehl.transient.film import FilmSolution
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
 
 COLUMNS = (
@@ -33,12 +34,6 @@ COLUMNS = (
     "newton_steps",
     "seconds",
 )
-
-
-def central_film(solution: FilmSolution) -> float:
-    """Return the film in the centre of the dry contact, by linear interpolation [m]."""
-    column = np.array([np.interp(0.0, solution.y, row) for row in solution.film])
-    return float(np.interp(0.0, solution.x, column))
 
 
 def steady_films(
@@ -140,17 +135,8 @@ def march_flank(
 def _row(film: HypoidFilm, solution: FilmSolution, beta: float) -> list[float]:
     now = film.cycle.at(solution.time)
     traction = flank_traction(solution, film.lubricant, now.sliding, beta)
-    return [
-        solution.time,
-        solution.load,
-        central_film(solution),
-        solution.minimum_film,
-        *solution.minimum_film_place,
-        solution.maximum_pressure,
-        *traction,
-        solution.load_error,
-        solution.residual,
-        float(solution.converged),
-        float(solution.newton_steps),
-        solution.seconds,
-    ]
+    return film_row(
+        COLUMNS,
+        solution,
+        **{f"traction_{law}": value for law, value in traction._asdict().items()},
+    )

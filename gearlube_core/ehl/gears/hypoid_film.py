@@ -10,8 +10,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.ehl.gears.hypoid_flank import FlankCycle, FlankInstant
 from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
-from gearlube_core.ehl.transient.film import MovingFilm
-from gearlube_core.ehl.transient.level import FilmConditions
+from gearlube_core.ehl.transient.conditions import FilmConditions
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.oil.film_oil import EhlLubricant
 
 FLOWS = ("eyring", "newtonian")

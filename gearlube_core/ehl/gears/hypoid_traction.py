@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.ehl.point.traction import point_traction
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_oil import EhlLubricant

@@ -159,6 +159,11 @@ class LineSettings:
     contact_film
         Film [m] at which solids touch in a march in time, where the oil alone finds no film; 0:
         never.
+
+    Examples
+    --------
+    >>> LineSettings(nodes=401).stencil
+    'upwind-2'
     """
 
     nodes: int = 1001

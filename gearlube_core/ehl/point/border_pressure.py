@@ -32,7 +32,7 @@ class BorderPressure(NamedTuple):
 
     @property
     def sentence(self) -> str:
-        """Return what an outcome says about it: nothing where the contact lies inside."""
+        """Return a warning if the domain cuts the contact, else an empty string."""
         if not self.share > (_OFF if self.open else _CUT):
             return ""
         words = "off that of the oil beyond by" if self.open else "is"

@@ -41,7 +41,7 @@ def check_cavitation(problem: PointContactProblem, settings: PointSolverSettings
 
 
 def refuse_rupture(settings: PointSolverSettings, film: str) -> None:
-    """Refuse mass-conserving cavitation of a film that changes in time or warms.
+    """Refuse mass-conserving cavitation of a film that changes in time or has heat.
 
     Raises
     ------

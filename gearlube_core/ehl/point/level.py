@@ -93,7 +93,7 @@ class PointLevel:
             least=least,
             most=most,
         )
-        sliding = None if problem.sliding is None else scales.turned(problem.sliding)
+        sliding = None if problem.sliding is None else scales.along_axes(problem.sliding)
         self.terms = FilmTerms.of(problem, scales, grid, sliding, cavitation)
 
     @property

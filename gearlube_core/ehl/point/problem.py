@@ -71,8 +71,8 @@ class PointContactProblem:
         E* [Pa]; half of E' = 2 E*.
     lubricant
         Oil; its Eyring stress acts on the flow where `sliding` is given, and so does the limiting
-        stress of an oil that has both: beyond it the film slips. A Newtonian film's flow by
-        pressure does not know of slip, its traction does.
+        stress of an oil that has both: beyond it the film slips. Slip changes the
+        traction of a Newtonian film but not its flow by pressure.
     x_limits, y_limits
         Domain [m].
     nodes

@@ -1,4 +1,4 @@
-"""The one place where a point contact is made dimensionless and turned with its motion."""
+"""Units of a point contact and the axes of its grid, which follow the entrainment."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class PointScales:
             values = values[:, ::-1]
         return np.ascontiguousarray(values)
 
-    def turned(self, velocity: tuple[float, float]) -> tuple[float, float]:
+    def along_axes(self, velocity: tuple[float, float]) -> tuple[float, float]:
         """Return a velocity along the axes of the solver's arrays."""
         u, v = velocity
         u, v = -u if self.flip_x else u, -v if self.flip_y else v

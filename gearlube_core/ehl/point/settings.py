@@ -33,7 +33,7 @@ class PointSolverSettings:
         `differences` of finite volumes or bilinear finite `elements`.
     cavitation
         `reynolds`: pressure and its gradient vanish where the film breaks, and its gap counts as
-        full behind. `mass_conserving`: what broken film holds is found as well, after
+        full behind. `mass_conserving`: the oil in ruptured film is found as well, after
         [jakobsson_floberg_1957] and [olsson_1965].
     tolerance
         Limit of the flow residual: sum over the nodes of what flows in but not out, over the
@@ -47,6 +47,11 @@ class PointSolverSettings:
         Most Newton steps on one grid.
     krylov_steps
         Most iterations of one linear solution.
+
+    Examples
+    --------
+    >>> PointSolverSettings(cavitation="mass_conserving").wedge
+    'upwind-2'
     """
 
     wedge: str = "upwind-2"

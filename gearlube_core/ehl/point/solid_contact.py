@@ -35,14 +35,14 @@ class SolidContact:
     -----
     What both solids press on each other is p = p_f + p_s: it bends them and carries the load.
     The oil has p_f alone: it flows by p_f and has the viscosity and density of p_f, as in the
-    mean flow between asperities ([patir_cheng_1978]; [hu_zhu_2000]). So neither balance knows
-    that the solids touch: mass and load stay balanced. Where oil has no pressure left p = p_s.
+    mean flow between asperities ([patir_cheng_1978]; [hu_zhu_2000]). So mass and
+    load stay balanced where the solids touch. Where oil has no pressure left p = p_s.
 
     Greenwood and Tripp's asperities carry a bounded pressure at h = 0, less than a loaded tooth
     has; smooth solids need a law without bound, or the film would pass zero. This one is a
     barrier with a length and a pressure of its own, as boundary layers have: a pressure of 1 GPa
     leaves 5 nm of the 10 nm of the default, 9 GPa leave 2.5 nm. Thickness is a choice: films
-    below it, the area and the share of load that touch hang on it.
+    below it, and the area and the share of the load in contact, depend on it.
     """
 
     thickness: float = 10e-9
@@ -120,7 +120,7 @@ class Touch:
 
     @property
     def sentence(self) -> str:
-        """Return what an outcome says about it: nothing where nothing touches."""
+        """Return a warning if the solids touch, else an empty string."""
         if self.area == 0.0:
             return ""
         return (

@@ -4,77 +4,22 @@ from __future__ import annotations
 
 import math
 import time
-from itertools import pairwise
 
 import numpy as np
 
 from gearlube_core.ehl.point.cavitation import check_cavitation
-from gearlube_core.ehl.point.continuation import solve_level
 from gearlube_core.ehl.point.level import PointLevel
-from gearlube_core.ehl.point.nest import COARSE_TOLERANCE, bordered, carried
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, build_hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
-from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import PointContactProblem, expected_film
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointOutcome, PointSolution
-from gearlube_core.ehl.point.starvation import Starvation
-from gearlube_core.ehl.point.terms.differences import Differences
-from gearlube_core.ehl.point.terms.elements import Elements
+from gearlube_core.ehl.point.start.continuation import solve_level
+from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, interpolated_state, zero_border
+from gearlube_core.ehl.point.start.starvation import Starvation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ConvergenceError
-
-_DIRECT_NODES = 1300  # of the grid that is solved directly
-_SHORTEST = 12  # nodes of a side that is not halved any more
-
-
-def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tuple[int, int]]:
-    """Return shapes from coarse to fine; the side of the smaller spacing is halved first.
-
-    Parameters
-    ----------
-    nodes
-        (ny, nx) of the finest grid.
-    steps
-        Its spacings (dy, dx).
-    """
-    shapes = [nodes]
-    sides, spacing = list(nodes), list(steps)
-    while sides[0] * sides[1] > _DIRECT_NODES:
-        ratio = spacing[0] / spacing[1]
-        halve = [ratio < 1.5 and sides[0] > _SHORTEST, ratio > 1.0 / 1.5 and sides[1] > _SHORTEST]
-        if not any(halve):
-            halve = [side > _SHORTEST for side in sides]
-        for axis in range(2):
-            if halve[axis]:
-                coarse = (sides[axis] - 1) // 2 + 1
-                spacing[axis] *= (sides[axis] - 1) / (coarse - 1)
-                sides[axis] = coarse
-        shapes.insert(0, (sides[0], sides[1]))
-    return shapes
-
-
-def build_hierarchy(
-    problem: PointContactProblem,
-    scales: PointScales,
-    wedge: str,
-    discretisation: str = "differences",
-    cavitation: str = "reynolds",
-) -> Hierarchy:
-    """Return the grids of a problem."""
-    nx, ny = problem.nodes
-    dx = (problem.x_limits[1] - problem.x_limits[0]) / (nx - 1)
-    dy = (problem.y_limits[1] - problem.y_limits[0]) / (ny - 1)
-    nodes, steps = ((nx, ny), (dx, dy)) if scales.swap else ((ny, nx), (dy, dx))
-    shapes = grid_shapes(nodes, steps)
-    scheme = Elements if discretisation == "elements" else Differences
-    levels = [
-        PointLevel(problem, scales, shape, wedge, scheme=scheme, cavitation=cavitation)
-        for shape in shapes
-    ]
-    transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
-    return Hierarchy(levels, transfers)
 
 
 def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
@@ -89,7 +34,7 @@ def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     a_x = max(math.sqrt(a_x**2 + problem.hertz.R_x * film), 2.5 * (x[1] - x[0]))
     a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
     ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
-    pressure = bordered(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
+    pressure = zero_border(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
     pressure *= level.load / level.grid.integral(pressure)
     return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
 
@@ -126,7 +71,7 @@ def solve_point_contact(
     -----
     Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
     flexible GMRES with a multigrid cycle of line solutions; start on nested grids from the dry
-    contact. Mass-conserving cavitation keeps these unknowns: what broken film holds follows from
+    contact. Mass-conserving cavitation keeps these unknowns: the oil in ruptured film follows from
     them, node after node downstream. References: [venner_lubrecht_2000] for the equations and
     the hybrid relaxation; [saad_1993] for GMRES.
     """
@@ -152,8 +97,8 @@ def nested_film(
     for k in range(count):
         part = hierarchy.below(k + 1)
         if k:
-            pressure = bordered(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
-            state = carried(part.levels[-1], pressure, state)
+            pressure = zero_border(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
+            state = interpolated_state(part.levels[-1], pressure, state)
         last = k == count - 1
         tolerance = settings.tolerance if last else COARSE_TOLERANCE
         if starved is not None:

@@ -11,9 +11,10 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm, unpack_solutions
 from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.record import MarchRecord
+from gearlube_core.ehl.transient.solution import FilmSolution, unpack_solutions
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 Progress = Callable[[int, int, FilmSolution], None]

@@ -58,7 +58,7 @@ class WindowedDeflection:
         )
         self._result[:] = 0.0
 
-    def forget(self) -> None:
+    def clear(self) -> None:
         """Cut the box anew before it is used again."""
         self._spans = None
 

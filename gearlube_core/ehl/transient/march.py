@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,23 +11,19 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.point.cavitation import refuse_rupture
-from gearlube_core.ehl.point.nest import bordered
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
-from gearlube_core.ehl.transient.film import (
-    FilmSolution,
-    MovingFilm,
-    film_solution,
-    impose,
-    pack_solutions,
-)
+from gearlube_core.ehl.transient.history import FilmHistory
 from gearlube_core.ehl.transient.level import MovingLevel
-from gearlube_core.ehl.transient.newton import KeptCycle, step_newton
+from gearlube_core.ehl.transient.newton import LaggedPreconditioner, step_newton
+from gearlube_core.ehl.transient.problem import MovingFilm, set_conditions
 from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.rows import RowCycle
+from gearlube_core.ehl.transient.solution import FilmSolution, film_solution, pack_solutions
 from gearlube_core.ehl.transient.steady import steady_state
 from gearlube_core.errors import ConvergenceError, ParameterError
 
@@ -40,17 +36,6 @@ _PRESSED = 0.2  # of the layer of solids, the least film that a step starts from
 
 def _multigrid(grids: Hierarchy, linear: Linearisation, _: object) -> MultigridCycle:
     return MultigridCycle(grids, linear)
-
-
-@dataclass(slots=True)
-class _Past:
-    """What the next step needs of the times before."""
-
-    state: FilmState
-    mass: Array  # rho h now
-    mass_before: Array
-    inflow: Array  # of every node now, without storage
-    rise: tuple[Array, float] | None  # of pressure and approach in the last step
 
 
 class FilmMarch:
@@ -113,12 +98,12 @@ class FilmMarch:
         assert isinstance(level, MovingLevel)
         self._level = level
         self._unit = time_step * level.scales.speed / level.scales.length
-        self._kept = KeptCycle(self._grids, RowCycle if film.long else _multigrid)
+        self._lagged = LaggedPreconditioner(self._grids, RowCycle if film.long else _multigrid)
         begin = clock.perf_counter()
         if record is None:
-            impose(film, self._grids, start_time)
+            set_conditions(film, self._grids, start_time)
             state, work = self._steady()
-            self._past = _Past(
+            self._past = FilmHistory(
                 state, state.mass, state.mass, level.terms.storage.inflow(state), None
             )
             count, krylov = len(work.residuals), work.krylov
@@ -150,14 +135,14 @@ class FilmMarch:
         level, past = self._level, self._past
         begin = clock.perf_counter()
         self.steps += 1
-        impose(self.film, self._grids, self.time, finest_only=True)
+        set_conditions(self.film, self._grids, self.time, finest_only=True)
         self._set_storage()
         level.hold_ambient_above(
             level.film(past.state.pressure, past.state.approach), self.film.open_film
         )
         state, record = self._attempt(self._predicted())
         if not record.converged:
-            self._kept.forget()
+            self._lagged.clear()
             again, second = self._attempt(level.state(past.state.pressure, past.state.approach))
             second.newton_steps += record.newton_steps
             second.krylov_steps += record.krylov_steps
@@ -170,13 +155,17 @@ class FilmMarch:
             if divided is not None:
                 state, record = divided, replace(record, converged=True)
         rise = (state.pressure - past.state.pressure, state.approach - past.state.approach)
-        self._past = _Past(state, state.mass, past.mass, level.terms.storage.inflow(state), rise)
+        self._past = FilmHistory(
+            state, state.mass, past.mass, level.terms.storage.inflow(state), rise
+        )
         self.solution = self._solution(
             state, record.newton_steps, record.krylov_steps, clock.perf_counter() - begin
         )
         if record.converged and parts > 1:
-            told = f" The step was taken in {parts} parts, by backward Euler."
-            self.solution = replace(self.solution, outcome=self.solution.outcome + told)
+            outcome = (
+                f"{self.solution.outcome} The step was taken in {parts} parts, by backward Euler."
+            )
+            self.solution = replace(self.solution, outcome=outcome)
         if throw and not self.solution.converged:
             raise ConvergenceError(f"Step {self.steps}: {self.solution.outcome}")
         return self.solution
@@ -214,7 +203,7 @@ class FilmMarch:
             kept_values=kept_values,
         ).write(path)
         # what goes on and what is read again start from the same preconditioner: none
-        self._kept.forget()
+        self._lagged.clear()
 
     def _resume(self, record: MarchRecord) -> None:
         level = self._level
@@ -239,15 +228,15 @@ class FilmMarch:
                 "Start anew, or take the grading that it was made with."
             )
         self.steps = record.steps
-        impose(self.film, self._grids, self.time)
+        set_conditions(self.film, self._grids, self.time)
         state = level.state(record.pressure, record.approach)
         state.residual = np.zeros(level.shape)  # it was solved with storage
         rise = (record.rise, record.approach_rise) if record.steps else None
-        self._past = _Past(state, record.mass, record.mass_before, record.inflow, rise)
+        self._past = FilmHistory(state, record.mass, record.mass_before, record.inflow, rise)
 
     def _steady(self) -> tuple[FilmState, NewtonRecord]:
         grids = self.film.grids(self.settings.wedge)
-        impose(self.film, grids, self.start_time)
+        set_conditions(self.film, grids, self.start_time)
         state, work = steady_state(self.film, grids, self.settings)
         finest = grids.levels[-1]
         assert isinstance(finest, MovingLevel)
@@ -255,33 +244,14 @@ class FilmMarch:
         return self._level.state(state.pressure, state.approach), work
 
     def _set_storage(self) -> None:
-        past, unit = self._past, self._unit
-        if self.scheme == "crank_nicolson":
-            # where there was no pressure the flow of before was not balanced
-            loaded = past.state.pressure > 0.0
-            storage = np.where(loaded, 2.0, 1.0) / unit
-            source = storage * past.mass + np.where(loaded, past.inflow, 0.0)
-            self._level.set_storage(storage, source)
-        elif self.steps == 1:
-            self._level.set_storage(1.0 / unit, past.mass / unit)
-        else:
-            self._level.set_storage(1.5 / unit, (2.0 * past.mass - 0.5 * past.mass_before) / unit)
+        self._level.set_storage(*self._past.storage(self.scheme, self._unit, self.steps == 1))
 
     def _predicted(self) -> FilmState:
-        past = self._past
-        state = past.state
-        if past.rise is None:
-            return self._level.state(state.pressure, state.approach)
-        pressure = np.where(
-            state.pressure > 0.0,
-            np.maximum(state.pressure + past.rise[0], 0.5 * state.pressure),
-            0.0,
-        )
-        trial = self._level.state(bordered(pressure), state.approach + past.rise[1])
-        thinnest = 0.5 * float(state.film.min())
-        if float(trial.film.min()) > thinnest:
+        past, level = self._past, self._level
+        trial = level.state(*past.predicted())
+        if float(trial.film.min()) > 0.5 * float(past.state.film.min()):
             return trial
-        return self._level.state(state.pressure, state.approach)
+        return level.state(past.state.pressure, past.state.approach)
 
     def _divided(self, parts: int) -> FilmState | None:
         """Return the state after shorter steps of backward Euler; None if one of them fails."""
@@ -289,13 +259,13 @@ class FilmMarch:
         rate = parts / self._unit
         for left in reversed(range(parts)):
             time = self.time - left * self.time_step / parts
-            impose(self.film, self._grids, time, finest_only=True)
+            set_conditions(self.film, self._grids, time, finest_only=True)
             level.set_storage(rate, rate * mass)
             film = level.film(state.pressure, state.approach)
             level.hold_ambient_above(film, self.film.open_film)
             state, record = self._attempt(level.state(state.pressure, state.approach))
             if not record.converged:
-                impose(self.film, self._grids, self.time, finest_only=True)
+                set_conditions(self.film, self._grids, self.time, finest_only=True)
                 self._set_storage()
                 return None
             mass = state.mass
@@ -310,7 +280,7 @@ class FilmMarch:
         if lowest < least:
             begin = self._level.state(begin.pressure, begin.approach + least - lowest)
         return step_newton(
-            self._kept,
+            self._lagged,
             begin,
             tolerance=self.settings.tolerance,
             load_tolerance=self.settings.load_tolerance,

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
 from gearlube_core.ehl.point.newton.newton import flow_residual
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
@@ -39,10 +39,10 @@ class StepRecord:
     renewals: int  # of the preconditioner
 
 
-class KeptCycle:
-    """A multigrid cycle that is built once and used while it still serves.
+class LaggedPreconditioner:
+    """A multigrid cycle that is built once and used for several linearisations.
 
-    It knows the nodes that carried pressure when it was built; nodes that came since are solved
+    It solves the nodes that carried pressure when it was built; nodes that came since are solved
     on their own, nodes that left keep no pressure.
 
     Parameters
@@ -80,7 +80,7 @@ class KeptCycle:
         self._free = linear.free.copy()
         self.renewals += 1
 
-    def serve(self, linear: Linearisation) -> None:
+    def use_for(self, linear: Linearisation) -> None:
         """Use the cycle for another linearisation."""
         if self._stale:
             self.renew(linear)
@@ -88,14 +88,14 @@ class KeptCycle:
         self.deflection.follow(linear.free)
         self._new = linear.free & ~self._free
 
-    def tire(self) -> None:
+    def mark_outdated(self) -> None:
         """Bring the cycle up to date before its next use."""
         self._stale = True
 
-    def forget(self) -> None:
+    def clear(self) -> None:
         """Drop the cycle."""
         self._cycle, self._stale = None, True
-        self.deflection.forget()
+        self.deflection.clear()
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
         """Return pressure and approach that cancel most of a residual."""
@@ -110,7 +110,7 @@ class KeptCycle:
 
 
 def step_newton(
-    kept: KeptCycle,
+    lagged: LaggedPreconditioner,
     state: FilmState,
     *,
     tolerance: float,
@@ -122,7 +122,7 @@ def step_newton(
 
     Parameters
     ----------
-    kept
+    lagged
         Preconditioner; renewed where it has become too slow.
     state
         Predicted.
@@ -143,23 +143,23 @@ def step_newton(
     Linear solutions are as exact as the step before suggests that the film is linear
     ([eisenstat_walker_1996]), with deflection in single precision.
     """
-    level = kept.hierarchy.levels[-1]
+    level = lagged.hierarchy.levels[-1]
     assert isinstance(level, MovingLevel)
     size = flow_residual(level, state)
-    krylov, steps, before, forcing = 0, 0, kept.renewals, _LARGEST_FORCING
+    krylov, steps, before, forcing = 0, 0, lagged.renewals, _LARGEST_FORCING
     while steps < most:
         if size <= tolerance and abs(state.load_error) <= load_tolerance:
             break
         steps += 1
         linear = level.linearise(state)
-        kept.serve(linear)
+        lagged.use_for(linear)
         wanted = max(min(forcing, _LARGEST_FORCING), _ENOUGH * tolerance / size)
         pressure, approach, remainder, count = flexible_gmres(
             lambda p, h, linear=linear: (  # type: ignore[misc]
-                level.apply(linear, p, h, kept.deflection).copy(),
+                level.apply(linear, p, h, lagged.deflection).copy(),
                 level.grid.integral(p) / level.load,
             ),
-            kept,
+            lagged,
             linear.right,
             state.load_error,
             tolerance=wanted,
@@ -168,9 +168,9 @@ def step_newton(
         )
         krylov += count
         if remainder > wanted:
-            kept.forget()  # what it kept of an earlier state stands in the way
-        elif count > kept.patience:
-            kept.tire()
+            lagged.clear()  # what it kept of an earlier state stands in the way
+        elif count > lagged.patience:
+            lagged.mark_outdated()
         thinnest = _THINNEST * max(float(state.film.min()), 0.0)
         length, accepted = 1.0, False
         for _ in range(_CUTS):
@@ -194,4 +194,4 @@ def step_newton(
         and abs(state.load_error) <= load_tolerance
         and float(state.film.min()) > 0.0
     )
-    return state, StepRecord(converged, size, steps, krylov, kept.renewals - before)
+    return state, StepRecord(converged, size, steps, krylov, lagged.renewals - before)

@@ -16,7 +16,7 @@ from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.coarse import CoarseSolution
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator, coarse_operator, sparse_operator
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.wave import wave_deflection
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection

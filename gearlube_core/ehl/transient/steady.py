@@ -8,17 +8,19 @@ from dataclasses import replace
 import numpy as np
 
 from gearlube_core.ehl.point.cavitation import refuse_rupture
-from gearlube_core.ehl.point.continuation import solve_level
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
-from gearlube_core.ehl.point.nest import COARSE_TOLERANCE, bordered, carried
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.problem import expected_film
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.start.continuation import solve_level
+from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, interpolated_state, zero_border
 from gearlube_core.ehl.point.terms.state import FilmState
-from gearlube_core.ehl.transient.film import FilmSolution, MovingFilm, film_solution, impose
 from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.problem import MovingFilm, set_conditions
 from gearlube_core.ehl.transient.rows import RowCycle
+from gearlube_core.ehl.transient.solution import FilmSolution, film_solution
 from gearlube_core.errors import ConvergenceError
 
 
@@ -38,7 +40,7 @@ def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
         tolerance=1e-3,
     )
     spread = [np.interp(level.grid.x, x, column) for column in dry.pressure.T / scales.pressure]
-    pressure = bordered(np.array(spread))
+    pressure = zero_border(np.array(spread))
     pressure *= level.load / level.grid.integral(pressure)
     lowest = float(level.film(pressure, 0.0).min())
     approach = expected_film(film.reference()) / scales.film - lowest
@@ -61,9 +63,9 @@ def steady_state(
         level = part.levels[-1]
         assert isinstance(level, MovingLevel)
         if k:
-            pressure = bordered(grids.transfers[k - 1].up_smoothly(state.pressure))
+            pressure = zero_border(grids.transfers[k - 1].up_smoothly(state.pressure))
             level.hold_ambient_above(level.film(pressure, state.approach), film.open_film)
-            state = carried(level, pressure, state)
+            state = interpolated_state(level, pressure, state)
         last = k == count - 1
         goal = settings.tolerance if last else COARSE_TOLERANCE
         build: Build = MultigridCycle
@@ -102,7 +104,7 @@ def solve_steady_film(
     settings = PointSolverSettings() if settings is None else settings
     begin = clock.perf_counter()
     grids = film.grids(settings.wedge)
-    impose(film, grids, time)
+    set_conditions(film, grids, time)
     state, record = steady_state(film, grids, settings)
     level = grids.levels[-1]
     assert isinstance(level, MovingLevel)

@@ -19,7 +19,8 @@ from gearlube_core.hypoid_geometry.flank.cutting_motion import (
     cut_state,
 )
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
-from gearlube_core.hypoid_geometry.gear_file import Cutter, Gear, HypoidGearFile, Pinion
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.hypoid_geometry.gear_file_sections import Cutter, Gear, Pinion
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Curve = Literal["convex", "concave"]

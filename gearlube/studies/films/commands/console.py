@@ -3,35 +3,32 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import typer
 from rich.console import Console
 from rich.table import Table
 
-from gearlube.cli import exit_codes
-from gearlube.cli.progress_bar import progress_bar
+from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
+from gearlube.cli.progress_report import progress_on
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
     import xarray as xr
 
     from gearlube.studies.films.hypoid.summary import RatioRow
-    from gearlube.studies.films.progress import Progress
     from gearlube.studies.films.summary import Row
+    from gearlube_core.progress import Progress
 
 logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
 _SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm"), "1": (1.0, "")}
 
 
-@contextmanager
-def errors_ended(out: Path) -> Iterator[None]:
+def errors_ended(out: Path) -> AbstractContextManager[None]:
     """Turn errors into messages and exit codes; `out` is where results go."""
-    with exit_codes.exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
-        yield
+    return exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again.")
 
 
 def solve_and_show(solve: Callable[[Progress], xr.Dataset], out: Path) -> None:
@@ -41,17 +38,12 @@ def solve_and_show(solve: Callable[[Progress], xr.Dataset], out: Path) -> None:
     """
     from gearlube.studies.films.results import dataset_file
 
-    with progress_bar(console) as bar:
-        task = bar.add_task("", total=100)
-        dataset = solve(
-            lambda share, sentence: bar.update(task, completed=100.0 * share, description=sentence)
-        )
+    with progress_on(console, "films") as progress:
+        dataset = solve(progress)
     _show(dataset)
     logger.info("Results: %s, %s", dataset_file(dataset, out), out / "figures")
     outcome = str(dataset.attrs["outcome"])
-    if not dataset.attrs["converged"]:
-        logger.error("%s", outcome)
-        raise typer.Exit(exit_codes.FAILED)
+    exit_if_failed("" if dataset.attrs["converged"] else outcome)
     logger.info("%s", outcome)
 
 

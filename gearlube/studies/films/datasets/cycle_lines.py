@@ -9,7 +9,7 @@ import xarray as xr
 
 from gearlube.studies.films.datasets.variables import Variable, noted
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.storage.atomic_file import read_arrays, write_arrays
 

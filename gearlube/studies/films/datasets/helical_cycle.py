@@ -11,7 +11,7 @@ from gearlube.studies.films.datasets.cycle_lines import CycleLines
 from gearlube.studies.films.datasets.variables import Variable, noted, noted_curves
 from gearlube_core.ehl.gears.helical_film import GRADINGS, HelicalFilm
 from gearlube_core.ehl.transient.curves import FilmCurves
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 
 _NOTES = {
     "load": ("N", "load that the pressure carries"),

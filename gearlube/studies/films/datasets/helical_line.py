@@ -12,7 +12,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.line.problem import LineProblem
 from gearlube_core.ehl.line.traction import fill_mean_stress
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.oil.film_oil import fill_properties
 
 

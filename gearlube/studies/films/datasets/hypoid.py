@@ -11,7 +11,7 @@ from gearlube.studies.films.datasets.variables import Variable, noted, noted_cur
 from gearlube.studies.films.hypoid.flank import HypoidFlank
 from gearlube.studies.films.hypoid.formulas import flank_formulas
 from gearlube_core.ehl.transient.curves import FilmCurves
-from gearlube_core.ehl.transient.film import FilmSolution
+from gearlube_core.ehl.transient.solution import FilmSolution
 
 _FILM_NOTES = {
     "load": ("N", "load that the pressure carries"),

@@ -20,7 +20,7 @@ from gearlube_core.dynamics.helical_pair.march.integrate import (
     StepControl,
 )
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pack_march_mesh, pair_data
-from gearlube_core.dynamics.helical_pair.march.output_names import N_OUTPUTS
+from gearlube_core.dynamics.helical_pair.march.output_names import OUTPUT_NAMES
 from gearlube_core.dynamics.helical_pair.march.outputs import write_outputs
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.march.state import (
@@ -83,7 +83,7 @@ class HelicalPairModel(SteppedModel[StepControl]):
         )
         super().__init__(
             states=N_STATE,
-            outputs=N_OUTPUTS,
+            output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0),
             oil=parameters.oil,
             torque_limits=(MAX_TORQUE, MAX_TORQUE),

@@ -36,7 +36,7 @@ class CrossFlow(NamedTuple):
 
     ratio_x: np.ndarray  # xy/xx
     ratio_y: np.ndarray  # xy/yy
-    slope_x: np.ndarray  # of xy, what a change of grad p meets, over xx
+    slope_x: np.ndarray  # flow factor xy of a change of grad p, over xx
     slope_y: np.ndarray  # over yy
 
 

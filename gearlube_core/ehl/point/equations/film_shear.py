@@ -97,7 +97,7 @@ def fill_shear_factors(
                 continue
             along[j, i], across[j, i] = eyring_factors(s, r, a, most)
             if slips:
-                # S = F cosh(limit): F alone answers to the slope of pressure, nothing to viscosity
+                # S = F cosh(limit): F alone depends on the slope of pressure, nothing on viscosity
                 F, by_sigma, _ = eyring_flow_factor(s, 0.0)
                 steepness[j, i] = 1.0 + s * by_sigma / F
                 stiffness[j, i] = 1.0

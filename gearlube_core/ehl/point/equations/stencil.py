@@ -148,9 +148,9 @@ def mean_fluidity(
 
 
 class FlowSlopes(NamedTuple):
-    """How the flow by pressure answers at every node; arrays of shape (ny, nx) [-]."""
+    """Derivatives of the flow by pressure at every node; arrays of shape (ny, nx) [-]."""
 
-    slope_x: np.ndarray  # rho h^3 times what a change of dp/dx meets
+    slope_x: np.ndarray  # rho h^3 times the flow factor of a change of dp/dx
     slope_y: np.ndarray
     slope_xy: np.ndarray  # of dp/dy, in the flow along x
     by_pressure: np.ndarray  # d ln(rho h^3 times its flow factor)/dp

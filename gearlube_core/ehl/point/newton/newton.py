@@ -10,8 +10,9 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
 
@@ -37,7 +38,7 @@ class NewtonRecord:
     converged: bool = False
     residuals: list[float] = field(default_factory=list)
     krylov: int = 0
-    first_order: bool = False  # the answer of upwind-1, where the chosen stencil found none
+    first_order: bool = False  # the solution of upwind-1: the chosen stencil found none
 
     def fallen_back(self, wedge: str) -> str:
         """Return a sentence where upwind-1 stands in for the stencil `wedge`, else nothing."""

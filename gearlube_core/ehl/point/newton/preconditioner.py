@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.coarse import CoarseSolution
 from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_operator
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
-from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 
 Lines = RowSmoother | ColumnSmoother
@@ -21,18 +17,6 @@ _DAMPING = 0.5  # 0.8 and more amplify waves across narrow contacts at high L
 # of the entrainment through cells along columns over that along rows, above which lines go both
 # ways; where rows carry more, columns on top do harm
 _OBLIQUE = 1.0
-
-
-@dataclass(slots=True)
-class Hierarchy:
-    """Grids from the coarsest to the finest and the transfers between neighbours."""
-
-    levels: Sequence[PointLevel]
-    transfers: Sequence[Transfer]  # between level k + 1 and k
-
-    def below(self, count: int) -> Hierarchy:
-        """Return the first `count` grids."""
-        return Hierarchy(self.levels[:count], self.transfers[: count - 1])
 
 
 class MultigridCycle:

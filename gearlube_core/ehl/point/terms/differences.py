@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.arrays import Array, Flags, Offsets
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.reynolds import reynolds_derivatives, reynolds_residual
 from gearlube_core.ehl.point.equations.stencil import (
@@ -13,13 +13,12 @@ from gearlube_core.ehl.point.equations.stencil import (
     FlowSlopes,
     StencilParameters,
 )
+from gearlube_core.ehl.point.terms.linearisation import Derivatives
 from gearlube_core.ehl.point.terms.state import FilmState
 
 # rho h at a face over that of the node upstream of it; reached where the film halves in a cell
 _LEAST_FACE = 0.5
 _MOST_FACE = 2.0
-
-Derivatives = tuple[Offsets, Array, Array]
 
 
 class Differences:

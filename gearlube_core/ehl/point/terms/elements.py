@@ -16,7 +16,7 @@ from gearlube_core.ehl.point.equations.finite_elements import (
 )
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.stencil import FlowSlopes, StencilParameters
-from gearlube_core.ehl.point.terms.differences import Derivatives
+from gearlube_core.ehl.point.terms.linearisation import Derivatives
 from gearlube_core.ehl.point.terms.state import FilmState
 
 

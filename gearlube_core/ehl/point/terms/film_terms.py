@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.film_shear import FilmShear, NewtonianShear
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.problem import PointContactProblem
@@ -82,10 +81,6 @@ class FilmTerms:
             ),
             cavitation=breaks,
         )
-
-    def carried(self, values: Array) -> Array:
-        """Return nodal values times the entrainment of their row, (ny, nx)."""
-        return self.entrainment.carried(values)
 
 
 def film_shear(

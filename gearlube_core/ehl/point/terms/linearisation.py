@@ -12,6 +12,9 @@ from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
 from gearlube_core.ehl.point.equations.stencil import CENTRE
 from gearlube_core.ehl.point.terms.ruptured_transport import NoTransport, Transport
 
+# steps to the neighbours, derivatives by their pressure and by their film, (n, ny, nx)
+Derivatives = tuple[Offsets, Array, Array]
+
 
 @dataclass(slots=True)
 class Linearisation:

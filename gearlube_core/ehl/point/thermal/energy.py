@@ -229,7 +229,7 @@ def sweep_film(
     forwards: bool,
     T: np.ndarray,
     flux: np.ndarray,
-    answer: np.ndarray,
+    conductance: np.ndarray,
     shape: np.ndarray,
 ) -> None:
     """Solve every column between its surfaces in turn, from row to row.
@@ -244,9 +244,10 @@ def sweep_film(
         Temperatures (n, m) [K]; those inside change.
     flux
         Filled (2, n): heat into body 1 and body 2 [W/m2].
-    answer
-        Filled (3, n): what body 1's flux falls by with its temperature, what either flux rises by
-        with the other body's, what body 2's falls by with its own [W/(m2 K)].
+    conductance
+        Filled (3, n) [W/(m2 K)], all above zero: by how much the flux into body 1 falls per kelvin
+        of its own surface, either flux rises per kelvin of the other surface, and the flux into
+        body 2 falls per kelvin of its own.
     shape
         Filled (2, n, m): temperature by that of body 1 and of body 2 [-].
 
@@ -301,13 +302,13 @@ def sweep_film(
             flux[1, node] = (
                 walls[3] - (walls[2] + across) * T[node, m - 1] + across * T[node, m - 2]
             )
-            answer[0, node] = walls[0] + across * (1.0 - shape[0, node, 1])
-            answer[1, node] = across * shape[1, node, 1]
-            answer[2, node] = walls[2] + across * (1.0 - shape[1, node, m - 2])
+            conductance[0, node] = walls[0] + across * (1.0 - shape[0, node, 1])
+            conductance[1, node] = across * shape[1, node, 1]
+            conductance[2, node] = walls[2] + across * (1.0 - shape[1, node, m - 2])
 
 
 @kernel
-def warm_surfaces(change: np.ndarray, shape: np.ndarray, T: np.ndarray) -> None:
+def add_surface_change(change: np.ndarray, shape: np.ndarray, T: np.ndarray) -> None:
     """Change the surfaces' temperatures by (2, n) [K] and those between by their `shape`."""
     n, m = T.shape
     for node in range(n):

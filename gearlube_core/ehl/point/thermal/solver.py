@@ -12,8 +12,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.point.cavitation import check_cavitation, refuse_rupture
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual, newton
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
@@ -54,7 +54,7 @@ class PointThermalSettings:
 class ThermalPointSolution:
     """A point contact's film with its temperatures; arrays over the problem's x and y."""
 
-    film: PointSolution  # the warm film
+    film: PointSolution  # at the temperatures found
     temperature: Array  # (nx, ny, heights) from body 1 to body 2 [K]
     flux: Array  # (2, nx, ny) into body 1 and body 2 [W/m2]
     heating: Array  # (nx, ny) heat of shear over the film [W/m2]
@@ -122,7 +122,7 @@ def solve_thermal_point(
     Raises
     ------
     ParameterError
-        When sliding is not given or the oil does not know temperature.
+        When sliding is not given or the viscosity law is isothermal.
     ConvergenceError
         When film or temperature fail, unless `throw` is False.
 
@@ -140,7 +140,7 @@ def solve_thermal_point(
     the film slips and the slip heats it evenly. A broken film is not sheared.
 
     Films that heat thins by a quarter and more (beta eta0 u^2/k above about 1 in the inlet) take
-    tens of turns, and some of them do not settle.
+    tens of turns, and some of them do not converge.
 
     Converged when residual, load and heat balance hold together: the heat that shear makes is
     conducted and carried away, the sum over all cells of what is not, and what the surfaces'
@@ -170,7 +170,7 @@ def solve_thermal_point(
             break
         energy.turn(film)
         level.set_thermal_factors(*energy.factors(film))
-        state = _warm_film(hierarchy, state, settings, energy.balance, record)
+        state = _film_at_temperatures(hierarchy, state, settings, energy.balance, record)
     energy.judge(energy.film(state), everywhere=True)
     record.converged = good
     solved = point_solution(problem, settings, hierarchy, state, record, begin, throw=False)
@@ -199,12 +199,12 @@ def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -
         )
     if problem.lubricant.S0 == 0.0:
         raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity does not know temperature. "
+            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. "
             "Take law houpert."
         )
 
 
-def _warm_film(
+def _film_at_temperatures(
     hierarchy: Hierarchy,
     state: FilmState,
     settings: PointSolverSettings,

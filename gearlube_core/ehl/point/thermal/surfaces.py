@@ -18,10 +18,10 @@ from gearlube_core.ehl.point.thermal.energy import (
     PointFilm,
     PointHeat,
     PointMotion,
+    add_surface_change,
     fill_heat,
     heat_balance,
     sweep_film,
-    warm_surfaces,
 )
 from gearlube_core.ehl.point.thermal.moving_heat import MovingHeat
 from gearlube_core.oil.houpert_1985 import GLASS_TEMPERATURE
@@ -71,8 +71,8 @@ class FilmTemperature:
         self.level, self.oil = level, problem.lubricant
         scales, (ny, nx) = level.scales, level.shape
         self.steps = level.grid.dx * scales.length, level.grid.dy * scales.length
-        u, v = scales.turned(problem.entrainment)
-        su, sv = scales.turned(problem.sliding or (0.0, 0.0))
+        u, v = scales.along_axes(problem.entrainment)
+        su, sv = scales.along_axes(problem.sliding or (0.0, 0.0))
         self.speed, self.sliding = scales.speed, math.hypot(su, sv)
         self.motion = PointMotion(
             u - 0.5 * su, v - 0.5 * sv, u + 0.5 * su, v + 0.5 * sv, *self.steps,
@@ -91,7 +91,7 @@ class FilmTemperature:
         self.heat = PointHeat(np.zeros((n, heights)), np.zeros(n), np.zeros(n), np.zeros(n))
         self.balance = math.inf
         self._mixing = AndersonMixing(_MIXED)
-        self._answer, self._shape = np.empty((3, n)), np.empty((2, n, heights))
+        self._conductance, self._shape = np.empty((3, n)), np.empty((2, n, heights))
 
     def film(self, state: FilmState) -> PointFilm:
         """Return what the balance takes from a state."""
@@ -152,13 +152,13 @@ class FilmTemperature:
         for way in (False, True) * _SWEEPS:
             sweep_film(
                 film, self.motion, self.oil, self.heat, nx, way, way, self.T, self.flux,
-                self._answer, self._shape,
+                self._conductance, self._shape,
             )  # fmt: skip
         error = self._surface_error()
 
         def applied(change: Array) -> Array:
             one, two = change.reshape(2, -1)
-            own_1, both, own_2 = self._answer
+            own_1, both, own_2 = self._conductance
             flux = np.array((own_1 * one - both * two, own_2 * two - both * one))
             return np.asarray(change + self._rise(flux).ravel())
 
@@ -169,7 +169,7 @@ class FilmTemperature:
             restart=_SURFACES_STEPS,
             maxiter=1,
         )
-        warm_surfaces(change.reshape(2, -1), self._shape, self.T)
+        add_surface_change(change.reshape(2, -1), self._shape, self.T)
 
     def factors(self, film: PointFilm) -> tuple[Array, Array]:
         """Return the thermal factors of viscosity and density, both (ny, nx) [-]."""

@@ -11,7 +11,7 @@ from gearlube_core.ehl.point.terms.state import FilmState
 COARSE_TOLERANCE = 1e-3  # of the flow residual on all but the finest grid
 
 
-def bordered(pressure: Array) -> Array:
+def zero_border(pressure: Array) -> Array:
     """Return a pressure without its negative part and zero on the border."""
     pressure = np.maximum(pressure, 0.0)
     pressure[[0, -1]] = 0.0
@@ -19,7 +19,7 @@ def bordered(pressure: Array) -> Array:
     return pressure
 
 
-def carried(level: PointLevel, pressure: Array, coarse: FilmState) -> FilmState:
+def interpolated_state(level: PointLevel, pressure: Array, coarse: FilmState) -> FilmState:
     """Return the state at a pressure from a coarser grid, no thinner than the film there.
 
     Interpolation leaves ripples of the film.

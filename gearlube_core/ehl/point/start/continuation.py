@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord, newton
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy, MultigridCycle
+from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.terms.state import FilmState
 
@@ -76,7 +77,7 @@ def solve_level(
     In turn: directly; from thicker films (less mobility is more viscosity or speed); the same
     with first-order upwind differences, then back to the order asked for; where that fails, the
     first-order solution itself, if the settings allow, and the level keeps its stencil. Starved
-    contacts begin with first-order differences, in which the edge of the oil settles.
+    contacts begin with first-order differences, in which the edge of the oil converges.
     """
     level = hierarchy.levels[-1]
     last = start

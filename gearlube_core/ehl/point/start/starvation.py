@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from gearlube_core.ehl.point.continuation import solve_level
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, newton
-from gearlube_core.ehl.point.newton.preconditioner import Hierarchy
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.start.continuation import solve_level
 from gearlube_core.ehl.point.terms.state import FilmState
 
 _FACTOR = 0.5  # from one layer to the next

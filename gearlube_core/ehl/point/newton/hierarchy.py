@@ -1,0 +1,77 @@
+"""Nested grids of a point contact and the transfers between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.terms.differences import Differences
+from gearlube_core.ehl.point.terms.elements import Elements
+
+_DIRECT_NODES = 1300  # of the grid that is solved directly
+_SHORTEST = 12  # nodes of a side that is not halved any more
+
+
+@dataclass(slots=True)
+class Hierarchy:
+    """Grids from the coarsest to the finest and the transfers between neighbours."""
+
+    levels: Sequence[PointLevel]
+    transfers: Sequence[Transfer]  # between level k + 1 and k
+
+    def below(self, count: int) -> Hierarchy:
+        """Return the first `count` grids."""
+        return Hierarchy(self.levels[:count], self.transfers[: count - 1])
+
+
+def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tuple[int, int]]:
+    """Return shapes from coarse to fine; the side of the smaller spacing is halved first.
+
+    Parameters
+    ----------
+    nodes
+        (ny, nx) of the finest grid.
+    steps
+        Its spacings (dy, dx).
+    """
+    shapes = [nodes]
+    sides, spacing = list(nodes), list(steps)
+    while sides[0] * sides[1] > _DIRECT_NODES:
+        ratio = spacing[0] / spacing[1]
+        halve = [ratio < 1.5 and sides[0] > _SHORTEST, ratio > 1.0 / 1.5 and sides[1] > _SHORTEST]
+        if not any(halve):
+            halve = [side > _SHORTEST for side in sides]
+        for axis in range(2):
+            if halve[axis]:
+                coarse = (sides[axis] - 1) // 2 + 1
+                spacing[axis] *= (sides[axis] - 1) / (coarse - 1)
+                sides[axis] = coarse
+        shapes.insert(0, (sides[0], sides[1]))
+    return shapes
+
+
+def build_hierarchy(
+    problem: PointContactProblem,
+    scales: PointScales,
+    wedge: str,
+    discretisation: str = "differences",
+    cavitation: str = "reynolds",
+) -> Hierarchy:
+    """Return the grids of a problem."""
+    nx, ny = problem.nodes
+    dx = (problem.x_limits[1] - problem.x_limits[0]) / (nx - 1)
+    dy = (problem.y_limits[1] - problem.y_limits[0]) / (ny - 1)
+    nodes, steps = ((nx, ny), (dx, dy)) if scales.swap else ((ny, nx), (dy, dx))
+    shapes = grid_shapes(nodes, steps)
+    scheme = Elements if discretisation == "elements" else Differences
+    levels = [
+        PointLevel(problem, scales, shape, wedge, scheme=scheme, cavitation=cavitation)
+        for shape in shapes
+    ]
+    transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
+    return Hierarchy(levels, transfers)

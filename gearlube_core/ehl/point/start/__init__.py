@@ -1,0 +1,1 @@
+"""Ways to the film of a point contact where Newton's method fails directly."""

@@ -1,0 +1,160 @@
+"""A film that changes in time: what is given, and its grids."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.ehl.point.equations.mesh import Grading, x_nodes
+from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
+from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.solid_contact import SolidContact
+from gearlube_core.ehl.transient.conditions import Conditions
+from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.rows import row_shapes
+from gearlube_core.oil.film_oil import EhlLubricant
+
+_LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MovingFilm:
+    """A film over a rectangle whose gap, load and speeds follow from time.
+
+    d/dx(F_x dp/dx) + d/dy(F_y dp/dy) = d(u rho h)/dx + d(v rho h)/dy + d(rho h)/dt,
+    u = u(y, t),  v = s(t) u,  p = 0 on the border,
+    h = h_0(t) + h_u(x, y, t) + 1/(pi E*) int p/r,  int p = W(t),  p >= 0
+
+    F is rho h^3/(12 eta), times the flow factors of an Eyring oil.
+
+    Parameters
+    ----------
+    conditions
+        Of nodes and time.
+    lubricant
+        Oil; Newtonian where its Eyring stress is zero.
+    contact_modulus
+        E* [Pa]; half of E' = 2 E*.
+    x_limits, y_limits
+        Domain [m]; oil flows towards larger x.
+    nodes
+        Along x and along y, border included: 17 to 2049.
+    hertz, load, speed
+        Relative radii, W [N] and entrainment [m/s] that set scales; any typical ones.
+    open_film
+        Where the film is thicker [m] the oil is held at ambient pressure.
+    solids
+        What carries load where the film vanishes; None: the oil alone.
+    grading
+        Of the spacing along x; None: uniform.
+
+    Raises
+    ------
+    ParameterError
+        An input is out of range.
+    """
+
+    conditions: Conditions
+    lubricant: EhlLubricant
+    contact_modulus: float
+    x_limits: tuple[float, float]
+    y_limits: tuple[float, float]
+    nodes: tuple[int, int]
+    hertz: EllipticParaboloid
+    load: float
+    speed: float
+    open_film: float = math.inf
+    solids: SolidContact | None = None
+    grading: Grading | None = None
+
+    def __post_init__(self) -> None:
+        self.reference()
+
+    def reference(self) -> PointContactProblem:
+        """Return the steady contact of smooth solids that sets the scales."""
+        return PointContactProblem(
+            gap=self.hertz,
+            entrainment=(self.speed, 0.0),
+            load=self.load,
+            contact_modulus=self.contact_modulus,
+            lubricant=self.lubricant,
+            x_limits=self.x_limits,
+            y_limits=self.y_limits,
+            nodes=self.nodes,
+            hertz=self.hertz,
+            solids=self.solids,
+        )
+
+    @property
+    def x(self) -> Array:
+        """Return the nodes along x [m], shape (nx,)."""
+        return x_nodes(self.x_limits, self.nodes[0], self.grading)
+
+    @property
+    def y(self) -> Array:
+        """Return the nodes along y [m], shape (ny,)."""
+        return np.linspace(*self.y_limits, self.nodes[1])
+
+    def with_nodes(self, nx: int, ny: int) -> MovingFilm:
+        """Return the same film on another grid."""
+        return replace(self, nodes=(nx, ny))
+
+    @property
+    def long(self) -> bool:
+        """Tell whether rows along x are so far apart that they are best solved whole."""
+        (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
+        return (y1 - y0) * (nx - 1) > _LONG * (x1 - x0) * (ny - 1)
+
+    def grids(self, wedge: str) -> Hierarchy:
+        """Return the nested grids with the conditions of no time yet."""
+        (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
+        return self._hierarchy(
+            grid_shapes((ny, nx), ((y1 - y0) / (ny - 1), (x1 - x0) / (nx - 1))), wedge
+        )
+
+    def row_grids(self, wedge: str) -> Hierarchy:
+        """Return grids that differ in the number of their rows alone."""
+        nx, ny = self.nodes
+        return self._hierarchy(row_shapes((ny, nx)), wedge)
+
+    def with_rows_below(self, grids: Hierarchy, wedge: str) -> Hierarchy:
+        """Return `row_grids` with the finest of `grids`, whose conditions and load hold."""
+        finest = grids.levels[-1]
+        rows = self._hierarchy(row_shapes(finest.shape), wedge, finest)
+        for level in rows.levels:
+            level.set_load(finest.load)
+        return rows
+
+    def _hierarchy(
+        self, shapes: list[tuple[int, int]], wedge: str, finest: PointLevel | None = None
+    ) -> Hierarchy:
+        problem = self.reference()
+        scales = PointScales.of(problem)
+        new = shapes if finest is None else shapes[:-1]
+        levels: list[PointLevel] = [
+            MovingLevel(problem, scales, shape, wedge, self.grading) for shape in new
+        ]
+        if finest is not None:
+            levels.append(finest)
+        transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
+        return Hierarchy(levels, transfers)
+
+
+def set_conditions(
+    film: MovingFilm, grids: Hierarchy, time: float, finest_only: bool = False
+) -> None:
+    """Set the conditions of a time [s] on all grids, or their load alone on all but the finest."""
+    finest = grids.levels[-1]
+    for level in grids.levels:
+        assert isinstance(level, MovingLevel)
+        if level is finest or not finest_only:
+            level.set_conditions(film.conditions(level.grid.x, level.grid.y, time))
+    for level in grids.levels:
+        level.set_load(finest.load)

@@ -1,0 +1,42 @@
+"""What a model of meshing gears needs of a law of flank friction.
+
+A law is a NamedTuple of floats with the method of `FlankLaw`. It holds what it needs to know of
+the flanks. A new law is one new file; `flank_laws.FLANK_LAWS` names the laws that ship.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.friction.flank_data import ContactGeometry, FlankState
+from gearlube_core.kernels.tuple_methods import compile_methods
+from gearlube_core.oil.lubricant_state import LubricantState
+
+
+class FlankLaw(Protocol):
+    """Film and friction of one flank; a NamedTuple of floats with this method.
+
+    The method is compiled: it does not allocate and does not raise.
+    """
+
+    def flank_state(
+        self,
+        load: float,
+        entrainment_speed: float,
+        sliding_speed: float,
+        geometry: ContactGeometry,
+        oil: LubricantState,
+    ) -> FlankState:
+        """Return film, friction and temperature; arguments as in `flank.flank_friction`.
+
+        Friction forces are magnitudes: they oppose sliding.
+        """
+
+
+# makes a law for the roughness and the solids of a pair
+FlankLawMaker = Callable[[SurfaceParameters, SolidParameters], FlankLaw]
+
+compile_methods(FlankLaw, "flank_state")

@@ -1,0 +1,160 @@
+"""The sections of a hypoid gear file: every field's unit, meaning and range, stated once.
+
+The reference page of the docs and the error messages come from these models.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from gearlube_core.input_file.input_file import Section
+
+Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
+ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False)]
+SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
+Slant = Annotated[float, Field(ge=-90.0, le=90.0, allow_inf_nan=False)]
+TiltAngle = Annotated[float, Field(ge=0.0, le=80.0, allow_inf_nan=False)]
+RollRatio = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
+PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
+Clearance = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
+BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False)]
+Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False)]
+
+
+class Cutter(Section):
+    """Blades of one member's cutter head; angles are named after the flank that they cut."""
+
+    point_radius_mm: Length = Field(
+        description="Radius of both blade edges at the reference plane, the mid-working-depth plane"
+    )
+    convex_flank_blade_angle_deg: BladeAngle = Field(
+        description="Blade angle that cuts the convex flank (inside blades)"
+    )
+    concave_flank_blade_angle_deg: BladeAngle = Field(
+        description="Blade angle that cuts the concave flank (outside blades)"
+    )
+    convex_flank_angle_correction_deg: Correction = Field(
+        0.0, description="Added to the blade angle of the convex flank"
+    )
+    concave_flank_angle_correction_deg: Correction = Field(
+        0.0, description="Added to the blade angle of the concave flank"
+    )
+    blade_groups: int = Field(
+        ge=0,
+        le=60,
+        description="Blade groups of the cutter head; the work turns by one tooth per group (face "
+        "hobbing). 0: it stands still, single indexing (face milling)",
+    )
+    blade_edge_radius_mm: Length | None = Field(
+        None,
+        description="Radius of a curved blade edge, hollow, so that the flank is crowned along its "
+        "profile; absent: straight",
+    )
+    blade_offset_angle_deg: Slant | None = Field(
+        None,
+        description="Angle from the cutter radius to the blade face, about the cutter axis; "
+        "absent: the blade face is normal to the cutting velocity at the reference point",
+    )
+
+
+class FormateMachine(Section):
+    """Machine settings of a form-cut (not generated) gear."""
+
+    machine_root_angle_deg: ConeAngle = Field(
+        description="From the gear axis to the reference plane of the cutter"
+    )
+    machine_center_to_back_mm: Millimetres = Field(
+        description="From the crossing point to the apex of the reference plane (the machine "
+        "centre), along the gear axis, positive beyond the crossing point"
+    )
+    horizontal_setting_mm: Millimetres = Field(
+        description="Cutter centre from the machine centre along the root line, positive to the "
+        "heel"
+    )
+    vertical_setting_mm: Millimetres = Field(
+        description="Cutter centre from the machine centre, parallel to the offset and positive "
+        "on the side of the pinion axis"
+    )
+
+
+class GeneratorMachine(Section):
+    """Machine settings of a pinion generated with cutter tilt.
+
+    The cradle stands in for the gear: with all crowning taken away, its axis is the gear axis.
+    """
+
+    machine_root_angle_deg: Slant = Field(
+        description="Of the pinion axis from the plane at right angles to the cradle axis; "
+        "positive with the pinion leaning to the side of the blade tips"
+    )
+    machine_center_to_back_mm: Millimetres = Field(
+        description="Shift of the pinion along its axis, positive away from the crossing point: "
+        "the pinion is cut that much further out than it runs"
+    )
+    sliding_base_mm: Millimetres = Field(
+        description="From the pinion axis to the machine plane, which holds the cutter centre, "
+        "along the cradle axis; positive with the pinion axis on the side of the blade tips"
+    )
+    blank_offset_mm: Millimetres = Field(
+        description="Of the pinion axis from the cradle axis, positive as the offset of the pair"
+    )
+    radial_setting_mm: Length = Field(description="Cutter centre from the cradle axis")
+    basic_cradle_angle_deg: Angle = Field(
+        description="q: azimuth of the cutter centre about the cradle axis, from the direction of "
+        "the pinion axis towards that of the offset; only a phase"
+    )
+    basic_swivel_angle_deg: Angle = Field(
+        description="j: the cutter axis leans to the azimuth q - j - 90 deg"
+    )
+    tilt_angle_deg: TiltAngle = Field(
+        description="i: angle between the cutter axis and the cradle axis"
+    )
+    ratio_of_roll: RollRatio = Field(description="Rotation of the work per rotation of the cradle")
+
+
+class Member(Section):
+    """Blank of one member; apexes count positive beyond the crossing point of the axes."""
+
+    teeth: int = Field(ge=3, le=400, description="Number of teeth")
+    face_width_mm: Length = Field(description="Face width along the pitch cone")
+    outer_cone_distance_mm: Length = Field(
+        description="From the pitch apex to the heel, along the pitch cone"
+    )
+    pitch_angle_deg: ConeAngle = Field(
+        description="Half angle of the pitch cone; face and root cone have the same (uniform depth)"
+    )
+    spiral_angle_deg: SpiralAngle = Field(description="Mean spiral angle, without sign")
+    pitch_apex_mm: Millimetres = Field(
+        description="Apex of the pitch cone, positive beyond the crossing point"
+    )
+    face_apex_mm: Millimetres = Field(
+        description="Apex of the face cone, positive beyond the crossing point"
+    )
+    cutter: Cutter
+
+
+class Pinion(Member):
+    """Blank, cutter and machine of the pinion."""
+
+    machine: GeneratorMachine
+
+
+class Gear(Member):
+    """Blank, cutter and machine of the gear."""
+
+    machine: FormateMachine
+
+
+class Pair(Section):
+    """How the members stand to each other; axes at 90 degrees."""
+
+    offset_mm: PairOffset = Field(description="Distance of the axes (pinion offset)")
+    clearance_mm: Clearance | None = Field(
+        None,
+        description="Between the top of one member and the root of the other; absent: an eighth of "
+        "the working depth",
+    )

@@ -1,0 +1,77 @@
+"""The axle with a law of friction and a film formula from outside the package."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, OUTPUT_NAMES, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
+from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, pack_mesh
+from gearlube_core.mesh_table.kernels import pair_channels
+from gearlube_core.oil.lubricant_state import lubricant_state
+from tests.helpers.constant_friction import COEFFICIENTS, LINE_LENGTH, OIL, SPEED, TORQUE
+from tests.helpers.own_process import INTERPRETED, report_of
+
+FLANKS = (1, 2, 3)
+
+
+@cache
+def interpreted():
+    return report_of("constant_friction", **INTERPRETED)
+
+
+def value(outputs, name):
+    return outputs[OUTPUT_INDEX[name]]
+
+
+@pytest.mark.parametrize("case", [0, 1])
+def test_loaded_flanks_have_the_coefficient_and_the_oil_temperature(case):
+    outputs = interpreted()[case]["moving"]
+    loads = [value(outputs, f"flank[{i}].load") for i in FLANKS]
+    assert sum(loads) == pytest.approx(abs(value(outputs, "mesh.force")), rel=1e-9)
+    for i, load in zip(FLANKS, loads, strict=True):
+        mu = COEFFICIENTS[case] if load > 0.0 else 0.0
+        assert value(outputs, f"flank[{i}].friction_coefficient") == mu
+        assert value(outputs, f"flank[{i}].temperature") == OIL
+
+
+def test_lost_power_goes_with_the_coefficient_in_one_state():
+    """P = sum mu F |dU|: the state at rest is found without friction."""
+    one, two = (case["at rest"] for case in interpreted())
+    ratio = value(two, "friction.power_loss") / value(one, "friction.power_loss")
+    assert ratio == pytest.approx(COEFFICIENTS[1] / COEFFICIENTS[0], rel=1e-12)
+    assert value(one, "friction.power_loss") > 0.0
+    assert value(one, "friction.power_loss_boundary") == 0.0
+
+
+def test_film_follows_the_formula_from_outside():
+    """Martin: h = 4.9 eta u R/w, at the angle 0 of the start."""
+    outputs = interpreted()[0]["at rest"]
+    parameters = mohammadpour_2015_axle()
+    modulus = contact_modulus(parameters.solid, parameters.solid)
+    mesh = pack_mesh(parameters.mesh, modulus, parameters.radii, parameters.mesh_stiffness)
+    table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+    window, channels = np.zeros(mesh.window_size), np.zeros(N_CHANNELS)
+    at_load = MeshAtLoad(np.zeros(mesh.series_size), mesh.orders, window, mesh.nodes)
+    blend_mesh(TORQUE, 1.0, table, at_load)
+    eta0 = lubricant_state(parameters.oil.parameters(), OIL).eta0
+    teeth = float(parameters.mesh.pinion_teeth)
+    loads = np.array([value(outputs, f"flank[{i}].load") for i in FLANKS])
+    assert np.count_nonzero(loads) >= 2
+    for pair in np.flatnonzero(loads):
+        pair_channels(window, mesh.nodes, teeth, 0.0, int(pair), N_CHANNELS, channels)
+        speed = abs(channels[ENTRAIN]) * SPEED
+        film = 4.9 * eta0 * speed * channels[R_E] * LINE_LENGTH / loads[pair]
+        # powers against products: rounding
+        assert value(outputs, f"flank[{pair + 1}].film_thickness") == pytest.approx(film, rel=1e-12)
+
+
+@pytest.mark.slow
+def test_compiled_axle_equals_the_interpreted_one(tmp_path):
+    compiled = report_of("constant_friction", NUMBA_CACHE_DIR=str(tmp_path))
+    for one, two in zip(compiled, interpreted(), strict=True):
+        for name, a, b in zip(OUTPUT_NAMES, one["moving"], two["moving"], strict=True):
+            # rounding of some 1e2 operations; forces and speeds are differences of larger terms
+            assert a == pytest.approx(b, rel=1e-9, abs=1e-9), name
