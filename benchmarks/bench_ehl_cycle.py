@@ -28,7 +28,7 @@ from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, HelicalFilm, jamali_2015_film
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.oil.film_oil import fill_properties
+from gearlube_core.oil.film_properties import fill_properties
 
 Mesh = tuple[str, tuple[int, int], tuple[tuple[float, float], ...]]
 THESIS: Mesh = ("that of the thesis", (182, 857), ())
@@ -101,8 +101,8 @@ def friction(film: HelicalFilm, found: FilmSolution) -> float:
     speed_1, speed_2 = film.surface_speeds(found.y, film.line(found.time))
     properties = np.empty((4, found.pressure.size))
     fill_properties(oil, np.ascontiguousarray(found.pressure).ravel(), *properties)
-    rate = np.abs(speed_2 - speed_1) / (found.film * oil.tau0)
-    stress = oil.tau0 * np.arcsinh(properties[0].reshape(found.film.shape) * rate)
+    rate = np.abs(speed_2 - speed_1) / (found.film * oil.shear.tau0)
+    stress = oil.shear.tau0 * np.arcsinh(properties[0].reshape(found.film.shape) * rate)
     stress[found.pressure < LOADED] = 0.0
     return float(np.trapezoid(np.trapezoid(stress, found.x, axis=0), found.y))
 

@@ -20,7 +20,7 @@ from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
 from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.film.nijenbanning_1994 import regime_films
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 logger = logging.getLogger("docs.ehl")
 
@@ -94,7 +94,7 @@ class Contact:
             entrainment=(speed * math.cos(psi), speed * math.sin(psi)),
             load=self.load_group * REDUCED_MODULUS * RADIUS**2,
             contact_modulus=0.5 * REDUCED_MODULUS,
-            lubricant=ehl_lubricant(eta0=ETA0, alpha=ALPHA),
+            lubricant=film_oil(eta0=ETA0, alpha=ALPHA),
             nodes=(nodes, nodes),
         )
 

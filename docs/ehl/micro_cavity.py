@@ -21,14 +21,14 @@ from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.steady import solve_steady_film
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from gearlube_core.storage.atomic_file import write_arrays
 
 logger = logging.getLogger("docs.ehl")
 
 RADIUS, LOAD, SPEED = 0.0125, 15.0, 0.09  # m, N, mean of the surfaces m/s
 MODULUS = 0.5 * 110e9  # E* [Pa]
-OIL = ehl_lubricant(eta0=0.25, alpha=22e-9)
+OIL = film_oil(eta0=0.25, alpha=22e-9)
 A = (0.75 * LOAD * RADIUS / MODULUS) ** (1.0 / 3.0)  # dry radius [m]
 _FLAT = 0.9  # dry radii within which the film is compared
 _PIECE = 80e-6  # of oil that is followed [m]

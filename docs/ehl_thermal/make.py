@@ -17,10 +17,10 @@ from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
 from gearlube_core.ehl.point.traction import point_traction
 from gearlube_core.film.grubin_1949 import inlet_heating_factor
-from gearlube_core.oil.film_oil import EhlLubricant, viscosity_cooling
+from gearlube_core.oil.film_oil import FilmOil, viscosity_cooling
 
 PAGE = Path(__file__).resolve().parents[1] / "ehl_thermal.md"
-OIL = PointCase.named("elliptical_thermal").oil.ehl_lubricant()
+OIL = PointCase.named("elliptical_thermal").oil.film_oil()
 RATIOS = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0)
 RADIUS, MODULUS = 0.012, 115e9
 SPEEDS = (1.0, 4.0)
@@ -78,7 +78,7 @@ def solved(problem: PointContactProblem) -> Row:
     )
 
 
-def ball(speed: float, ratio: float, oil: EhlLubricant = OIL) -> PointContactProblem:
+def ball(speed: float, ratio: float, oil: FilmOil = OIL) -> PointContactProblem:
     """Return a ball of 12 mm under 1 GPa with a slide-roll ratio along the entrainment."""
     return elliptical_contact(
         R_x=RADIUS,
@@ -118,7 +118,7 @@ def inlet_table() -> str:
         "Gupta et al. 1992 | converged |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
-    oil = OIL._replace(tau0=0.0, eta0=0.04, expansion=0.0)
+    oil = OIL.newtonian()._replace(eta0=0.04, expansion=0.0)
     slope = viscosity_cooling(oil, 0.0, oil.temperature)
     for speed in INLETS:
         round_one = replace(ball(speed, 0.0, oil), nodes=(97, 65))

@@ -7,7 +7,6 @@ transient  Point contacts whose gap, load and speeds change in time.
 gears      Films on the flanks of helical and hypoid pairs through their mesh cycle.
 case       Contacts as TOML files describe them.
 gap        Shapes of the gap: ridges, dents, waviness, measured surfaces.
-flow       Flow of an oil film under pressure and shear.
 =========  ========================================================================
 
 Each folder of a solver has `problem`, `settings`, `solution` and `solver` on top; its other files
@@ -19,8 +18,8 @@ Examples
 The film of a line contact, of 2 kN over 10 mm, that rolls at 2 m/s:
 
 >>> from gearlube_core.ehl import LineProblem, LineSettings, solve_line
->>> from gearlube_core.oil.film_oil import ehl_lubricant
->>> oil = ehl_lubricant(eta0=0.04, alpha=2e-8)  # Pa s, 1/Pa
+>>> from gearlube_core.oil.film_oil_data import film_oil
+>>> oil = film_oil(eta0=0.04, alpha=2e-8)  # Pa s, 1/Pa
 >>> line = solve_line(
 ...     LineProblem(lubricant=oil, radius=0.01, line_load=2e5, reduced_modulus=2.3e11,
 ...                 speed_1=2.0, speed_2=2.0),

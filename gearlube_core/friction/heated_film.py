@@ -24,7 +24,7 @@ from gearlube_core.oil.houpert_1985 import (
     houpert_log_viscosity,
     houpert_temperature_coefficient,
 )
-from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
+from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY
 
 SEARCH_ITERATIONS = 40
 SEARCH_TOLERANCE = 1.0e-3  # K, of the last step; the error after a secant step is far smaller

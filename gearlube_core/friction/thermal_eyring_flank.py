@@ -35,7 +35,7 @@ from gearlube_core.oil.houpert_1985 import (
     houpert_log_viscosity,
     houpert_temperature_coefficient,
 )
-from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY, ROELANDS_PRESSURE
+from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY, ROELANDS_PRESSURE
 
 _LARGEST_OVER_MEAN = 1.5  # Hertz pressure
 

@@ -27,7 +27,7 @@ from gearlube_core.oil.houpert_1985 import (
     houpert_log_viscosity,
     houpert_temperature_coefficient,
 )
-from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
+from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY
 
 NEWTONIAN, EYRING, PLASTIC = 0.0, 1.0, 2.0
 REGIMES = {NEWTONIAN: "newtonian", EYRING: "eyring", PLASTIC: "elastic_plastic"}

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.eyring_flow import eyring_flow_factor, eyring_mean_stress
 
 # asinh(x) = ln 2x to double precision above x = 1e8
 _LOG_LARGE_RATIO = math.log(1.0e8)
 _LN2 = math.log(2.0)
+# sinh and cosh of a film's half drop of stress are kept finite
+_LARGEST_SIGMA = 100.0
+_LARGEST_STRESS = 600.0
+_SMALL_SQUARE = 0.25
+_SMALL_STRESS = 1e-3
 
 
 @kernel
@@ -41,3 +50,90 @@ def eyring_stress_ratio(newtonian_ratio: float, exponent: float) -> float:
     if log_ratio > _LOG_LARGE_RATIO:
         return log_ratio + _LN2
     return math.asinh(math.exp(log_ratio))
+
+
+class Eyring(NamedTuple):
+    """Shear law du/dz = (tau0/eta) sinh(tau/tau0), with closed forms for a film.
+
+    Source: [eyring_1936]
+    """
+
+    tau0: float  # Eyring stress [Pa]; 0: Newtonian
+
+    @kernel
+    def rate_ratio(self, q: float) -> tuple[float, float]:
+        """Return G = sinh(t)/t and dG/dq, q = t^2."""
+        if q < _SMALL_SQUARE:
+            G = 1.0 + q / 6.0 * (
+                1.0 + q / 20.0 * (1.0 + q / 42.0 * (1.0 + q / 72.0 * (1.0 + q / 110.0)))
+            )
+            slope = (
+                1.0
+                + q
+                / 10.0
+                * (1.0 + q / 28.0 * (1.0 + q / 54.0 * (1.0 + q / 88.0 * (1.0 + q / 130.0))))
+            ) / 6.0
+            return G, slope
+        t = math.sqrt(q)
+        grown, inverse = math.exp(t), 1.0 / t
+        shrunk = 1.0 / grown
+        G = 0.5 * (grown - shrunk) * inverse
+        return G, 0.5 * (0.5 * (grown + shrunk) - G) * inverse * inverse
+
+    @kernel
+    def flow_factor(self, sigma: float, a: float) -> tuple[float, float, float]:
+        """Return `eyring_flow_factor`."""
+        return eyring_flow_factor(sigma, a)
+
+    @kernel
+    def mid_stress(self, sigma: float, a: float) -> float:
+        """Return the stress at mid-film over tau0 [-], `eyring_mean_stress`."""
+        return eyring_mean_stress(sigma, a, 1.0)
+
+    @kernel
+    def shear_rate(self, stress: float, eta: float) -> float:
+        """Return the shear rate [1/s] of a stress [Pa], finite for any stress."""
+        if self.tau0 > 0.0:
+            ratio = min(max(stress / self.tau0, -_LARGEST_STRESS), _LARGEST_STRESS)
+            return self.tau0 / eta * math.sinh(ratio)
+        return stress / eta
+
+    @kernel
+    def stress_share(self, stress: float) -> float:
+        """Return d ln(tau)/d ln(eta) at one shear rate, tanh(t)/t [-]; stress not negative."""
+        if self.tau0 > 0.0 and stress > _SMALL_STRESS * self.tau0:
+            return math.tanh(stress / self.tau0) * self.tau0 / stress
+        return 1.0
+
+    @kernel
+    def layered_stress(self, eta: np.ndarray, h: float, slope: float, sliding: float) -> float:
+        """Return the stress at mid-film of layers of uneven viscosity [Pa].
+
+        Notes
+        -----
+        Closed form: integral of [sinh(a) cosh(bz) + cosh(a) sinh(bz)]/eta.
+        """
+        m = eta.size
+        dz = 1.0 / (m - 1)
+        even, odd, b = 0.0, 0.0, 0.0
+        if self.tau0 > 0.0:
+            b = slope * h / self.tau0
+            b = math.copysign(min(abs(b), 2.0 * _LARGEST_SIGMA), b)
+        for k in range(m):
+            z = k * dz - 0.5
+            fluidity = (dz if 0 < k < m - 1 else 0.5 * dz) / eta[k]
+            if self.tau0 > 0.0:
+                even += fluidity * math.cosh(b * z)
+                odd += fluidity * math.sinh(b * z)
+            else:
+                even += fluidity
+                odd += fluidity * z
+        if self.tau0 > 0.0:
+            asymmetry = odd / even
+            root = even * math.sqrt(max(1.0 - asymmetry * asymmetry, 1e-300))
+            shift = math.atanh(min(max(asymmetry, -1.0 + 1e-15), 1.0 - 1e-15))
+            return self.tau0 * (math.asinh(sliding / (h * self.tau0 * root)) - shift)
+        return (sliding / h - slope * h * odd) / even
+
+
+NEWTONIAN = Eyring(0.0)

@@ -9,13 +9,13 @@ from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.viscosity_constants import (
+from gearlube_core.oil.roelands_1966 import (
+    GLASS_TEMPERATURE,
     ROELANDS_LOG_VISCOSITY,
     ROELANDS_PRESSURE,
     roelands_exponent,
 )
 
-GLASS_TEMPERATURE = 138.0  # K, where the law of Roelands lets the viscosity grow without bound
 # the two temperatures of an oil data sheet
 _COLD, _HOT = 313.15, 373.15  # K
 

@@ -10,11 +10,7 @@ from typing import Any
 
 from gearlube_core.checks import check_finite, check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.viscosity_constants import (
-    MM2_S,
-    walther_coefficients,
-    walther_double_log,
-)
+from gearlube_core.oil.walther_1931 import MM2_S, walther_coefficients, walther_double_log
 from gearlube_core.units import celsius_to_kelvin
 
 LIBRARY_PATH = Path(__file__).with_name("lubricants.toml")

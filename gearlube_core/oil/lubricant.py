@@ -14,11 +14,8 @@ from gearlube_core.oil.library import (
     lubricant_data,
     read_library,
 )
-from gearlube_core.oil.viscosity_constants import (
-    roelands_exponent,
-    walther_coefficients,
-    walther_kinematic_viscosity,
-)
+from gearlube_core.oil.roelands_1966 import roelands_exponent
+from gearlube_core.oil.walther_1931 import walther_coefficients, walther_kinematic_viscosity
 
 
 class LubricantParameters(NamedTuple):

@@ -10,11 +10,11 @@ from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coeffici
 from gearlube_core.ehl.point.dry_contact import dry_contact, dry_contact_of_gap
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.references.hertz_reference import HertzContact
 
 E = 1.1375e11
-OIL = ehl_lubricant(eta0=0.04, alpha=2e-8)
+OIL = film_oil(eta0=0.04, alpha=2e-8)
 
 
 def hertz_grid(hertz, nx, ny, reach=1.25):

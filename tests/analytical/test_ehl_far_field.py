@@ -14,10 +14,10 @@ from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_cont
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import moes_contact
 
-ISOVISCOUS = ehl_lubricant(eta0=0.02, alpha=0.0, density_law="incompressible")
+ISOVISCOUS = film_oil(eta0=0.02, alpha=0.0, density_law="incompressible")
 LIMITS = ((-3e-3, 2e-3), (-4e-3, 5e-3))
 
 

@@ -7,14 +7,16 @@ import pytest
 from scipy.integrate import cumulative_simpson, simpson
 from scipy.optimize import root
 
-from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor, eyring_mean_stress
-from gearlube_core.ehl.flow.flow_factors import eyring_flow
 from gearlube_core.ehl.point.equations.film_shear import FilmShear
 from gearlube_core.ehl.point.equations.shear_factors import ObliqueFactors
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.eyring_1936 import Eyring
+from gearlube_core.oil.eyring_flow import eyring_flow_factor, eyring_mean_stress
+from gearlube_core.oil.film_oil_data import film_oil
+from gearlube_core.oil.shear_flow import shear_flow
 
 UNLIMITED = math.inf
+EYRING = Eyring(1.0)
 
 
 def profile_flow(
@@ -54,8 +56,12 @@ def test_factors_equal_the_flow_of_the_velocity_profile(slope_s, slope_r, slidin
     # intervals is exact to 1e-10
     eta, h, tau0 = 2.0, 0.2e-6, 5e6
     flow = profile_flow(np.array([slope_s, slope_r]), sliding, eta, h, tau0)
-    factors = eyring_flow(
-        0.5 * h * slope_s / tau0, 0.5 * h * slope_r / tau0, eta * sliding / (h * tau0), UNLIMITED
+    factors = shear_flow(
+        EYRING,
+        0.5 * h * slope_s / tau0,
+        0.5 * h * slope_r / tau0,
+        eta * sliding / (h * tau0),
+        UNLIMITED,
     )
     newtonian = -(h**3) / (12.0 * eta)
     assert flow[0] == pytest.approx(newtonian * factors.along * slope_s, rel=1e-7, abs=1e-16)
@@ -67,14 +73,14 @@ def test_factors_equal_the_flow_of_the_velocity_profile(slope_s, slope_r, slidin
 )
 def test_values_of_conry(sigma, a, value):
     # 3 (s cosh s - sinh s)/s^3 sqrt(1 + (a s/sinh s)^2) to the digits printed
-    assert eyring_flow(sigma, 0.0, a, UNLIMITED).along == pytest.approx(value, abs=6e-7)
+    assert shear_flow(EYRING, sigma, 0.0, a, UNLIMITED).along == pytest.approx(value, abs=6e-7)
 
 
 def test_without_cross_slope_the_one_dimensional_factor_returns():
     # quadrature and an iteration to 1e-9 against the closed form; slopes a digit less
     for sigma in (0.0, 1e-7, 3e-5, 0.02, 0.4, 2.4, 6.9, 19.0, -70.0):
         for a in (0.0, 1e-3, 2.0, -1e4, 1e30):
-            flow = eyring_flow(sigma, 0.0, a, UNLIMITED)
+            flow = shear_flow(EYRING, sigma, 0.0, a, UNLIMITED)
             factor, by_sigma, by_a = eyring_flow_factor(sigma, a)
             assert flow.along == pytest.approx(factor, rel=2e-9)
             assert flow.flow_ss == pytest.approx(factor + sigma * by_sigma, rel=1e-8)
@@ -86,14 +92,14 @@ def test_without_cross_slope_the_one_dimensional_factor_returns():
 
 def test_small_stress_is_newtonian_to_second_order():
     # tau sinh(t)/t: the first correction of any mean is of the order of the stress squared
-    flow = eyring_flow(1e-4, 2e-4, 3e-4, UNLIMITED)
+    flow = shear_flow(EYRING, 1e-4, 2e-4, 3e-4, UNLIMITED)
     assert flow.along == pytest.approx(1.0, abs=1e-6)
     assert flow.across == pytest.approx(1.0, abs=1e-6)
 
 
 def test_pumping_alone_does_not_know_directions():
-    straight = eyring_flow(3.0, 0.0, 0.0, UNLIMITED)
-    turned = eyring_flow(3.0 * math.cos(0.7), 3.0 * math.sin(0.7), 0.0, UNLIMITED)
+    straight = shear_flow(EYRING, 3.0, 0.0, 0.0, UNLIMITED)
+    turned = shear_flow(EYRING, 3.0 * math.cos(0.7), 3.0 * math.sin(0.7), 0.0, UNLIMITED)
     assert turned.along == pytest.approx(straight.along, rel=1e-12)
     assert turned.across == pytest.approx(straight.along, rel=1e-12)
 
@@ -101,15 +107,15 @@ def test_pumping_alone_does_not_know_directions():
 def test_vanishing_slopes_leave_the_closed_limits():
     # S_s = sqrt(1 + a^2); across, all layers shear at the mean viscosity a/asinh(a)
     a = 40.0
-    flow = eyring_flow(0.0, 0.0, a, UNLIMITED)
+    flow = shear_flow(EYRING, 0.0, 0.0, a, UNLIMITED)
     assert flow.along == pytest.approx(math.hypot(1.0, a), rel=1e-12)
     assert flow.across == pytest.approx(a / math.asinh(a), rel=1e-12)
 
 
 def test_factor_is_smooth_where_its_ratio_ends():
     for sigma_r in (0.0, 0.8, 9.0):
-        inside = eyring_flow(0.99e-5, sigma_r, 12.0, UNLIMITED).along
-        outside = eyring_flow(1.01e-5, sigma_r, 12.0, UNLIMITED).along
+        inside = shear_flow(EYRING, 0.99e-5, sigma_r, 12.0, UNLIMITED).along
+        outside = shear_flow(EYRING, 1.01e-5, sigma_r, 12.0, UNLIMITED).along
         assert inside == pytest.approx(outside, rel=1e-9)
 
 
@@ -120,7 +126,7 @@ def test_slopes_match_differences_over_the_whole_range():
     for _ in range(300):
         sigma = rng.normal(size=2) * 10 ** rng.uniform(-2.0, 1.4)
         a = 10 ** rng.uniform(-2.0, 12.0)
-        here = eyring_flow(*sigma, a, UNLIMITED)
+        here = shear_flow(EYRING, *sigma, a, UNLIMITED)
         assert here.flow_ss * here.flow_rr > here.flow_sr**2
         step = 1e-5
         for axis, (first, second) in enumerate(
@@ -130,12 +136,12 @@ def test_slopes_match_differences_over_the_whole_range():
             for sign in (1.0, -1.0):
                 moved = sigma.copy()
                 moved[axis] += sign * step
-                there = eyring_flow(*moved, a, UNLIMITED)
+                there = shear_flow(EYRING, *moved, a, UNLIMITED)
                 flows.append(np.array([there.along, there.across]) * moved)
             slope = (flows[0] - flows[1]) / (2.0 * step)
             size = max(here.flow_ss, here.flow_rr)
             assert slope == pytest.approx([first, second], abs=1e-5 * size)
-        up, down = (eyring_flow(*sigma, a * (1.0 + e), UNLIMITED) for e in (1e-5, -1e-5))
+        up, down = (shear_flow(EYRING, *sigma, a * (1.0 + e), UNLIMITED) for e in (1e-5, -1e-5))
         slope_s = (up.along - down.along) * sigma[0] / (2e-5 * a)
         slope_r = (up.across - down.across) * sigma[1] / (2e-5 * a)
         size = max(here.along, here.across) * float(np.hypot(*sigma)) / a
@@ -145,12 +151,12 @@ def test_slopes_match_differences_over_the_whole_range():
 
 def test_extreme_films_stay_finite():
     for sigma_s, sigma_r, a in ((1e9, -1e9, 1e300), (0.0, 300.0, 1e300), (1e-300, 0.0, -1e200)):
-        assert np.isfinite(eyring_flow(sigma_s, sigma_r, a, UNLIMITED)).all()
+        assert np.isfinite(shear_flow(EYRING, sigma_s, sigma_r, a, UNLIMITED)).all()
 
 
 def test_limiting_stress_caps_mid_film_stress_and_the_factor():
-    free = eyring_flow(0.4, 0.2, 1e6, UNLIMITED)
-    capped = eyring_flow(0.4, 0.2, 1e6, 3.0)
+    free = shear_flow(EYRING, 0.4, 0.2, 1e6, UNLIMITED)
+    capped = shear_flow(EYRING, 0.4, 0.2, 1e6, 3.0)
     assert free.stress_s > 14.0
     assert capped.stress_s == 3.0
     # the film flows as one sheared just to its limit
@@ -159,13 +165,13 @@ def test_limiting_stress_caps_mid_film_stress_and_the_factor():
         middle = 0.5 * (low + high)
         low, high = (
             (middle, high)
-            if eyring_flow(0.4, 0.2, middle, UNLIMITED).stress_s < 3.0
+            if shear_flow(EYRING, 0.4, 0.2, middle, UNLIMITED).stress_s < 3.0
             else (low, middle)
         )
-    equal = eyring_flow(0.4, 0.2, low, UNLIMITED)
+    equal = shear_flow(EYRING, 0.4, 0.2, low, UNLIMITED)
     assert capped.along == pytest.approx(equal.along, rel=1e-9)
     assert capped.across == pytest.approx(equal.across, rel=1e-9)
-    assert eyring_flow(0.4, 0.2, 2.0, 3.0) == eyring_flow(0.4, 0.2, 2.0, UNLIMITED)
+    assert shear_flow(EYRING, 0.4, 0.2, 2.0, 3.0) == shear_flow(EYRING, 0.4, 0.2, 2.0, UNLIMITED)
     assert capped.flow_s_a == 0.0
 
 
@@ -181,7 +187,7 @@ def shear_of(oil, sliding, x, y, **units):
 
 
 def test_arrays_hold_the_tensor_of_every_node_and_turn_with_sliding():
-    oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
+    oil = film_oil(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
     x, y, pressure, film, eta = grid()
     fields = pressure, film, 1.0 / eta
     along_x = shear_of(oil, (0.5, 0.0), x, y).factors(*fields)
@@ -190,8 +196,8 @@ def test_arrays_hold_the_tensor_of_every_node_and_turn_with_sliding():
     slope_x = (pressure[j, i + 1] - pressure[j, i - 1]) / (2.0 * (x[1] - x[0]))
     slope_y = (pressure[j + 1, i] - pressure[j - 1, i]) / (2.0 * (y[1] - y[0]))
     half = 0.5 * film[j, i] / 6e6
-    flow = eyring_flow(
-        half * slope_x, half * slope_y, 0.5 * eta[j, i] / (film[j, i] * 6e6), UNLIMITED
+    flow = shear_flow(
+        EYRING, half * slope_x, half * slope_y, 0.5 * eta[j, i] / (film[j, i] * 6e6), UNLIMITED
     )
     assert along_x.xx[j, i] == pytest.approx(flow.along, rel=1e-12)
     assert along_x.yy[j, i] == pytest.approx(flow.across, rel=1e-12)
@@ -211,7 +217,7 @@ def test_arrays_hold_the_tensor_of_every_node_and_turn_with_sliding():
 
 def test_series_of_small_stress_meet_the_factors():
     # sides of the switch at 0.01: terms of the fourth order, 1e-8, are left out below
-    oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=1e4)
+    oil = film_oil(eta0=0.01, alpha=2e-8, eyring_stress=1e4)
     values = []
     for size in (0.00999, 0.01001):
         shear = FilmShear.of(oil, (1.0, 0.0), (0.25, 0.25), 3, pressure=1e4)
@@ -226,7 +232,7 @@ def test_series_of_small_stress_meet_the_factors():
 
 
 def test_units_of_the_arrays_do_not_matter():
-    oil = ehl_lubricant(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
+    oil = film_oil(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
     x, y, pressure, film, eta = grid()
     si = shear_of(oil, (0.4, 0.3), x, y).factors(pressure, film, 1.0 / eta)
     scaled = shear_of(oil, (0.4, 0.3), x, y, film=1e-6, pressure=1e9, viscosity=0.01).factors(
@@ -238,4 +244,4 @@ def test_units_of_the_arrays_do_not_matter():
 
 def test_a_newtonian_oil_is_refused():
     with pytest.raises(ParameterError, match="tau0"):
-        FilmShear.of(ehl_lubricant(eta0=0.01, alpha=2e-8), (1.0, 0.0), (1e-6, 1e-6), 3)
+        FilmShear.of(film_oil(eta0=0.01, alpha=2e-8), (1.0, 0.0), (1e-6, 1e-6), 3)

@@ -15,13 +15,14 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
+from gearlube_core.oil.eyring_1936 import Eyring
 from tests.helpers.hypoid_film_cases import BETA, flank_cycle, hypoid_film, lasting
 
 
 def test_a_turned_gap_under_straight_entrainment_is_the_oblique_contact():
     """Axes are a choice: the ellipse turned by psi with u along x, or psi between both."""
     R_x, R_y, psi, speed = 0.012, 0.036, math.radians(40.0), 2.0
-    oil = hypoid_film(flank_cycle()).lubricant._replace(tau0=0.0)
+    oil = hypoid_film(flank_cycle()).lubricant.newtonian()
     a_x, a_y, _ = hertz_ellipse(R_x, R_y, 115.4e9, 60.0)
     shared = {"load": 60.0, "contact_modulus": 115.4e9, "lubricant": oil}
     aligned = PointContactProblem(
@@ -60,7 +61,7 @@ def test_without_sliding_to_speak_of_only_slopes_of_pressure_thin_the_oil():
     """Eyring's flow is the Newtonian one where no stress nears tau0, at rest and in time."""
     cycle = flank_cycle()
     film = hypoid_film(lasting(cycle, float(cycle.time[15]), np.linspace(0.0, 3e-4, 5)))
-    stiff = replace(film, lubricant=film.lubricant._replace(tau0=1e12))
+    stiff = replace(film, lubricant=film.lubricant._replace(shear=Eyring(1e12)))
     stiff, newtonian = (march_flank(replace(stiff, flow=flow), 2, BETA) for flow in FLOWS)
     # stresses reach 1e9 Pa, 1e-3 of tau0: factors of 1 + 1e-6 where the film feels them least
     np.testing.assert_allclose(stiff["central_film"], newtonian["central_film"], rtol=1e-5)

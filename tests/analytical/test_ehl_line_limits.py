@@ -16,11 +16,11 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import hertz_start, solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_line_cases import thesis_line
 
 R = 0.01  # m
-ISOVISCOUS = ehl_lubricant(eta0=0.1, alpha=0.0, density_law="incompressible")
+ISOVISCOUS = film_oil(eta0=0.1, alpha=0.0, density_law="incompressible")
 
 
 def martin(inlet: float) -> tuple[float, float]:
@@ -81,7 +81,7 @@ def test_rigid_isoviscous_film_is_that_of_martin():
 
 
 def test_heavily_loaded_pressure_is_that_of_hertz():
-    contact = thesis_line(lubricant=ehl_lubricant(eta0=1e-4, alpha=13.3e-9))
+    contact = thesis_line(lubricant=film_oil(eta0=1e-4, alpha=13.3e-9))
     film = solve_line(contact, LineSettings(nodes=1001))
     X = film.x / contact.half_width
     hertz = contact.hertz_pressure * np.sqrt(np.maximum(1.0 - X * X, 0.0))
@@ -142,7 +142,7 @@ def test_film_does_not_depend_on_how_the_deflection_is_summed():
 
 def _manufactured(nodes: int, stencil: str) -> float:
     # P = 0.6 (1 - X^2)^2 on one full film: its balance by quadrature-free exact derivatives
-    contact = thesis_line(lubricant=ehl_lubricant(eta0=0.02, alpha=2e-9, law="barus"), domain=None)
+    contact = thesis_line(lubricant=film_oil(eta0=0.02, alpha=2e-9, law="barus"), domain=None)
     b = contact.half_width
     contact = replace(contact, domain=(-b, b))
     system = LineSystem(contact, nodes, stencil, False)
@@ -161,7 +161,7 @@ def _manufactured(nodes: int, stencil: str) -> float:
     def flow(X):
         p = exact(X) * c.pressure
         slope = -2.4 * X * (1.0 - X * X)
-        rho = (1.0 + oil.gamma * p) / (1.0 + oil.lam * p)
+        rho = (1.0 + oil.density.gamma * p) / (1.0 + oil.density.lam * p)
         eta = np.exp(2e-9 * p)
         return c.speed * rho * film(X) - c.mobility * rho * film(X) ** 3 / eta * slope
 

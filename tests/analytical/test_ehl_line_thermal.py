@@ -22,12 +22,13 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.thermal import ThermalSettings, solve_thermal_line
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant, thermal_viscosity
-from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from gearlube_core.oil.eyring_1936 import Eyring
+from gearlube_core.oil.film_oil import thermal_viscosity
+from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
 from tests.helpers.ehl_line_cases import thesis_line
 
 T0 = 363.15  # K
-OIL = ehl_lubricant(
+OIL = film_oil(
     eta0=0.00625,
     alpha=13.3e-9,
     law="houpert",
@@ -72,7 +73,7 @@ def test_surface_weights_integrate_linear_flux_exactly():
 
 def test_developed_film_between_cold_walls_has_the_parabola_of_conduction():
     h, us = 0.2e-6, 2.0
-    oil = ehl_lubricant(eta0=0.5, alpha=0.0, law="barus", temperature=T0)
+    oil = film_oil(eta0=0.5, alpha=0.0, law="barus", temperature=T0)
     walls = SurfaceHeating(2.0, 4.0, 0.0, 0.0, T0)
     # 400 times the depth h^2 rho c u/k that conduction needs
     T, flux, tau, heating = marched(uniform_film(400, 0.0, h, 0.0, 3.0), 1e-5, walls, oil, 17)
@@ -86,7 +87,7 @@ def test_developed_film_between_cold_walls_has_the_parabola_of_conduction():
 
 def test_surfaces_warm_with_the_root_of_the_distance():
     h, n, step = 0.05e-6, 400, 1e-6
-    oil = ehl_lubricant(eta0=0.5, alpha=0.0, law="barus", temperature=T0, heat_capacity=1e-3)
+    oil = film_oil(eta0=0.5, alpha=0.0, law="barus", temperature=T0, heat_capacity=1e-3)
     surfaces = SurfaceHeating(5.0, 6.0, 2e-8, 2e-8, T0)
     T, flux, _, heating = marched(uniform_film(n, 0.0, h, 0.0, 5.5), step, surfaces, oil, 9)
     # like bodies share the heat evenly; an oil without heat capacity carries none away
@@ -101,7 +102,7 @@ def test_surfaces_warm_with_the_root_of_the_distance():
 @pytest.mark.parametrize("tau0", [None, 5e6])
 @pytest.mark.parametrize("slope", [0.0, 3e13, -8e13])
 def test_shear_across_an_unevenly_warm_film_slides_as_the_surfaces_do(tau0, slope):
-    oil = OIL._replace(tau0=tau0 or 0.0)
+    oil = OIL._replace(shear=Eyring(tau0 or 0.0))
     p, h, us, m = 4e8, 0.3e-6, 1.5, 2001
     z = np.linspace(-0.5, 0.5, m)
     T = (T0 + 30.0 * (1.0 - 4.0 * z * z) + 20.0 * z)[None, :]

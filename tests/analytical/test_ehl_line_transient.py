@@ -13,7 +13,7 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
@@ -37,7 +37,7 @@ def test_rigid_cylinder_falls_through_oil_as_the_integral_says(scheme):
     # Reynolds with speeds 0: dp/dx = 12 eta (dh0/dt) x/h^3
     R, eta, w = 0.01, 0.1, 2000.0
     contact = LineProblem(
-        lubricant=ehl_lubricant(eta0=eta, alpha=0.0, density_law="incompressible"),
+        lubricant=film_oil(eta0=eta, alpha=0.0, density_law="incompressible"),
         radius=R,
         line_load=w,
         reduced_modulus=1e13,

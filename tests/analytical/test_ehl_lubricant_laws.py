@@ -9,21 +9,20 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.eyring_flow import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.oil.film_oil import (
     density,
     density_slope,
-    ehl_lubricant,
-    fill_properties,
     limiting_stress,
     pressure_viscosity,
     thermal_viscosity,
     viscosity,
     viscosity_slope,
 )
+from gearlube_core.oil.film_oil_data import film_oil, film_oil_of, jamali_2015_oil
+from gearlube_core.oil.film_properties import fill_properties
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.named_film_oils import jamali_2015_oil, lubricant_from_library
 
 PRESSURES = (0.0, 1e6, 2e8, 1e9, 3e9)
 
@@ -39,14 +38,14 @@ def test_roelands_viscosity_is_the_printed_form_of_the_thesis():
 
 
 def test_barus_viscosity_is_exponential():
-    oil = ehl_lubricant(eta0=0.05, alpha=20e-9, law="barus")
+    oil = film_oil(eta0=0.05, alpha=20e-9, law="barus")
     for p in PRESSURES:
         assert viscosity(oil, p) == pytest.approx(0.05 * math.exp(20e-9 * p), rel=1e-13)
 
 
 @pytest.mark.parametrize("law", ["barus", "roelands", "houpert"])
 def test_slopes_are_the_derivatives_of_the_values(law):
-    oil = ehl_lubricant(eta0=0.05, alpha=20e-9, law=law)
+    oil = film_oil(eta0=0.05, alpha=20e-9, law=law)
     for p in (1e7, 2e8, 1e9):
         d = 1e-5 * p
         # central difference: second-order error (d alpha)^2/6 below 1e-7
@@ -58,7 +57,7 @@ def test_slopes_are_the_derivatives_of_the_values(law):
 
 def test_slope_at_ambient_pressure_is_alpha():
     for law in ("barus", "roelands", "houpert"):
-        oil = ehl_lubricant(eta0=0.05, alpha=20e-9, law=law)
+        oil = film_oil(eta0=0.05, alpha=20e-9, law=law)
         assert viscosity_slope(oil, 0.0) / oil.eta0 == pytest.approx(20e-9, rel=1e-12)
         assert pressure_viscosity(oil) == pytest.approx(20e-9, rel=1e-12)
 
@@ -66,13 +65,13 @@ def test_slope_at_ambient_pressure_is_alpha():
 def test_density_of_dowson_and_higginson_at_one_gigapascal():
     oil = jamali_2015_oil()
     assert density(oil, 1e9) / oil.rho0 == pytest.approx(3.266 / 2.683, rel=1e-14)
-    still = ehl_lubricant(eta0=0.05, alpha=20e-9, density_law="incompressible")
+    still = film_oil(eta0=0.05, alpha=20e-9, density_law="incompressible")
     assert density(still, 1e9) == still.rho0
     assert density_slope(still, 1e9) == 0.0
 
 
 def test_any_pressure_of_an_iteration_gives_a_finite_growing_viscosity():
-    oil = ehl_lubricant(eta0=0.05, alpha=40e-9, law="barus")
+    oil = film_oil(eta0=0.05, alpha=40e-9, law="barus")
     p = np.array([-1e12, -1e9, 0.0, 1e9, 4.9e9, 5.1e9, 1e11, 1e13])
     eta, eta_p, rho, rho_p = (np.empty(p.size) for _ in range(4))
     fill_properties(oil, p, eta, eta_p, rho, rho_p)
@@ -85,13 +84,13 @@ def test_any_pressure_of_an_iteration_gives_a_finite_growing_viscosity():
 
 def test_houpert_follows_the_oil_of_the_library_in_temperature():
     lubricant = Lubricant.named("karagiannis_2012")
-    at_40 = lubricant_from_library(lubricant, 313.15, law="houpert")
-    hot = lubricant_from_library(lubricant, 353.15, law="houpert")
+    at_40 = film_oil_of(lubricant, 313.15, law="houpert")
+    hot = film_oil_of(lubricant, 353.15, law="houpert")
     for p in (0.0, 5e8, 1e9):
         # kappa of the thesis against exp(-9.67): 4e-5 in ln eta, grown by the pressure
         assert thermal_viscosity(at_40, p, 353.15) == pytest.approx(viscosity(hot, p), rel=2e-3)
         assert thermal_viscosity(at_40, p, 313.15) == pytest.approx(viscosity(at_40, p), rel=1e-12)
-    roelands = lubricant_from_library(lubricant, 353.15)
+    roelands = film_oil_of(lubricant, 353.15)
     # the law through 40 and 100 degC departs from Walther's line by less than 3 %
     assert viscosity(hot, 0.0) == pytest.approx(viscosity(roelands, 0.0), rel=0.03)
 
@@ -147,14 +146,14 @@ def test_compiled_flow_factor_equals_its_python():
 
 def test_limiting_stress_is_off_unless_asked_for():
     assert limiting_stress(jamali_2015_oil(), 1e9) == math.inf
-    oil = ehl_lubricant(eta0=0.05, alpha=20e-9, limiting_shear=(2e6, 0.05))
+    oil = film_oil(eta0=0.05, alpha=20e-9, limiting_shear=(2e6, 0.05))
     assert limiting_stress(oil, 1e9) == pytest.approx(52e6)
 
 
 def test_units_are_named_when_an_input_is_out_of_range():
     with pytest.raises(ParameterError, match="2e-8 1/Pa"):
-        ehl_lubricant(eta0=0.05, alpha=20.0)
+        film_oil(eta0=0.05, alpha=20.0)
     with pytest.raises(ParameterError, match="law must be one of"):
-        ehl_lubricant(eta0=0.05, alpha=20e-9, law="cross")
+        film_oil(eta0=0.05, alpha=20e-9, law="cross")
     with pytest.raises(ParameterError, match="houpert"):
-        ehl_lubricant(eta0=0.05, alpha=20e-9, temperature_exponent=1.0)
+        film_oil(eta0=0.05, alpha=20e-9, temperature_exponent=1.0)

@@ -11,10 +11,11 @@ from gearlube_core.ehl.point.equations.film_shear import FilmShear
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.traction import point_traction
-from gearlube_core.oil.film_oil import EhlLubricant, ehl_lubricant
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_oil_data import film_oil
 
 TAU0 = 5e6
-OIL = ehl_lubricant(eta0=0.02, alpha=18e-9, eyring_stress=TAU0)
+OIL = film_oil(eta0=0.02, alpha=18e-9, eyring_stress=TAU0)
 
 
 def shear(limit: tuple[float, float], sliding: float = 2.0) -> FilmShear:
@@ -57,7 +58,7 @@ def test_a_limit_that_is_not_met_changes_no_bit():
     assert np.array_equal(far.film_power, without.film_power)
 
 
-def _solved(oil: EhlLubricant) -> tuple[float, float, float]:
+def _solved(oil: FilmOil) -> tuple[float, float, float]:
     problem = elliptical_contact(
         R_x=0.012,
         R_y=0.02,
@@ -79,7 +80,7 @@ def test_limited_film_lies_between_the_eyring_and_the_slipping_one():
     free = _solved(OIL)
     limited = _solved(OIL._replace(tau_limit=1e4, limit_slope=0.02))
     slipping = _solved(OIL._replace(tau_limit=1e4, limit_slope=0.0))
-    newtonian = _solved(OIL._replace(tau0=0.0))
+    newtonian = _solved(OIL.newtonian())
     # where the whole contact slips friction is the slope, less the rim that does not
     assert limited[0] == pytest.approx(0.02, rel=0.05)
     assert free[0] > limited[0] > slipping[0]

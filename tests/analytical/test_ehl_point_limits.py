@@ -11,10 +11,10 @@ from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import moes_contact
 
-ISOVISCOUS = ehl_lubricant(eta0=0.02, alpha=0.0, density_law="incompressible")
+ISOVISCOUS = film_oil(eta0=0.02, alpha=0.0, density_law="incompressible")
 
 
 def _kapitza_residual(nodes: int, wedge: str, angle: float) -> float:

@@ -15,7 +15,8 @@ from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProb
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.oil.film_oil import density, ehl_lubricant, viscosity
+from gearlube_core.oil.film_oil import density, viscosity
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, moes_contact, radius_ratio
 
 CONSERVING = PointSolverSettings(
@@ -108,7 +109,7 @@ def _wavy_contact(nodes: int) -> PointContactProblem:
         entrainment=(SPEED, 0.0),
         load=10.0,
         contact_modulus=1e13,
-        lubricant=ehl_lubricant(eta0=VISCOSITY, alpha=0.0, density_law="incompressible"),
+        lubricant=film_oil(eta0=VISCOSITY, alpha=0.0, density_law="incompressible"),
         x_limits=(-0.3 * WAVE, 1.6 * WAVE),
         y_limits=(-10.0 * WAVE, 10.0 * WAVE),
         nodes=(nodes, 33),
@@ -203,7 +204,7 @@ def test_the_middle_of_a_long_contact_is_a_line_contact() -> None:
     a_x, _, largest = problem.hertz_contact
     load = 0.5 * math.pi * a_x * largest
     line = LineProblem(
-        lubricant=ehl_lubricant(eta0=ETA0, alpha=ALPHA),
+        lubricant=film_oil(eta0=ETA0, alpha=ALPHA),
         radius=math.pi * REDUCED_MODULUS * a_x**2 / (8.0 * load),
         line_load=load,
         reduced_modulus=REDUCED_MODULUS,

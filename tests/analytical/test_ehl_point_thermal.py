@@ -20,10 +20,10 @@ from gearlube_core.ehl.point.problem import (
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import PointThermalSettings, solve_thermal_point
 from gearlube_core.errors import ConvergenceError, ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 T0 = 363.15  # K
-OIL = ehl_lubricant(
+OIL = film_oil(
     eta0=0.00625,
     alpha=13.3e-9,
     law="houpert",
@@ -196,6 +196,8 @@ def test_what_it_cannot_do_is_refused():
     with pytest.raises(ParameterError, match="sliding"):
         solve_thermal_point(contact(sliding=None), STEEL, STEEL)
     with pytest.raises(ParameterError, match="houpert"):
-        solve_thermal_point(contact(lubricant=OIL._replace(S0=0.0)), STEEL, STEEL)
+        solve_thermal_point(
+            contact(lubricant=OIL._replace(viscosity=OIL.viscosity._replace(S0=0.0))), STEEL, STEEL
+        )
     with pytest.raises(ConvergenceError, match="turns"):
         solve_thermal_point(contact(), STEEL, STEEL, thermal=PointThermalSettings(max_turns=2))

@@ -17,10 +17,11 @@ from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import density as oil_density
-from gearlube_core.oil.film_oil import ehl_lubricant, viscosity
+from gearlube_core.oil.film_oil import viscosity
+from gearlube_core.oil.film_oil_data import film_oil
 
 R, W, SPEED = 0.0125, 15.0, 0.5
-OIL = ehl_lubricant(eta0=0.05, alpha=15e-9)
+OIL = film_oil(eta0=0.05, alpha=15e-9)
 MODULUS = 55e9
 SHAPE = EllipticParaboloid(R, R)
 A = (0.75 * W * R / MODULUS) ** (1.0 / 3.0)  # Hertz radius [m]

@@ -7,17 +7,18 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.flow.flow_factors import eyring_flow
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import MovingFilm
-from gearlube_core.oil.film_oil import density, ehl_lubricant, viscosity
+from gearlube_core.oil.film_oil import density, viscosity
+from gearlube_core.oil.film_oil_data import film_oil
+from gearlube_core.oil.shear_flow import shear_flow
 
 R, W, MODULUS, TAU0 = 0.0125, 15.0, 55e9, 5e5
-OIL = ehl_lubricant(eta0=0.05, alpha=15e-9, eyring_stress=TAU0)
+OIL = film_oil(eta0=0.05, alpha=15e-9, eyring_stress=TAU0)
 SHAPE = EllipticParaboloid(R, R)
 A = (0.75 * W * R / MODULUS) ** (1.0 / 3.0)  # Hertz radius [m]
 ENTRAINED, SLIDING = (0.5, 0.3), (-0.2, 0.4)  # m/s
@@ -84,7 +85,9 @@ def test_oil_in_a_box_grows_by_what_flows_in():
     for i, j in np.ndindex(p.shape):
         s, r = C * slope_x[i, j] + S * slope_y[i, j], C * slope_y[i, j] - S * slope_x[i, j]
         half = 0.5 * h[i, j] / TAU0
-        flow = eyring_flow(half * s, half * r, eta[i, j] * SLIP / (h[i, j] * TAU0), math.inf)
+        flow = shear_flow(
+            OIL.shear, half * s, half * r, eta[i, j] * SLIP / (h[i, j] * TAU0), math.inf
+        )
         xx[i, j] = C * C * flow.along + S * S * flow.across
         yy[i, j] = S * S * flow.along + C * C * flow.across
         xy[i, j] = C * S * (flow.along - flow.across)

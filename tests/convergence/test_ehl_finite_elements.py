@@ -30,7 +30,7 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 CROSS = 0.4  # xy component of the flow factor tensor; xx 1, yy 0.7
 U, V, SQUEEZE = 0.9, 0.4, 0.3
@@ -252,7 +252,7 @@ def contact(nodes):
         entrainment=(1.0, 0.3),
         load=20.0,
         contact_modulus=1.15e11,
-        lubricant=ehl_lubricant(eta0=0.04, alpha=2e-8),
+        lubricant=film_oil(eta0=0.04, alpha=2e-8),
         nodes=nodes,
     )
 
@@ -301,7 +301,7 @@ def test_films_of_elements_and_differences_meet_at_refinement(radius_y, load, an
             sliding=sliding,
             load=load,
             contact_modulus=1.15e11,
-            lubricant=ehl_lubricant(eta0=0.04, alpha=2e-8, eyring_stress=5e6),
+            lubricant=film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6),
             nodes=(n, n),
         )
         differences, elements = (

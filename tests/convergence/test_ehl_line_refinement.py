@@ -9,14 +9,13 @@ import pytest
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
-from gearlube_core.oil.film_oil import ehl_lubricant
-from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
 from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(lubricant=jamali_2015_oil(newtonian=True), domain=(-1.0e-3, 0.38e-3))
 # M 2, L 2.5: the spike is as wide as the contact and resolved from 250 nodes on
 MILD = LineProblem(
-    lubricant=ehl_lubricant(eta0=0.04, alpha=20e-9),
+    lubricant=film_oil(eta0=0.04, alpha=20e-9),
     radius=0.01,
     line_load=6238.0,
     reduced_modulus=2.2e11,
@@ -97,7 +96,7 @@ def test_reversed_entrainment_mirrors_the_film():
 
 
 def test_sheared_films_are_near_their_limit_on_coarse_grids() -> None:
-    oil = ehl_lubricant(eta0=0.04, alpha=2e-8, eyring_stress=5e6)
+    oil = film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6)
     problem = LineProblem(
         lubricant=oil,
         radius=0.01,

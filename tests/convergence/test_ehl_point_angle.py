@@ -10,7 +10,7 @@ from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.traction import point_traction
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 
 def film_and_friction(nodes: int, angle: float) -> np.ndarray:
@@ -23,7 +23,7 @@ def film_and_friction(nodes: int, angle: float) -> np.ndarray:
         sliding=(0.5 * along[0], 0.5 * along[1]),
         load=20.0,
         contact_modulus=1.15e11,
-        lubricant=ehl_lubricant(eta0=0.04, alpha=2e-8, eyring_stress=5e6),
+        lubricant=film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6),
         nodes=(nodes, nodes),
         # a square whose corner does not flood the inlet better than its side does
         inlet=6.0,

@@ -21,7 +21,7 @@ from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from gearlube_core.oil.film_oil_data import jamali_2015_oil
 
 PAIR = HelicalLineCase(
     file=HelicalGearFile.named("jamali_2015_a"), step=300.0, newtonian=True, nodes=(33, 33)

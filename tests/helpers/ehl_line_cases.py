@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gearlube_core.ehl.line.problem import LineProblem
-from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from gearlube_core.oil.film_oil_data import jamali_2015_oil
 
 _ENTRAINMENT = 6.71  # m/s
 

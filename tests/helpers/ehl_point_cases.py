@@ -11,7 +11,8 @@ import numpy as np
 from gearlube_core.contact.elliptical_hertz import log_curvature_ratio
 from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.solution import PointSolution
-from gearlube_core.oil.film_oil import EhlLubricant, density, ehl_lubricant, viscosity
+from gearlube_core.oil.film_oil import FilmOil, density, viscosity
+from gearlube_core.oil.film_oil_data import film_oil
 
 RADIUS = 0.01  # m
 REDUCED_MODULUS = 2.26e11  # Pa
@@ -33,7 +34,7 @@ def moes_contact(
     nodes: tuple[int, int],
     radius_ratio: float = 1.0,
     angle: float = 0.0,
-    lubricant: EhlLubricant | None = None,
+    lubricant: FilmOil | None = None,
     **domain: Any,
 ) -> PointContactProblem:
     """Return the contact with load M and material L of Moes; L = 0 is isoviscous."""
@@ -42,7 +43,7 @@ def moes_contact(
     speed = U * REDUCED_MODULUS * RADIUS / ETA0
     load = M * (2.0 * U) ** 0.75 * REDUCED_MODULUS * RADIUS**2
     if lubricant is None:
-        lubricant = ehl_lubricant(eta0=ETA0, alpha=ALPHA if L > 0.0 else 0.0)
+        lubricant = film_oil(eta0=ETA0, alpha=ALPHA if L > 0.0 else 0.0)
     return elliptical_contact(
         R_x=RADIUS,
         R_y=RADIUS * radius_ratio,
@@ -57,7 +58,7 @@ def moes_contact(
 
 def sliding_along(problem: PointContactProblem, slide_roll: float) -> PointContactProblem:
     """Return the contact with an Eyring oil whose surfaces slide along its entrainment."""
-    oil = ehl_lubricant(eta0=ETA0, alpha=ALPHA, eyring_stress=EYRING_STRESS)
+    oil = film_oil(eta0=ETA0, alpha=ALPHA, eyring_stress=EYRING_STRESS)
     u, v = problem.entrainment
     return replace(problem, lubricant=oil, sliding=(slide_roll * u, slide_roll * v))
 

@@ -6,7 +6,7 @@ from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_flank import FlankCycle
 from gearlube_core.ehl.gears.hypoid_window import pair_contact
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 SPEED, TORQUE = 144.2, 40.0  # rad/s, N.m
 BETA = 0.024  # 1/K
@@ -50,7 +50,7 @@ def hypoid_film(cycle, nodes=(49, 33)):
     """Its film in the axle's oil at 95 degC."""
     return HypoidFilm(
         cycle=cycle,
-        lubricant=ehl_lubricant(eta0=0.0171, alpha=2.383e-8, eyring_stress=2e6),
+        lubricant=film_oil(eta0=0.0171, alpha=2.383e-8, eyring_stress=2e6),
         contact_modulus=115.4e9,
         nodes=nodes,
     )

@@ -11,7 +11,7 @@ from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.meshing_steps import meshing_steps
-from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from gearlube_core.oil.film_oil_data import jamali_2015_oil
 
 
 @pytest.mark.parametrize(

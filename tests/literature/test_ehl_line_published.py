@@ -13,7 +13,7 @@ from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.transient import LineHistory, LineMarch
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
 from gearlube_core.film.dowson_toyoda_1979 import line_film_thickness
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_line_cases import thesis_line
 
 MODULUS = 2.2e11
@@ -24,7 +24,7 @@ def steel_contact(U: float, G: float, W: float, **changes) -> LineProblem:
     u = U * MODULUS * radius / eta0
     oil = {"eta0": eta0, "alpha": G / MODULUS, **changes}
     return LineProblem(
-        lubricant=ehl_lubricant(**oil),
+        lubricant=film_oil(**oil),
         radius=radius,
         line_load=W * MODULUS * radius,
         reduced_modulus=MODULUS,
@@ -104,7 +104,7 @@ def hooke_contact(slip: float, eta_centre: float) -> LineProblem:
     pressure, modulus, radius = 0.5e9, 220e9, 0.02
     b = 4.0 * pressure * radius / modulus
     alpha = 6.0 / pressure
-    oil = ehl_lubricant(
+    oil = film_oil(
         eta0=eta_centre * math.exp(-6.0), alpha=alpha, law="barus", density_law="incompressible"
     )
     return LineProblem(

@@ -7,7 +7,7 @@ from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.moes_1992 import central_film_group as line_film_group
 from gearlube_core.film.nijenbanning_1994 import central_film_group, regime_films
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import moes_contact, moes_film
 
 
@@ -53,7 +53,7 @@ def test_wide_contact_nears_the_line_in_the_piezoviscous_rigid_film():
 )
 def test_solved_elliptical_films_lie_within_the_fit(M, L, ratio):
     # the fit knows no density; that of Dowson and Higginson takes 7 % to 12 % off these films
-    oil = ehl_lubricant(eta0=0.04, alpha=2e-8, density_law="incompressible")
+    oil = film_oil(eta0=0.04, alpha=2e-8, density_law="incompressible")
     problem = moes_contact(M, L, nodes=(129, 97), radius_ratio=ratio, lubricant=oil)
     solution = solve_point_contact(problem)
     assert moes_film(problem, solution.central_film) == pytest.approx(

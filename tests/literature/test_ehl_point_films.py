@@ -8,7 +8,7 @@ import pytest
 
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import moes_contact, moes_film
 
 
@@ -19,7 +19,7 @@ def test_the_film_of_mouriers_contact_is_that_of_a_published_solver() -> None:
         entrainment=(0.09, 0.0),
         load=15.0,
         contact_modulus=0.5 * 110e9,
-        lubricant=ehl_lubricant(eta0=0.25, alpha=22e-9),
+        lubricant=film_oil(eta0=0.25, alpha=22e-9),
         nodes=(129, 129),
     )
     solution = solve_point_contact(problem)

@@ -8,11 +8,10 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import solve_thermal_point
-from gearlube_core.oil.film_oil import ehl_lubricant, viscosity_cooling
+from gearlube_core.oil.film_oil import viscosity_cooling
+from gearlube_core.oil.film_oil_data import film_oil
 
-OIL = ehl_lubricant(
-    eta0=0.04, alpha=18e-9, law="houpert", temperature=313.15, temperature_exponent=1.1
-)
+OIL = film_oil(eta0=0.04, alpha=18e-9, law="houpert", temperature=313.15, temperature_exponent=1.1)
 
 
 def reduction(speed: float, ellipticity: float, load: float, nodes: tuple[int, int]) -> float:

@@ -12,8 +12,7 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.rows import fill_jacobian
 from gearlube_core.ehl.line.solver import hertz_start, solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
-from gearlube_core.oil.film_oil import ehl_lubricant
-from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
 from tests.helpers.ehl_line_cases import thesis_line
 
 THESIS = thesis_line(domain=(-1.0e-3, 0.38e-3))
@@ -105,7 +104,7 @@ def test_eyring_traction_is_below_newtonian_and_tends_to_it():
     newtonian = solve_line(replace(THESIS, lubricant=jamali_2015_oil(newtonian=True)))
     thinning = [
         solve_line(
-            replace(THESIS, lubricant=ehl_lubricant(eta0=0.00625, alpha=13.3e-9, eyring_stress=t))
+            replace(THESIS, lubricant=film_oil(eta0=0.00625, alpha=13.3e-9, eyring_stress=t))
         )
         for t in (5e6, 20e6, 1e11)
     ]
@@ -117,7 +116,7 @@ def test_eyring_traction_is_below_newtonian_and_tends_to_it():
 
 
 def test_limiting_stress_bounds_the_traction():
-    oil = ehl_lubricant(eta0=0.00625, alpha=13.3e-9, eyring_stress=10e6, limiting_shear=(1e6, 0.02))
+    oil = film_oil(eta0=0.00625, alpha=13.3e-9, eyring_stress=10e6, limiting_shear=(1e6, 0.02))
     film = solve_line(replace(THESIS, lubricant=oil), LineSettings(nodes=301))
     assert np.all(np.abs(film.mean_stress) <= 1e6 + 0.02 * film.pressure + 1e-6)
     assert abs(film.friction_coefficient) < 0.0215
@@ -142,7 +141,7 @@ def moes_contact(M: float, L: float, slide_roll: float, eyring_stress: float) ->
     U = 0.5 * (L / (alpha * modulus)) ** 4 if L > 0.0 else 1e-11
     u = U * modulus * radius / eta0
     return LineProblem(
-        lubricant=ehl_lubricant(
+        lubricant=film_oil(
             eta0=eta0, alpha=alpha, eyring_stress=eyring_stress if slide_roll else None
         ),
         radius=radius,

@@ -14,10 +14,11 @@ from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProb
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.eyring_1936 import Eyring
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import ALPHA, ETA0, moes_contact
 
-OIL = ehl_lubricant(eta0=ETA0, alpha=ALPHA, eyring_stress=5e6)
+OIL = film_oil(eta0=ETA0, alpha=ALPHA, eyring_stress=5e6)
 TIGHT = PointSolverSettings(tolerance=1e-9, load_tolerance=1e-9)
 
 
@@ -102,7 +103,7 @@ def test_the_film_is_mirrored_with_its_motion() -> None:
 
 def test_a_large_eyring_stress_gives_the_newtonian_film() -> None:
     problem = sliding_contact(0.4, 0.7)
-    stiff = dataclasses.replace(problem, lubricant=OIL._replace(tau0=1e12))
+    stiff = dataclasses.replace(problem, lubricant=OIL._replace(shear=Eyring(1e12)))
     plain = dataclasses.replace(problem, sliding=None)
     first, second = solve_point_contact(stiff, TIGHT), solve_point_contact(plain, TIGHT)
     # tau/tau0 below 1e-2: factors differ from 1 by its square

@@ -17,7 +17,7 @@ from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.terms.solids import SolidShare
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import ALPHA, ETA0, REDUCED_MODULUS, flow_out
 
 
@@ -28,7 +28,7 @@ def _contact(speed: float, thickness: float | None) -> PointContactProblem:
         entrainment=(speed, 0.0),
         load=50.0,
         contact_modulus=0.5 * REDUCED_MODULUS,
-        lubricant=ehl_lubricant(eta0=ETA0, alpha=ALPHA),
+        lubricant=film_oil(eta0=ETA0, alpha=ALPHA),
         nodes=(49, 49),
         inlet=2.5,
         outlet=1.6,

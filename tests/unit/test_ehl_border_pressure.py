@@ -10,7 +10,7 @@ from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.point.border_pressure import border_pressure
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 PLACES = {"small x": (1, 4), "large x": (-2, 4), "small y": (4, 1), "large y": (4, -2)}
 
@@ -48,7 +48,7 @@ def test_point_contact_cut_behind_its_middle_says_so(velocity, end):
         entrainment=(velocity, 0.0),
         load=400.0,
         contact_modulus=115.4e9,
-        lubricant=ehl_lubricant(eta0=0.0171, alpha=2.38e-8),
+        lubricant=film_oil(eta0=0.0171, alpha=2.38e-8),
         nodes=(33, 33),
     )
     whole = solve_point_contact(problem)

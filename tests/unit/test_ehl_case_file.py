@@ -55,7 +55,7 @@ def test_a_line_is_read_in_engineers_units():
     problem = case.problem()
     assert (problem.radius, problem.line_load) == pytest.approx((0.02, 1.5e5))
     assert problem.extent() == pytest.approx((-1e-3, 0.5e-3))
-    assert problem.lubricant.tau0 == pytest.approx(5e6)
+    assert problem.lubricant.shear.tau0 == pytest.approx(5e6)
     assert problem.lubricant.temperature == pytest.approx(333.15)
     assert case.settings().nodes == 201
 
@@ -80,7 +80,7 @@ def test_an_oil_of_the_library_comes_at_its_temperature():
     lubricant = line(oil=oil).problem().lubricant
     viscosity = Lubricant.named("karagiannis_2012").dynamic_viscosity(353.15)
     assert lubricant.eta0 == pytest.approx(viscosity)
-    assert lubricant.tau0 == 0.0
+    assert lubricant.shear.tau0 == 0.0
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 SHAPE = (97, 41)  # (ny, nx)
 
@@ -22,7 +22,7 @@ def level(grading: Grading | None = None) -> PointLevel:
         entrainment=(1.0, 0.0),
         load=100.0,
         contact_modulus=1.1e11,
-        lubricant=ehl_lubricant(eta0=0.05, alpha=15e-9),
+        lubricant=film_oil(eta0=0.05, alpha=15e-9),
         x_limits=(-1e-3, 1e-3),
         y_limits=(-5e-3, 5e-3),
         nodes=(SHAPE[1], SHAPE[0]),

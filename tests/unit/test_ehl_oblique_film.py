@@ -13,7 +13,7 @@ from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-8, load_tolerance=1e-9)
 
@@ -25,7 +25,7 @@ def oblique_problem(psi, sliding=None):
         entrainment=(2.5 * math.cos(psi), 2.5 * math.sin(psi)),
         load=1500.0,
         contact_modulus=115.4e9,
-        lubricant=ehl_lubricant(
+        lubricant=film_oil(
             eta0=0.0171, alpha=2.38e-8, eyring_stress=None if sliding is None else 2e6
         ),
         sliding=sliding,

@@ -9,7 +9,7 @@ from gearlube_core.ehl.point.newton.galerkin import sparse_operator
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.transient.rows import RowInverses
-from gearlube_core.oil.film_oil import ehl_lubricant
+from gearlube_core.oil.film_oil_data import film_oil
 
 SHAPE = (49, 65)  # (ny, nx)
 
@@ -21,7 +21,7 @@ def line() -> PointLevel:
         entrainment=(1.0, 0.0),
         load=100.0,
         contact_modulus=1.1e11,
-        lubricant=ehl_lubricant(eta0=0.05, alpha=15e-9),
+        lubricant=film_oil(eta0=0.05, alpha=15e-9),
         x_limits=(-4e-4, 2e-4),
         y_limits=(-5e-3, 5e-3),
         nodes=(SHAPE[1], SHAPE[0]),

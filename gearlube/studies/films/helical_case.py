@@ -16,9 +16,9 @@ from gearlube_core.helical_geometry.meshing_steps import (
     meshing_steps,
     position_of_line,
 )
-from gearlube_core.oil.film_oil import EhlLubricant, ehl_lubricant
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.named_film_oils import lubricant_from_library
 from gearlube_core.units import rpm_to_rads
 
 _STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
@@ -133,10 +133,10 @@ class HelicalLineCase:
             )
         return torque, speed
 
-    def _lubricant(self) -> EhlLubricant:
+    def _lubricant(self) -> FilmOil:
         own = self.file.oil
         if self.oil is not None:
-            return lubricant_from_library(
+            return film_oil_of(
                 Lubricant.named(self.oil), self.oil_temperature, newtonian=self.newtonian
             )
         if own is None:
@@ -145,7 +145,7 @@ class HelicalLineCase:
                 "Add the section or name an oil of the library."
             )
         stress = None if self.newtonian else own.eyring_stress_mpa
-        return ehl_lubricant(
+        return film_oil(
             eta0=own.viscosity_pa_s,
             alpha=1e-9 * own.pressure_viscosity_per_gpa,
             eyring_stress=None if stress is None else 1e6 * stress,

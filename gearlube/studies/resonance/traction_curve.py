@@ -17,7 +17,7 @@ from gearlube_core.oil.houpert_1985 import (
     houpert_log_viscosity,
     houpert_temperature_coefficient,
 )
-from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
+from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY
 
 SHEAR_RATES = np.geomspace(1e2, 1e8, 121)  # 1/s
 CURVES = (

@@ -167,7 +167,7 @@ class LineCase(ContactCase):
     def _smooth(self) -> LineProblem:
         d = self.domain
         return LineProblem(
-            lubricant=self.oil.ehl_lubricant(),
+            lubricant=self.oil.film_oil(),
             radius=self.radius_mm * MILLIMETRE,
             line_load=self.load_n_per_mm / MILLIMETRE,
             reduced_modulus=self.modulus,
@@ -264,7 +264,7 @@ class PointCase(ContactCase):
         return replace(smooth, gap=RoughGap(smooth.gap, tuple(shapes)))
 
     def _smooth(self) -> PointContactProblem:
-        oil = self.oil.ehl_lubricant()
+        oil = self.oil.film_oil()
         return elliptical_contact(
             R_x=self.radius_x_mm * MILLIMETRE,
             R_y=self.radius_y_mm * MILLIMETRE,
@@ -272,7 +272,7 @@ class PointCase(ContactCase):
             load=self.load_n,
             contact_modulus=0.5 * self.modulus,
             lubricant=oil,
-            sliding=self.sliding if oil.tau0 > 0.0 or self.temperature == "thermal" else None,
+            sliding=self.sliding if oil.shear.tau0 > 0.0 or self.temperature == "thermal" else None,
             nodes=(self.solver.nodes_x, self.solver.nodes_y),
             inlet=self.domain.inlet,
             outlet=self.domain.outlet,

@@ -8,9 +8,9 @@ from pydantic import Field, model_validator
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid
 from gearlube_core.input_file.input_file import Section
-from gearlube_core.oil.film_oil import EhlLubricant, ehl_lubricant
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.named_film_oils import lubricant_from_library
 from gearlube_core.units import celsius_to_kelvin
 
 _GIGA, _MEGA = 1e9, 1e6
@@ -100,11 +100,11 @@ class Oil(Section):
             raise ValueError("limiting_stress_slope needs limiting_stress_mpa")
         return self
 
-    def ehl_lubricant(self) -> EhlLubricant:
+    def film_oil(self) -> FilmOil:
         """Return the film's data of the oil, in SI units."""
         temperature = celsius_to_kelvin(self.temperature_degc)
         if self.library is not None:
-            return lubricant_from_library(
+            return film_oil_of(
                 Lubricant.named(self.library),
                 temperature,
                 law=self.law,
@@ -113,7 +113,7 @@ class Oil(Section):
                 limiting_shear=self.shear == "limited",
             )
         eyring, limit = self.eyring_stress_mpa, self.limiting_stress_mpa
-        return ehl_lubricant(
+        return film_oil(
             eta0=self.viscosity_pa_s or 0.0,
             alpha=(self.pressure_viscosity_per_gpa or 0.0) / _GIGA,
             law=self.law,

@@ -19,8 +19,8 @@ from gearlube_core.helical_geometry.meshing_steps import MeshingSteps, jamali_20
 from gearlube_core.helical_geometry.modification import ModifiedPair
 from gearlube_core.helical_geometry.sample_modifications import jamali_2015
 from gearlube_core.helical_geometry.undeformed_gap import UndeformedGap
-from gearlube_core.oil.film_oil import EhlLubricant
-from gearlube_core.oil.named_film_oils import jamali_2015_oil
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_oil_data import jamali_2015_oil
 
 JAMALI_2015_MODULUS = 0.5 * 227.5e9  # E*, Pa; E 207 GPa, nu 0.3: from [jamali_2015 ch. 7]
 _TORQUE, _SPEED = 1060.0, 235.62  # N m, rad/s: [jamali_2015 ch. 4]
@@ -50,7 +50,7 @@ class HelicalFilm:
         On the pinion [N m].
     pinion_speed
         [rad/s].
-    lubricant : EhlLubricant
+    lubricant : FilmOil
     contact_modulus
         E* [Pa].
     nodes
@@ -87,7 +87,7 @@ class HelicalFilm:
     steps: MeshingSteps
     torque: float
     pinion_speed: float
-    lubricant: EhlLubricant
+    lubricant: FilmOil
     contact_modulus: float
     nodes: tuple[int, int] = (97, 257)
     convention: str = "normal"

@@ -12,7 +12,7 @@ from gearlube_core.ehl.gears.hypoid_flank import FlankCycle, FlankInstant
 from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
 from gearlube_core.ehl.transient.conditions import FilmConditions
 from gearlube_core.ehl.transient.problem import MovingFilm
-from gearlube_core.oil.film_oil import EhlLubricant
+from gearlube_core.oil.film_oil import FilmOil
 
 FLOWS = ("eyring", "newtonian")
 
@@ -29,7 +29,7 @@ class HypoidFilm:
     ----------
     cycle : FlankCycle
         Load, radii and motion of the contact.
-    lubricant : EhlLubricant
+    lubricant : FilmOil
         Its Eyring stress, if it has one, acts on the traction, and on the flow as `flow` says.
     contact_modulus
         E* [Pa].
@@ -52,7 +52,7 @@ class HypoidFilm:
     """
 
     cycle: FlankCycle
-    lubricant: EhlLubricant
+    lubricant: FilmOil
     contact_modulus: float
     nodes: tuple[int, int] = (257, 65)
     flow: str = "eyring"
@@ -116,5 +116,5 @@ class HypoidFilm:
             speed=most.entrainment[0],
         )
 
-    def _flowing(self) -> EhlLubricant:
-        return self.lubricant if self.flow == "eyring" else self.lubricant._replace(tau0=0.0)
+    def _flowing(self) -> FilmOil:
+        return self.lubricant if self.flow == "eyring" else self.lubricant.newtonian()

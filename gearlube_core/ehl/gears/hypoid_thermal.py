@@ -74,7 +74,8 @@ def thermal_films(
     rows = []
     for n, time in enumerate(times):
         problem = film.problem(film.cycle.at(float(time)))
-        oil = problem.lubricant._replace(S0=temperature_exponent)
+        cold_law = problem.lubricant.viscosity
+        oil = problem.lubricant._replace(viscosity=cold_law._replace(S0=temperature_exponent))
         cold = solve_point_contact(problem, settings, throw=throw)
         warm = solve_thermal_point(replace(problem, lubricant=oil), *solids, settings, throw=throw)
         inlet = oil.temperature

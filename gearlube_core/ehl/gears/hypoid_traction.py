@@ -11,8 +11,8 @@ from gearlube_core.ehl.point.traction import point_traction
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.film_oil import EhlLubricant
-from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY
 
 
 class FlankTraction(NamedTuple):
@@ -25,7 +25,7 @@ class FlankTraction(NamedTuple):
 
 @kernel
 def heated_stress(
-    p: np.ndarray, h: np.ndarray, eta: np.ndarray, slip: float, oil: EhlLubricant, beta: float
+    p: np.ndarray, h: np.ndarray, eta: np.ndarray, slip: float, oil: FilmOil, beta: float
 ) -> np.ndarray:
     """Return the shear stress of a heated Eyring film where there is pressure, (n,) [Pa].
 
@@ -48,17 +48,18 @@ def heated_stress(
     """
     tau = np.zeros(p.size)
     reduced = math.log(oil.eta0) + ROELANDS_LOG_VISCOSITY
+    tau0 = oil.shear.tau0
     for i in range(p.size):
         if p[i] > 0.0:
             log_eta = math.log(eta[i])
             beta_p = beta * (log_eta + ROELANDS_LOG_VISCOSITY) / reduced
-            film = thermal_eyring_film(log_eta, beta_p, oil.conductivity, oil.tau0, h[i], slip)
-            tau[i] = film.stress_ratio * oil.tau0
+            film = thermal_eyring_film(log_eta, beta_p, oil.conductivity, tau0, h[i], slip)
+            tau[i] = film.stress_ratio * tau0
     return tau
 
 
 def flank_traction(
-    solution: FilmSolution, oil: EhlLubricant, sliding: tuple[float, float], beta: float
+    solution: FilmSolution, oil: FilmOil, sliding: tuple[float, float], beta: float
 ) -> FlankTraction:
     """Return the traction of a film along its sliding.
 

@@ -12,15 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.film_oil import (
-    EhlLubricant,
-    cooling_factor,
-    limiting_stress,
-    thermal_viscosity,
-)
-
-# sinh and cosh of a film's half drop of stress are kept finite
-_LARGEST_SIGMA = 100.0
+from gearlube_core.oil.film_oil import FilmOil, limiting_stress, thermal_viscosity
+from gearlube_core.oil.sheared_film import layered_stress, shear_rate
+from gearlube_core.oil.viscosity_law import cooling_at
 
 
 class FilmFields(NamedTuple):
@@ -65,7 +59,7 @@ def fill_surface_weights(step: float, now: np.ndarray, before: np.ndarray) -> No
 
 @kernel
 def fill_shear(
-    T: np.ndarray, i: int, f: FilmFields, sliding: float, oil: EhlLubricant, heat: np.ndarray
+    T: np.ndarray, i: int, f: FilmFields, sliding: float, oil: FilmOil, heat: np.ndarray
 ) -> tuple[float, float]:
     """Fill the heat of shear across the film at node i.
 
@@ -93,37 +87,20 @@ def fill_shear(
 
     Notes
     -----
-    Closed form for Eyring: integral of [sinh(a) cosh(bz) + cosh(a) sinh(bz)]/eta. With a limiting
-    stress the film slips at it and the rest of the sliding heats evenly.
+    With a limiting stress the film slips at it and the rest of the sliding heats evenly.
     """
     m = heat.size
     h, slope = f.h[i], f.p_slope[i]
     dz = 1.0 / (m - 1)
-    even, odd, pumped = 0.0, 0.0, 0.0
-    b = 0.0
-    if oil.tau0 > 0.0:
-        b = slope * h / oil.tau0
-        b = math.copysign(min(abs(b), 2.0 * _LARGEST_SIGMA), b)
+    pumped = 0.0
     for k in range(m):
         w = dz if 0 < k < m - 1 else 0.5 * dz
         z = k * dz - 0.5
-        fluidity = w / thermal_viscosity(oil, f.p[i], T[i, k])
-        if oil.tau0 > 0.0:
-            even += fluidity * math.cosh(b * z)
-            odd += fluidity * math.sinh(b * z)
-        else:
-            even += fluidity
-            odd += fluidity * z
-        pumped += 12.0 * z * z * fluidity
+        heat[k] = thermal_viscosity(oil, f.p[i], T[i, k])
+        pumped += 12.0 * z * z * (w / heat[k])
     # the trapezoidal rule for 12 z^2 alone gives 1 + 2 dz^2
     pumped /= 1.0 + 2.0 * dz * dz
-    if oil.tau0 > 0.0:
-        asymmetry = odd / even
-        root = even * math.sqrt(max(1.0 - asymmetry * asymmetry, 1e-300))
-        shift = math.atanh(min(max(asymmetry, -1.0 + 1e-15), 1.0 - 1e-15))
-        tau = oil.tau0 * (math.asinh(sliding / (h * oil.tau0 * root)) - shift)
-    else:
-        tau = (sliding / h - slope * h * odd) / even
+    tau = layered_stress(oil.shear, heat, h, slope, sliding)
     limit = limiting_stress(oil, f.p[i])
     slips = abs(tau) > limit
     if slips:
@@ -132,13 +109,8 @@ def fill_shear(
     for k in range(m):
         w = dz if 0 < k < m - 1 else 0.5 * dz
         z = k * dz - 0.5
-        eta = thermal_viscosity(oil, f.p[i], T[i, k])
         stress = tau + slope * h * z
-        if oil.tau0 > 0.0:
-            ratio = min(max(stress / oil.tau0, -600.0), 600.0)
-            rate = oil.tau0 / eta * math.sinh(ratio)
-        else:
-            rate = stress / eta
+        rate = shear_rate(oil.shear, stress, heat[k])
         heat[k] = f.wet[i] * stress * rate
         total += w * rate
     if slips:
@@ -152,7 +124,7 @@ def march_energy(
     f: FilmFields,
     step: float,
     s: SurfaceHeating,
-    oil: EhlLubricant,
+    oil: FilmOil,
     now: np.ndarray,
     before: np.ndarray,
     old: np.ndarray,
@@ -258,7 +230,7 @@ def fill_thermal_oil(
     p: np.ndarray,
     T: np.ndarray,
     eta: np.ndarray,
-    oil: EhlLubricant,
+    oil: FilmOil,
     cooling: np.ndarray,
     dilation: np.ndarray,
 ) -> None:
@@ -275,12 +247,8 @@ def fill_thermal_oil(
     """
     m = T.shape[1]
     for i in range(p.size):
-        growth = math.expm1(oil.Z * math.log1p(oil.chi * max(p[i], 0.0)))
-        log_eta = math.log(eta[i] / oil.eta0)
-        cooling[i] = (log_eta / oil.log_ratio + 1.0) / (1.0 + growth)
+        cooling[i] = cooling_at(oil.viscosity, p[i], math.log(eta[i] / oil.eta0))
         mean = 0.0
         for k in range(m):
             mean += T[i, k] * (1.0 if 0 < k < m - 1 else 0.5) / (m - 1)
         dilation[i] = max(1.0 - oil.expansion * (mean - oil.temperature), 0.1)
-        if oil.S0 == 0.0:
-            cooling[i] = cooling_factor(oil, oil.temperature)

@@ -14,7 +14,7 @@ from gearlube_core.ehl.line.rows import STENCILS
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.groups import LineGroups, line_groups
 from gearlube_core.film.moes_1992 import central_film_group
-from gearlube_core.oil.film_oil import EhlLubricant, pressure_viscosity
+from gearlube_core.oil.film_oil import FilmOil, pressure_viscosity
 
 CAVITATION = ("reynolds", "mass_conserving")
 Gap = Callable[[np.ndarray], np.ndarray]
@@ -62,7 +62,7 @@ class LineProblem:
     Half-spaces, smooth or with surface features long against the film (Reynolds).
     """
 
-    lubricant: EhlLubricant
+    lubricant: FilmOil
     radius: float
     line_load: float
     reduced_modulus: float

@@ -7,13 +7,15 @@ what flows in, plus what gathers there; zero where the film is full, not below z
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.film_oil import EhlLubricant, thermal_log_slope
+from gearlube_core.oil.density_law import density_ratio
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.sheared_film import flow_factor
+from gearlube_core.oil.viscosity_law import log_viscosity
 
 # codes of the wedge term's stencil
 CENTRAL, UPWIND_1, UPWIND_2, GALERKIN = 0, 1, 2, 3
@@ -28,8 +30,8 @@ class RowCoefficients(NamedTuple):
     speed: float  # mean surface speed over the reference speed, with its sign
     mobility: float  # 1/lambda: flow by pressure at H = 1 and ambient viscosity
     pressure: float  # Hertz pressure [Pa], to evaluate the oil
-    sigma: float  # Eyring: sigma = this * H dP/dX; 0 Newtonian
-    shear: float  # Eyring: a = this * (eta/eta0)/H
+    sigma: float  # shear law: sigma = this * H dP/dX; 0 Newtonian
+    shear: float  # shear law: a = this * (eta/eta0)/H
     weight: float  # of the flows at the new time: 1, or 1/2 with Crank and Nicolson
     storage: float  # of what gathers: 0 steady, beta/dT
     stencil: int
@@ -63,20 +65,18 @@ def _fill_oil(
     cooling: np.ndarray,
     dilation: np.ndarray,
     c: RowCoefficients,
-    oil: EhlLubricant,
+    oil: FilmOil,
     rows: LocalRows,
 ) -> None:
     for i in range(P.size):
         p = P[i] * c.pressure
-        log_eta, slope = thermal_log_slope(oil, p, cooling[i])
+        log_eta, slope = log_viscosity(oil.viscosity, p, cooling[i])
         rows.eta[i] = math.exp(min(log_eta, 300.0))
         rows.eta_slope[i] = slope * c.pressure
-        q = max(p, 0.0)
-        below = 1.0 + oil.lam * q
-        slope = (oil.gamma - oil.lam) / (below * below) if p >= 0.0 else 0.0
-        rows.rho[i] = dilation[i] * (1.0 + oil.gamma * q) / below
+        ratio, slope, bend = density_ratio(oil.density, p)
+        rows.rho[i] = dilation[i] * ratio
         rows.rho_slope[i] = dilation[i] * slope * c.pressure
-        rows.rho_bend[i] = -2.0 * oil.lam * c.pressure * rows.rho_slope[i] / below
+        rows.rho_bend[i] = dilation[i] * bend * c.pressure * c.pressure
 
 
 @kernel
@@ -96,7 +96,7 @@ def _wedge_weights(stencil: int, speed: float, face: int, faces: int) -> tuple[f
 
 @kernel
 def _add_poiseuille(
-    f: int, P: np.ndarray, H: np.ndarray, c: RowCoefficients, rows: LocalRows
+    f: int, P: np.ndarray, H: np.ndarray, c: RowCoefficients, shear_law: Any, rows: LocalRows
 ) -> None:
     # flow by pressure between nodes f and f + 1, mean as in [jamali_2015 (3.9)]: viscosity
     # and flow factor together, which cancel where the oil is thick; apart a coarse grid thins films
@@ -110,11 +110,11 @@ def _add_poiseuille(
         film = 0.5 * (H[f] + H[g])
         sigma = c.sigma * film * drop / c.step
         a = c.shear * rows.eta[f] / H[f]
-        factor, slope, by_a = eyring_flow_factor(sigma, a)
+        factor, slope, by_a = flow_factor(shear_law, sigma, a)
         left *= factor
         sigma_f, react_f = slope / factor, a * by_a / factor
         a = c.shear * rows.eta[g] / H[g]
-        factor, slope, by_a = eyring_flow_factor(sigma, a)
+        factor, slope, by_a = flow_factor(shear_law, sigma, a)
         right *= factor
         sigma_g, react_g = slope / factor, a * by_a / factor
     mean = 0.5 * (left + right)
@@ -215,7 +215,7 @@ def fill_rows(
     dilation: np.ndarray,
     source: np.ndarray,
     c: RowCoefficients,
-    oil: EhlLubricant,
+    oil: FilmOil,
     rows: LocalRows,
 ) -> None:
     """Fill the balance of every node and its derivatives with its neighbours.
@@ -230,7 +230,7 @@ def fill_rows(
     void
         Share of the gap without oil, (n,) [-]; zero where the film is full.
     cooling, dilation
-        t^(-S0) and the density's factor by heat, (n,) [-]; ones for an isothermal film.
+        Cooling factor and the density's factor by heat, (n,) [-]; ones for an isothermal film.
     source
         s: older times, manufactured sources, (n,) [-].
     c, oil
@@ -259,7 +259,7 @@ def fill_rows(
         rows.by_pressure[i, 2] += gather * rows.rho_slope[i] * H[i] * (1.0 - void[i])
         rows.by_void[i, 1] -= gather * rows.rho[i] * H[i]
     for f in range(n - 1):
-        _add_poiseuille(f, P, H, c, rows)
+        _add_poiseuille(f, P, H, c, oil.shear, rows)
         if c.stencil == GALERKIN:
             _add_galerkin(f, P, H, c, rows)
         else:

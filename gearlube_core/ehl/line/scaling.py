@@ -40,7 +40,7 @@ def row_coefficients(
     1/lambda = H-scale^3 p_H/(12 eta0 b) over the flow scale u_ref b^2/R
     """
     oil = problem.lubricant
-    tau0 = oil.tau0
+    tau0 = oil.shear.tau0
     flow = scales.film**2 * scales.pressure / (12.0 * oil.eta0 * scales.length)
     sliding = problem.speed_2 - problem.speed_1
     return RowCoefficients(

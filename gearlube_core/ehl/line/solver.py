@@ -51,7 +51,7 @@ def solve_line(
 
     Examples
     --------
-    >>> from gearlube_core.oil.named_film_oils import jamali_2015_oil
+    >>> from gearlube_core.oil.film_oil_data import jamali_2015_oil
     >>> contact = LineProblem(lubricant=jamali_2015_oil(), radius=0.014, line_load=3.6e5,
     ...                       reduced_modulus=227.5e9, speed_1=7.93, speed_2=5.49)
     >>> film = solve_line(contact, LineSettings(nodes=501))

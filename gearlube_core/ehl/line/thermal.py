@@ -22,6 +22,7 @@ from gearlube_core.ehl.line.solution import LineSolution, build_solution
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
 from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.oil.film_oil import viscosity_cooling
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,7 +102,7 @@ def solve_thermal_line(
     Raises
     ------
     ParameterError
-        When the surface speeds differ in sign or the oil does not know temperature.
+        When the surface speeds differ in sign or the viscosity law is isothermal.
     ConvergenceError
         When film or temperature fail, unless `throw` is False.
 
@@ -119,9 +120,9 @@ def solve_thermal_line(
             "A thermal film needs both surfaces to move along entrainment, got "
             f"{problem.speed_1:g} and {problem.speed_2:g} m/s."
         )
-    if problem.lubricant.S0 == 0.0:
+    if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
         raise ParameterError(
-            "The lubricant's temperature_exponent is 0: its viscosity does not know temperature. "
+            "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. "
             "Take law houpert."
         )
     start = solve_line(problem, settings, throw=throw)

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from gearlube_core.ehl.flow.eyring_flow import eyring_mean_stress
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.film_oil import EhlLubricant, limiting_stress
+from gearlube_core.oil.film_oil import FilmOil, limiting_stress
+from gearlube_core.oil.sheared_film import mid_stress
 
 
 @kernel
@@ -19,12 +19,13 @@ def fill_mean_stress(
     void: np.ndarray,
     eta: np.ndarray,
     sliding: float,
-    oil: EhlLubricant,
+    oil: FilmOil,
     tau: np.ndarray,
 ) -> None:
     """Fill the shear stress at mid-film.
 
-    tau_m = eta (u2 - u1)/h, or tau0 asinh(a s/sinh s); at most tau_limit + slope p in amount
+    tau_m = eta (u2 - u1)/h, or that of the shear law, tau0 asinh(a s/sinh s) for Eyring's;
+    at most tau_limit + slope p in amount
 
     Parameters
     ----------
@@ -47,8 +48,9 @@ def fill_mean_stress(
     for i in range(p.size):
         newtonian = eta[i] * sliding / h[i]
         stress = newtonian
-        if oil.tau0 > 0.0:
-            sigma = 0.5 * h[i] * p_slope[i] / oil.tau0
-            stress = eyring_mean_stress(sigma, newtonian / oil.tau0, oil.tau0)
+        tau0 = oil.shear.tau0
+        if tau0 > 0.0:
+            sigma = 0.5 * h[i] * p_slope[i] / tau0
+            stress = tau0 * mid_stress(oil.shear, sigma, newtonian / tau0)
         limit = limiting_stress(oil, p[i])
         tau[i] = (1.0 - void[i]) * math.copysign(min(abs(stress), limit), stress)

@@ -30,7 +30,7 @@ def check_cavitation(problem: PointContactProblem, settings: PointSolverSettings
         raise ParameterError(
             "mass-conserving cavitation does not go with solids that touch. Leave one out."
         )
-    if problem.lubricant.tau0 > 0.0 and problem.sliding is not None:
+    if problem.lubricant.shear.tau0 > 0.0 and problem.sliding is not None:
         along, across = problem.sliding
         if abs(along * across) >= ALIGNED * math.hypot(along, across) ** 2 > 0.0:
             raise ParameterError(

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.oil.film_oil import EhlLubricant, pressure_viscosity
+from gearlube_core.oil.film_oil import FilmOil, pressure_viscosity
 
 _ANGLES = 240
 _ALONG, _OUTWARD = 16, 8  # Gauss points along a side of the domain and from it to infinity
@@ -100,7 +100,7 @@ class FarField:
         entrainment: tuple[float, float],
         load: float,
         contact_modulus: float,
-        lubricant: EhlLubricant,
+        lubricant: FilmOil,
         x_limits: tuple[float, float],
         y_limits: tuple[float, float],
     ) -> None:

@@ -16,7 +16,7 @@ from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
 from gearlube_core.film.nijenbanning_1994 import regime_films
-from gearlube_core.oil.film_oil import EhlLubricant, pressure_viscosity
+from gearlube_core.oil.film_oil import FilmOil, pressure_viscosity
 
 Gap = Callable[[Array, Array], Array]
 
@@ -101,7 +101,7 @@ class PointContactProblem:
     entrainment: tuple[float, float]
     load: float
     contact_modulus: float
-    lubricant: EhlLubricant
+    lubricant: FilmOil
     x_limits: tuple[float, float]
     y_limits: tuple[float, float]
     nodes: tuple[int, int]
@@ -218,7 +218,7 @@ def elliptical_contact(
     entrainment: tuple[float, float],
     load: float,
     contact_modulus: float,
-    lubricant: EhlLubricant,
+    lubricant: FilmOil,
     nodes: tuple[int, int] = (129, 129),
     sliding: tuple[float, float] | None = None,
     inlet: float | None = None,

@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.problem import PointContactProblem
-from gearlube_core.oil.film_oil import EhlLubricant
+from gearlube_core.oil.film_oil import FilmOil
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,12 +77,6 @@ class PointScales:
         u, v = -u if self.flip_x else u, -v if self.flip_y else v
         return (v, u) if self.swap else (u, v)
 
-    def oil(self, lubricant: EhlLubricant) -> EhlLubricant:
+    def oil(self, lubricant: FilmOil) -> FilmOil:
         """Return the oil with viscosity, density and pressure in these units."""
-        return lubricant._replace(
-            eta0=1.0,
-            rho0=1.0,
-            chi=lubricant.chi * self.pressure,
-            gamma=lubricant.gamma * self.pressure,
-            lam=lubricant.lam * self.pressure,
-        )
+        return lubricant.in_units(self.pressure)

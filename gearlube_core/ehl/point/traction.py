@@ -9,7 +9,8 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.line.traction import fill_mean_stress
-from gearlube_core.oil.film_oil import EhlLubricant, fill_properties
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_properties import fill_properties
 
 
 class PointTraction(NamedTuple):
@@ -27,7 +28,7 @@ def point_traction(
     pressure: Array,
     film: Array,
     sliding: tuple[float, float],
-    oil: EhlLubricant,
+    oil: FilmOil,
     fill: Array | None = None,
 ) -> PointTraction:
     """Return the shear stress at mid-film, along the velocity of body 2 against body 1.

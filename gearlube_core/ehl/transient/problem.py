@@ -19,7 +19,7 @@ from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.conditions import Conditions
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.rows import row_shapes
-from gearlube_core.oil.film_oil import EhlLubricant
+from gearlube_core.oil.film_oil import FilmOil
 
 _LONG = 3.0  # spacing across the motion over that along it, from which rows are solved whole
 
@@ -62,7 +62,7 @@ class MovingFilm:
     """
 
     conditions: Conditions
-    lubricant: EhlLubricant
+    lubricant: FilmOil
     contact_modulus: float
     x_limits: tuple[float, float]
     y_limits: tuple[float, float]

@@ -16,8 +16,8 @@ from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_flank import FlankCycle
 from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil_data import film_oil_of
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
-from gearlube_core.oil.named_film_oils import lubricant_from_library
 
 _FEWEST = 8  # samples of a cycle
 
@@ -74,7 +74,7 @@ def hypoid_flank(case: HypoidCase) -> HypoidFlank:
     drive = PairDrive(*(values[held] for values in drive))
     film = HypoidFilm(
         cycle=_cycle(case, parameters, drive, phase[held]),
-        lubricant=lubricant_from_library(parameters.oil, case.oil_temperature),
+        lubricant=film_oil_of(parameters.oil, case.oil_temperature),
         contact_modulus=contact_modulus(parameters.solid, parameters.solid),
         nodes=(case.solver.nodes_minor, case.solver.nodes_major),
         flow=case.flow,

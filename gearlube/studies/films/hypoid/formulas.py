@@ -29,7 +29,7 @@ from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import CONSISTENT, contact_geometry
 from gearlube_core.friction.traction_regime import traction_regime
 from gearlube_core.oil.film_oil import viscosity
-from gearlube_core.oil.viscosity_constants import ROELANDS_LOG_VISCOSITY
+from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY
 
 
 class FlankFormulas(NamedTuple):

@@ -1,16 +1,15 @@
-"""Flow factors of an Eyring film on a uniform grid, for sliding at any angle to its axes."""
+"""Flow factors of a shear-thinning film on a uniform grid, for sliding at any angle to its axes."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
-from gearlube_core.ehl.flow.eyring_flow import eyring_flow_factor, eyring_mean_stress
-from gearlube_core.ehl.flow.flow_factors import eyring_factors
 from gearlube_core.ehl.point.equations.shear_factors import (
     AlignedFactors,
     NewtonianFactors,
@@ -18,7 +17,10 @@ from gearlube_core.ehl.point.equations.shear_factors import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.film_oil import EhlLubricant
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.shear_flow import shear_factors
+from gearlube_core.oil.shear_law import rate_ratio
+from gearlube_core.oil.sheared_film import flow_factor, mid_stress
 
 # below, series to the second order are right to 1e-8
 _SMALL_STRESS = 1.0e-2
@@ -29,6 +31,7 @@ _EVEN = 1.0e-9  # spread of sliding along x over sliding along y
 
 @kernel
 def fill_shear_factors(
+    law: Any,
     pressure: np.ndarray,
     film: np.ndarray,
     fluidity: np.ndarray,
@@ -44,10 +47,12 @@ def fill_shear_factors(
     steepness: np.ndarray,
     stiffness: np.ndarray,
 ) -> None:
-    """Fill the flow factors of an Eyring film, by rows of other sliding in one direction.
+    """Fill the flow factors of a shear-thinning film, by rows of other sliding in one direction.
 
     Parameters
     ----------
+    law
+        Shear law.
     pressure, film, fluidity : ndarray, shape (ny, nx)
         p, h and 1/eta [-].
     couette : ndarray, shape (ny,)
@@ -67,10 +72,12 @@ def fill_shear_factors(
     Notes
     -----
     Pressure slopes are central. Small stresses: flow along grows by Sigma^2/10 + a^2/2, across
-    by Sigma^2/10 + a^2/6, the first terms of the series of `eyring_flow`. A film that slips at
-    the limiting stress has the flow of one that is sheared just so far.
+    by Sigma^2/10 + a^2/6, both times 6 dG/dq: the first terms of the series of `shear_flow`. A
+    film that slips at the limiting stress has the flow of one that is sheared just so far.
     """
     ny, nx = pressure.shape
+    # of the series G = 1 + g q/6: Eyring's g is 1
+    g = 6.0 * rate_ratio(law, 0.0)[1]
     along[:] = 1.0
     across[:] = 1.0
     steepness[:] = 1.0
@@ -87,30 +94,31 @@ def fill_shear_factors(
             most, slips = math.inf, False
             if limit + limit_slope > 0.0:
                 most = limit + limit_slope * max(pressure[j, i], 0.0)
-                slips = abs(eyring_mean_stress(s, a, 1.0)) > most
+                slips = abs(mid_stress(law, s, a)) > most
             if max(abs(s), abs(r), abs(a)) < min(_SMALL_STRESS, most):
-                pumped = 0.1 * (s * s + r * r)
-                along[j, i] = 1.0 + pumped + 0.5 * a * a
-                across[j, i] = 1.0 + pumped + a * a / 6.0
-                steepness[j, i] = 1.0 + 0.2 * s * s
-                stiffness[j, i] = 1.0 - a * a
+                pumped = 0.1 * g * (s * s + r * r)
+                along[j, i] = 1.0 + pumped + 0.5 * g * a * a
+                across[j, i] = 1.0 + pumped + g * a * a / 6.0
+                steepness[j, i] = 1.0 + 0.2 * g * s * s
+                stiffness[j, i] = 1.0 - g * a * a
                 continue
-            along[j, i], across[j, i] = eyring_factors(s, r, a, most)
+            along[j, i], across[j, i] = shear_factors(law, s, r, a, most)
             if slips:
                 # S = F cosh(limit): F alone depends on the slope of pressure, nothing on viscosity
-                F, by_sigma, _ = eyring_flow_factor(s, 0.0)
+                F, by_sigma, _ = flow_factor(law, s, 0.0)
                 steepness[j, i] = 1.0 + s * by_sigma / F
                 stiffness[j, i] = 1.0
                 continue
-            S, by_sigma, by_a = eyring_flow_factor(s, a)
+            S, by_sigma, by_a = flow_factor(law, s, a)
             steepness[j, i] = 1.0 + s * by_sigma / S
             stiffness[j, i] = 1.0 - a * by_a / S
 
 
 @dataclass(frozen=True, slots=True)
 class FilmShear:
-    """Shear of an Eyring film on one grid; build it with `of`."""
+    """Constants of a film with a shear law on one grid; build it with `of`."""
 
+    law: Any  # shear law
     unit: float  # shear stress over tau0 of sliding at 1 m/s, times film and fluidity [s/m]
     sigma_x: float  # stress drop over tau0, over film and pressure between the nodes beside
     sigma_y: float
@@ -124,7 +132,7 @@ class FilmShear:
     @classmethod
     def of(
         cls,
-        lubricant: EhlLubricant,
+        lubricant: FilmOil,
         sliding: tuple[float, float],
         steps: tuple[float, float],
         rows: int,
@@ -139,7 +147,7 @@ class FilmShear:
         Parameters
         ----------
         lubricant
-            Oil with an Eyring stress, in SI.
+            Oil with a shear law, in SI.
         sliding
             Difference of the surface velocities along x and y [m/s].
         steps
@@ -158,7 +166,7 @@ class FilmShear:
             An input is out of range, or the oil is Newtonian.
         """
         tau0 = check_positive(
-            "lubricant.tau0", lubricant.tau0, "Pa", "A Newtonian film has factors 1."
+            "lubricant.shear.tau0", lubricant.shear.tau0, "Pa", "A Newtonian film has factors 1."
         )
         for axis, component, step in zip("xy", sliding, steps, strict=True):
             check_finite(f"sliding along {axis}", component, "m/s")
@@ -172,6 +180,7 @@ class FilmShear:
         speed = math.hypot(*sliding)
         unit = viscosity / (tau0 * film)
         return cls(
+            law=lubricant.shear,
             unit=unit,
             sigma_x=film * pressure / (4.0 * tau0 * steps[0]),
             sigma_y=film * pressure / (4.0 * tau0 * steps[1]),
@@ -218,6 +227,7 @@ class FilmShear:
         """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
         along, across, steepness, stiffness = np.empty((4, *pressure.shape))
         fill_shear_factors(
+            self.law,
             pressure,
             film,
             fluidity,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.flow.film_properties import film_properties
-from gearlube_core.oil.film_oil import EhlLubricant
+from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_properties import film_properties
 
 Properties = tuple[Array, Array, Array, Array]
 
@@ -15,7 +15,7 @@ Properties = tuple[Array, Array, Array, Array]
 class IsothermalOil:
     """Oil at its own temperature, in the units of a grid."""
 
-    oil: EhlLubricant
+    oil: FilmOil
 
     def properties(self, pressure: Array) -> Properties:
         """Return eta, d eta/dp, rho and d rho/dp at a pressure, of its shape [-]."""
@@ -30,7 +30,7 @@ class IsothermalOil:
 class HeatedOil:
     """Oil at the temperatures of a film, in the units of a grid."""
 
-    oil: EhlLubricant
+    oil: FilmOil
     viscosity: Array  # thermal factor, `cooling_factor` of the temperature, (ny, nx) [-]
     density: Array  # thermal factor, (ny, nx) [-]
 
@@ -43,4 +43,4 @@ class HeatedOil:
         return HeatedOil(self.oil, viscosity, density)
 
 
-FilmOil = IsothermalOil | HeatedOil
+OilTerm = IsothermalOil | HeatedOil

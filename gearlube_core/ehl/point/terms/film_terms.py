@@ -19,7 +19,7 @@ from gearlube_core.ehl.point.terms.cavitation import (
     ReynoldsCavitation,
 )
 from gearlube_core.ehl.point.terms.entrainment import Entrainment, UniformEntrainment
-from gearlube_core.ehl.point.terms.film_oil import FilmOil, IsothermalOil
+from gearlube_core.ehl.point.terms.film_oil import IsothermalOil, OilTerm
 from gearlube_core.ehl.point.terms.open_border import OpenBorder
 from gearlube_core.ehl.point.terms.solids import NoSolids, Solids, TouchingSolids
 from gearlube_core.ehl.point.terms.storage import NoStorage, Storage
@@ -35,7 +35,7 @@ class FilmTerms:
     `NewtonianShear`, `NoSolids`, `AmbientBorder`, `ReynoldsCavitation`, `IsothermalOil`.
     """
 
-    oil: FilmOil
+    oil: OilTerm
     shear: Shear  # flow factors
     entrainment: Entrainment
     storage: NoStorage | Storage
@@ -90,7 +90,7 @@ def film_shear(
     sliding: tuple[float, float] | None,
 ) -> Shear:
     """Return the shear of a film that slides along the axes of the grid [m/s]."""
-    if sliding is None or not problem.lubricant.tau0 > 0.0:
+    if sliding is None or not problem.lubricant.shear.tau0 > 0.0:
         return NewtonianShear.of(grid.shape)
     return FilmShear.of(
         problem.lubricant,

@@ -7,7 +7,6 @@ at its height and conducted across it.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -15,11 +14,12 @@ import numpy as np
 from gearlube_core.ehl.line.energy import FilmFields, fill_shear
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_oil import (
-    EhlLubricant,
+    FilmOil,
     limiting_stress,
     thermal_viscosity,
     viscosity_cooling,
 )
+from gearlube_core.oil.sheared_film import stress_share
 
 
 class PointFilm(NamedTuple):
@@ -55,7 +55,7 @@ class PointHeat(NamedTuple):
 
 
 @kernel
-def _flow_viscosity(oil: EhlLubricant, p: float, T: np.ndarray) -> float:
+def _flow_viscosity(oil: FilmOil, p: float, T: np.ndarray) -> float:
     # that of `fill_shear` without shear: a node that breaks keeps its viscosity
     m = T.size
     dz, pumped = 1.0 / (m - 1), 0.0
@@ -68,7 +68,7 @@ def _flow_viscosity(oil: EhlLubricant, p: float, T: np.ndarray) -> float:
 
 @kernel
 def fill_heat(
-    film: PointFilm, T: np.ndarray, sliding: float, everywhere: bool, oil: EhlLubricant,
+    film: PointFilm, T: np.ndarray, sliding: float, everywhere: bool, oil: FilmOil,
     heat: PointHeat,
 ) -> None:  # fmt: skip
     """Fill the heat of shear at temperatures (n, m) [K].
@@ -90,7 +90,8 @@ def fill_heat(
     -----
     Shear along sliding is that of a line's film; across it, flow by pressure adds
     (z dp/dr)^2/eta. A warmer film makes less heat by d ln(tau)/dT, d ln(eta)/dT times
-    tanh(tau/tau0)/(tau/tau0) in an Eyring film, nothing where it slips at the limiting stress.
+    `stress_share`, which is tanh(tau/tau0)/(tau/tau0) in an Eyring film; nothing where it slips
+    at the limiting stress.
     """
     f = film.along
     n, m = T.shape
@@ -111,9 +112,7 @@ def fill_heat(
                 heat.source[i, k] += (drop * z) ** 2 / eta
         size = abs(tau)
         if size < limiting_stress(oil, f.p[i]):
-            share = 1.0
-            if oil.tau0 > 0.0 and size > 1e-3 * oil.tau0:
-                share = math.tanh(size / oil.tau0) * oil.tau0 / size
+            share = stress_share(oil.shear, size) if oil.shear.tau0 > 0.0 else 1.0
             heat.decline[i] = share * viscosity_cooling(oil, f.p[i], T[i, middle])
 
 
@@ -121,7 +120,7 @@ def fill_heat(
 def _carried(
     film: PointFilm,
     motion: PointMotion,
-    oil: EhlLubricant,
+    oil: FilmOil,
     T: np.ndarray,
     nx: int,
     node: int,
@@ -169,7 +168,7 @@ def _carried(
 def heat_balance(
     film: PointFilm,
     motion: PointMotion,
-    oil: EhlLubricant,
+    oil: FilmOil,
     heat: PointHeat,
     T: np.ndarray,
     nx: int,
@@ -222,7 +221,7 @@ def heat_balance(
 def sweep_film(
     film: PointFilm,
     motion: PointMotion,
-    oil: EhlLubricant,
+    oil: FilmOil,
     heat: PointHeat,
     nx: int,
     upwards: bool,

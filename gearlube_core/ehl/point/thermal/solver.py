@@ -21,6 +21,7 @@ from gearlube_core.ehl.point.solver import nested_film, point_solution
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.oil.film_oil import viscosity_cooling
 
 _FILM_SHARE = 0.3  # of the heat that is not balanced yet: what the film of a turn is solved to
 _FILM_STEPS = 1  # of Newton in a turn
@@ -197,7 +198,7 @@ def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -
             "A thermal film needs `sliding`: the velocity of body 2 against body 1, (0, 0) where "
             "the surfaces roll."
         )
-    if problem.lubricant.S0 == 0.0:
+    if viscosity_cooling(problem.lubricant, 0.0, problem.lubricant.temperature) == 0.0:
         raise ParameterError(
             "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. "
             "Take law houpert."

@@ -24,7 +24,7 @@ from gearlube_core.ehl.point.thermal.energy import (
     sweep_film,
 )
 from gearlube_core.ehl.point.thermal.moving_heat import MovingHeat
-from gearlube_core.oil.houpert_1985 import GLASS_TEMPERATURE
+from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE
 
 _SURFACES_TOLERANCE = 0.02  # of one solution for the surfaces: others follow
 _SURFACES_STEPS = 30

@@ -1,7 +1,7 @@
-"""Flow of an Eyring film sheared along one direction and pumped along any: kernels.
+"""Flow of a film of any shear law, sheared along one direction and pumped along any: kernels.
 
 s is the direction of sliding, r the one across it. Stresses are over tau0, Z = 2z/h runs from -1
-to 1, G(q) = sinh(sqrt q)/sqrt q, and a bar is the mean across the film:
+to 1, G(q) is the `rate_ratio` of the law, sinh(sqrt q)/sqrt q for Eyring's:
 
     tau = T + Sigma Z,  rate = tau G(|tau|^2),  mean(rate) = (a, 0),  flow = 3 mean(Z rate)
 """
@@ -9,17 +9,17 @@ to 1, G(q) = sinh(sqrt q)/sqrt q, and a bar is the mean across the film:
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearlube_core.ehl.flow.eyring_flow import eyring_mean_stress
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.eyring_flow import eyring_mean_stress
+from gearlube_core.oil.shear_law import rate_ratio
 
 _LARGEST_SIGMA = 100.0  # as in one dimension
 _LARGEST_COUETTE = 1.0e86  # e^198: products of two rates stay below the largest double
 _SMALL_SIGMA = 1.0e-5  # below, a ratio of two small numbers gives way to its limit
-_SMALL_SQUARE = 0.25
 _STEPS = 40
 _NEAR = 1.0e-5  # a Newton step of that size leaves an error of its square
 _THERE = 1.0e-9  # a smaller one need not be taken
@@ -33,7 +33,7 @@ _NODES = np.concatenate([np.polynomial.legendre.leggauss(n)[0][n // 2 :] for n, 
 _WEIGHTS = np.concatenate([np.polynomial.legendre.leggauss(n)[1][n // 2 :] for n, _ in _RULES])
 
 
-class EyringFlow(NamedTuple):
+class ShearFlow(NamedTuple):
     """Flow factors, mid-film stress and slopes of one point of a film; all floats [-]."""
 
     along: float  # flow along s over its Newtonian value
@@ -75,35 +75,22 @@ class _Equilibrium(NamedTuple):
 
 
 @kernel
-def _rate_ratio(q: float) -> tuple[float, float]:
-    # G = sinh t/t and dG/dq, q = t^2
-    if q < _SMALL_SQUARE:
-        G = 1.0 + q / 6.0 * (
-            1.0 + q / 20.0 * (1.0 + q / 42.0 * (1.0 + q / 72.0 * (1.0 + q / 110.0)))
-        )
-        slope = (
-            1.0
-            + q / 10.0 * (1.0 + q / 28.0 * (1.0 + q / 54.0 * (1.0 + q / 88.0 * (1.0 + q / 130.0))))
-        ) / 6.0
-        return G, slope
-    t = math.sqrt(q)
-    grown, inverse = math.exp(t), 1.0 / t
-    shrunk = 1.0 / grown
-    G = 0.5 * (grown - shrunk) * inverse
-    return G, 0.5 * (0.5 * (grown + shrunk) - G) * inverse * inverse
-
-
-@kernel
 def _moments(
-    stress_s: float, stress_r: float, sigma_s: float, sigma_r: float, first: int, last: int
+    law: Any,
+    stress_s: float,
+    stress_r: float,
+    sigma_s: float,
+    sigma_r: float,
+    first: int,
+    last: int,
 ) -> _Moments:
     g0 = g1 = g2 = ss = sr = rr = 0.0
     for k in range(first, last):
         Z, weight = _NODES[k], 0.5 * _WEIGHTS[k]
         us, ur = stress_s + sigma_s * Z, stress_r + sigma_r * Z
         ls, lr = stress_s - sigma_s * Z, stress_r - sigma_r * Z
-        upper, upper_slope = _rate_ratio(us * us + ur * ur)
-        lower, lower_slope = _rate_ratio(ls * ls + lr * lr)
+        upper, upper_slope = rate_ratio(law, us * us + ur * ur)
+        lower, lower_slope = rate_ratio(law, ls * ls + lr * lr)
         even = weight * (upper + lower)
         g0 += even
         g1 += weight * Z * (upper - lower)
@@ -117,7 +104,7 @@ def _moments(
 
 
 @kernel
-def _equilibrium(sigma_s: float, sigma_r: float, a: float, limit: float) -> _Equilibrium:
+def _equilibrium(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float) -> _Equilibrium:
     size = math.sqrt(sigma_s * sigma_s + sigma_r * sigma_r)
     if size > _LARGEST_SIGMA:
         sigma_s *= _LARGEST_SIGMA / size
@@ -132,7 +119,7 @@ def _equilibrium(sigma_s: float, sigma_r: float, a: float, limit: float) -> _Equ
     T_s, T_r, slips = eyring_mean_stress(size, a, 1.0), 0.0, False
     step_s, step_r, length, share = 0.0, 0.0, math.inf, 1.0
     best, best_s, best_r = math.inf, T_s, T_r
-    m = _moments(T_s, T_r, sigma_s, sigma_r, first, last)
+    m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
     for _ in range(_STEPS):
         rate_s = 0.0 if slips else T_s * m.g0 + sigma_s * m.g1
         rate_r = T_r * m.g0 + sigma_r * m.g1
@@ -162,19 +149,19 @@ def _equilibrium(sigma_s: float, sigma_r: float, a: float, limit: float) -> _Equ
             length = math.sqrt(step_s * step_s + step_r * step_r)
         T_s, T_r = best_s + share * step_s, best_r + share * step_r
         if length > _THERE:
-            m = _moments(T_s, T_r, sigma_s, sigma_r, first, last)
+            m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
         if length <= _NEAR:
             if slips or abs(T_s) <= limit:
                 break
             T_s, slips, length, best = math.copysign(limit, a), True, math.inf, math.inf
-            m = _moments(T_s, T_r, sigma_s, sigma_r, first, last)
+            m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
     if slips:
         a = T_s * m.g0 + sigma_s * m.g1
     return _Equilibrium(sigma_s, sigma_r, a, T_s, T_r, slips, first, last, m.g0, m.g1, m.g2)
 
 
 @kernel
-def _slopes(e: _Equilibrium) -> tuple[float, float, float, float, float]:
+def _slopes(law: Any, e: _Equilibrium) -> tuple[float, float, float, float, float]:
     # d(flow)/d(Sigma) = 3 (K2 - K1 K0^-1 K1): ss, sr, rr; d(flow)/da = 3 K1 K0^-1: s, r
     g0, g1, g2 = e.g0, e.g1, e.g2
     ss0 = sr0 = rr0 = ss1 = sr1 = rr1 = ss2 = sr2 = rr2 = 0.0
@@ -182,8 +169,8 @@ def _slopes(e: _Equilibrium) -> tuple[float, float, float, float, float]:
         Z, weight = _NODES[k], _WEIGHTS[k]
         us, ur = e.stress_s + e.sigma_s * Z, e.stress_r + e.sigma_r * Z
         ls, lr = e.stress_s - e.sigma_s * Z, e.stress_r - e.sigma_r * Z
-        _, upper = _rate_ratio(us * us + ur * ur)
-        _, lower = _rate_ratio(ls * ls + lr * lr)
+        _, upper = rate_ratio(law, us * us + ur * ur)
+        _, lower = rate_ratio(law, ls * ls + lr * lr)
         upper *= weight
         lower *= weight
         u, v = upper * us * us, lower * ls * ls
@@ -219,27 +206,31 @@ def _slopes(e: _Equilibrium) -> tuple[float, float, float, float, float]:
 
 
 @kernel
-def _factors(e: _Equilibrium) -> tuple[float, float]:
+def _factors(law: Any, e: _Equilibrium) -> tuple[float, float]:
     across = 3.0 * (e.g2 - e.g1 * e.g1 / e.g0)
     if abs(e.sigma_s) < _SMALL_SIGMA:
-        return _slopes(e)[0], across
+        return _slopes(law, e)[0], across
     return across + 3.0 * e.a / e.sigma_s * e.g1 / e.g0, across
 
 
 @kernel
-def eyring_factors(sigma_s: float, sigma_r: float, a: float, limit: float) -> tuple[float, float]:
-    """Return the flow factors along and across sliding alone; see `eyring_flow`."""
-    return _factors(_equilibrium(sigma_s, sigma_r, a, limit))
+def shear_factors(
+    law: Any, sigma_s: float, sigma_r: float, a: float, limit: float
+) -> tuple[float, float]:
+    """Return the flow factors along and across sliding alone; see `shear_flow`."""
+    return _factors(law, _equilibrium(law, sigma_s, sigma_r, a, limit))
 
 
 @kernel
-def eyring_flow(sigma_s: float, sigma_r: float, a: float, limit: float) -> EyringFlow:
+def shear_flow(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float) -> ShearFlow:
     """Return flow factors along and across sliding, mid-film stress and the slopes of the flow.
 
     S_r = 3 [m2 - m1^2/m0],  S_s = S_r + 3 (a/Sigma_s) m1/m0,  m_n = mean(Z^n G)
 
     Parameters
     ----------
+    law
+        Shear law.
     sigma_s, sigma_r
         Stress drop over half the film, h (dp/ds)/(2 tau0) and the like along r [-].
     a
@@ -249,19 +240,20 @@ def eyring_flow(sigma_s: float, sigma_r: float, a: float, limit: float) -> Eyrin
 
     Returns
     -------
-    EyringFlow
+    ShearFlow
         Factors relative to the Newtonian flow -rho h^3/(12 eta) grad p. The slopes of the flow
         are finite everywhere, symmetric and positive definite; d Sigma/dh = Sigma/h,
         da/dh = -a/h and da/dp = a d ln eta/dp give those by film and pressure.
 
     Notes
     -----
-    The no-slip conditions have one solution, since they are the gradient of the convex
-    mean(cosh|tau|); it is found to 1e-9. Damped Newton solves them in T with both sides taken
-    through asinh, which makes them linear where Sigma is zero: two or three sets of moments.
-    Where dp/ds is zero S_s is its limit d(flow_s)/d(Sigma_s). Without sliding or pumping S is 1;
-    without dp/dr S_s is `eyring_flow_factor`. Beyond |Sigma| = 100 and |a| = 1e86 all values are
-    those there.
+    The no-slip conditions have one solution, since they are the gradient of a convex function,
+    mean(cosh|tau|) for Eyring; it is found to 1e-9. Damped Newton solves them in T with both sides
+    taken through asinh, which makes Eyring's linear where Sigma is zero: two or three sets of
+    moments. Where dp/ds is zero S_s is its limit d(flow_s)/d(Sigma_s). Without sliding or pumping
+    S is 1; without dp/dr S_s of Eyring is `eyring_flow_factor`. Beyond |Sigma| = 100 and
+    |a| = 1e86 all values are those there. The quadrature is exact to 1e-10 for Eyring's law and
+    for any that grows as slowly and as smoothly with stress.
 
     With a limit, sliding beyond what mid-film stress T_s = limit shears is slip; the rest of the
     film flows as if the surfaces slid no faster. Slip is taken as equal at both walls, so that
@@ -275,7 +267,7 @@ def eyring_flow(sigma_s: float, sigma_r: float, a: float, limit: float) -> Eyrin
     [jamali_2015 (3.39)] [jamali_2015 (3.40)] [jamali_2015 (3.43)]
     (3.38) prints u for v.
     """
-    e = _equilibrium(sigma_s, sigma_r, a, limit)
-    along, across = _factors(e)
-    ss, sr, rr, s_a, r_a = _slopes(e)
-    return EyringFlow(along, across, e.stress_s, e.stress_r, ss, sr, rr, s_a, r_a)
+    e = _equilibrium(law, sigma_s, sigma_r, a, limit)
+    along, across = _factors(law, e)
+    ss, sr, rr, s_a, r_a = _slopes(law, e)
+    return ShearFlow(along, across, e.stress_s, e.stress_r, ss, sr, rr, s_a, r_a)

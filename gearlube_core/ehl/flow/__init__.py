@@ -1,1 +1,0 @@
-"""Flow of an oil film under pressure and shear."""

@@ -1,0 +1,132 @@
+"""A shear law written outside the package serves every film solution."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.eyring_1936 import Eyring
+from gearlube_core.oil.film_oil_data import film_oil
+from gearlube_core.oil.shear_flow import shear_flow
+from gearlube_core.oil.sheared_film import (
+    flow_factor,
+    layered_stress,
+    mid_stress,
+    shear_rate,
+    stress_share,
+)
+from tests.helpers.small_films import SLIP, film_in_time, line_film, point_film
+
+TAU0 = 5e6
+
+
+class PlainEyring(NamedTuple):
+    """G = sinh(t)/t, without a closed form for anything."""
+
+    tau0: float
+
+    @kernel
+    def rate_ratio(self, q: float) -> tuple[float, float]:
+        if q < 0.01:
+            return 1.0 + q / 6.0 + q * q / 120.0 + q**3 / 5040.0, (
+                1.0 / 6.0 + q / 60.0 + q * q / 1680.0 + q**3 / 90720.0
+            )
+        t = math.sqrt(q)
+        G = math.sinh(t) / t
+        return G, 0.5 * (math.cosh(t) - G) / q
+
+
+class Rabinowitsch(NamedTuple):
+    """du/dz = (tau/eta) [1 + (tau/tau0)^2]."""
+
+    tau0: float
+
+    @kernel
+    def rate_ratio(self, q: float) -> tuple[float, float]:
+        return 1.0 + q, 1.0
+
+
+PLAIN, CLOSED = PlainEyring(TAU0), Eyring(TAU0)
+
+
+def oil(shear_law):
+    return film_oil(eta0=0.05, alpha=15e-9, shear_law=shear_law)
+
+
+@pytest.mark.parametrize("sigma", [0.0, 1e-3, 0.4, -3.0])
+@pytest.mark.parametrize("a", [0.0, 0.3, -20.0, 1e6])
+def test_quadrature_of_any_law_meets_eyrings_closed_forms(sigma, a):
+    factor, by_sigma, by_a = flow_factor(PLAIN, sigma, a)
+    value, slope, slope_a = flow_factor(CLOSED, sigma, a)
+    # the quadrature is exact to 1e-9; a slope at small Sigma is a difference over 1e-4
+    assert factor == pytest.approx(value, rel=1e-8)
+    assert by_sigma == pytest.approx(slope, rel=1e-5, abs=2e-4 * value)
+    assert by_a == pytest.approx(slope_a, rel=1e-6, abs=1e-6)
+    assert mid_stress(PLAIN, sigma, a) == pytest.approx(mid_stress(CLOSED, sigma, a), abs=1e-9)
+
+
+def test_layers_of_uneven_viscosity_meet_eyrings_closed_form():
+    eta = 40.0 * np.exp(np.sin(np.linspace(0.0, 3.0, 17)))
+    for slope in (0.0, 4e13, -1e14):
+        for sliding in (0.0, 0.3, -2.0):
+            here = (eta, 3e-7, slope, sliding)
+            # Newton's method stops at 1e-12 of the stress
+            assert layered_stress(PLAIN, *here) == pytest.approx(
+                layered_stress(CLOSED, *here), rel=1e-9, abs=1e-5
+            )
+    for stress in (1e4, 8e6, 3e7):
+        assert shear_rate(PLAIN, stress, 2.0) == pytest.approx(shear_rate(CLOSED, stress, 2.0))
+        assert stress_share(PLAIN, stress) == pytest.approx(stress_share(CLOSED, stress), rel=1e-6)
+
+
+def test_every_solver_gives_eyrings_film_without_its_closed_forms():
+    # the quadrature is exact to 1e-9, films are solved to 1e-9
+    ours, theirs = line_film(oil(PLAIN)), line_film(oil(CLOSED))
+    assert ours.film == pytest.approx(theirs.film, rel=1e-7)
+    assert ours.mean_stress == pytest.approx(theirs.mean_stress, rel=1e-6, abs=1.0)
+    assert point_film(oil(PLAIN)).film == pytest.approx(point_film(oil(CLOSED)).film, rel=1e-7)
+    ours, theirs = film_in_time(oil(PLAIN)), film_in_time(oil(CLOSED))
+    assert ours.film == pytest.approx(theirs.film, rel=1e-7)
+
+
+@pytest.mark.parametrize("sigma", [0.0, 0.2, 5.0])
+@pytest.mark.parametrize("a", [0.0, 0.1, 30.0])
+def test_rabinowitsch_flow_factor_is_its_closed_form(sigma, a):
+    # a = T + T^3 + T Sigma^2; S = 1 + 3 T^2 + 3/5 Sigma^2, means of powers of Z by hand
+    law = Rabinowitsch(TAU0)
+    T = brentq(lambda t: t + t**3 + t * sigma**2 - a, -1.0, 1.0 + a, xtol=1e-14)
+    factor, _, _ = flow_factor(law, sigma, a)
+    assert factor == pytest.approx(1.0 + 3.0 * T * T + 0.6 * sigma**2, rel=1e-8)
+    assert mid_stress(law, sigma, a) == pytest.approx(T, abs=1e-8)
+    across = shear_flow(law, sigma, 0.0, a, math.inf).across
+    # g0 = 1 + T^2 + Sigma^2/3, g1 = 2 T Sigma/3, g2 = 1/3 + T^2/3 + Sigma^2/5
+    g0, g1 = 1.0 + T * T + sigma**2 / 3.0, 2.0 * T * sigma / 3.0
+    g2 = (1.0 + T * T) / 3.0 + sigma**2 / 5.0
+    assert across == pytest.approx(3.0 * (g2 - g1 * g1 / g0), rel=1e-8)
+
+
+def test_films_of_rabinowitsch_shear_as_its_law_says():
+    film = line_film(oil(Rabinowitsch(TAU0)))
+    centre = int(np.argmax(film.pressure))
+    h, eta, tau = film.film[centre], film.viscosity[centre], film.mean_stress[centre]
+    # where the pressure is even: eta (u2 - u1)/h = tau [1 + (tau/tau0)^2]
+    expected = eta * -SLIP / h
+    assert tau * (1.0 + (tau / TAU0) ** 2) == pytest.approx(expected, rel=1e-3)
+    stiff = point_film(oil(Rabinowitsch(1e12)))
+    newtonian = point_film(film_oil(eta0=0.05, alpha=15e-9))
+    # a law whose stress is never reached is Newtonian: factors differ from 1 by (tau/tau0)^2
+    assert stiff.film == pytest.approx(newtonian.film, rel=1e-6)
+    assert film_in_time(oil(Rabinowitsch(TAU0))).minimum_film > 0.0
+
+
+def test_a_shear_law_beside_an_eyring_stress_is_refused():
+    with pytest.raises(ParameterError, match="eyring_stress must be left out"):
+        film_oil(eta0=0.05, alpha=15e-9, shear_law=PLAIN, eyring_stress=1e6)
+    with pytest.raises(ParameterError, match="tau0"):
+        oil(PlainEyring(0.0))
