@@ -14,11 +14,8 @@ from gearlube_core.ehl.point.equations.finite_elements import (
     element_residual,
     upwind_shares,
 )
-from gearlube_core.ehl.point.equations.stencil import (
-    FlowSlopes,
-    StencilParameters,
-    apply_derivatives,
-)
+from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
+from gearlube_core.ehl.point.equations.stencil import FlowSlopes, StencilParameters
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
