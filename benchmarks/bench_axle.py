@@ -1,4 +1,4 @@
-"""Cost of the axle model in Python: `python -m pytest benchmarks/bench_axle.py --benchmark-only`.
+"""Cost of the axle model in Python: `pytest -n 0 benchmarks/bench_axle.py --benchmark-only`.
 
 `python -m benchmarks.bench_axle` prints the figures of benchmarks/README.md that are no plain
 timings: the ratio to DOP853 at equal accuracy, and compilation and start in a fresh process.

@@ -1,4 +1,4 @@
-"""Cost of tooth contact analysis: `python -m pytest benchmarks/bench_contact.py --benchmark-only`.
+"""Cost of tooth contact analysis: `pytest -n 0 benchmarks/bench_contact.py --benchmark-only`.
 
 `python -m benchmarks.bench_contact` times the whole mesh table: from nothing, and with tooth
 compliances or positions on disk.

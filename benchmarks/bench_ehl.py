@@ -1,6 +1,6 @@
 """Cost and robustness of the point contact film.
 
-`python -m pytest benchmarks/bench_ehl.py --benchmark-only` times cold solutions, grid nest
+`pytest -n 0 benchmarks/bench_ehl.py --benchmark-only` times cold solutions, grid nest
 included; `python -m benchmarks.bench_ehl [nodes] [stride] [file.csv]` solves a map of 474 contacts
 over load M and material L of Moes, the ellipticity a_y/a_x of the dry contact and, for an Eyring
 oil, the ratio of sliding to rolling, or every

@@ -1,4 +1,4 @@
-"""Cost of HypoidAxle.fmu through FMI: `pytest benchmarks/bench_fmu.py --benchmark-only`."""
+"""Cost of HypoidAxle.fmu through FMI: `pytest -n 0 benchmarks/bench_fmu.py --benchmark-only`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Cost of a helical pair: `python -m pytest benchmarks/bench_helical.py --benchmark-only`.
+"""Cost of a helical pair: `pytest -n 0 benchmarks/bench_helical.py --benchmark-only`.
 
 `python -m benchmarks.bench_helical` prints what is no plain timing: the sweep of 30 coefficients of
 friction by 60 speeds on two processes, a loaded mesh period, and ratios within one process.

@@ -1,4 +1,4 @@
-"""Cost of HelicalPair.fmu through FMI: `pytest benchmarks/bench_helical_fmu.py --benchmark-only`.
+"""Cost of HelicalPair.fmu: `pytest -n 0 benchmarks/bench_helical_fmu.py --benchmark-only`.
 
 The pair of He et al. 2007 at 1000 rpm and 2000 lbf in. `extra_info` has the simulated seconds per
 second; HelicalPair.fmu is meant to have ten and more.

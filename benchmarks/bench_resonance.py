@@ -1,4 +1,4 @@
-"""Cost of resonance curves: `python -m pytest benchmarks/bench_resonance.py --benchmark-only`.
+"""Cost of resonance curves: `pytest -n 0 benchmarks/bench_resonance.py --benchmark-only`.
 
 `python -m benchmarks.bench_resonance` prints the figures of benchmarks/README.md that are no plain
 timings: both curves of 200 frequencies, and the ratio to SciPy's integration in time at the same

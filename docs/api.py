@@ -48,7 +48,8 @@ def groups() -> list[Group]:
     for line in STUB.read_text(encoding="utf-8").splitlines():
         if heading := re.fullmatch(r"# -- (.+)", line):
             found.append(Group(heading[1], []))
-        found[-1].names.extend(name for _, name in re.findall(r"(\w+) as (\w+)", line))
+        if found:
+            found[-1].names.extend(name for _, name in re.findall(r"(\w+) as (\w+)", line))
     return found
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
+from fmu_src.compile_ahead import compile_ahead
 from fmu_src.definition import Definition, Model, Value
 from fmu_src.host_thread import HostThread
 from fmu_src.identity import check_identity, guid_of
@@ -27,7 +28,6 @@ from fmu_src.phase import Phase
 from fmu_src.registration import register_variables
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
-from fmu_src.warm_start import compile_ahead
 from fmu_src.wrapper import guarded, unload_before_libraries
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 

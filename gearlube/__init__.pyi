@@ -28,6 +28,9 @@ from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel as 
 # -- Oils
 from gearlube_core.oil.lubricant import Lubricant as Lubricant
 from gearlube_core.oil.lubricant import lubricant_names as lubricant_names
+from gearlube_core.oil.film_oil import FilmOil as FilmOil
+from gearlube_core.oil.film_oil_data import film_oil as film_oil
+from gearlube_core.oil.film_oil_data import film_oil_of as film_oil_of
 
 # -- Gear files and mesh tables
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile as HypoidGearFile

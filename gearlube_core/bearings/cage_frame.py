@@ -7,27 +7,20 @@ bearing with side s = +1 is loaded by positive axial displacement, the one with 
 
 from __future__ import annotations
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, BearingParameters
 from gearlube_core.kernels.jit import kernel
 
 
 @kernel
 def approach_terms(
-    r1: float,
-    r2: float,
-    xa: float,
-    vr1: float,
-    vr2: float,
-    vxa: float,
-    cos_c: float,
-    sin_c: float,
-    cage_speed: float,
-    p: BearingParameters,
+    motion: ShaftMotion, cos_c: float, sin_c: float, p: BearingParameters
 ) -> tuple[float, float, float, float, float, float, float]:
     """Return the approach and its rate as sums over the roller angle b from the cage frame.
 
     g_i = g0 + s ga + g1 cos b + g2 sin b,  g_i' = s va + v1 cos b + v2 sin b, with b = 2 pi i/N,
     in units of FILM_FLOOR_APPROACH. The rates contain the turning of the cage.
+    `cos_c` and `sin_c` are of the cage angle.
 
     Notes
     -----
@@ -36,12 +29,14 @@ def approach_terms(
     """
     scale = p.approach_factor / FILM_FLOOR_APPROACH
     radial = scale * p.cos_contact
-    g1 = radial * (r1 * cos_c + r2 * sin_c)
-    g2 = radial * (r2 * cos_c - r1 * sin_c)
-    v1 = radial * (vr1 * cos_c + vr2 * sin_c) + cage_speed * g2
-    v2 = radial * (vr2 * cos_c - vr1 * sin_c) - cage_speed * g1
+    cage_speed = p.cage_ratio * motion.speed
+    g1 = radial * (motion.r1 * cos_c + motion.r2 * sin_c)
+    g2 = radial * (motion.r2 * cos_c - motion.r1 * sin_c)
+    v1 = radial * (motion.v1 * cos_c + motion.v2 * sin_c) + cage_speed * g2
+    v2 = radial * (motion.v2 * cos_c - motion.v1 * sin_c) - cage_speed * g1
     axial = scale * p.sin_contact
-    return p.interference / FILM_FLOOR_APPROACH, g1, g2, axial * xa, v1, v2, axial * vxa
+    g0 = p.interference / FILM_FLOOR_APPROACH
+    return g0, g1, g2, axial * motion.axial, v1, v2, axial * motion.v_axial
 
 
 @kernel

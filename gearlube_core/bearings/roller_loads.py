@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.cage_frame import approach_terms
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
@@ -24,14 +25,7 @@ from gearlube_core.kernels.jit import kernel
 
 @kernel
 def bearing_forces(
-    r1: float,
-    r2: float,
-    xa: float,
-    vr1: float,
-    vr2: float,
-    vxa: float,
-    cage_angle: float,
-    shaft_speed: float,
+    motion: ShaftMotion,
     f_ref: float,
     eta0: float,
     alpha: float,
@@ -42,7 +36,7 @@ def bearing_forces(
 
     Parameters
     ----------
-    r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p
+    motion, f_ref, eta0, alpha, p
         As in `shaft_bearing_forces`.
     side : float
         +1 or -1, the axial direction of displacement that loads the bearing [-].
@@ -56,12 +50,10 @@ def bearing_forces(
     ----------
     [mohammadpour_2015 (24)]; `roller_contact` has the load of a roller.
     """
-    film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)
-    cos_c = math.cos(cage_angle)
-    sin_c = math.sin(cage_angle)
-    g0, g1, g2, ga, v1, v2, va = approach_terms(
-        r1, r2, xa, vr1, vr2, vxa, cos_c, sin_c, p.cage_ratio * shaft_speed, p
-    )
+    film, squeeze_scale = film_amplitude(motion.speed, eta0, alpha, p)
+    cos_c = math.cos(motion.cage_angle)
+    sin_c = math.sin(motion.cage_angle)
+    g0, g1, g2, ga, v1, v2, va = approach_terms(motion, cos_c, sin_c, p)
     K = p.kn * FILM_FLOOR_APPROACH**p.n
     c = p.loss / f_ref
     w_min = 0.0 if p.clip != 0.0 else -math.inf
@@ -91,14 +83,7 @@ def bearing_forces(
 
 @kernel
 def roller_loads(
-    r1: float,
-    r2: float,
-    xa: float,
-    vr1: float,
-    vr2: float,
-    vxa: float,
-    cage_angle: float,
-    shaft_speed: float,
+    motion: ShaftMotion,
     f_ref: float,
     eta0: float,
     alpha: float,
@@ -110,7 +95,7 @@ def roller_loads(
 
     Parameters
     ----------
-    r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p, side
+    motion, f_ref, eta0, alpha, p, side
         As in `bearing_forces`.
     out : ndarray, shape (>= n_rollers,)
         Receives w_i [N].
@@ -127,18 +112,9 @@ def roller_loads(
     count = int(p.n_rollers)
     if out.shape[0] < count:
         return 1
-    film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)
+    film, squeeze_scale = film_amplitude(motion.speed, eta0, alpha, p)
     g0, g1, g2, ga, v1, v2, va = approach_terms(
-        r1,
-        r2,
-        xa,
-        vr1,
-        vr2,
-        vxa,
-        math.cos(cage_angle),
-        math.sin(cage_angle),
-        p.cage_ratio * shaft_speed,
-        p,
+        motion, math.cos(motion.cage_angle), math.sin(motion.cage_angle), p
     )
     K = p.kn * FILM_FLOOR_APPROACH**p.n
     c = p.loss / f_ref

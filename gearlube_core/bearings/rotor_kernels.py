@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.cage_frame import cage_torque
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.roller_loads import bearing_forces, roller_loads
@@ -28,9 +29,8 @@ def rotor_rate(
     out: np.ndarray,
 ) -> None:
     """Write ds/dt: m r1'' = load + F_r1, m r2'' = F_r2, and the two powers."""
-    F_r1, F_r2, _, lost = bearing_forces(
-        s[0], s[1], 0.0, s[2], s[3], 0.0, cage_angle, shaft_speed, f_ref, eta0, alpha, p, 1.0
-    )
+    motion = ShaftMotion(s[0], s[1], 0.0, s[2], s[3], 0.0, cage_angle, shaft_speed)
+    F_r1, F_r2, _, lost = bearing_forces(motion, f_ref, eta0, alpha, p, 1.0)
     out[0] = s[2]
     out[1] = s[3]
     out[2] = (load + F_r1) / mass
@@ -106,22 +106,8 @@ def rotor_history(
         for k in range(N_STATE):
             states[i, k] = s[k]
         angle = (cage_speed * step * i * steps_per_sample) % turn
-        roller_loads(
-            s[0],
-            s[1],
-            0.0,
-            s[2],
-            s[3],
-            0.0,
-            angle,
-            shaft_speed,
-            f_ref,
-            eta0,
-            alpha,
-            p,
-            1.0,
-            loads[i],
-        )
+        motion = ShaftMotion(s[0], s[1], 0.0, s[2], s[3], 0.0, angle, shaft_speed)
+        roller_loads(motion, f_ref, eta0, alpha, p, 1.0, loads[i])
         if not math.isfinite(s[0] + s[1] + s[2] + s[3]):
             return 1
     return 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.cage_frame import approach_terms
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
@@ -75,9 +76,8 @@ def bearing_energy(
 ) -> float:
     """Return the elastic energy of one bearing [J]; see `shaft_bearing_energy`."""
     film, _ = film_amplitude(shaft_speed, eta0, alpha, p)
-    g0, g1, g2, ga, _, _, _ = approach_terms(
-        r1, r2, xa, 0.0, 0.0, 0.0, math.cos(cage_angle), math.sin(cage_angle), 0.0, p
-    )
+    still = ShaftMotion(r1, r2, xa, 0.0, 0.0, 0.0, cage_angle, 0.0)
+    g0, g1, g2, ga, _, _, _ = approach_terms(still, math.cos(cage_angle), math.sin(cage_angle), p)
     count = int(p.n_rollers)
     if p.n == N_LINE:
         total = _sum_line(count, g0 + side * ga, g1, g2, film)
@@ -106,7 +106,11 @@ def shaft_bearing_energy(
 
     Parameters
     ----------
-    r1, r2, xa, cage_angle, shaft_speed, eta0, alpha, p
+    r1, r2, xa : float
+        Radial and axial displacement of the shaft [m].
+    cage_angle, shaft_speed : float
+        Angle of roller 0 [rad]; speed of the shaft [rad/s].
+    eta0, alpha, p
         As in `shaft_bearing_forces`.
 
     Returns

@@ -12,6 +12,7 @@ import math
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.cage_frame import approach_terms
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
@@ -147,14 +148,7 @@ def _sums_general(
 
 @kernel
 def expand_shaft_bearings(
-    r1: float,
-    r2: float,
-    xa: float,
-    vr1: float,
-    vr2: float,
-    vxa: float,
-    cage_angle: float,
-    shaft_speed: float,
+    motion: ShaftMotion,
     f_ref: float,
     eta0: float,
     alpha: float,
@@ -165,19 +159,17 @@ def expand_shaft_bearings(
 
     Parameters
     ----------
-    r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p
+    motion, f_ref, eta0, alpha, p
         As in `shaft_bearing_forces`.
     e : ndarray of shape (N_EXPANSION,)
         Expansion, see `bearing_type`, for `expanded_shaft_forces`.
     """
     count = int(p.n_rollers)
-    film, squeeze_scale = film_amplitude(shaft_speed, eta0, alpha, p)
-    cos_c = math.cos(cage_angle)
-    sin_c = math.sin(cage_angle)
-    g0, g1, g2, ga, v1, v2, va = approach_terms(
-        r1, r2, xa, vr1, vr2, vxa, cos_c, sin_c, p.cage_ratio * shaft_speed, p
-    )
-    e[CAGE] = cage_angle
+    film, squeeze_scale = film_amplitude(motion.speed, eta0, alpha, p)
+    cos_c = math.cos(motion.cage_angle)
+    sin_c = math.sin(motion.cage_angle)
+    g0, g1, g2, ga, v1, v2, va = approach_terms(motion, cos_c, sin_c, p)
+    e[CAGE] = motion.cage_angle
     e[CAGE + 1] = cos_c
     e[CAGE + 2] = sin_c
     e[0] = g1
@@ -200,14 +192,7 @@ def expand_shaft_bearings(
 
 @kernel
 def expanded_shaft_forces(
-    r1: float,
-    r2: float,
-    xa: float,
-    vr1: float,
-    vr2: float,
-    vxa: float,
-    cage_angle: float,
-    shaft_speed: float,
+    motion: ShaftMotion,
     p: BearingParameters,
     e: NDArray[float64],
 ) -> tuple[float, float, float, float]:
@@ -217,7 +202,7 @@ def expanded_shaft_forces(
 
     Parameters
     ----------
-    r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, p
+    motion, p
         As in `shaft_bearing_forces`.
     e : ndarray of shape (N_EXPANSION,)
         From `expand_shaft_bearings`.
@@ -233,14 +218,12 @@ def expanded_shaft_forces(
     expansion is kept. The error is (n - 1)/2 (change of approach / approach)^2 of a roller's load,
     6e-6 for one per cent, and n - 1 times that change of the lost power.
     """
-    turn = cage_angle - e[CAGE]
+    turn = motion.cage_angle - e[CAGE]
     cos_t = 1.0 - turn * turn * (0.5 - turn * turn * _1_24)
     sin_t = turn * (1.0 - turn * turn * (_1_6 - turn * turn * _1_120))
     cos_c = e[CAGE + 1] * cos_t - e[CAGE + 2] * sin_t
     sin_c = e[CAGE + 2] * cos_t + e[CAGE + 1] * sin_t
-    _, g1, g2, ga, v1, v2, va = approach_terms(
-        r1, r2, xa, vr1, vr2, vxa, cos_c, sin_c, p.cage_ratio * shaft_speed, p
-    )
+    _, g1, g2, ga, v1, v2, va = approach_terms(motion, cos_c, sin_c, p)
     x = g1 - e[0]
     y = g2 - e[1]
     a = ga - e[2]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.roller_loads import bearing_forces
 from gearlube_core.kernels.jit import kernel
@@ -9,14 +10,7 @@ from gearlube_core.kernels.jit import kernel
 
 @kernel
 def shaft_bearing_forces(
-    r1: float,
-    r2: float,
-    xa: float,
-    vr1: float,
-    vr2: float,
-    vxa: float,
-    cage_angle: float,
-    shaft_speed: float,
+    motion: ShaftMotion,
     f_ref: float,
     eta0: float,
     alpha: float,
@@ -29,14 +23,8 @@ def shaft_bearing_forces(
 
     Parameters
     ----------
-    r1, r2, xa : float
-        Radial and axial displacement of the shaft [m].
-    vr1, vr2, vxa : float
-        Velocities [m/s].
-    cage_angle : float
-        Angle of roller 0 [rad]; keep it within a few turns for accuracy.
-    shaft_speed : float
-        Speed of the shaft [rad/s].
+    motion : ShaftMotion
+        Keep the cage angle within a few turns for accuracy.
     f_ref : float
         Reference frequency of the hysteresis, above zero [Hz].
     eta0, alpha : float
@@ -62,10 +50,6 @@ def shaft_bearing_forces(
     ----------
     [mohammadpour_2015 (24)]; `roller_loads.bearing_forces` has the rollers.
     """
-    F1_r1, F1_r2, F1_a, lost_1 = bearing_forces(
-        r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p, 1.0
-    )
-    F2_r1, F2_r2, F2_a, lost_2 = bearing_forces(
-        r1, r2, xa, vr1, vr2, vxa, cage_angle, shaft_speed, f_ref, eta0, alpha, p, -1.0
-    )
+    F1_r1, F1_r2, F1_a, lost_1 = bearing_forces(motion, f_ref, eta0, alpha, p, 1.0)
+    F2_r1, F2_r2, F2_a, lost_2 = bearing_forces(motion, f_ref, eta0, alpha, p, -1.0)
     return F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, lost_1 + lost_2

@@ -25,14 +25,7 @@ class TaperedRollerParameters(BearingParameters):
     ) -> None:
         """Write the expansion of the forces about this motion."""
         expand_shaft_bearings(
-            motion.r1,
-            motion.r2,
-            motion.axial,
-            motion.v1,
-            motion.v2,
-            motion.v_axial,
-            motion.cage_angle,
-            motion.speed,
+            motion,
             f_ref,
             oil.eta0,
             oil.alpha,
@@ -45,14 +38,7 @@ class TaperedRollerParameters(BearingParameters):
     ) -> tuple[float, float, float, float]:
         """Return the forces on the shaft [N] and the lost power [W] near the expansion."""
         return expanded_shaft_forces(
-            motion.r1,
-            motion.r2,
-            motion.axial,
-            motion.v1,
-            motion.v2,
-            motion.v_axial,
-            motion.cage_angle,
-            motion.speed,
+            motion,
             self,
             expansion,
         )
@@ -62,14 +48,7 @@ class TaperedRollerParameters(BearingParameters):
     ) -> tuple[float, float, float, float, float, float, float]:
         """Return the forces of either bearing [N] and the lost power of both [W]."""
         return shaft_bearing_forces(
-            motion.r1,
-            motion.r2,
-            motion.axial,
-            motion.v1,
-            motion.v2,
-            motion.v_axial,
-            motion.cage_angle,
-            motion.speed,
+            motion,
             f_ref,
             oil.eta0,
             oil.alpha,
@@ -99,14 +78,7 @@ class TaperedRollerParameters(BearingParameters):
     ) -> tuple[float, float, float]:
         """Return the load of roller 0, the largest and the smallest load of one bearing [N]."""
         roller_loads(
-            motion.r1,
-            motion.r2,
-            motion.axial,
-            motion.v1,
-            motion.v2,
-            motion.v_axial,
-            motion.cage_angle,
-            motion.speed,
+            motion,
             f_ref,
             oil.eta0,
             oil.alpha,

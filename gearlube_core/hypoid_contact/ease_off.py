@@ -19,7 +19,7 @@ from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample
 
 @dataclass(frozen=True, slots=True)
 class EaseOff:
-    """Turning of the pinion to touch, over the gear flank and the gear angle.
+    """Rotation of the pinion to contact, over the gear flank and the gear angle.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Where on the gear flank a pinion that turns into mesh touches first, on a grid."""
+"""Where on the gear flank the pinion touches first as it rotates, on a grid."""
 
 from __future__ import annotations
 

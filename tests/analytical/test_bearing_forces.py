@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.cage_frame import cage_torque
 from gearlube_core.bearings.ninth_root import (
     ROOT_MAX,
@@ -36,6 +37,7 @@ WET = BEARING.parameters()
 U = (3.1e-6, -1.2e-6, 0.7e-6)
 V = (1.3e-3, 2.1e-3, -0.9e-3)
 ANGLE, SPEED, F_REF = 0.37, 145.0, 300.0
+MOTION = ShaftMotion(*U, *V, ANGLE, SPEED)
 
 
 def total(forces):
@@ -71,7 +73,7 @@ def test_ninth_root_agrees_with_the_power_function():
 
 
 def test_forces_are_the_printed_sums():
-    forces = shaft_bearing_forces(*U, *V, ANGLE, SPEED, F_REF, *OIL, DRY)
+    forces = shaft_bearing_forces(MOTION, F_REF, *OIL, DRY)
     # 1e-13 of the largest: 24 sums of rounding errors
     expected = by_hand(np.array(U), np.array(V), DRY, ANGLE, SPEED, F_REF)
     assert np.allclose(forces[:6], expected, rtol=0, atol=1e-13 * np.abs(expected).max())
@@ -79,7 +81,7 @@ def test_forces_are_the_printed_sums():
 
 def test_one_bearing_and_the_opposed_pair_agree():
     for p in (DRY, WET, WET._replace(n=1.5, kn=1e10)):
-        args = (*U, *V, ANGLE, SPEED, F_REF, *OIL, p)
+        args = (MOTION, F_REF, *OIL, p)
         pair = shaft_bearing_forces(*args)
         one, two = bearing_forces(*args, 1.0), bearing_forces(*args, -1.0)
         # rounding of sums in a different order
@@ -89,7 +91,7 @@ def test_one_bearing_and_the_opposed_pair_agree():
 
 def test_written_roller_loads_add_up_to_the_force():
     out = np.full(14, -1.0)
-    args = (*U, *V, ANGLE, SPEED, F_REF, *OIL, WET)
+    args = (MOTION, F_REF, *OIL, WET)
     for k, s in enumerate((1.0, -1.0)):
         assert roller_loads(*args, s, out) == 0
         th = ANGLE + 2 * np.pi * np.arange(12) / 12
@@ -124,7 +126,9 @@ def test_force_is_the_gradient_of_the_energy():
     h = 4e-8
     for p in (DRY, WET, DRY._replace(approach_factor=0.5), WET._replace(n=1.5, kn=1e10)):
         still = p._replace(loss=0.0, squeeze=0.0)
-        forces = total(shaft_bearing_forces(*U, 0, 0, 0, ANGLE, SPEED, F_REF, *OIL, still))
+        forces = total(
+            shaft_bearing_forces(ShaftMotion(*U, 0.0, 0.0, 0.0, ANGLE, SPEED), F_REF, *OIL, still)
+        )
         for k in range(3):
             value = []
             for step in (-2, -1, 1, 2):
@@ -158,7 +162,7 @@ def test_energy_given_up_is_work_on_the_shaft_the_cage_and_the_rollers():
         (DRY, WET._replace(squeeze=0.0), WET, DRY._replace(clip=0.0)),
         (U, (8e-6, 2e-6, 4e-6)),
     ):
-        *F, lost = shaft_bearing_forces(*u, *V, ANGLE, SPEED, F_REF, *OIL, p)
+        *F, lost = shaft_bearing_forces(ShaftMotion(*u, *V, ANGLE, SPEED), F_REF, *OIL, p)
         force = total(F)
         cage_speed = p.cage_ratio * SPEED
         h = 2e-6
@@ -176,16 +180,16 @@ def test_energy_given_up_is_work_on_the_shaft_the_cage_and_the_rollers():
 
 
 def test_forces_vanish_by_symmetry_at_rest_and_preload_is_carried():
-    *F, lost = shaft_bearing_forces(0, 0, 0, 0, 0, 0, ANGLE, 0.0, F_REF, *OIL, WET)
+    *F, lost = shaft_bearing_forces(ShaftMotion(*6 * [0.0], ANGLE, 0.0), F_REF, *OIL, WET)
     # rounding of a sum of 2500 N
     assert np.array(F) == pytest.approx([0, 0, -2500.0, 0, 0, 2500.0], abs=1e-9)
     assert lost == 0.0
 
 
 def test_opposed_bearings_mirror_each_other():
-    one = shaft_bearing_forces(*U, *V, ANGLE, SPEED, F_REF, *OIL, WET)
+    one = shaft_bearing_forces(MOTION, F_REF, *OIL, WET)
     mirrored = (U[0], U[1], -U[2], V[0], V[1], -V[2])
-    two = shaft_bearing_forces(*mirrored, ANGLE, SPEED, F_REF, *OIL, WET)
+    two = shaft_bearing_forces(ShaftMotion(*mirrored, ANGLE, SPEED), F_REF, *OIL, WET)
     # the same numbers in another place
     assert two[0:2] == pytest.approx(one[3:5], rel=1e-13)
     assert two[2] == pytest.approx(-one[5], rel=1e-13)
@@ -194,9 +198,10 @@ def test_opposed_bearings_mirror_each_other():
 def test_turning_shaft_and_rollers_together_turns_the_force():
     turn = 0.8
     Q = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
-    one = total(shaft_bearing_forces(*U, *V, ANGLE, SPEED, F_REF, *OIL, WET))
+    one = total(shaft_bearing_forces(MOTION, F_REF, *OIL, WET))
     u, v = Q @ U[:2], Q @ V[:2]
-    two = total(shaft_bearing_forces(*u, U[2], *v, V[2], ANGLE + turn, SPEED, F_REF, *OIL, WET))
+    turned = ShaftMotion(*u.tolist(), U[2], *v.tolist(), V[2], ANGLE + turn, SPEED)
+    two = total(shaft_bearing_forces(turned, F_REF, *OIL, WET))
     # rounding
     assert two[:2] == pytest.approx(Q @ one[:2], rel=1e-12)
     assert two[2] == pytest.approx(one[2], rel=1e-10)
@@ -206,7 +211,7 @@ def test_film_in_the_roller_equation_is_mostofi_and_gohar():
     """The approach g + H carries the load at which eq. (27) gives that H."""
     p = WET._replace(squeeze=0.0, loss=0.0)
     out = np.zeros(12)
-    roller_loads(0, 0, 0, 0, 0, 0, ANGLE, SPEED, F_REF, *OIL, p, 1.0, out)
+    roller_loads(ShaftMotion(*6 * [0.0], ANGLE, SPEED), F_REF, *OIL, p, 1.0, out)
     ri, ro, r = 25e-3, 37.7e-3, 6.35e-3
     E_r = math.pi * 210e9 / (2 * (1 - 0.3**2))
     u = SPEED * ri * ro / (ri + ro)
@@ -245,7 +250,7 @@ def test_halved_approach_halves_the_stiffness():
     slopes = []
     for p in (DRY, DRY._replace(approach_factor=0.5)):
         F = [
-            total(shaft_bearing_forces(s * h, 0, 0, 0, 0, 0, 0, 0.0, F_REF, *OIL, p))[0]
+            total(shaft_bearing_forces(ShaftMotion(s * h, *7 * [0.0]), F_REF, *OIL, p))[0]
             for s in (1, -1)
         ]
         slopes.append((F[0] - F[1]) / h)
@@ -255,7 +260,7 @@ def test_halved_approach_halves_the_stiffness():
 
 def test_rollers_pull_only_in_the_printed_form():
     out = np.zeros(12)
-    fast = (0, 0, 0, -0.5, 0.0, 0.0, 0.0, 0.0, F_REF, *OIL)
+    fast = (ShaftMotion(0.0, 0.0, 0.0, -0.5, 0.0, 0.0, 0.0, 0.0), F_REF, *OIL)
     roller_loads(*fast, DRY, 1.0, out)
     assert np.min(out) == 0.0
     roller_loads(*fast, DRY._replace(clip=0.0), 1.0, out)
@@ -263,11 +268,11 @@ def test_rollers_pull_only_in_the_printed_form():
 
 
 def test_nan_in_any_input_reaches_the_forces():
-    good = [*U, *V, ANGLE, SPEED, F_REF]
+    good = [*MOTION, F_REF]
     for k in range(len(good)):
         bad = list(good)
         bad[k] = math.nan
-        assert math.isnan(sum(shaft_bearing_forces(*bad, *OIL, WET)[:6]))
+        assert math.isnan(sum(shaft_bearing_forces(ShaftMotion(*bad[:-1]), bad[-1], *OIL, WET)[:6]))
 
 
 def test_loads_stay_finite_and_continuous_through_contact():

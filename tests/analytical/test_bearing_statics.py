@@ -3,6 +3,7 @@ import math
 import numpy as np
 import pytest
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
 from gearlube_core.bearings.statics import (
     natural_frequencies,
@@ -37,9 +38,8 @@ def test_stiffness_is_the_slope_of_the_kernel_force():
             for s in (1, -1):
                 v = np.array(u)
                 v[k] += s * h
-                f = shaft_bearing_forces(
-                    *v, 0, 0, 0, 0.3, 145.0, 1e3, *OIL, p._replace(loss=0.0, squeeze=0.0)
-                )
+                motion = ShaftMotion(*v.tolist(), 0.0, 0.0, 0.0, 0.3, 145.0)
+                f = shaft_bearing_forces(motion, 1e3, *OIL, p._replace(loss=0.0, squeeze=0.0))
                 F.append(np.array(f[:3]) + np.array(f[3:6]))
             slope[:, k] = -(F[0] - F[1]) / (2 * h)
         K = stiffness(p, u, cage_angle=0.3, shaft_speed=145.0, eta0=OIL[0], alpha=OIL[1])
@@ -57,7 +57,7 @@ def test_natural_frequencies_are_those_of_independent_springs():
 def test_static_displacement_balances_the_load():
     load = np.array([1500.0, -400.0, 2000.0])
     u = static_displacement(P, load, cage_angle=0.2)
-    F = shaft_bearing_forces(*u, 0, 0, 0, 0.2, 0.0, 1.0, *OIL, P)
+    F = shaft_bearing_forces(ShaftMotion(*u.tolist(), 0.0, 0.0, 0.0, 0.2, 0.0), 1.0, *OIL, P)
     # the solver's own limit, 1e-10 of the load
     assert np.array(F[:3]) + np.array(F[3:6]) == pytest.approx(-load, abs=1e-6)
 

@@ -58,7 +58,7 @@ def _whole_balance(solution: PointSolution) -> float:
     return float((leaving.sum() * dy + aside.sum() * dx) / (entering.sum() * dy) - 1.0)
 
 
-@pytest.mark.parametrize("layer", [None, 1.5, 0.3])
+@pytest.mark.parametrize("layer", [None, pytest.param(1.5, marks=pytest.mark.slow), 0.3])
 def test_what_enters_the_domain_leaves_it(layer: float | None) -> None:
     problem = moes_contact(50.0, 5.0, nodes=(65, 65))
     flooded = solve_point_contact(problem, CONSERVING)

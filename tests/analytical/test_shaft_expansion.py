@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.bearings.bearing_type import N_EXPANSION
+from gearlube_core.bearings.bearing_type import N_EXPANSION, ShaftMotion
 from gearlube_core.bearings.shaft_expansion import (
     CAGE,
     SUMS,
@@ -26,18 +26,18 @@ N = 10 / 9
 
 def forces(q, angle, p):
     """F_r1, F_r2, F_a [N] of both bearings together, and the power lost [W]."""
-    F = shaft_bearing_forces(*q, angle, SPEED, F_REF, *OIL, p)
+    F = shaft_bearing_forces(ShaftMotion(*q.tolist(), angle, SPEED), F_REF, *OIL, p)
     return np.array([F[0] + F[3], F[1] + F[4], F[2] + F[5], F[6]])
 
 
 def expansion(q, angle, p):
     e = np.full(N_EXPANSION, math.nan)
-    expand_shaft_bearings(*q, angle, SPEED, F_REF, *OIL, p, e)
+    expand_shaft_bearings(ShaftMotion(*q.tolist(), angle, SPEED), F_REF, *OIL, p, e)
     return e
 
 
 def expanded(q, angle, p, e):
-    return np.array(expanded_shaft_forces(*q, angle, SPEED, p, e))
+    return np.array(expanded_shaft_forces(ShaftMotion(*q.tolist(), angle, SPEED), p, e))
 
 
 def slopes(function, steps):
@@ -112,10 +112,10 @@ def test_one_per_cent_of_approach_costs_six_millionths_of_the_force():
     axial = 3.0 * rest / DRY.sin_contact
     still = np.array([0.0, 0.0, axial, 0.0, 0.0, 0.0])
     e = np.empty(N_EXPANSION)
-    expand_shaft_bearings(*still, 0.0, 0.0, F_REF, *OIL, DRY, e)
+    expand_shaft_bearings(ShaftMotion(*still, 0.0, 0.0), F_REF, *OIL, DRY, e)
     moved = still.copy()
     moved[2] += 0.01 * 4.0 * rest / DRY.sin_contact
-    found = expanded_shaft_forces(*moved, 0.0, 0.0, DRY, e)[2]
+    found = expanded_shaft_forces(ShaftMotion(*moved, 0.0, 0.0), DRY, e)[2]
     exact = -12 * DRY.sin_contact * DRY.kn * (1.01 * 4.0 * rest) ** N
     assert e[8] > 0.0
     # third order: (2 - n)/3 of one per cent, and n of 1 % as the force grew

@@ -9,8 +9,8 @@ import pytest
 
 from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
 from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, jamali_2015_film
-from gearlube_core.ehl.point import continuation as point_continuation
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.start import continuation as point_continuation
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS, FilmMarch
 from gearlube_core.ehl.transient.solution import FilmSolution
 
@@ -34,7 +34,14 @@ def _film_in_the_middle(solution: FilmSolution) -> float:
     return float(np.interp(0.0, solution.x, solution.film[:, ROWS // 2]))
 
 
-@pytest.mark.parametrize("step", [75, 300, 500])
+@pytest.mark.parametrize(
+    "step",
+    [
+        pytest.param(75, marks=pytest.mark.slow),
+        pytest.param(300, marks=pytest.mark.slow),
+        500,
+    ],
+)
 def test_a_graded_mesh_is_as_right_as_a_uniform_one_of_its_finest_spacing(step: int) -> None:
     graded = _line(step, 129, grading=EXIT_GRADING)
     thesis, fine = _line(step, 182), _line(step, 385)

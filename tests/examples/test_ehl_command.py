@@ -41,7 +41,7 @@ def test_a_point_whose_oil_does_not_know_temperature_is_refused():
         PointCase.named("elliptical").varied({"temperature": "thermal"})
 
 
-@pytest.mark.parametrize("spacing", ["uniform", "exit"])
+@pytest.mark.parametrize("spacing", [pytest.param("uniform", marks=pytest.mark.slow), "exit"])
 def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(spacing, tmp_path, monkeypatch):
     march = (
         "helical", "--march", "300:305", "--snapshots", "302", "--newtonian",

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import tempfile
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 
@@ -18,6 +16,7 @@ from gearlube_core.helical_geometry.tip_relief import TipRelief
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
+from tests.helpers.session_folder import shared_folder
 
 HE_2007 = named_pair("he_2007")
 TORQUE = 225.97  # N.m, 2000 lb in of He et al. 2007
@@ -50,8 +49,7 @@ EQUAL = replace(
     gear_root_radius=HE_2007.pinion_root_radius,
 )
 
-_folder = tempfile.TemporaryDirectory()
-TEETH_CACHE = Path(_folder.name)  # of this session
+TEETH_CACHE = shared_folder("teeth")
 
 
 @cache

@@ -53,7 +53,7 @@ def test_central_over_smallest_film_grows_with_load_and_the_formulas_do_not_know
     assert by_formula[1] == pytest.approx(by_formula[0], rel=0.03)
 
 
-@pytest.mark.parametrize("angle", [30.0, 60.0, 90.0])
+@pytest.mark.parametrize("angle", [pytest.param(30.0, marks=pytest.mark.slow), 60.0, 90.0])
 def test_central_films_entrained_at_an_angle_follow_chittenden(angle):
     found = film(Contact(2.0, 50.0, 10.0, angle))
     assert found.sound

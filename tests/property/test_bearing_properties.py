@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
@@ -25,9 +26,13 @@ speed = st.floats(-700.0, 700.0)
 bearing = st.sampled_from([TIGHT, LOOSE, POINT])
 
 
+def still(r1, r2, xa, th, w):
+    return ShaftMotion(r1, r2, xa, 0.0, 0.0, 0.0, th, w)
+
+
 @given(length, length, length, velocity, velocity, velocity, angle, speed, bearing)
 def test_rollers_never_pull_and_never_give_energy(r1, r2, xa, v1, v2, va, th, w, p):
-    args = (r1, r2, xa, v1, v2, va, th, w, 250.0, *OIL, p)
+    args = (ShaftMotion(r1, r2, xa, v1, v2, va, th, w), 250.0, *OIL, p)
     out = np.zeros(12)
     for side in (1.0, -1.0):
         roller_loads(*args, side, out)
@@ -40,8 +45,8 @@ def test_rollers_never_pull_and_never_give_energy(r1, r2, xa, v1, v2, va, th, w,
 @given(length, length, length, angle, speed, bearing)
 def test_motion_in_reverse_mirrors_the_force(r1, r2, xa, th, w, p):
     """A mirror through the plane of r1 and a turns r2, the angle and the speed around."""
-    one = shaft_bearing_forces(r1, r2, xa, 0, 0, 0, th, w, 250.0, *OIL, p)
-    two = shaft_bearing_forces(r1, -r2, xa, 0, 0, 0, -th, -w, 250.0, *OIL, p)
+    one = shaft_bearing_forces(still(r1, r2, xa, th, w), 250.0, *OIL, p)
+    two = shaft_bearing_forces(still(r1, -r2, xa, -th, -w), 250.0, *OIL, p)
     scale = 1e-11 * (1.0 + abs(one[2]) + abs(one[5])) / p.sin_contact
     # rounding of sums in another order
     assert two[0] == pytest.approx(one[0], abs=scale)
@@ -51,8 +56,8 @@ def test_motion_in_reverse_mirrors_the_force(r1, r2, xa, th, w, p):
 
 @given(length, length, length, angle, speed, bearing)
 def test_one_roller_pitch_of_the_cage_changes_nothing(r1, r2, xa, th, w, p):
-    one = shaft_bearing_forces(r1, r2, xa, 0, 0, 0, th, w, 250.0, *OIL, p)
-    two = shaft_bearing_forces(r1, r2, xa, 0, 0, 0, th + math.pi / 6, w, 250.0, *OIL, p)
+    one = shaft_bearing_forces(still(r1, r2, xa, th, w), 250.0, *OIL, p)
+    two = shaft_bearing_forces(still(r1, r2, xa, th + math.pi / 6, w), 250.0, *OIL, p)
     scale = 1e-10 * (1.0 + abs(one[2]) + abs(one[5])) / p.sin_contact
     assert np.array(two) == pytest.approx(np.array(one), abs=scale)
 

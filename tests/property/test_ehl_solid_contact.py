@@ -14,7 +14,7 @@ from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_cont
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact, SolidLayer
 from gearlube_core.ehl.point.solver import solve_point_contact
-from gearlube_core.ehl.point.terms.solids import SolidShare
+from gearlube_core.ehl.point.terms.solids import ContactPressure
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
@@ -129,7 +129,7 @@ def test_a_thin_film_of_a_helical_pair_touches_and_goes_on() -> None:
 def test_flow_that_gathers_at_a_drained_node_is_not_hidden() -> None:
     # the solids lack a little pressure there, and far more oil runs in than that is worth
     left = np.full((1, 1), -0.03)
-    share = SolidShare(
+    share = ContactPressure(
         pressure=np.full((1, 1), 0.26),
         slope=np.full((1, 1), -1.0),
         left=left,
@@ -139,8 +139,8 @@ def test_flow_that_gathers_at_a_drained_node_is_not_hidden() -> None:
     inflow = np.full((1, 1), 0.55)
     assert share.drained(inflow).all()
     # once the pressure is right the node is not drained any more and its whole inflow counts
-    assert share.unbalanced(inflow)[0, 0] >= 0.55
-    assert share.unbalanced(-inflow)[0, 0] == pytest.approx(0.4 * 0.03)
+    assert share.unbalanced_flows(inflow)[0, 0] >= 0.55
+    assert share.unbalanced_flows(-inflow)[0, 0] == pytest.approx(0.4 * 0.03)
 
 
 @pytest.mark.slow

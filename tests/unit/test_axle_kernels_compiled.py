@@ -69,10 +69,11 @@ CONTROL = AXLE.step_control
 SCRATCH = np.zeros(rhs.SCRATCH)
 SLOPE = np.zeros(N_ODE)
 rhs.axle_rhs(STATE, INPUTS, *AT_LOAD, P, 1.0, 1.0, SCRATCH, SLOPE)
-SHAFT = (3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
+MOTION = bearing_type.ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
+MOVED = bearing_type.ShaftMotion(3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0)
 LOOP = (12, 10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0, 0.7, 3e-5, 40.0, 3e-5, 0.0)
 EXPANSION = np.zeros(bearing_type.N_EXPANSION)
-shaft_expansion.expand_shaft_bearings(*SHAFT, 300.0, 0.0171, 2.4e-8, P.bearing_p, EXPANSION)
+shaft_expansion.expand_shaft_bearings(MOTION, 300.0, 0.0171, 2.4e-8, P.bearing_p, EXPANSION)
 SEPARATED = STATE.copy()
 SEPARATED[X] = -3.0
 COASTING = STATE.copy()
@@ -93,7 +94,6 @@ def zeros(size):
 
 WORK = zeros(integrate.work_size(MESH.orders, MESH.nodes))
 BRACKET = kernels.load_bracket(33.0, 1.0, MESH.levels, MESH.levels.size)
-MOTION = bearing_type.ShaftMotion(*SHAFT)
 WRITE_SHAFT = (MOTION, 300.0, STATE_OF_OIL, P.bearing_p, PINION_BEARINGS, (2, 1, 0))
 CASES = [
     *(
@@ -110,12 +110,12 @@ CASES = [
     (shaft_expansion._sums_general, (*LOOP, 1.3, zeros(bearing_type.N_EXPANSION))),
     (
         shaft_expansion.expand_shaft_bearings,
-        (*SHAFT, 300.0, 0.0171, 2.4e-8, P.bearing_p, zeros(bearing_type.N_EXPANSION)),
+        (MOTION, 300.0, 0.0171, 2.4e-8, P.bearing_p, zeros(bearing_type.N_EXPANSION)),
     ),
     (
         shaft_expansion.expand_shaft_bearings,
         (
-            *SHAFT,
+            MOTION,
             300.0,
             0.0171,
             2.4e-8,
@@ -125,7 +125,7 @@ CASES = [
     ),
     (
         shaft_expansion.expanded_shaft_forces,
-        (3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0, P.bearing_p, EXPANSION),
+        (MOVED, P.bearing_p, EXPANSION),
     ),
     (flank_force.backlash_deflection, (3e-6, 150e-6)),
     (flank_force.backlash_deflection, (-3e-6, 150e-6)),

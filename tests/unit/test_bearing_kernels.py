@@ -19,12 +19,14 @@ from gearlube_core.bearings import (
     shaft_energy,
     shaft_forces,
 )
+from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.film import mostofi_gohar_1983 as film
 
 P = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()
 OIL = (0.0171, 2.383e-8)
-SHAFT = (3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0, 300.0, *OIL, P)
+MOTION = ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
+SHAFT = (MOTION, 300.0, *OIL, P)
 CASES = [
     (film.squeeze_factor, (1e-3, 2.0)),
     (film.dimensionless_groups, (500.0, 2.0, *OIL, 6e-3, 3.6e11)),
@@ -41,13 +43,13 @@ CASES = [
     (roller_contact.roller_load_general, (8.0, 300.0, 0.7, 3e-5, 40.0, 3e-5, 0.0, 1.3)),
     (roller_contact.film_and_slope, (8.0, 0.7, 1.3)),
     (roller_contact.approach_with_film, (8.0, 0.7, 1.3)),
-    (cage_frame.approach_terms, (*SHAFT[:6], 0.8, 0.6, 58.0, P)),
+    (cage_frame.approach_terms, (MOTION, 0.8, 0.6, P)),
     (cage_frame.cage_torque, (1e-6, 2e-6, 300.0, -200.0)),
     (shaft_forces.shaft_bearing_forces, SHAFT),
     (roller_loads.bearing_forces, (*SHAFT, -1.0)),
     (shaft_energy.roller_energy, (8.0, 0.7, 1.3)),
-    (shaft_energy.bearing_energy, (*SHAFT[:3], 0.3, 145.0, *OIL, P, 1.0)),
-    (shaft_energy.shaft_bearing_energy, (*SHAFT[:3], 0.3, 145.0, *OIL, P)),
+    (shaft_energy.bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P, 1.0)),
+    (shaft_energy.shaft_bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P)),
     (palmgren_1959.drag_torque, (150.0, 2500.0, 19e-6, P)),
 ]
 
@@ -85,18 +87,19 @@ def test_relaxed_sums_change_the_forces_by_rounding_only():
     """Everything interpreted, so that no compiled callee hides a difference."""
     code = (
         "import json\n"
+        "from gearlube_core.bearings.bearing_type import ShaftMotion\n"
         "from gearlube_core.bearings.parameters import BearingParameters\n"
         "from gearlube_core.bearings.shaft_forces import shaft_bearing_forces\n"
         f"p = BearingParameters(*{list(P)!r})\n"
         f"a = {[list(a) for a in _grid()]!r}\n"
-        "print(json.dumps([shaft_bearing_forces(*x, p) for x in a]))\n"
+        "print(json.dumps([shaft_bearing_forces(ShaftMotion(*x[:8]), *x[8:], p) for x in a]))\n"
     )
     env = dict(os.environ, NUMBA_DISABLE_JIT="1")
     out = subprocess.run(
         [sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True
     )
     for args, expected in zip(_grid(), json.loads(out.stdout), strict=True):
-        F = shaft_forces.shaft_bearing_forces(*args, P)
+        F = shaft_forces.shaft_bearing_forces(ShaftMotion(*args[:8]), *args[8:], P)
         # 24 rollers of 1 kN summed in another order: a few 1e-16 each
         assert F[:6] == pytest.approx(expected[:6], rel=0, abs=1e-14 * 24e3)
         assert F[6] == pytest.approx(expected[6], rel=1e-12)

@@ -40,7 +40,10 @@ def test_spoilt_pressure_says_nothing():
     assert border_pressure(np.full((9, 9), np.nan), np.ones((9, 9))).sentence == ""
 
 
-@pytest.mark.parametrize(("velocity", "end"), [(2.5, "large x"), (-2.5, "small x")])
+@pytest.mark.parametrize(
+    ("velocity", "end"),
+    [(2.5, "large x"), pytest.param(-2.5, "small x", marks=pytest.mark.slow)],
+)
 def test_point_contact_cut_behind_its_middle_says_so(velocity, end):
     problem = elliptical_contact(
         R_x=0.0177,

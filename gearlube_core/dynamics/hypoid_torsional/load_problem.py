@@ -16,7 +16,7 @@ _STEP = 1e-5  # of the torque, in the central difference by it
 class LoadProblem:
     """Equations of a periodic motion whose parameter is the mean pinion torque [N.m].
 
-    Everything that hangs on the load follows it: stiffness, radii and transmission error of the
+    Everything that depends on the load follows it: stiffness, radii and transmission error of the
     mesh table, load shares, load torque. Unknowns as in `PeriodProblem`; scales are those of the
     torque in `parameters`.
 

@@ -14,6 +14,7 @@ from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import Touch
 from gearlube_core.ehl.point.terms.state import FilmState
+from gearlube_core.ehl.point.traction import point_traction
 
 _CURE = "Take more nodes where the film is thin, upwind-1 to start from, or a lower load first."
 _LIMITED = 0.01  # share of first-order faces worth a word
@@ -141,6 +142,28 @@ class PointSolution:
     def maximum_pressure(self) -> float:
         """Return the largest pressure [Pa]."""
         return float(self.pressure.max())
+
+    @property
+    def friction_coefficient(self) -> float:
+        """Return the mid-film shear force along `problem.sliding` over the load [-].
+
+        Zero without sliding. Shear of solids that touch is not counted.
+        """
+        problem = self.problem
+        if problem.sliding is None:
+            return 0.0
+        return (
+            point_traction(
+                problem.x,
+                problem.y,
+                self.pressure,
+                self.film,
+                problem.sliding,
+                problem.lubricant,
+                self.fill,
+            ).force
+            / problem.load
+        )
 
     @property
     def solid_pressure(self) -> Array:

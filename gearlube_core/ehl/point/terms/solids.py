@@ -65,14 +65,18 @@ class ContactPressure:
         return nodes & (self.pressure <= 0.0)
 
     def unbalanced(self, residual: Array, grid: PointGrid) -> float:
-        """Return what is left of the equations of solids, as a flow [-].
+        """Return what is left of the equations of solids, as a flow [-]."""
+        return grid.integral(self.unbalanced_flows(residual))
+
+    def unbalanced_flows(self, residual: Array) -> Array:
+        """Return what is left of the equations of the nodes, as flows, (ny, nx) [-].
 
         Flow that gathers counts at drained nodes, too: else a step that ends their draining would
         look like one that unbalances them.
         """
         dry = self.drained(residual)
         wrong = np.where(dry, np.abs(self.left), np.maximum(-self.left, 0.0))
-        return grid.integral(self.weight * wrong + np.where(dry, np.maximum(residual, 0.0), 0.0))
+        return self.weight * wrong + np.where(dry, np.maximum(residual, 0.0), 0.0)
 
     def add_derivatives(self, linear: Linearisation, residual: Array) -> None:
         """Turn derivatives by the pressure of the oil into those by the whole pressure.
