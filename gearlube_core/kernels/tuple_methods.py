@@ -21,7 +21,7 @@ def compile_methods(interface: type, *names: str) -> None:
     Parameters
     ----------
     interface : type
-        Protocol that declares the methods; its names of arguments bind all classes.
+        Protocol that declares the methods; all classes take its arguments in its order.
     names : str
         Of methods that take and return floats, NamedTuples and float64 arrays, do not allocate
         and do not raise.
@@ -34,7 +34,9 @@ def _compile_method(interface: type, name: str) -> None:
     def method(self: Any, *args: Any) -> Callable[..., Any] | None:
         return getattr(self.instance_class, name, None)
 
-    # numba compares the names of the arguments with those of the method that it compiles
+    # numba binds the arguments of a call by this signature
     method.__signature__ = signature(getattr(interface, name))  # type: ignore[attr-defined]
     compiled: Any = overload_method  # its stub lacks jit_options
-    compiled(types.BaseNamedTuple, name, jit_options={"error_model": "numpy"})(method)
+    options = {"error_model": "numpy"}
+    # not strict: a class need not repeat the annotations of the interface
+    compiled(types.BaseNamedTuple, name, jit_options=options, strict=False)(method)
