@@ -56,7 +56,7 @@ VARIANTS = {
 
 
 def running_axle(**options: Any) -> HypoidAxle:
-    axle = HypoidAxle(mohammadpour_2015_axle(**options))
+    axle = HypoidAxle(replace(mohammadpour_2015_axle(), **options))
     axle.initialise(
         pinion_speed=PINION_SPEED,
         pinion_torque=INPUTS[0],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,10 @@ from typing import Any
 from fmu_src.definition import Definition, Value
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
+    ReplacedBearings,
+    helical_march_parameters,
+)
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.output_names import OUTPUT_NAMES
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
@@ -39,7 +42,8 @@ def start_pair(
     Parameters
     ----------
     arguments : mapping
-        `pinion_speed`, `gear_name`, `stiffness_model` and arguments of `helical_march`.
+        `pinion_speed`, `gear_name`, `stiffness_model`, `stiffness_density`, `oil`, and fields of
+        `ReplacedBearings` and `HelicalMarchParameters`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
     carried : CarriedPair, optional
@@ -55,14 +59,22 @@ def start_pair(
         )
     own = carried if name == CUSTOM else None
     gear = own.gear if own else HelicalGearFile.named(name)
+    line_mesh = None
     if given.pop("stiffness_model") == LINE_MESH:
-        given["line_mesh"] = own.line_mesh if own else named_line_mesh(name)
-        if given["line_mesh"] is None:
+        line_mesh = own.line_mesh if own else named_line_mesh(name)
+        if line_mesh is None:
             raise ParameterError(
                 "mesh.stiffness_model must be uniform, got line_mesh: this FMU carries no line "
                 "mesh. Build one with `gearlube build-fmu --gear FILE --line-mesh FILE`."
             )
-    pair = HelicalPairModel(helical_march(gear, **given))
+    parameters = helical_march_parameters(
+        gear,
+        line_mesh=line_mesh,
+        stiffness_density=given.pop("stiffness_density"),
+        oil=given.pop("oil"),
+        bearings=ReplacedBearings(**{f.name: given.pop(f.name) for f in fields(ReplacedBearings)}),
+    )
+    pair = HelicalPairModel(replace(parameters, **given))
     pinion_torque, wheel_torque, oil_temperature = inputs
     pair.initialise(
         pinion_speed=speed,
@@ -134,7 +146,7 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
     pair = gear.helical_pair()
     line_mesh = line_mesh_from_bytes(mesh, "the line mesh") if mesh else None
     try:
-        helical_march(gear, line_mesh=line_mesh)
+        helical_march_parameters(gear, line_mesh=line_mesh)
     except ParameterError as error:
         if line_mesh is None:
             raise

@@ -18,6 +18,26 @@ from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, 
 from gearlube_core.mesh_table.table import MeshTable
 
 
+def axle_parameters(
+    arguments: Mapping[str, Value], mesh: MeshTable | None = None
+) -> hypoid_axle.HypoidAxleParameters:
+    """Return the paper's axle with changes.
+
+    Parameters
+    ----------
+    arguments : mapping
+        By name: arguments of `mohammadpour_2015_axle` and fields of `HypoidAxleParameters`.
+    mesh : MeshTable, optional
+        By default the table that ships with gearlube.
+    """
+    given: dict[str, Any] = dict(arguments)
+    named = signature(hypoid_axle.mohammadpour_2015_axle).parameters
+    parameters = hypoid_axle.mohammadpour_2015_axle(
+        mesh=mesh, **{name: given.pop(name) for name in arguments if name in named}
+    )
+    return replace(parameters, **given)
+
+
 def start_axle(
     arguments: Mapping[str, Value], inputs: Sequence[float], mesh: MeshTable | None = None
 ) -> hypoid_axle.HypoidAxle:
@@ -26,19 +46,15 @@ def start_axle(
     Parameters
     ----------
     arguments : mapping
-        `pinion_speed`, arguments of `mohammadpour_2015_axle`, fields of `HypoidAxleParameters`.
+        `pinion_speed`, and those of `axle_parameters`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
     mesh : MeshTable, optional
         By default the table that ships with gearlube.
     """
-    given: dict[str, Any] = dict(arguments)
+    given = dict(arguments)
     speed = float(given.pop("pinion_speed"))
-    named = signature(hypoid_axle.mohammadpour_2015_axle).parameters
-    parameters = hypoid_axle.mohammadpour_2015_axle(
-        mesh=mesh, **{name: given.pop(name) for name in arguments if name in named}
-    )
-    axle = hypoid_axle.HypoidAxle(replace(parameters, **given))
+    axle = hypoid_axle.HypoidAxle(axle_parameters(given, mesh))
     pinion_torque, wheel_torque, oil_temperature = inputs
     axle.initialise(
         pinion_speed=speed,

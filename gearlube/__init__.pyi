@@ -21,7 +21,10 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     periodic_response as periodic_response,
 )
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
-    helical_march as helical_march,
+    ReplacedBearings as ReplacedBearings,
+)
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
+    helical_march_parameters as helical_march_parameters,
 )
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel as HelicalPairModel
 

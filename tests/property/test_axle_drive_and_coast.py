@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh, follow_flank
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
@@ -23,6 +23,7 @@ from gearlube_core.mesh_table.table import MeshTable
 from tests.helpers.axle_cases import (
     OIL,
     RATIO,
+    axle_with,
     conservative,
     output,
     plain,
@@ -48,7 +49,7 @@ LOSSES = (
 
 def axle_of(mesh, torque=DRIVING, lossless=False, steps=120, **options):
     # roller films breathe with the shaft speed without a counter-torque: off here
-    parameters = mohammadpour_2015_axle(mesh=mesh, steps_per_highest_period=steps, **options)
+    parameters = axle_with(mesh=mesh, steps_per_highest_period=steps, **options)
     parameters = replace(parameters, bearing=replace(parameters.bearing, film="off"))
     axle = HypoidAxle(conservative(parameters) if lossless else parameters)
     axle.initialise(

@@ -91,7 +91,7 @@ class HelicalPairModel(SteppedModel[StepControl]):
         )
 
     def _with_data(self) -> Kernels:
-        data, work = (*self.mesh, self._data, self._bearings), np.zeros(WORK_SIZE)
+        data, work = (tuple(self.mesh), self._data, self._bearings), np.zeros(WORK_SIZE)
         return Kernels(
             communication_step,
             (*data, self._control_values, work, self._outputs),
