@@ -36,6 +36,7 @@ Torque = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Speed = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
 Viscosity = Annotated[float, Field(ge=1e-4, le=10.0, allow_inf_nan=False)]
 PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
+Modulus = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
 Stress = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
 
 
@@ -59,6 +60,10 @@ class Pair(Section):
     centre_distance_mm: Length = Field(description="Between the parallel axes")
     face_width_mm: Width = Field(description="Common to both members")
     backlash_mm: Backlash = Field(default=0.0, description="Normal, along the line of action")
+    reduced_modulus_gpa: Modulus | None = Field(
+        default=None,
+        description="E' = 2 E* of both flanks, for films; absent: that of steel",
+    )
 
     @model_validator(mode="after")
     def _one_of_each(self) -> Pair:

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
-from gearlube_core.ehl.gears.helical_film import GRADINGS, JAMALI_2015_MODULUS, HelicalFilm
+from gearlube_core.ehl.gears.helical_film import GRADINGS, HelicalFilm
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.meshing_steps import (
     MeshingSteps,
-    jamali_2015_steps,
+    gear_file_steps,
     line_at_position,
     meshing_steps,
     position_of_line,
@@ -23,8 +23,6 @@ from gearlube_core.units import rpm_to_rads
 
 _STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 _STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: [jamali_2015 sec. 4.4]
-# the thesis' own steps and E*, so that its step numbers name its positions
-_THESIS = {"jamali_2015_a": "a", "jamali_2015_b": "b"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +82,7 @@ class HelicalLineCase:
         """Return the film through the cycle of which this is one position."""
         torque, speed = self._operation()
         modified = self.file.modified_pair()
-        thesis = _THESIS.get(self.file.name)
+        modulus = self.file.pair.reduced_modulus_gpa
         (across, along), spacing = self.mesh
         for name, count in (("across", across), ("along", along)):
             check_within(f"nodes {name} the line", count, 17, 2049)
@@ -92,12 +90,12 @@ class HelicalLineCase:
         return HelicalFilm(
             modified=modified,
             steps=meshing_steps(modified, _STEP, _SMALLEST_SHARE)
-            if thesis is None
-            else jamali_2015_steps(thesis),
+            if self.file.meshing_steps is None
+            else gear_file_steps(self.file),
             torque=torque,
             pinion_speed=speed,
             lubricant=self._lubricant(),
-            contact_modulus=_STEEL if thesis is None else JAMALI_2015_MODULUS,
+            contact_modulus=_STEEL if modulus is None else 0.5e9 * modulus,
             nodes=(across, along),
             grading=GRADINGS[spacing],
             convention=self.convention,
