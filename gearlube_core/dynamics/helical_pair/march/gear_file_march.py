@@ -37,6 +37,18 @@ class ReplacedBearings:
         Of both bearings of a member together [N/m], 0 to 1e12; 0: those of the file.
     bearing_distance : float
         From mid-face to each bearing [m], 0 to 10; 0: that of the file.
+
+    Raises
+    ------
+    ParameterError
+        A value out of range.
+
+    Examples
+    --------
+    >>> gear = HelicalGearFile.named("he_2007")
+    >>> stiff = ReplacedBearings(axial_stiffness=1e9)
+    >>> helical_march_parameters(gear, bearings=stiff).gear.support.second.K_zz  # N/m, half of it
+    500000000.0
     """
 
     radial_stiffness: float = 0.0

@@ -70,10 +70,12 @@ class HelicalPairModel(SteppedModel[StepControl]):
 
     Examples
     --------
-    >>> from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+    >>> from dataclasses import replace
+    >>> from gearlube_core.dynamics.helical_pair.march import gear_file_march
     >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
     >>> file = HelicalGearFile.named("he_2007")
-    >>> gears = HelicalPairModel(helical_march(file, friction="constant"))
+    >>> parameters = gear_file_march.helical_march_parameters(file)
+    >>> gears = HelicalPairModel(replace(parameters, friction="constant"))
     >>> gears.initialise(
     ...     pinion_speed=104.7, pinion_torque=226.0, wheel_torque=280.0, oil_temperature=333.15
     ... )
