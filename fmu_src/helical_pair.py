@@ -24,7 +24,7 @@ GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CarriedPair:
+class EmbeddedPair:
     """The gear pair that an FMU carries."""
 
     gear: HelicalGearFile
@@ -32,7 +32,7 @@ class CarriedPair:
 
 
 def start_pair(
-    arguments: Mapping[str, Value], inputs: Sequence[float], carried: CarriedPair | None = None
+    arguments: Mapping[str, Value], inputs: Sequence[float], embedded: EmbeddedPair | None = None
 ) -> HelicalPairModel:
     """Return an initialised pair.
 
@@ -42,18 +42,18 @@ def start_pair(
         `pinion_speed`, `gear_name`, `stiffness_model` and arguments of `helical_march`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
-    carried : CarriedPair, optional
+    embedded : EmbeddedPair, optional
         What gear.name = custom stands for.
     """
     given: dict[str, Any] = dict(arguments)
     speed = float(given.pop("pinion_speed"))
     name = str(given.pop("gear_name"))
-    if name == CUSTOM and carried is None:
+    if name == CUSTOM and embedded is None:
         raise ParameterError(
             "gear.name must be one of the pairs that ship with gearlube, got custom: this FMU "
             "carries no gear file. Build one with `gearlube build-fmu --gear FILE`."
         )
-    own = carried if name == CUSTOM else None
+    own = embedded if name == CUSTOM else None
     gear = own.gear if own else HelicalGearFile.named(name)
     if given.pop("stiffness_model") == LINE_MESH:
         given["line_mesh"] = own.line_mesh if own else named_line_mesh(name)
@@ -148,7 +148,7 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
         description=f"{DEFINITION.description}; gear file {gear.name} "
         f"({pair.pinion_teeth}/{pair.gear_teeth} teeth){of_mesh}",
         variables=tuple(replace(v, start=starts.get(v.name, v.start)) for v in HELICAL_PAIR),
-        start=partial(start_pair, carried=CarriedPair(gear=gear, line_mesh=line_mesh)),
+        start=partial(start_pair, embedded=EmbeddedPair(gear=gear, line_mesh=line_mesh)),
         resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}),
     )
 

@@ -12,7 +12,7 @@ _ROUNDING = 1e-14
 
 
 @kernel
-def separate(
+def update_separation(
     forces: np.ndarray,
     displacement: np.ndarray,
     gap: np.ndarray,
@@ -60,7 +60,7 @@ def separate(
 
 
 @kernel
-def turn(
+def conjugate_direction(
     forces: np.ndarray,
     residual: np.ndarray,
     arm: np.ndarray,
@@ -92,7 +92,7 @@ def turn(
 
 
 @kernel
-def turn_to_penetration(
+def direction_with_penetration(
     forces: np.ndarray,
     residual: np.ndarray,
     arm: np.ndarray,

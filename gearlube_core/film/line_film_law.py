@@ -18,7 +18,7 @@ class LineFilmLaw(NamedTuple):
 
 
 @kernel
-def law_of_line_film(
+def power_law_line_film(
     law: LineFilmLaw,
     R: float,
     eta0: float,

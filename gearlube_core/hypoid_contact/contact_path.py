@@ -15,7 +15,7 @@ from gearlube_core.hypoid_contact.contact_point import (
     find_contact,
     trace_contact,
 )
-from gearlube_core.hypoid_contact.first_touch import FirstTouch, first_touch
+from gearlube_core.hypoid_contact.first_contact_point import FirstContactPoint, first_contact_point
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_sample, tooth_position
 
@@ -143,10 +143,10 @@ def _facing(pair: FlankPair) -> float:
 
 def _first_contact(pair: FlankPair) -> tuple[float, Array]:
     """Return a gear angle [rad] and the seven unknowns there, for a contact on both teeth."""
-    nearest: FirstTouch | None = None
+    nearest: FirstContactPoint | None = None
     for pitches in _TRIED:
         angle = pitches * pair.gear_pitch
-        touch = first_touch(pair, angle)
+        touch = first_contact_point(pair, angle)
         if touch is None:
             continue
         nearest = nearest or touch

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.hypoid_contact.ease_off import EaseOff
-from gearlube_core.hypoid_contact.touching_error import touching_error
+from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
 
 MARKING_COMPOUND = 6.35e-6  # m, a quarter of a thousandth of an inch: customary in bevel gear tests
 
@@ -84,7 +84,7 @@ def contact_pattern(
     check_within("thickness", thickness, 1e-7, 1e-4, "m", "6.35e-6 is customary.")
     pair = ease.pair
     sign = pair.touching_sign
-    leading = sign * touching_error(pair, ease.gear_angle).error
+    leading = sign * searched_transmission_error(pair, ease.gear_angle).error
     leading[np.isnan(leading)] = np.inf
     if pairs == "all":
         leading = _envelope(leading, ease.gear_angle, pair.gear_pitch)

@@ -102,7 +102,7 @@ def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
     ------
     ParameterError
         When a pair leaves its teeth before the next takes over: the teeth then meet at edges and
-        the error is a sawtooth; touching_error gives it.
+        the error is a sawtooth; searched_transmission_error gives it.
 
     References
     ----------
@@ -188,6 +188,6 @@ def _extreme(path: ContactPath) -> tuple[float, float]:
 def _edge_error(pair: FlankPair, what: str) -> ParameterError:
     return ParameterError(
         f"The path of contact of the {pair.side} flanks {what}: the teeth meet at edges and the "
-        "transmission error is a sawtooth (touching_error finds it). Check the flank angle "
-        "corrections, the blade edge radii and the misalignment."
+        "transmission error is a sawtooth (searched_transmission_error finds it). Check the flank "
+        "angle corrections, the blade edge radii and the misalignment."
     )

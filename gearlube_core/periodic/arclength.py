@@ -22,7 +22,7 @@ class Node(NamedTuple):
     determinant: float
 
 
-class Arc:
+class ArclengthCorrector:
     """Finds points of one branch and counts what that costs.
 
     Parameters
@@ -114,7 +114,7 @@ def hermite(a: Node, b: Node, fraction: float) -> tuple[Array, Array]:
     return place, direction / size if size > 0.0 else a.tangent
 
 
-def turn(a: Node, b: Node) -> float:
+def turning_angle(a: Node, b: Node) -> float:
     """Return by how much the branch turns from one point to the next [rad].
 
     The larger of the angle between the tangents and twice the angle between tangent and chord,

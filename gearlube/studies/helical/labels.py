@@ -29,10 +29,10 @@ _COMPOSITE_WORDS = {
 }
 
 
-def words_of(name: str) -> str:
+def description_of(name: str) -> str:
     """Return what a coordinate, composite or bearing force is, in words.
 
-    >>> words_of("u_xp")
+    >>> description_of("u_xp")
     'displacement of the pinion along the line of action'
     """
     if name in _COMPOSITE_WORDS:

@@ -9,7 +9,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side
-from gearlube_core.hypoid_geometry.flank.sound_limit import SoundLimit
+from gearlube_core.hypoid_geometry.flank.flank_root_limit import FlankRootLimit
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import MILLIMETRE
@@ -35,7 +35,7 @@ class ToothForm:
         Normal circular tooth thickness on the pitch cone [m].
     slot : ndarray of shape (n,)
         Normal width of the slot on the root cone [m], flanks extended down to it.
-    drive, coast : SoundLimit
+    drive, coast : FlankRootLimit
         Where the flanks end towards the root.
     active : float
         Profile position s to which the tip of the mate reaches [-].
@@ -48,8 +48,8 @@ class ToothForm:
     topland: Array
     thickness: Array
     slot: Array
-    drive: SoundLimit
-    coast: SoundLimit
+    drive: FlankRootLimit
+    coast: FlankRootLimit
     active: float
     normal_module: float
 

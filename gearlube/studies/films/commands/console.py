@@ -26,7 +26,7 @@ console = Console(stderr=True)
 _SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm"), "1": (1.0, "")}
 
 
-def errors_ended(out: Path) -> AbstractContextManager[None]:
+def exit_on_errors(out: Path) -> AbstractContextManager[None]:
     """Turn errors into messages and exit codes; `out` is where results go."""
     return exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again.")
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from gearlube.cli.options import CaseArgument, ExampleOption
-from gearlube.studies.films.commands.console import errors_ended, solve_and_show
+from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.checks import check_finite
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
@@ -62,7 +62,7 @@ def line(
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import LineCase
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         if example:
             typer.echo(LineCase.shipped_text(case), nl=False)
             return
@@ -102,7 +102,7 @@ def point(
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import PointCase
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         if example:
             typer.echo(PointCase.shipped_text(case), nl=False)
             return

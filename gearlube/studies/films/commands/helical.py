@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from gearlube.cli.options import HelicalGearArgument, SpeedOfFileOption, TorqueOfFileOption
-from gearlube.studies.films.commands.console import errors_ended, solve_and_show
+from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
@@ -105,7 +105,7 @@ def helical(
     from gearlube.studies.films.helical_case import HelicalLineCase, with_flanks
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         _check_options(step, position, march, snapshots)
         file = with_flanks(
             HelicalGearFile.given(gear), facets, crown_start, relief_parabola, relief_exponent

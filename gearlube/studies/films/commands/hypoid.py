@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from gearlube.cli.options import CaseArgument, ExampleOption
-from gearlube.studies.films.commands.console import errors_ended, solve_and_show
+from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.errors import ParameterError
 
 _QUICK = {
@@ -98,7 +98,7 @@ def hypoid(
     from gearlube.studies.films import run_hypoid
     from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         if example:
             typer.echo(HypoidCase.shipped_text(case), nl=False)
             return

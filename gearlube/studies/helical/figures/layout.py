@@ -33,11 +33,11 @@ def title(dataset: xr.Dataset, what: str) -> str:
     at = dataset.attrs
     return (
         f"{what}: {at['name']}, {at['pinion_torque']:.4g} N·m, "
-        f"{at['pinion_speed'] / RPM:.5g} rpm, mesh {mesh_words(dataset)}"
+        f"{at['pinion_speed'] / RPM:.5g} rpm, mesh {mesh_description(dataset)}"
     )
 
 
-def mesh_words(dataset: xr.Dataset) -> str:
+def mesh_description(dataset: xr.Dataset) -> str:
     """Return how the mesh is modelled, in words."""
     return "of loaded contact" if dataset.attrs["mesh"] == "contact" else "of constant density"
 
@@ -60,7 +60,7 @@ def stems(ax: Any, order: Array, sets: list[tuple[Array, str, str]]) -> None:
     ax.set_xlim(order[0] - 0.7, order[-1] + 0.7)
     ax.set_xticks(order[::2])
     if not top > NOTHING:
-        say_nothing(ax)
+        note_no_vibration(ax)
         return
     low = min((float(a[a > 0.0].min()) for a, _, _ in sets if (a > 0.0).any()), default=top)
     floor = max(10.0**-_DECADES * top, 0.3 * low, 1e-30)
@@ -73,7 +73,7 @@ def stems(ax: Any, order: Array, sets: list[tuple[Array, str, str]]) -> None:
     ax.set_ylim(floor, 3.0 * max(top, floor))
 
 
-def say_nothing(ax: Any) -> None:
+def note_no_vibration(ax: Any) -> None:
     """Write that there is no vibration in a panel."""
     ax.text(0.5, 0.5, "none", transform=ax.transAxes, ha="center", va="center", color=GREY)
 

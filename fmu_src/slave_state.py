@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import IntEnum
 
 
-class Phase(IntEnum):
+class SlaveState(IntEnum):
     """Place in the FMI state machine."""
 
     INSTANTIATED = 0
@@ -16,4 +16,4 @@ class Phase(IntEnum):
     @property
     def settable(self) -> tuple[str, ...]:
         """Causalities that can be set: parameters are fixed once initialised."""
-        return ("input",) if self >= Phase.STEPPING else ("input", "parameter")
+        return ("input",) if self >= SlaveState.STEPPING else ("input", "parameter")

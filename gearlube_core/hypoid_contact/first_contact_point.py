@@ -14,7 +14,7 @@ _GRID = (9, 13)  # profile and face positions
 
 
 @dataclass(frozen=True, slots=True)
-class FirstTouch:
+class FirstContactPoint:
     """The grid point that touches first, with all that starts an exact search."""
 
     gear_angle: float  # rad
@@ -25,7 +25,7 @@ class FirstTouch:
     pinion_turn: float  # rad, about the work axis
 
 
-def first_touch(pair: FlankPair, gear_angle: float) -> FirstTouch | None:
+def first_contact_point(pair: FlankPair, gear_angle: float) -> FirstContactPoint | None:
     """Return which point of a coarse grid on the gear flank touches first; None if none does."""
     s, t = np.meshgrid(*(np.linspace(0.0, 1.0, k) for k in _GRID), indexing="ij")
     gear = pair.gear.parameters(s, t)
@@ -34,7 +34,7 @@ def first_touch(pair: FlankPair, gear_angle: float) -> FirstTouch | None:
     if np.isnan(order).all():
         return None
     i, j = np.unravel_index(np.nanargmin(order), order.shape)
-    return FirstTouch(
+    return FirstContactPoint(
         gear_angle,
         float(s[i, j]),
         float(t[i, j]),
