@@ -1,4 +1,4 @@
-"""What turns the motion of the axle's two shafts into the torques on them."""
+"""Drivers: models that give the torques on the axle's two shafts from their motion."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LEARNING = 3.0
 
 
 class Driver(Protocol):
-    """Torques that act on the two shafts of the axle.
+    """Interface of a model that gives the torques on the two shafts of the axle.
 
     Notes
     -----

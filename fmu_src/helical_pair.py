@@ -25,7 +25,7 @@ GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EmbeddedPair:
-    """The gear pair that an FMU carries."""
+    """The gear pair whose files are inside an FMU."""
 
     gear: HelicalGearFile
     line_mesh: LineMesh | None = None
@@ -92,7 +92,7 @@ DEFINITION = Definition(
 
 
 def definition_with(gear: str | Path | None, line_mesh: str | Path | None = None) -> Definition:
-    """Return the definition of the FMU that carries a gear file, and its line mesh if given.
+    """Return the definition of the FMU with this gear file and, if given, its line mesh.
 
     Raises
     ------
@@ -125,7 +125,7 @@ def _read(path: str | Path, what: str) -> bytes:
 
 @cache
 def _definition_with(content: bytes, mesh: bytes) -> Definition:
-    """Return the one definition with these files: what is kept by definition is kept once."""
+    """Return the definition with these files; one object per content, for caches keyed by it."""
     try:
         data = tomllib.loads(content.decode())
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:

@@ -1,8 +1,8 @@
 """Co-simulation slave of any `Definition`, on pythonfmu's FMI 2.0 wrapper.
 
-The wrapper knows two answers besides fmi2OK: fmi2Discard (`do_step` returns False) and fmi2Fatal
-(a method raises). So a bad value is logged when it is set and refuses the step or the
-initialisation that would use it; an impossible initialisation or call raises.
+Besides fmi2OK the wrapper can return fmi2Discard (`do_step` returns False) and fmi2Fatal
+(a method raises). So a bad value is logged when it is set, and the step or initialisation that
+would use it is refused. An impossible initialisation or call raises.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def _explained(error: BaseException) -> str:
 
 
 class CoSimulationSlave(Fmi2Slave):
-    """FMI 2.0 co-simulation slave; a subclass says its `definition` and nothing else."""
+    """FMI 2.0 co-simulation slave; a subclass only sets its `definition`."""
 
     log_categories = LOG_CATEGORIES
 
@@ -80,7 +80,7 @@ class CoSimulationSlave(Fmi2Slave):
         _LOGGER.log(_LEVELS.get(status, logging.ERROR), "%s: %s", self.instance_name, message)
 
     def report_fatal(self, error: BaseException) -> None:
-        """Log what the wrapper turns into fmi2Fatal."""
+        """Log an error that the wrapper turns into fmi2Fatal."""
         self.report(Fmi2Status.fatal, _explained(error))
 
     @guarded
@@ -117,7 +117,7 @@ class CoSimulationSlave(Fmi2Slave):
         self._thread.release()
 
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance the model; on any trouble log it, stay where it was and return False."""
+        """Advance the model; on an error log it, keep the state and return False."""
         try:
             self._check_step(current_time, step_size)
             self._model.step(step_size, *self._values.inputs())  # type: ignore[union-attr]

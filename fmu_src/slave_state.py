@@ -1,4 +1,4 @@
-"""The states of an FMI 2.0 co-simulation slave that gearlube tells apart."""
+"""States of an FMI 2.0 co-simulation slave."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class SlaveState(IntEnum):
-    """Place in the FMI state machine."""
+    """State of a slave in the FMI state machine."""
 
     INSTANTIATED = 0
     INITIALISING = 1

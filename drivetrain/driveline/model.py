@@ -31,7 +31,7 @@ _SIGNALS = ("h", "pinion_angle", "pinion_speed", "wheel_angle", "wheel_speed")
 
 
 class Driveline:
-    """The car around the axle at a requested speed.
+    """The vehicle around the axle at a requested speed.
 
     Parameters
     ----------
@@ -44,8 +44,8 @@ class Driveline:
 
     Notes
     -----
-    The gear is chosen for the requested speed and kept. The driveline starts in the periodic
-    steady state that its engine orders give with a rigid axle.
+    The gear is chosen for the requested speed and does not change. The driveline starts in its
+    periodic steady state, computed from the engine orders and a rigid axle.
     """
 
     def __init__(
@@ -105,7 +105,7 @@ class Driveline:
         return values
 
     def request_speed(self, speed: float) -> None:
-        """Let the speed controller go for `speed` [m/s], in the same gear."""
+        """Set the target of the speed controller to `speed` [m/s], in the same gear."""
         self._inputs[0] = check_within("speed", speed, 0.0, 120.0, "m/s", "Speeds are forward.")
 
     def step(

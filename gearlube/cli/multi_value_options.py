@@ -12,7 +12,7 @@ _VALUE = re.compile(r"^[+\-]?[\d.]")  # a number, or a range that begins with on
 
 
 def repeat_flags(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
-    """Repeat a flag before every number that follows it.
+    """Return the arguments with a flag repeated before each of its numbers.
 
     >>> repeat_flags(["--preload", "2500", "6000", "--out", "x"], {"--preload"})
     ['--preload', '2500', '--preload', '6000', '--out', 'x']
@@ -33,7 +33,7 @@ def repeat_flags(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
 
 
 class MultiValueCommand(TyperCommand):
-    """A command whose options named in `multi_value` take all the numbers that follow them."""
+    """A command whose options in `multi_value` take one or more numbers each."""
 
     multi_value: Collection[str] = frozenset()
 

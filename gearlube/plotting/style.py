@@ -1,4 +1,4 @@
-"""One look for all figures: legible, colour-blind safe, without pyplot's global state."""
+"""The style of all figures: legible, colour-blind safe, without pyplot's global state."""
 
 from __future__ import annotations
 

@@ -116,7 +116,7 @@ def solve_rotation(
     start: Array | None = None,
     throw: bool = True,
 ) -> UnilateralSolution:
-    """Return the contact at a prescribed closing rotation; its torque is an answer.
+    """Return the contact at a prescribed closing rotation; its torque is a result.
 
     Parameters, errors and source as in `solve_torque`, without the constraint on the moments.
     `rotation` is delta [rad]; where it closes no gap all forces are zero, without error. The torque

@@ -1,4 +1,4 @@
-"""The vector passes of one conjugate-gradient iteration with proportioning."""
+"""Vector operations of one conjugate-gradient iteration with proportioning."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def update_separation(
     rotation: float,
     residual: np.ndarray,
 ) -> tuple[float, float, float, float, float]:
-    """Write the angular separation of all cells; return how far it is from complementarity.
+    """Write the angular separation of all cells; return the error of complementarity.
 
     r = (g + u)/R - delta
 
@@ -69,7 +69,7 @@ def conjugate_direction(
     direction: np.ndarray,
     probe: np.ndarray,
 ) -> None:
-    """Turn the search direction, t = r + factor t on loaded cells and zero elsewhere.
+    """Update the search direction: t = r + factor t on loaded cells, zero elsewhere.
 
     Under a fixed torque the mean over loaded cells is taken off, so that no step changes the sum
     of the moments. `direction` holds t [rad]; `probe` receives t/R, the forces that the

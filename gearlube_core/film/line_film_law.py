@@ -1,4 +1,4 @@
-"""Power law of speed, material and load for the film of a line contact."""
+"""Film of a line contact as a power law of speed, material and load."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ SEARCH_TOLERANCE = 1.0e-3  # K, of the last step; the error after a secant step 
 
 
 class FilmTraction(NamedTuple):
-    """What the flank does at a given film."""
+    """Stresses and temperatures of a flank at a given film."""
 
     Y: float  # of the film [-]
     log_viscosity: float  # ln eta at contact pressure and surface temperature

@@ -210,7 +210,7 @@ def _passes(a: Node, b: Node, start: Node) -> bool:
 
 
 class _BranchStepper:
-    """Steps along a branch with a length that follows what the corrector needs."""
+    """Steps along a branch; the step length adapts to the corrector's convergence."""
 
     def __init__(self, arc: ArclengthCorrector, node: Node, settings: ContinuationSettings) -> None:
         self.arc, self.node, self.settings = arc, node, settings

@@ -13,7 +13,7 @@ from gearlube_core.periodic.special_points import Crossing, crossings, locate
 
 
 class Recorder:
-    """Collects the points of a branch, with what lies between them.
+    """Collects the points of a branch, with requested values and special points between them.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class Recorder:
         return self._arc.problem.unscaled(self._nodes[-1].place)[1]
 
     def point_at_parameter(self, a: Node, b: Node, value: float) -> Node | None:
-        """Return the point between two others at a scaled parameter, by either route; or None."""
+        """Return the point between two others at a scaled parameter; None if it is not found."""
         if a.place[-1] == value:
             return a
         node = self._arc.at_parameter(a, b, value)
@@ -79,7 +79,7 @@ class Recorder:
         return [node for node in found if node is not None]
 
     def branch(self, ending: Ending) -> Branch:
-        """Return what was collected."""
+        """Return the branch of all collected points."""
         problem = self._arc.problem
         places = np.array([node.place for node in self._nodes])
         gaps = np.linalg.norm(np.diff(places, axis=0), axis=1)

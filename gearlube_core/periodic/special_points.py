@@ -84,7 +84,7 @@ def crossings(arc: ArclengthCorrector, a: Node, b: Node, tolerance: float) -> li
 def locate(
     arc: ArclengthCorrector, a: Node, b: Node, test: Test, tolerance: float
 ) -> tuple[Node, float, bool]:
-    """Return the point where a test function changes sign, the bracket's width, and if smoothly.
+    """Return where a test function changes sign, the bracket's width, and whether smoothly.
 
     The Illinois variant of false position on the cubic between the ends of the bracket, each
     trial corrected onto the branch. If that fails, the better end of the bracket reached so far is

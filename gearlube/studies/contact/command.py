@@ -25,7 +25,7 @@ console = Console(stderr=True)
 
 
 class ContactCommand(MultiValueCommand):
-    """Takes several torques after one option."""
+    """A command whose option `--torques` takes several numbers."""
 
     multi_value = frozenset({"--torques"})
 

@@ -37,7 +37,7 @@ console = Console(stderr=True)
 
 
 class HelicalCommand(MultiValueCommand):
-    """Takes several values after some options."""
+    """A command with options that take several values."""
 
     multi_value = frozenset({"--mu", "--speeds-rpm", "--torques"})
 

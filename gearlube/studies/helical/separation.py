@@ -37,7 +37,7 @@ def separation_dataset(
     speeds: int,
     observe: Callable[[float], None] = lambda share: None,
 ) -> xr.Dataset:
-    """Return branches of periodic motions with one-sided contact, and linear ones beside them.
+    """Return branches of periodic motions with one-sided contact, and linear ones to compare.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def _branch(
 
 
 def _start(problem: SeparationProblem, linear: HelicalPairParameters, speed: float) -> np.ndarray:
-    """Return the motion with springs that also pull at mesh phase zero."""
+    """Return the state at mesh phase zero of the motion whose mesh springs also pull."""
     response = periodic_response(linear, speed, throw=False)
     places = [RELATIVE.index(name) for name in problem.names]
     return np.concatenate((response.displacement[0, places], response.rate[0, places]))

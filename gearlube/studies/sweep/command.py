@@ -1,4 +1,4 @@
-"""`gearlube sweep`."""
+"""The command `gearlube sweep`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _DEFAULT_PRELOADS = (2500.0, 6000.0)
 
 
 class SweepCommand(MultiValueCommand):
-    """The options that take several values after one flag."""
+    """A command whose options `--speeds` and `--preload` take several values."""
 
     multi_value = frozenset({"--speeds", "--preload"})
 

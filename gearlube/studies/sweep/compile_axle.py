@@ -1,4 +1,4 @@
-"""Compile the axle before many processes need it."""
+"""Compile the axle once before many processes run it."""
 
 from __future__ import annotations
 

@@ -122,7 +122,7 @@ def point(
 def _changed(
     case: Case, changes: dict[str, Any], entrainment: float | None, slide_roll: float | None
 ) -> Case:
-    """Return the case with what the options replace."""
+    """Return the case with the values that the options give."""
     given = {field: value for field, value in changes.items() if value is not None}
     for name, value, unit in (
         ("--entrainment", entrainment, "m/s"),

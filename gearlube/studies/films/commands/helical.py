@@ -95,7 +95,7 @@ def helical(
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
 ) -> None:
-    """Solve the film on a helical pair's contact line, at rest at one position or marching.
+    """Solve the film on a helical pair's contact line, steady at one position or in time.
 
     At rest: helical.nc, summary.csv, figures. With --march: cycle.nc, its figures and step_*.nc of
     the snapshots; a stopped march goes on from its record in OUT when the same command runs again.
@@ -145,7 +145,7 @@ def helical(
 def _check_options(
     step: float | None, position: float | None, march: str | None, snapshots: str | None
 ) -> None:
-    """Refuse options that exclude each other."""
+    """Raise ParameterError if options exclude each other."""
     if march is None and snapshots is not None:
         raise ParameterError(
             f"--snapshots must be given with --march, got {snapshots!r} alone. Give both."

@@ -92,8 +92,8 @@ def hypoid(
 ) -> None:
     """Solve the films of a hypoid tooth pair through its engagement, beside the formulas.
 
-    Writes hypoid.nc, summary.csv and figures. Options replace what the case says. A stopped march
-    goes on from its record in OUT when the same command runs again.
+    Writes hypoid.nc, summary.csv and figures. Options override the case file. A stopped march
+    continues from the last step stored in OUT when the same command runs again.
     """
     from gearlube.studies.films import run_hypoid
     from gearlube_core.ehl.case.hypoid_case import HypoidCase

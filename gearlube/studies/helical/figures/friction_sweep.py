@@ -21,7 +21,7 @@ _FORCES = (
 
 
 def friction_harmonics(sweep: xr.Dataset) -> Any:
-    """Return mesh orders of motions against friction; [he_2007 sec. 6] tells what they do."""
+    """Return mesh orders of motions against friction; [he_2007 sec. 6] discusses them."""
     return _panels(sweep, _ROWS, 1e6, "µm", "Mesh orders of the motions against friction")
 
 

@@ -1,4 +1,4 @@
-"""What the figures of a helical pair share: cases, colours, axes over a mesh period."""
+"""Shared parts of the figures of a helical pair: cases, colours, axes over a mesh period."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def title(dataset: xr.Dataset, what: str) -> str:
 
 
 def mesh_description(dataset: xr.Dataset) -> str:
-    """Return how the mesh is modelled, in words."""
+    """Return a description of the mesh model."""
     return "of loaded contact" if dataset.attrs["mesh"] == "contact" else "of constant density"
 
 
@@ -74,7 +74,7 @@ def stems(ax: Any, order: Array, sets: list[tuple[Array, str, str]]) -> None:
 
 
 def note_no_vibration(ax: Any) -> None:
-    """Write that there is no vibration in a panel."""
+    """Write in a panel that there is no vibration."""
     ax.text(0.5, 0.5, "none", transform=ax.transAxes, ha="center", va="center", color=GREY)
 
 
@@ -87,7 +87,7 @@ def mark_orders(ax: Any, response: xr.Dataset) -> None:
 
 
 def distinct(frequencies: Array, apart: float = 0.01) -> Array:
-    """Return frequencies without those that lie within a share of the one before."""
+    """Return frequencies without those too close to the one before, as a share of it."""
     kept: list[float] = []
     for frequency in np.sort(frequencies):
         if not kept or frequency > (1.0 + apart) * kept[-1]:
