@@ -9,7 +9,7 @@ Examples
 >>> import gearlube as gl
 >>> oil = gl.Lubricant.named("mohammadpour_2015")
 >>> round(oil.dynamic_viscosity(gl.celsius_to_kelvin(95.0)), 4)  # Pa s
-0.0117
+0.0171
 """
 
 from __future__ import annotations
