@@ -1,4 +1,4 @@
-"""Everything a tooth contact analysis found, as one labelled dataset."""
+"""Results of a tooth contact analysis as one labelled dataset."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contact pattern: where marking compound is wiped off while the teeth roll through the mesh."""
+"""Contact pattern: the area where marking compound is wiped off during meshing."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class ContactPattern:
 
     @property
     def marked(self) -> NDArray[np.bool_]:
-        """Where the compound is wiped off, (m, n)."""
+        """Whether the compound is wiped off, (m, n)."""
         return np.asarray(np.nan_to_num(self.closest, nan=np.inf) <= self.thickness)
 
     @property
@@ -97,7 +97,7 @@ def contact_pattern(
 
 
 def _envelope(leading: Array, angle: Array, pitch: float) -> Array:
-    """Return the least of a pair and its neighbours, whole pitches away."""
+    """Return the minimum over a pair and its neighbours, whole pitches away."""
     shift = round(pitch / float(angle[1] - angle[0]))
     out = leading.copy()
     for k in range(shift, leading.size, shift):

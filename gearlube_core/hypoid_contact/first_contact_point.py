@@ -1,4 +1,4 @@
-"""Where on the gear flank the pinion touches first as it rotates, on a grid."""
+"""First point of contact on the gear flank as the pinion rotates, on a grid."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _GRID = (9, 13)  # profile and face positions
 
 @dataclass(frozen=True, slots=True)
 class FirstContactPoint:
-    """The grid point that touches first, with all that starts an exact search."""
+    """The grid point of first contact, with the starting values of an exact search."""
 
     gear_angle: float  # rad
     gear_s: float
@@ -26,7 +26,7 @@ class FirstContactPoint:
 
 
 def first_contact_point(pair: FlankPair, gear_angle: float) -> FirstContactPoint | None:
-    """Return which point of a coarse grid on the gear flank touches first; None if none does."""
+    """Return the first point of contact on a coarse grid of the gear flank, or None."""
     s, t = np.meshgrid(*(np.linspace(0.0, 1.0, k) for k in _GRID), indexing="ij")
     gear = pair.gear.parameters(s, t)
     reach = contact_rotations(pair, gear, np.array([gear_angle])).on_tooth()

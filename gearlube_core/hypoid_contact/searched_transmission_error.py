@@ -1,6 +1,6 @@
-"""Unloaded transmission error as the least rotation of the pinion to contact, by search.
+"""Unloaded transmission error by search: the least rotation of the pinion to contact.
 
-Second route beside the path of contact: no normals are compared, edges of the teeth count.
+A second method beside the path of contact. It compares no normals and includes edge contact.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _ROUNDS = 40  # ten shrink to the smallest, the others travel
 
 
 class SearchedTransmissionError(NamedTuple):
-    """First touch of one pair: error [rad], profile and face position on the gear [-], (N,)."""
+    """First contact of one pair: error [rad], profile and face position on the gear [-], (N,)."""
 
     error: Array
     s: Array
@@ -33,7 +33,7 @@ class SearchedTransmissionError(NamedTuple):
 
 
 def searched_transmission_error(pair: FlankPair, gear_angles: Array) -> SearchedTransmissionError:
-    """Return where one pair touches first at gear angles (N,) [rad], by search.
+    """Return the first contact of one pair at gear angles (N,) [rad], by search.
 
     The extreme over the points of both teeth of the pinion angle at touch less teeth ratio times
     gear angle, found with parabolas through stencils of nine points that shrink about it. NaN

@@ -1,4 +1,4 @@
-"""Unloaded transmission error of the meshing pair: tooth pairs hand over to one another."""
+"""Unloaded transmission error of the meshing gears, with handover between tooth pairs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SCAN = 32  # positions a pitch of the coarse path
 
 @dataclass(frozen=True, slots=True)
 class ContactRatio:
-    """How many pairs the unloaded path of contact spans, and how many really touch.
+    """Contact ratio from the unloaded path of contact, and number of pairs in real contact.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
 
 
 def contact_ratio(pair: FlankPair) -> ContactRatio:
-    """Return over how many pitches the unloaded path of contact lies on both teeth."""
+    """Return the number of pitches over which the unloaded path of contact lies on both teeth."""
     path = _coarse_path(pair)
     margin = _margin(path)
     inside = margin >= 0.0

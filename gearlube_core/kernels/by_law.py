@@ -1,4 +1,4 @@
-"""Kernels that a physical law brings along: picked by the law's class when a caller is compiled."""
+"""Kernels of a physical law: chosen by the law's class when a caller is compiled."""
 
 from __future__ import annotations
 

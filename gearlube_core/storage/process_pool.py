@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 
 class Pool(Protocol):
-    """Workers that can be opened more than once."""
+    """Interface of workers; they can be opened more than once."""
 
     def open(self, tasks: int) -> AbstractContextManager[Executor | None]:
         """Give an executor for `tasks` tasks; None: run them one by one in this process."""

@@ -1,4 +1,4 @@
-"""The pair of He et al. 2007 with what the paper leaves out completed."""
+"""The pair of He et al. 2007; data missing in the paper are completed."""
 
 from __future__ import annotations
 

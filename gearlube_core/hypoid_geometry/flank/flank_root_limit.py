@@ -1,4 +1,4 @@
-"""How far down a cut flank is sound: to the line of the blade tips, or to a fold (undercut)."""
+"""Lower limit of a regular flank: the line of the blade tips, or a fold (undercut)."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LEAP = 1e-3  # m of blade height; more between neighbouring solutions is anothe
 
 
 class FlankRootLimit(NamedTuple):
-    """End of a sound flank towards the root, at each face position, shape (n,).
+    """Lower limit of the regular flank towards the root, at each face position, shape (n,).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a tooth looks like: thickness, topland, root and undercut, as numbers and as sentences."""
+"""Form of a tooth: thickness, topland, root and undercut, as numbers and as sentences."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class ToothForm:
     normal_module: float
 
     def report(self) -> list[str]:
-        """Return what is unusual about the tooth, one sentence each; empty for a sound tooth."""
+        """Return warnings about the tooth, one sentence each; empty for a regular tooth."""
         return [*self._tip(), *self._root(), *self._undercut("drive"), *self._undercut("coast")]
 
     def _tip(self) -> list[str]:
