@@ -68,7 +68,7 @@ class SpeedHold:
     speed : float
         Requested vehicle speed [m/s].
     axle_power_loss : float
-        Power lost in the axle, as far as known [W]; the integral term finds the rest.
+        Known power loss of the axle [W]; the integral term finds the rest.
     proportional_gain : float
         K [N m s/rad]. The gain is a damper K / I_p on the pinion: 0.05 changes the damping ratio
         of the mesh mode by 0.001, 5 by 0.1, which can hide an instability.

@@ -40,7 +40,7 @@ class Driveline:
     speed : float
         Requested vehicle speed [m/s].
     axle_power_loss : float
-        Power lost in the axle, as far as known [W]; the speed controller finds the rest.
+        Known power loss of the axle [W]; the speed controller finds the rest.
 
     Notes
     -----

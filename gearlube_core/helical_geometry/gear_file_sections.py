@@ -142,7 +142,7 @@ class Bearing(Section):
     )
 
     @model_validator(mode="after")
-    def _check_stability(self) -> Bearing:
+    def _check_positive_definite(self) -> Bearing:
         for along, about in (("x", "y"), ("y", "x")):
             stiffness = 1e3 * getattr(self, f"stiffness_{along}_n_per_um")  # kN/m
             limit = math.sqrt(stiffness * getattr(self, f"tilt_{about}_knm_per_rad"))

@@ -12,7 +12,7 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def by_law(otherwise: Callable[..., Any] | None = None) -> Callable[[_Function], _Function]:
-    """Return a decorator: calls go to the kernel of the same name in the law's class.
+    """Return a decorator that sends calls to the law's own kernel of the same name.
 
     Parameters
     ----------

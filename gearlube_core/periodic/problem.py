@@ -138,7 +138,7 @@ def fixed_point_residual(period_map: PeriodMap, *, periods: int = 1) -> Residual
         P: maps (z, p) to the state after one period, shape (m,); dP/dz, shape (m, m); dP/dp,
         shape (m,).
     periods
-        How many periods the motion takes to close; 2 finds what comes out of a period doubling.
+        Number of periods after which the motion repeats; 2 for the motion after a period doubling.
 
     Raises
     ------
