@@ -78,7 +78,6 @@ from gearlube.studies.films.run_march import MarchSteps as MarchSteps
 from gearlube.studies.films.run_march import run_helical_march as run_helical_march
 from gearlube.studies.films.run_hypoid import run_hypoid as run_hypoid
 from gearlube.studies.films.compare import compare_marches as compare_marches
-from gearlube.studies.films.results import write_film_results as write_film_results
 
 # -- Study: vehicle speed sweep
 from gearlube.studies.sweep.settings import SweepSettings as SweepSettings

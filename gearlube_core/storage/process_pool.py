@@ -76,7 +76,7 @@ def processors() -> int:
 
 
 def single_threaded() -> threadpool_limits:
-    """Limit the linear algebra of this process to one thread; use as a context or for good.
+    """Limit the linear algebra of this process to one thread; in a context or permanently.
 
     Small matrix products lose more time to threads that wait for each other than they gain.
     """

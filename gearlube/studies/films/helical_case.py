@@ -55,6 +55,13 @@ class HelicalLineCase:
     ------
     ParameterError
         Something is missing, given twice or out of range.
+
+    Examples
+    --------
+    >>> gears = HelicalGearFile.named("jamali_2015_a")
+    >>> case = HelicalLineCase(file=gears, step=300.0, nodes=(33, 49))
+    >>> case.mesh
+    ((33, 49), 'uniform')
     """
 
     file: HelicalGearFile

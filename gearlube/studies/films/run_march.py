@@ -43,6 +43,11 @@ class MarchSteps:
     record_every
         Steps from one record of the march to the next. A stopped march goes on from its last
         record.
+
+    Examples
+    --------
+    >>> MarchSteps(first=60, last=110).record_every
+    5
     """
 
     first: int = 0
@@ -81,6 +86,13 @@ def run_helical_march(
     ------
     ParameterError
         The case is incomplete or out of range, or a record in `folder` cannot be read.
+
+    Examples
+    --------
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> case = HelicalLineCase(file=HelicalGearFile.named("jamali_2015_a"), nodes=(33, 49))
+    >>> run_helical_march(case, MarchSteps(first=300, last=302)).sizes["step"]
+    3
     """
     steps = steps or MarchSteps()
     film = case.film()

@@ -122,6 +122,14 @@ def run_helical_line(
     ------
     ParameterError
         The case is incomplete or out of range.
+
+    Examples
+    --------
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> gears = HelicalGearFile.named("jamali_2015_a")
+    >>> film = run_helical_line(HelicalLineCase(file=gears, step=300.0, nodes=(33, 49)))
+    >>> film.sizes["x"], film.sizes["y"]
+    (33, 49)
     """
     film = case.film()
     step = case.step_of(film)

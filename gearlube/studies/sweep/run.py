@@ -111,6 +111,15 @@ def run_sweep(
         The grid is empty, a value is out of range, or both `fmu` and `mesh_table` are given.
     InterruptedRunError
         After Ctrl-C, when the finished points have been saved.
+
+    Examples
+    --------
+    Two points take some seconds:
+
+    >>> settings = SweepSettings()
+    >>> results = run_sweep(  # doctest: +SKIP
+    ...     settings, speeds_kmh=[60.0], preloads=[2500.0, 6000.0], out="gearlube_sweep"
+    ... )
     """
     settings = settings or SweepSettings()
     speeds = sorted({check_within("speed", v, 1.0, 400.0, "km/h") for v in speeds_kmh})

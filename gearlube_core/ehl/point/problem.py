@@ -95,6 +95,17 @@ class PointContactProblem:
     ------
     ParameterError
         An input is out of range.
+
+    Examples
+    --------
+    `elliptical_contact` builds the problem of two smooth solids.
+
+    >>> from gearlube_core.oil.film_oil_data import film_oil
+    >>> oil = film_oil(eta0=0.04, alpha=2e-8)
+    >>> ball = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0,
+    ...                           contact_modulus=1.15e11, lubricant=oil)
+    >>> round(1e-9 * ball.hertz_contact[2], 2)  # GPa
+    0.8
     """
 
     gap: Gap
@@ -256,6 +267,15 @@ def elliptical_contact(
     less than 1 %. Without oil beyond the border isoviscous films, and those thicker than the
     solids flatten, come out up to a fifth too thin on a domain of 320 films: pressure falls
     with the third power of distance only.
+
+    Examples
+    --------
+    >>> from gearlube_core.oil.film_oil_data import film_oil
+    >>> oil = film_oil(eta0=0.04, alpha=2e-8)
+    >>> contact = elliptical_contact(R_x=0.012, R_y=0.06, entrainment=(2.0, 0.0), load=80.0,
+    ...                              contact_modulus=1.15e11, lubricant=oil)
+    >>> contact.nodes
+    (129, 129)
     """
     shape = EllipticParaboloid(R_x, R_y)
     problem = PointContactProblem(

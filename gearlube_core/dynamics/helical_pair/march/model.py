@@ -67,6 +67,19 @@ class HelicalPairModel(SteppedModel[StepControl]):
     References
     ----------
     [he_2007]
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> file = HelicalGearFile.named("he_2007")
+    >>> gears = HelicalPairModel(helical_march(file, friction="constant"))
+    >>> gears.initialise(
+    ...     pinion_speed=104.7, pinion_torque=226.0, wheel_torque=280.0, oil_temperature=333.15
+    ... )
+    >>> gears.step(1e-4, 226.0, 280.0, 333.15)
+    >>> gears.output("mesh.separated")
+    0.0
     """
 
     def __init__(self, parameters: HelicalMarchParameters) -> None:
