@@ -27,15 +27,15 @@ GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CarriedPair:
-    """The gear pair that an FMU carries."""
+class EmbeddedPair:
+    """The gear pair whose files are inside an FMU."""
 
     gear: HelicalGearFile
     line_mesh: LineMesh | None = None
 
 
 def start_pair(
-    arguments: Mapping[str, Value], inputs: Sequence[float], carried: CarriedPair | None = None
+    arguments: Mapping[str, Value], inputs: Sequence[float], embedded: EmbeddedPair | None = None
 ) -> HelicalPairModel:
     """Return an initialised pair.
 
@@ -46,18 +46,18 @@ def start_pair(
         `ReplacedBearings` and `HelicalMarchParameters`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
-    carried : CarriedPair, optional
+    embedded : EmbeddedPair, optional
         What gear.name = custom stands for.
     """
     given: dict[str, Any] = dict(arguments)
     speed = float(given.pop("pinion_speed"))
     name = str(given.pop("gear_name"))
-    if name == CUSTOM and carried is None:
+    if name == CUSTOM and embedded is None:
         raise ParameterError(
             "gear.name must be one of the pairs that ship with gearlube, got custom: this FMU "
             "carries no gear file. Build one with `gearlube build-fmu --gear FILE`."
         )
-    own = carried if name == CUSTOM else None
+    own = embedded if name == CUSTOM else None
     gear = own.gear if own else HelicalGearFile.named(name)
     line_mesh = None
     if given.pop("stiffness_model") == LINE_MESH:
@@ -104,7 +104,7 @@ DEFINITION = Definition(
 
 
 def definition_with(gear: str | Path | None, line_mesh: str | Path | None = None) -> Definition:
-    """Return the definition of the FMU that carries a gear file, and its line mesh if given.
+    """Return the definition of the FMU with this gear file and, if given, its line mesh.
 
     Raises
     ------
@@ -137,7 +137,7 @@ def _read(path: str | Path, what: str) -> bytes:
 
 @cache
 def _definition_with(content: bytes, mesh: bytes) -> Definition:
-    """Return the one definition with these files: what is kept by definition is kept once."""
+    """Return the definition with these files; one object per content, for caches keyed by it."""
     try:
         data = tomllib.loads(content.decode())
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
@@ -160,7 +160,7 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
         description=f"{DEFINITION.description}; gear file {gear.name} "
         f"({pair.pinion_teeth}/{pair.gear_teeth} teeth){of_mesh}",
         variables=tuple(replace(v, start=starts.get(v.name, v.start)) for v in HELICAL_PAIR),
-        start=partial(start_pair, carried=CarriedPair(gear=gear, line_mesh=line_mesh)),
+        start=partial(start_pair, embedded=EmbeddedPair(gear=gear, line_mesh=line_mesh)),
         resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}),
     )
 

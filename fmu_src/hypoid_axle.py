@@ -83,7 +83,7 @@ DEFINITION = Definition(
 
 
 def definition_with_table(path: str | Path) -> Definition:
-    """Return the definition of the FMU that carries the mesh table at `path`."""
+    """Return the definition of the FMU with the mesh table at `path`."""
     content = read_content(path)
     try:
         return _definition_with(content)
@@ -93,7 +93,7 @@ def definition_with_table(path: str | Path) -> Definition:
 
 @cache
 def _definition_with(content: bytes) -> Definition:
-    """Return the one definition with this table: what is kept by definition is kept once."""
+    """Return the definition with this table; one object per content, for caches keyed by it."""
     mesh = mesh_table_from_bytes(content, "the mesh table")
     source = f", from {mesh.source}" if mesh.source else ""
     return replace(
@@ -110,6 +110,6 @@ class HypoidAxle(CoSimulationSlave):
 
     @staticmethod
     def definition_of(resources: Path) -> Definition:
-        """Return the definition with the table in `resources`, or with the one that ships."""
+        """Return the definition with the table in `resources`, else with the shipped table."""
         table = resources / FILE_IN_FMU
         return definition_with_table(table) if table.is_file() else DEFINITION

@@ -1,4 +1,4 @@
-"""Gears in motion as an object: checked inputs, a step made or refused, a state to come back to."""
+"""Base class of time-stepped gear models: checked inputs, steps, saved and restored states."""
 
 from __future__ import annotations
 

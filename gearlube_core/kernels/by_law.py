@@ -1,4 +1,4 @@
-"""Kernels that a physical law brings along: picked by the law's class when a caller is compiled."""
+"""Kernels of a physical law: chosen by the law's class when a caller is compiled."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def by_law(otherwise: Callable[..., Any] | None = None) -> Callable[[_Function], _Function]:
-    """Return a decorator: calls go to the kernel of the same name in the law's class.
+    """Return a decorator that sends calls to the law's own kernel of the same name.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ _STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: [jamali_2015 sec. 4.4]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HelicalLineCase:
-    """A contact line at rest at one position of its cycle.
+    """A contact line at one position of its cycle, for a steady film.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ class HelicalLineCase:
         ), own.spacing if self.spacing is None else self.spacing
 
     def film(self) -> HelicalFilm:
-        """Return the film through the cycle of which this is one position."""
+        """Return the film problem of the whole meshing cycle."""
         torque, speed = self._operation()
         modified = self.file.modified_pair()
         modulus = self.file.pair.reduced_modulus_gpa
@@ -109,7 +109,7 @@ class HelicalLineCase:
         )
 
     def step_of(self, film: HelicalFilm) -> float:
-        """Return the step at which the line is looked at [-]."""
+        """Return the step of the line's position in the meshing cycle [-]."""
         steps = film.steps
         if self.step is not None and self.position is not None:
             raise ParameterError(

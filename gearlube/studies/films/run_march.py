@@ -31,7 +31,7 @@ logger = logging.getLogger("gearlube")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarchSteps:
-    """Steps of the meshing cycle that a march passes.
+    """Steps of the meshing cycle that a march covers.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def run_helical_march(
 
 
 def _finish_snapshot(folder: Path, step: int, key: str, steady: FilmSolution) -> None:
-    """Add the film at rest to the snapshot that the march `key` has written, and draw both."""
+    """Add the steady film to the snapshot written by the march `key`, and draw both."""
     path = step_file(folder, step)
     stored = xr.load_dataset(path, engine="scipy") if path.exists() else None
     if stored is None or stored.attrs.get("march") != key:

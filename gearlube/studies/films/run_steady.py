@@ -29,7 +29,7 @@ logger = logging.getLogger("gearlube")
 def run_line(
     case: LineCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
-    """Return the film of a line contact, isothermal or thermal as the case says.
+    """Return the film of a line contact; the case chooses isothermal or thermal.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def run_line(
 def run_point(
     case: PointCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
-    """Return the film of a point contact, isothermal or thermal as the case says.
+    """Return the film of a point contact; the case chooses isothermal or thermal.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def run_point(
 def run_helical_line(
     case: HelicalLineCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
-    """Return the film on a helical pair's contact line, at rest at one position.
+    """Return the steady film on a helical pair's contact line at one position.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def _warn_of_heights(case: LineCase | PointCase) -> None:
 
 
 def _begin(folder: Path | None, progress: Progress, sentence: str) -> None:
-    """Make the folder before the film is solved, so that one that cannot be made stops here."""
+    """Make the folder before the film is solved, so that an error of the path stops the run now."""
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
     progress(0.0, sentence)

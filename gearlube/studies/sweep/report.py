@@ -1,4 +1,4 @@
-"""report.html: what was run, the numbers, the figures and the failures."""
+"""Write report.html: settings, main numbers, figures and failed points."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The mesh table at the present load, on the flanks that touch."""
+"""Mesh data at the present load, for the flanks in contact."""
 
 from __future__ import annotations
 

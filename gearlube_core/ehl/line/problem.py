@@ -1,4 +1,4 @@
-"""What a line contact solution needs to know: contact, speeds, load, oil, domain, accuracy."""
+"""A line contact problem: contact, speeds, load, oil, domain, accuracy."""
 
 from __future__ import annotations
 
