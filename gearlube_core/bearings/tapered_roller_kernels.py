@@ -12,6 +12,7 @@ from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
 from gearlube_core.bearings.shaft_expansion import expand_shaft_bearings, expanded_shaft_forces
 from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
 
@@ -20,6 +21,7 @@ class TaperedRollerParameters(BearingParameters):
 
     __slots__ = ()
 
+    @kernel
     def expand_forces(
         self, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: NDArray[float64]
     ) -> None:
@@ -33,6 +35,7 @@ class TaperedRollerParameters(BearingParameters):
             expansion,
         )
 
+    @kernel
     def expanded_forces(
         self, motion: ShaftMotion, expansion: NDArray[float64]
     ) -> tuple[float, float, float, float]:
@@ -43,6 +46,7 @@ class TaperedRollerParameters(BearingParameters):
             expansion,
         )
 
+    @kernel
     def shaft_forces(
         self, motion: ShaftMotion, f_ref: float, oil: LubricantState
     ) -> tuple[float, float, float, float, float, float, float]:
@@ -55,6 +59,7 @@ class TaperedRollerParameters(BearingParameters):
             self,
         )
 
+    @kernel
     def shaft_energy(self, motion: ShaftMotion, oil: LubricantState) -> float:
         """Return the elastic energy of both bearings [J]."""
         return shaft_bearing_energy(
@@ -68,6 +73,7 @@ class TaperedRollerParameters(BearingParameters):
             self,
         )
 
+    @kernel
     def roller_load_range(
         self,
         motion: ShaftMotion,
@@ -93,6 +99,7 @@ class TaperedRollerParameters(BearingParameters):
             smallest = min(smallest, rollers[i])
         return rollers[0], largest, smallest
 
+    @kernel
     def shaft_drag(self, speed: float, axial_load: float, oil: LubricantState) -> float:
         """Return the drag torque of one bearing [N m]."""
         return drag_torque(speed, axial_load, oil.nu, self)

@@ -35,7 +35,7 @@ def moes_contact(
     radius_ratio: float = 1.0,
     angle: float = 0.0,
     lubricant: FilmOil | None = None,
-    **domain: Any,
+    **given: Any,
 ) -> PointContactProblem:
     """Return the contact with load M and material L of Moes; L = 0 is isoviscous."""
     material = ALPHA * REDUCED_MODULUS
@@ -52,7 +52,7 @@ def moes_contact(
         contact_modulus=0.5 * REDUCED_MODULUS,
         lubricant=lubricant,
         nodes=nodes,
-        **domain,
+        **given,
     )
 
 

@@ -23,6 +23,7 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Z,
 )
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
+from gearlube_core.friction.flank_law import flank_state
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
@@ -69,7 +70,8 @@ def pair_friction(
     p: AxleParameters,
 ) -> FlankState:
     """Return the state of one flank under `load` [N] that slides at `sliding` [m/s]."""
-    return p.flank_law.flank_state(
+    return flank_state(
+        p.flank_law,
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,

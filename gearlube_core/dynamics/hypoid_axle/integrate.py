@@ -8,6 +8,7 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
+from gearlube_core.bearings.bearing_type import shaft_drag
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -145,8 +146,8 @@ def step_inputs(
     drag_p = 0.0
     drag_g = 0.0
     if p.drag != 0.0:
-        drag_p = 2.0 * p.bearing_p.shaft_drag(s[W_P], p.preload, oil)
-        drag_g = 2.0 * p.bearing_g.shaft_drag(s[W_G], p.preload, oil)
+        drag_p = 2.0 * shaft_drag(p.bearing_p, s[W_P], p.preload, oil)
+        drag_g = 2.0 * shaft_drag(p.bearing_g, s[W_G], p.preload, oil)
     return StepInputs(pinion_torque, wheel_torque, drag_p, drag_g)
 
 

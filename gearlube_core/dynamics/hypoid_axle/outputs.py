@@ -7,7 +7,13 @@ import math
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.bearings.bearing_type import ShaftBearings, ShaftMotion
+from gearlube_core.bearings.bearing_type import (
+    ShaftBearings,
+    ShaftMotion,
+    roller_load_range,
+    shaft_energy,
+    shaft_forces,
+)
 from gearlube_core.dynamics.hypoid_axle import output_names as at
 from gearlube_core.dynamics.hypoid_axle.flanks import pair_friction, sliding_speed
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
@@ -75,8 +81,8 @@ def stored_energy(
         kinetic += p.m_p * s[V_P + i] * s[V_P + i] + p.m_g * s[V_G + i] * s[V_G + i]
     f = backlash_deflection(s[X] * UM, p.backlash)
     elastic = 0.5 * mesh_stiffness * f * f
-    elastic += p.bearing_p.shaft_energy(pinion_motion(s), oil)
-    elastic += p.bearing_g.shaft_energy(gear_motion(s), oil)
+    elastic += shaft_energy(p.bearing_p, pinion_motion(s), oil)
+    elastic += shaft_energy(p.bearing_g, gear_motion(s), oil)
     return 0.5 * kinetic + elastic
 
 
@@ -130,7 +136,7 @@ def write_shaft(
     Their outputs begin at `first`. `axes` are the places (0, 1, 2) of r1, r2 and the shaft in
     x, y, z; `rollers` is work space of shape (ROLLERS_MAX,).
     """
-    F = bearings.shaft_forces(motion, f_ref, oil)
+    F = shaft_forces(bearings, motion, f_ref, oil)
     one = first + at.BEARING_FORCE
     out[one + axes[0]] = F[0]
     out[one + axes[1]] = F[1]
@@ -142,7 +148,7 @@ def write_shaft(
     first_roller = 0.0
     for k in range(2):
         side = 1.0 - 2.0 * k
-        load, largest, smallest = bearings.roller_load_range(motion, f_ref, oil, side, rollers)
+        load, largest, smallest = roller_load_range(bearings, motion, f_ref, oil, side, rollers)
         base = first + k * at.N_BEARING_QUANTITIES
         out[base + at.ROLLER_LOAD_MAX] = largest
         out[base + at.ROLLER_LOAD_MIN] = smallest

@@ -7,7 +7,12 @@ from typing import NamedTuple
 from numpy import float64
 from numpy.typing import NDArray
 
-from gearlube_core.bearings.bearing_type import N_EXPANSION, ShaftMotion
+from gearlube_core.bearings.bearing_type import (
+    N_EXPANSION,
+    ShaftMotion,
+    expand_forces,
+    expanded_forces,
+)
 from gearlube_core.bearings.cage_frame import cage_torque
 from gearlube_core.dynamics.hypoid_axle.flanks import flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
@@ -152,10 +157,10 @@ def axle_rhs(
     pinion = pinion_motion(s)
     gear = gear_motion(s)
     if bearings != 0.0:
-        p.bearing_p.expand_forces(pinion, f_ref, oil, expansion_p)
-        p.bearing_g.expand_forces(gear, f_ref, oil, expansion_g)
-    p_z, p_y, p_x, lost_p = p.bearing_p.expanded_forces(pinion, expansion_p)
-    g_x, g_y, g_z, lost_g = p.bearing_g.expanded_forces(gear, expansion_g)
+        expand_forces(p.bearing_p, pinion, f_ref, oil, expansion_p)
+        expand_forces(p.bearing_g, gear, f_ref, oil, expansion_g)
+    p_z, p_y, p_x, lost_p = expanded_forces(p.bearing_p, pinion, expansion_p)
+    g_x, g_y, g_z, lost_g = expanded_forces(p.bearing_g, gear, expansion_g)
     shared = p.consistent
     cage_p = cage_torque(pinion.r1, pinion.r2, p_z, p_y)
     cage_g = cage_torque(gear.r1, gear.r2, g_x, g_y)

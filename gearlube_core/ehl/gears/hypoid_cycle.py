@@ -12,7 +12,7 @@ from gearlube_core.ehl.gears.film_columns import film_row
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_traction import flank_traction
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curves
+from gearlube_core.ehl.transient.curves import FilmCurves, NumberedSteps, Progress, march_curves
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
@@ -120,9 +120,7 @@ def march_flank(
         film.moving_film(),
         COLUMNS,
         lambda _, solution: _row(film, solution, beta),
-        steps=(0, steps),
-        start_time=first,
-        step_time=(last - first) / steps,
+        NumberedSteps(0, steps, start_time=first, step_time=(last - first) / steps),
         scheme=scheme,
         settings=settings,
         checkpoint=checkpoint,
