@@ -286,7 +286,7 @@ def elliptical_contact(
     Examples
     --------
     >>> from gearlube_core.oil.film_oil_data import film_oil
-        >>> ball = elliptical_contact(
+    >>> ball = elliptical_contact(
     ...     R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0, contact_modulus=1.15e11,
     ...     lubricant=film_oil(eta0=0.04, alpha=2e-8),
     ...     domain=ContactDomain(inlet=4.0, outlet=2.0, side=3.0),
