@@ -224,12 +224,17 @@ def expected_film(problem: PointContactProblem) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ContactDomain:
-    """How far a film is computed, in semi-axes of the dry contact along the same axis.
+    """Size of the domain of a film, in semi-axes of the dry contact along the same axis.
 
     Parameters
     ----------
     inlet, outlet, side
         Upstream, downstream and to the sides [-]; None: as far as the film needs.
+
+    Examples
+    --------
+    >>> ContactDomain(inlet=4.0).outlet is None
+    True
     """
 
     inlet: float | None = None
