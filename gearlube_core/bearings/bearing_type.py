@@ -11,9 +11,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, Protocol, Self
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.kernels.by_class import by_class
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -50,12 +48,12 @@ class ShaftBearings(Protocol):
         motion: ShaftMotion,
         f_ref: float,
         oil: LubricantState,
-        expansion: NDArray[float64],
+        expansion: Array,
     ) -> None:
         """Write what `expanded_forces` needs near this motion into `expansion`, (N_EXPANSION,)."""
 
     def expanded_forces(
-        self, motion: ShaftMotion, expansion: NDArray[float64]
+        self, motion: ShaftMotion, expansion: Array
     ) -> tuple[float, float, float, float]:
         """Return F_r1, F_r2, F_a of both bearings on the shaft [N] and the lost power [W]."""
 
@@ -73,7 +71,7 @@ class ShaftBearings(Protocol):
         f_ref: float,
         oil: LubricantState,
         side: float,
-        rollers: NDArray[float64],
+        rollers: Array,
     ) -> tuple[float, float, float]:
         """Return the load of roller 0 and the largest and smallest load of one bearing [N].
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.bearings.parameters import BearingParameters
@@ -23,7 +21,7 @@ class TaperedRollerParameters(BearingParameters):
 
     @kernel
     def expand_forces(
-        self, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: NDArray[float64]
+        self, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: Array
     ) -> None:
         """Write the expansion of the forces about this motion."""
         expand_shaft_bearings(
@@ -37,7 +35,7 @@ class TaperedRollerParameters(BearingParameters):
 
     @kernel
     def expanded_forces(
-        self, motion: ShaftMotion, expansion: NDArray[float64]
+        self, motion: ShaftMotion, expansion: Array
     ) -> tuple[float, float, float, float]:
         """Return the forces on the shaft [N] and the lost power [W] near the expansion."""
         return expanded_shaft_forces(
@@ -80,7 +78,7 @@ class TaperedRollerParameters(BearingParameters):
         f_ref: float,
         oil: LubricantState,
         side: float,
-        rollers: NDArray[float64],
+        rollers: Array,
     ) -> tuple[float, float, float]:
         """Return the load of roller 0, the largest and the smallest load of one bearing [N]."""
         roller_loads(

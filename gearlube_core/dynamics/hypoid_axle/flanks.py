@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import (
@@ -45,7 +43,7 @@ class FlankSum(NamedTuple):
 
 
 @kernel
-def sliding_speed(s: NDArray[float64], channels: NDArray[float64]) -> float:
+def sliding_speed(s: Array, channels: Array) -> float:
     """Return the sliding speed of the pinion over the gear flank [m/s].
 
     dU = w_p r_p - w_g r_g + xi.(v_p - v_g): the rate that the friction force does work on, so that
@@ -62,10 +60,10 @@ def sliding_speed(s: NDArray[float64], channels: NDArray[float64]) -> float:
 
 @kernel
 def pair_friction(
-    s: NDArray[float64],
+    s: Array,
     load: float,
     sliding: float,
-    channels: NDArray[float64],
+    channels: Array,
     oil: LubricantState,
     p: AxleParameters,
 ) -> FlankState:
@@ -82,15 +80,15 @@ def pair_friction(
 
 @kernel
 def flank_sum(
-    s: NDArray[float64],
+    s: Array,
     force: float,
-    window: NDArray[float64],
+    window: Array,
     n_nodes: int,
     oil: LubricantState,
     p: AxleParameters,
     refresh: float,
-    friction: NDArray[float64],
-    channels: NDArray[float64],
+    friction: Array,
+    channels: Array,
 ) -> FlankSum:
     """Return the friction of all pairs that share the mesh force `force` [N].
 

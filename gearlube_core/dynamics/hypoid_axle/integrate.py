@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import shaft_drag
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
@@ -79,7 +77,7 @@ def step_limit(
 
 @kernel
 def rk4_step(
-    s: NDArray[float64],
+    s: Array,
     h: float,
     first: float,
     expand: float,
@@ -87,8 +85,8 @@ def rk4_step(
     mesh: MeshAtLoad,
     oil: LubricantState,
     p: AxleParameters,
-    scratch: NDArray[float64],
-    stages: NDArray[float64],
+    scratch: Array,
+    stages: Array,
 ) -> None:
     """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
 
@@ -136,7 +134,7 @@ def work_size(n_orders: int, n_nodes: int) -> int:
 
 @kernel
 def step_inputs(
-    s: NDArray[float64],
+    s: Array,
     pinion_torque: float,
     wheel_torque: float,
     oil: LubricantState,
@@ -153,14 +151,14 @@ def step_inputs(
 
 @kernel
 def advance(
-    s: NDArray[float64],
+    s: Array,
     duration: float,
     torques: tuple[float, float],
     oil_temperature: float,
     table: MeshLevels,
     p: AxleParameters,
     control: StepControl,
-    work: NDArray[float64],
+    work: Array,
 ) -> int:
     """Advance the axle by `duration` [s] under constant inputs; return a status.
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     ShaftBearings,
     ShaftMotion,
@@ -70,7 +68,7 @@ _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
 @kernel
 def stored_energy(
-    s: NDArray[float64],
+    s: Array,
     mesh_stiffness: float,
     oil: LubricantState,
     p: AxleParameters,
@@ -88,15 +86,15 @@ def stored_energy(
 
 @kernel
 def write_flanks(
-    s: NDArray[float64],
+    s: Array,
     force: float,
-    window: NDArray[float64],
+    window: Array,
     n_nodes: int,
     oil_temperature: float,
     oil: LubricantState,
     p: AxleParameters,
-    channels: NDArray[float64],
-    out: NDArray[float64],
+    channels: Array,
+    out: Array,
 ) -> None:
     """Write load, film, film ratio, friction coefficient and temperature of every flank.
 
@@ -128,8 +126,8 @@ def write_shaft(
     bearings: ShaftBearings,
     first: int,
     axes: tuple[int, int, int],
-    rollers: NDArray[float64],
-    out: NDArray[float64],
+    rollers: Array,
+    out: Array,
 ) -> float:
     """Write forces and extreme roller loads of two bearings; return roller 1 of the first [N].
 
@@ -158,7 +156,7 @@ def write_shaft(
 
 
 @kernel
-def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[float64]) -> None:
+def write_losses(s: Array, rates: Array, out: Array) -> None:
     """Write powers lost and efficiencies, averaged over the last communication step.
 
     Efficiency is 1 - loss/input with the work put in at the side that drives; 0 where no work is
@@ -192,14 +190,14 @@ def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[floa
 
 @kernel
 def write_outputs(
-    s: NDArray[float64],
+    s: Array,
     torques: tuple[float, float],
     oil_temperature: float,
     table: MeshLevels,
     p: AxleParameters,
-    work: NDArray[float64],
-    rollers: NDArray[float64],
-    out: NDArray[float64],
+    work: Array,
+    rollers: Array,
+    out: Array,
 ) -> None:
     """Write all outputs, in the order of OUTPUT_NAMES, into `out` of shape (N_OUTPUTS,).
 

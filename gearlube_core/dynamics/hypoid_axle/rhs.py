@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import (
     N_EXPANSION,
     ShaftMotion,
@@ -60,7 +58,7 @@ class StepInputs(NamedTuple):
 
 
 @kernel
-def pinion_motion(s: NDArray[float64]) -> ShaftMotion:
+def pinion_motion(s: Array) -> ShaftMotion:
     """Return the motion of the pinion in its bearings.
 
     The shaft lies along x: r1 = z, r2 = y turns with the pinion, which drives about -x.
@@ -78,7 +76,7 @@ def pinion_motion(s: NDArray[float64]) -> ShaftMotion:
 
 
 @kernel
-def gear_motion(s: NDArray[float64]) -> ShaftMotion:
+def gear_motion(s: Array) -> ShaftMotion:
     """Return the motion of the gear in its bearings; the shaft lies along z."""
     return ShaftMotion(
         s[U_G] * UM,
@@ -94,15 +92,15 @@ def gear_motion(s: NDArray[float64]) -> ShaftMotion:
 
 @kernel
 def axle_rhs(
-    s: NDArray[float64],
+    s: Array,
     inputs: StepInputs,
     mesh_data: MeshAtLoad,
     oil: LubricantState,
     p: AxleParameters,
     tractions: float,
     bearings: float,
-    scratch: NDArray[float64],
-    ds: NDArray[float64],
+    scratch: Array,
+    ds: Array,
 ) -> float:
     """Write ds/dt of the N_ODE integrated states into `ds`; return the mesh force [N].
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import bearing_forces
