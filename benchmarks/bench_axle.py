@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -56,7 +57,7 @@ VARIANTS = {
 
 
 def running_axle(**options: Any) -> HypoidAxle:
-    axle = HypoidAxle(mohammadpour_2015_axle(**options))
+    axle = HypoidAxle(replace(mohammadpour_2015_axle(), **options))
     axle.initialise(
         pinion_speed=PINION_SPEED,
         pinion_torque=INPUTS[0],

@@ -53,7 +53,7 @@ def _timed(
     return solution, time.process_time() - begin
 
 
-def _told(name: str, found: list[tuple[PointSolution, float]]) -> None:
+def _result_line(name: str, found: list[tuple[PointSolution, float]]) -> None:
     good = [s.outcome for s, _ in found if s.outcome.converged]
     second = sum(outcome.wedge == "upwind-2" for outcome in good)
     seconds = np.array([t for _, t in found])
@@ -74,8 +74,8 @@ def main() -> None:
     pairs = [
         [_timed(_contact(case, nodes), s) for s in (REYNOLDS, CONSERVING)] for case in CONTACTS
     ]
-    _told("Reynolds", [pair[0] for pair in pairs])
-    _told("mass conserving", [pair[1] for pair in pairs])
+    _result_line("Reynolds", [pair[0] for pair in pairs])
+    _result_line("mass conserving", [pair[1] for pair in pairs])
     for name in ("central_film", "minimum_film", "maximum_pressure"):
         off = np.array([abs(getattr(b[0], name) / getattr(a[0], name) - 1.0) for a, b in pairs])
         worst = CONTACTS[int(off.argmax())]
@@ -85,7 +85,7 @@ def main() -> None:
         problem = _contact(case, coarse)
         film = solve_point_contact(problem, CONSERVING, throw=False).central_film
         starved += [_timed(replace(problem, inlet_layer=r * film), CONSERVING) for r in LAYERS]
-    _told("starved", starved)
+    _result_line("starved", starved)
 
 
 if __name__ == "__main__":

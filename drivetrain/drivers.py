@@ -1,4 +1,4 @@
-"""What turns the motion of the axle's two shafts into the torques on them."""
+"""Drivers: models that give the torques on the axle's two shafts from their motion."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LEARNING = 3.0
 
 
 class Driver(Protocol):
-    """Torques that act on the two shafts of the axle.
+    """Interface of a model that gives the torques on the two shafts of the axle.
 
     Notes
     -----
@@ -68,7 +68,7 @@ class SpeedHold:
     speed : float
         Requested vehicle speed [m/s].
     axle_power_loss : float
-        Power lost in the axle, as far as known [W]; the integral term finds the rest.
+        Known power loss of the axle [W]; the integral term finds the rest.
     proportional_gain : float
         K [N m s/rad]. The gain is a damper K / I_p on the pinion: 0.05 changes the damping ratio
         of the mesh mode by 0.001, 5 by 0.1, which can hide an instability.

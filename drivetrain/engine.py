@@ -97,7 +97,7 @@ class Engine:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gearbox:
-    """Manual gearbox and the rule by which the driver picks a gear.
+    """Manual gearbox and the rule for choosing a gear.
 
     Parameters
     ----------

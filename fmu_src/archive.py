@@ -8,7 +8,7 @@ import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 
-_EARLIEST = (1980, 1, 1, 0, 0, 0)  # the zip format knows no earlier time
+_EARLIEST = (1980, 1, 1, 0, 0, 0)  # earliest time of the zip format
 _REGULAR_FILE = 0o100644 << 16
 
 

@@ -1,4 +1,4 @@
-"""Build FMUs with pythonfmu, then complete what pythonfmu leaves out."""
+"""Build FMUs with pythonfmu and add the parts that pythonfmu leaves out."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _HERE = Path(__file__).parent
 
 @contextmanager
 def _clean_imports(module: str) -> Iterator[None]:
-    """Undo what pythonfmu's builder leaves in `sys.path` and `sys.modules`."""
+    """Remove the entries that pythonfmu's builder leaves in `sys.path` and `sys.modules`."""
     path = list(sys.path)
     try:
         yield
@@ -115,7 +115,7 @@ def build_helical_pair(
     gear : path, optional
         Gear file (TOML) of another pair, which the FMU then carries as gear.name = custom.
     line_mesh : path, optional
-        Line mesh (NetCDF) of the carried pair; needs `gear`.
+        Line mesh (NetCDF) of that pair; needs `gear`.
 
     Raises
     ------

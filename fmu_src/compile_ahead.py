@@ -1,4 +1,4 @@
-"""Compile a model before its first real step, so that no step of a simulation waits for it."""
+"""Compile a model before its first real step, so that no simulation step waits for it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _SHORT_STEP = 1e-6  # s
 
 @cache
 def compile_ahead(definition: Definition) -> str:
-    """Run a throw-away model for one step, once per process; return what went wrong, or ''."""
+    """Run a temporary model for one step, once per process; return an error text, or ''."""
     table = definition.variables
     parameters = {v.name: v.decoded(v.start or 0.0) for v in table if v.causality == "parameter"}
     inputs = [v.start or 0.0 for v in table if v.causality == "input"]

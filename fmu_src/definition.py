@@ -1,4 +1,4 @@
-"""What an FMU consists of, independent of the FMI version and of the tool that packs it."""
+"""The parts of an FMU as data, independent of the FMI version and of the packing tool."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Value = float | int | bool | str
 
 
 class Model(Protocol):
-    """A model in motion: what the slave needs of it."""
+    """Interface of a running model that a slave steps."""
 
     @property
     def outputs(self) -> NDArray[np.float64]:
@@ -24,10 +24,10 @@ class Model(Protocol):
 
     @property
     def step(self) -> Callable[..., None]:
-        """(h, *inputs): advance by h [s]; raise a GearLubeError and stay put if impossible."""
+        """(h, *inputs): advance by h [s]; on failure raise a GearLubeError and keep the state."""
 
     def get_state(self) -> NDArray[np.float64]:
-        """Return everything that the future depends on."""
+        """Return the whole state, enough to continue from it."""
 
     def set_state(self, state: NDArray[np.float64]) -> None:
         """Continue from a state that `get_state` returned."""
@@ -52,11 +52,11 @@ class Definition:
     stop_time, step_size : float
         Default experiment [s].
     slave : str
-        Module of this package that is the script inside the FMU.
+        Module of this package that becomes the script inside the FMU.
     shipped_data : tuple of str
         Files of the installed packages that the model reads, as `glob` patterns.
     resources : mapping of str to bytes
-        Files that the FMU carries for its model, by name.
+        Files inside the FMU for its model, by name.
     """
 
     name: str

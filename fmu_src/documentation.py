@@ -1,4 +1,4 @@
-"""Tables of the variables for people: in docs/fmu.md and inside the FMU."""
+"""Readable tables of the variables: in docs/fmu.md and inside the FMU."""
 
 from __future__ import annotations
 

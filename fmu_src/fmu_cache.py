@@ -1,4 +1,4 @@
-"""The axle FMU of this installation, built once and kept."""
+"""The axle FMU of this installation, built once and stored in the user's cache."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def cached_hypoid_axle(mesh_table: Path | None = None) -> Path:
-    """Return HypoidAxle.fmu from the user's cache; build it when sources or mesh table are new.
+    """Return HypoidAxle.fmu from the user's cache; build it if sources or mesh table are new.
 
     The folder carries the GUID, which changes with everything that decides the results.
     """

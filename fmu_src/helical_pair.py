@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,10 @@ from typing import Any
 from fmu_src.definition import Definition, Value
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
+    ReplacedBearings,
+    helical_march_parameters,
+)
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.output_names import OUTPUT_NAMES
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
@@ -24,45 +27,54 @@ GEAR_FILE, LINE_MESH_FILE = "helical_gear.toml", "line_mesh.nc"  # among the FMU
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CarriedPair:
-    """The gear pair that an FMU carries."""
+class EmbeddedPair:
+    """The gear pair whose files are inside an FMU."""
 
     gear: HelicalGearFile
     line_mesh: LineMesh | None = None
 
 
 def start_pair(
-    arguments: Mapping[str, Value], inputs: Sequence[float], carried: CarriedPair | None = None
+    arguments: Mapping[str, Value], inputs: Sequence[float], embedded: EmbeddedPair | None = None
 ) -> HelicalPairModel:
     """Return an initialised pair.
 
     Parameters
     ----------
     arguments : mapping
-        `pinion_speed`, `gear_name`, `stiffness_model` and arguments of `helical_march`.
+        `pinion_speed`, `gear_name`, `stiffness_model`, `stiffness_density`, `oil`, and fields of
+        `ReplacedBearings` and `HelicalMarchParameters`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
-    carried : CarriedPair, optional
+    embedded : EmbeddedPair, optional
         What gear.name = custom stands for.
     """
     given: dict[str, Any] = dict(arguments)
     speed = float(given.pop("pinion_speed"))
     name = str(given.pop("gear_name"))
-    if name == CUSTOM and carried is None:
+    if name == CUSTOM and embedded is None:
         raise ParameterError(
             "gear.name must be one of the pairs that ship with gearlube, got custom: this FMU "
             "carries no gear file. Build one with `gearlube build-fmu --gear FILE`."
         )
-    own = carried if name == CUSTOM else None
+    own = embedded if name == CUSTOM else None
     gear = own.gear if own else HelicalGearFile.named(name)
+    line_mesh = None
     if given.pop("stiffness_model") == LINE_MESH:
-        given["line_mesh"] = own.line_mesh if own else named_line_mesh(name)
-        if given["line_mesh"] is None:
+        line_mesh = own.line_mesh if own else named_line_mesh(name)
+        if line_mesh is None:
             raise ParameterError(
                 "mesh.stiffness_model must be uniform, got line_mesh: this FMU carries no line "
                 "mesh. Build one with `gearlube build-fmu --gear FILE --line-mesh FILE`."
             )
-    pair = HelicalPairModel(helical_march(gear, **given))
+    parameters = helical_march_parameters(
+        gear,
+        line_mesh=line_mesh,
+        stiffness_density=given.pop("stiffness_density"),
+        oil=given.pop("oil"),
+        bearings=ReplacedBearings(**{f.name: given.pop(f.name) for f in fields(ReplacedBearings)}),
+    )
+    pair = HelicalPairModel(replace(parameters, **given))
     pinion_torque, wheel_torque, oil_temperature = inputs
     pair.initialise(
         pinion_speed=speed,
@@ -92,7 +104,7 @@ DEFINITION = Definition(
 
 
 def definition_with(gear: str | Path | None, line_mesh: str | Path | None = None) -> Definition:
-    """Return the definition of the FMU that carries a gear file, and its line mesh if given.
+    """Return the definition of the FMU with this gear file and, if given, its line mesh.
 
     Raises
     ------
@@ -125,7 +137,7 @@ def _read(path: str | Path, what: str) -> bytes:
 
 @cache
 def _definition_with(content: bytes, mesh: bytes) -> Definition:
-    """Return the one definition with these files: what is kept by definition is kept once."""
+    """Return the definition with these files; one object per content, for caches keyed by it."""
     try:
         data = tomllib.loads(content.decode())
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
@@ -134,7 +146,7 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
     pair = gear.helical_pair()
     line_mesh = line_mesh_from_bytes(mesh, "the line mesh") if mesh else None
     try:
-        helical_march(gear, line_mesh=line_mesh)
+        helical_march_parameters(gear, line_mesh=line_mesh)
     except ParameterError as error:
         if line_mesh is None:
             raise
@@ -148,7 +160,7 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
         description=f"{DEFINITION.description}; gear file {gear.name} "
         f"({pair.pinion_teeth}/{pair.gear_teeth} teeth){of_mesh}",
         variables=tuple(replace(v, start=starts.get(v.name, v.start)) for v in HELICAL_PAIR),
-        start=partial(start_pair, carried=CarriedPair(gear=gear, line_mesh=line_mesh)),
+        start=partial(start_pair, embedded=EmbeddedPair(gear=gear, line_mesh=line_mesh)),
         resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}),
     )
 

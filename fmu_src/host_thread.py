@@ -1,4 +1,4 @@
-"""Python's state of a thread of the host, kept from one FMI call to the next.
+"""Python's thread state for a thread of the host, held from one FMI call to the next.
 
 Every call of pythonfmu's wrapper asks for that state and gives it back (PyGILState_Ensure and
 PyGILState_Release). In a thread that Python has not started this destroys it: each call makes a new
@@ -15,7 +15,7 @@ _PRESENT = threading.local()
 
 
 def _this_thread() -> object:
-    """Return an object that stands for the calling thread; its number may come again."""
+    """Return an object that identifies the calling thread; thread numbers may be reused."""
     if not hasattr(_PRESENT, "thread"):
         _PRESENT.thread = object()
     thread: object = _PRESENT.thread
@@ -23,7 +23,7 @@ def _this_thread() -> object:
 
 
 class HostThread:
-    """What one slave holds.
+    """The thread state that one slave holds.
 
     Notes
     -----
@@ -35,13 +35,13 @@ class HostThread:
         self._held: object | None = None
 
     def hold(self) -> None:
-        """Keep the state of the calling thread until `release`."""
+        """Hold the state of the calling thread until `release`."""
         if self._held is None:
             self._held = _this_thread()
             ctypes.pythonapi.PyGILState_Ensure()
 
     def release(self) -> None:
-        """Give the state back; in another thread leave it to the end of Python."""
+        """Release the state; if called from another thread, leave it until Python ends."""
         if self._held is not None and self._held is _this_thread():
             ctypes.pythonapi.PyGILState_Release(_LOCKED)
         self._held = None

@@ -18,6 +18,26 @@ from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, 
 from gearlube_core.mesh_table.table import MeshTable
 
 
+def axle_parameters(
+    arguments: Mapping[str, Value], mesh: MeshTable | None = None
+) -> hypoid_axle.HypoidAxleParameters:
+    """Return the paper's axle with changes.
+
+    Parameters
+    ----------
+    arguments : mapping
+        By name: arguments of `mohammadpour_2015_axle` and fields of `HypoidAxleParameters`.
+    mesh : MeshTable, optional
+        By default the table that ships with gearlube.
+    """
+    given: dict[str, Any] = dict(arguments)
+    named = signature(hypoid_axle.mohammadpour_2015_axle).parameters
+    parameters = hypoid_axle.mohammadpour_2015_axle(
+        mesh=mesh, **{name: given.pop(name) for name in arguments if name in named}
+    )
+    return replace(parameters, **given)
+
+
 def start_axle(
     arguments: Mapping[str, Value], inputs: Sequence[float], mesh: MeshTable | None = None
 ) -> hypoid_axle.HypoidAxle:
@@ -26,19 +46,15 @@ def start_axle(
     Parameters
     ----------
     arguments : mapping
-        `pinion_speed`, arguments of `mohammadpour_2015_axle`, fields of `HypoidAxleParameters`.
+        `pinion_speed`, and those of `axle_parameters`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
     mesh : MeshTable, optional
         By default the table that ships with gearlube.
     """
-    given: dict[str, Any] = dict(arguments)
+    given = dict(arguments)
     speed = float(given.pop("pinion_speed"))
-    named = signature(hypoid_axle.mohammadpour_2015_axle).parameters
-    parameters = hypoid_axle.mohammadpour_2015_axle(
-        mesh=mesh, **{name: given.pop(name) for name in arguments if name in named}
-    )
-    axle = hypoid_axle.HypoidAxle(replace(parameters, **given))
+    axle = hypoid_axle.HypoidAxle(axle_parameters(given, mesh))
     pinion_torque, wheel_torque, oil_temperature = inputs
     axle.initialise(
         pinion_speed=speed,
@@ -67,7 +83,7 @@ DEFINITION = Definition(
 
 
 def definition_with_table(path: str | Path) -> Definition:
-    """Return the definition of the FMU that carries the mesh table at `path`."""
+    """Return the definition of the FMU with the mesh table at `path`."""
     content = read_content(path)
     try:
         return _definition_with(content)
@@ -77,7 +93,7 @@ def definition_with_table(path: str | Path) -> Definition:
 
 @cache
 def _definition_with(content: bytes) -> Definition:
-    """Return the one definition with this table: what is kept by definition is kept once."""
+    """Return the definition with this table; one object per content, for caches keyed by it."""
     mesh = mesh_table_from_bytes(content, "the mesh table")
     source = f", from {mesh.source}" if mesh.source else ""
     return replace(
@@ -94,6 +110,6 @@ class HypoidAxle(CoSimulationSlave):
 
     @staticmethod
     def definition_of(resources: Path) -> Definition:
-        """Return the definition with the table in `resources`, or with the one that ships."""
+        """Return the definition with the table in `resources`, else with the shipped table."""
         table = resources / FILE_IN_FMU
         return definition_with_table(table) if table.is_file() else DEFINITION

@@ -1,4 +1,4 @@
-"""The script inside HypoidAxle.fmu. It holds no physics: it finds the installed gearlube.
+"""The script inside HypoidAxle.fmu. It has no physics; it imports the installed gearlube.
 
 pythonfmu imports this file and then runs its source once more at each instantiation. A class
 statement here would make a new class each time, so the class is imported.

@@ -1,4 +1,4 @@
-"""Which FMU this is: a GUID made from its interface and the sources behind it."""
+"""Identity of an FMU: a GUID computed from its interface and its sources."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _HERE = Path(__file__).parent  # beside it lie the packages of this project
 
 
 def contents(definition: Definition) -> dict[str, bytes]:
-    """Return all code and shipped data that an FMU computes with, by path in the package.
+    """Return all code and shipped data that an FMU uses, by path in the package.
 
     These are the slave's module and what it imports, without comments and docstrings, and the
     data that the definition names.
@@ -70,7 +70,7 @@ def guid_of(definition: Definition) -> UUID:
 
 
 def identity_text(definition: Definition) -> str:
-    """Return what an FMU carries in its resources to recognise the package it was built from."""
+    """Return the text in an FMU's resources that identifies the package it was built from."""
     return f"{interface_digest(definition).hex()}\n{guid_of(definition)}\n"
 
 

@@ -1,4 +1,4 @@
-"""What a program that is not Python needs in its environment to run the FMUs."""
+"""Environment variables that a program not written in Python needs to run the FMUs."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def shared_python() -> Path:
 
 
 def additions() -> dict[str, list[str]]:
-    """Return what goes in front of which search paths.
+    """Return the entries to put in front of each search path.
 
     Returns
     -------

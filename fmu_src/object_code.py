@@ -1,4 +1,4 @@
-"""Kernels as relocatable object code that needs no Python: the ground of the native FMU.
+"""Kernels as relocatable object code that needs no Python: the basis of the native FMU.
 
 numba compiles a `@cfunc` over the kernels; its LLVM module is made self-contained (everything but
 the entry becomes internal), optimised again, so that numba's error paths fall away where nothing

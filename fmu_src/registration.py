@@ -1,4 +1,4 @@
-"""Variables of the table as pythonfmu knows them."""
+"""Variables of the table as pythonfmu objects."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Co-simulation slave of any `Definition`, on pythonfmu's FMI 2.0 wrapper.
 
-The wrapper knows two answers besides fmi2OK: fmi2Discard (`do_step` returns False) and fmi2Fatal
-(a method raises). So a bad value is logged when it is set and refuses the step or the
-initialisation that would use it; an impossible initialisation or call raises.
+Besides fmi2OK the wrapper can return fmi2Discard (`do_step` returns False) and fmi2Fatal
+(a method raises). So a bad value is logged when it is set, and the step or initialisation that
+would use it is refused. An impossible initialisation or call raises.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from fmu_src.definition import Definition, Model, Value
 from fmu_src.host_thread import HostThread
 from fmu_src.identity import check_identity, guid_of
 from fmu_src.model_description import LOG_CATEGORIES
-from fmu_src.phase import Phase
 from fmu_src.registration import register_variables
+from fmu_src.slave_state import SlaveState
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
 from fmu_src.wrapper import guarded, unload_before_libraries
@@ -42,7 +42,7 @@ def _explained(error: BaseException) -> str:
 
 
 class CoSimulationSlave(Fmi2Slave):
-    """FMI 2.0 co-simulation slave; a subclass says its `definition` and nothing else."""
+    """FMI 2.0 co-simulation slave; a subclass only sets its `definition`."""
 
     log_categories = LOG_CATEGORIES
 
@@ -61,7 +61,7 @@ class CoSimulationSlave(Fmi2Slave):
         self._stale = True
         self._broken = ""
         self._time = 0.0
-        self._phase = Phase.INSTANTIATED
+        self._slave_state = SlaveState.INSTANTIATED
         self._thread = HostThread()
         register_variables(self, self.definition.variables)
         # Not logged yet: see the third habit in `fmu_src.wrapper`.
@@ -80,7 +80,7 @@ class CoSimulationSlave(Fmi2Slave):
         _LOGGER.log(_LEVELS.get(status, logging.ERROR), "%s: %s", self.instance_name, message)
 
     def report_fatal(self, error: BaseException) -> None:
-        """Log what the wrapper turns into fmi2Fatal."""
+        """Log an error that the wrapper turns into fmi2Fatal."""
         self.report(Fmi2Status.fatal, _explained(error))
 
     @guarded
@@ -95,29 +95,29 @@ class CoSimulationSlave(Fmi2Slave):
 
     @guarded
     def enter_initialization_mode(self) -> None:
-        """Start the phase in which outputs may be asked for."""
+        """Enter initialisation mode, in which outputs may be read."""
         self._log_warnings()
-        self._expect(Phase.INSTANTIATED)
-        self._phase = Phase.INITIALISING
+        self._expect(SlaveState.INSTANTIATED)
+        self._slave_state = SlaveState.INITIALISING
         self._thread.hold()
 
     @guarded
     def exit_initialization_mode(self) -> None:
         """Compute the outputs at the start time; raise if that cannot be done."""
-        self._expect(Phase.INITIALISING)
+        self._expect(SlaveState.INITIALISING)
         self._initialise_model()
-        self._enter(Phase.STEPPING)
+        self._enter(SlaveState.STEPPING)
         settings = ", ".join(f"{name} = {value}" for name, value in self._model_parameters.items())
         self.report(Fmi2Status.ok, f"initialised at t = {self._time:g} s with {settings}")
 
     @guarded
     def terminate(self) -> None:
         """Take no further step; outputs can still be read."""
-        self._enter(Phase.TERMINATED)
+        self._enter(SlaveState.TERMINATED)
         self._thread.release()
 
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance the model; on any trouble log it, stay where it was and return False."""
+        """Advance the model; on an error log it, keep the state and return False."""
         try:
             self._check_step(current_time, step_size)
             self._model.step(step_size, *self._values.inputs())  # type: ignore[union-attr]
@@ -135,16 +135,18 @@ class CoSimulationSlave(Fmi2Slave):
             if warning:
                 self.report(Fmi2Status.warning, warning)
 
-    def _enter(self, phase: Phase) -> None:
-        self._phase = phase
-        self._values.allow_setting(*phase.settable)
+    def _enter(self, state: SlaveState) -> None:
+        self._slave_state = state
+        self._values.allow_setting(*state.settable)
 
-    def _expect(self, phase: Phase) -> None:
-        if self._phase != phase:
-            raise StepError(f"The FMU must be in phase {phase.name}, is in {self._phase.name}.")
+    def _expect(self, state: SlaveState) -> None:
+        if self._slave_state != state:
+            raise StepError(
+                f"The FMU must be in state {state.name}, is in {self._slave_state.name}."
+            )
 
     def _check_step(self, t: float, h: float) -> None:
-        self._expect(Phase.STEPPING)
+        self._expect(SlaveState.STEPPING)
         if self._values.refused:
             raise StepError(" ".join(self._values.refused.values()))
         if self._broken:
@@ -188,7 +190,7 @@ class CoSimulationSlave(Fmi2Slave):
 
     def _read(self, kind: str, vrs: Sequence[int]) -> Any:
         index = self._values.index(kind, vrs)
-        if self._stale and self._phase < Phase.STEPPING and self._asks_for_output(vrs):
+        if self._stale and self._slave_state < SlaveState.STEPPING and self._asks_for_output(vrs):
             self._initialise_model()
         return self._values.array[index]
 
@@ -231,7 +233,7 @@ class CoSimulationSlave(Fmi2Slave):
     @guarded
     def _get_fmu_state(self) -> bytes:
         return Snapshot(
-            phase=int(self._phase),
+            phase=int(self._slave_state),
             time=self._time,
             values=self._values.array,
             model=np.empty(0) if self._model is None else self._model.get_state(),
@@ -240,10 +242,10 @@ class CoSimulationSlave(Fmi2Slave):
     @guarded
     def _set_fmu_state(self, state: bytes) -> None:
         snapshot = Snapshot.from_bytes(state, guid_of(self.definition))
-        self._enter(Phase(snapshot.phase))
+        self._enter(SlaveState(snapshot.phase))
         self._values.restore(snapshot.values)
         self._time, self._broken, self._stale = snapshot.time, "", True
-        if snapshot.phase >= Phase.STEPPING:
+        if snapshot.phase >= SlaveState.STEPPING:
             if self._model is None or self._model_parameters != self._values.parameters():
                 self._start_model(self._values.start_inputs())
             self._model.set_state(snapshot.model)  # type: ignore[union-attr]

@@ -1,4 +1,4 @@
-"""The state of a slave as bytes that another process can continue from, bit for bit."""
+"""The state of a slave as bytes; another process can continue from them, bit for bit."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _HEADER = struct.Struct("<8sI16sIdIII")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Snapshot:
-    """What a slave is restored from.
+    """Saved state of a slave.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class Snapshot:
 
     @classmethod
     def from_bytes(cls, content: bytes, guid: UUID) -> Snapshot:
-        """Return the snapshot in `content`; raise ParameterError unless it is whole and ours."""
+        """Return the snapshot in `content`; raise ParameterError if damaged or of another FMU."""
         if len(content) < _HEADER.size or content[: len(_MAGIC)] != _MAGIC:
             raise ParameterError("The FMU state was not written by a gearlube FMU.")
         _, form, owner, phase, time, n_values, n_model, checksum = _HEADER.unpack_from(content)

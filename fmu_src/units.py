@@ -1,4 +1,4 @@
-"""Units of FMI variables: exponents of the SI base units, and units to show to people."""
+"""Units of FMI variables: exponents of the SI base units, and display units."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gearlube_core.units import ZERO_CELSIUS
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DisplayUnit:
-    """A unit for people: shown value = factor * value + offset."""
+    """A display unit: shown value = factor * value + offset."""
 
     name: str
     factor: float

@@ -11,7 +11,7 @@ from fmu_src.definition import Definition, Value
 from fmu_src.variable import Variable
 from gearlube_core.errors import ParameterError
 
-_REMEMBERED = 64  # lists of references whose index is kept; hosts repeat a few
+_CACHED_INDICES = 64  # lists of references whose index is cached; hosts repeat a few
 
 
 def _access(variable: Variable) -> str:
@@ -37,11 +37,11 @@ class Values:
     definition : Definition
         The FMU; it gives types, ranges and start values.
     on_refusal : callable
-        Told what is wrong with a value at the moment it is set.
+        Called with an error text at once when a bad value is set.
 
     Notes
     -----
-    Integers, enumerations and Booleans are exact in a float64. A value outside its range is kept
+    Integers, enumerations and Booleans are exact in a float64. A value outside its range is stored
     and named in `refused` until a legal one replaces it.
     """
 
@@ -85,13 +85,13 @@ class Values:
         self.array[self._outputs] = outputs
 
     def index(self, kind: str, vrs: Sequence[int]) -> NDArray[np.intp]:
-        """Return `vrs` as an index into `array`, checked once and remembered."""
+        """Return `vrs` as an index into `array`, checked once and cached."""
         key = (kind, tuple(vrs))
         index = self._indices.get(key)
         if index is None:
             for vr in vrs:
                 self._check_kind(kind, vr)
-            if len(self._indices) >= _REMEMBERED:
+            if len(self._indices) >= _CACHED_INDICES:
                 self._indices.clear()
             index = self._indices[key] = np.array(vrs, dtype=np.intp)
         return index
@@ -108,7 +108,7 @@ class Values:
             )
 
     def assign(self, kind: str, vrs: Sequence[int], values: Sequence[float]) -> None:
-        """Set variables; note those out of range in `refused`; raise if that is no legal call."""
+        """Set variables; note values out of range in `refused`; raise if the call is illegal."""
         settable = self._settable.get(kind, {})
         for vr, value in zip(vrs, values, strict=True):
             limits = settable.get(vr)

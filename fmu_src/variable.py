@@ -37,7 +37,7 @@ class Variable:
     literals : tuple of str
         Items of an enumeration, in the order of their values 1, 2, ...
     argument : str
-        Of a parameter: the name under which the model takes it.
+        Of a parameter: name of the model's argument.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Short forms of the variables that the tables are made of."""
+"""Short functions that make the variables of the tables."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def parameter(name: str, unit: str, description: str, **limits: float | str) -> 
 
 
 def option(name: str, description: str, *literals: str, start: str, argument: str) -> Variable:
-    """Return an enumeration that a model option is chosen with."""
+    """Return an enumeration for a model option."""
     return Variable(
         name=name, type="Enumeration", causality="parameter", description=description,
         start=1 + literals.index(start), literals=literals, argument=argument,

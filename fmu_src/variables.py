@@ -6,7 +6,7 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
-from fmu_src.shared_variables import MEMBERS, displacements, energies, motion
+from fmu_src.common_outputs import MEMBERS, displacements, energies, motion
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, output, parameter
 

@@ -1,4 +1,4 @@
-"""How the compiled wrapper of pythonfmu 0.7 treats Python objects, and what keeps it from crashing.
+"""Protection against errors of pythonfmu 0.7's compiled wrapper in handling Python objects.
 
 pythonfmu's `PySlaveInstance.cpp` has four habits that its Python side must balance:
 

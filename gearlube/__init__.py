@@ -1,15 +1,15 @@
 """Lubricated gear pairs for vehicle co-simulation.
 
-The public names of the project stand in `__init__.pyi`, each with the module that defines it. A
+The file `__init__.pyi` lists the public names, each with the module that defines it. A
 module is imported when one of its names is first used, so `import gearlube` itself is quick.
-docs/api.md shows each name at work.
+docs/api.md describes each name and gives an example.
 
 Examples
 --------
 >>> import gearlube as gl
 >>> oil = gl.Lubricant.named("mohammadpour_2015")
 >>> round(oil.dynamic_viscosity(gl.celsius_to_kelvin(95.0)), 4)  # Pa s
-0.0117
+0.0171
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import Any
 
 
 def _public_names() -> dict[str, tuple[str, str]]:
-    """Return the module and the name there of every public name, as the stub beside lists them."""
+    """Return module and name there of every public name, read from `__init__.pyi`."""
     names = {}
     module = ""
     for line in Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8").splitlines():

@@ -21,7 +21,10 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     periodic_response as periodic_response,
 )
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
-    helical_march as helical_march,
+    ReplacedBearings as ReplacedBearings,
+)
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
+    helical_march_parameters as helical_march_parameters,
 )
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel as HelicalPairModel
 
@@ -80,7 +83,6 @@ from gearlube.studies.films.run_march import MarchSteps as MarchSteps
 from gearlube.studies.films.run_march import run_helical_march as run_helical_march
 from gearlube.studies.films.run_hypoid import run_hypoid as run_hypoid
 from gearlube.studies.films.compare import compare_marches as compare_marches
-from gearlube.studies.films.results import write_film_results as write_film_results
 
 # -- Study: vehicle speed sweep
 from gearlube.studies.sweep.settings import SweepSettings as SweepSettings

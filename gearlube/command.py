@@ -1,6 +1,6 @@
 """The command `gearlube`.
 
-The table of commands, and the options that all of them share.
+This module lists the commands and defines the options that they share.
 """
 
 from __future__ import annotations

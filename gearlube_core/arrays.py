@@ -1,4 +1,4 @@
-"""Types of arrays, one name for each kind of number."""
+"""Array types: one name for each kind of number."""
 
 from __future__ import annotations
 

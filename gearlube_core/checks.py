@@ -1,4 +1,4 @@
-"""Input checks that say what, got, limit with unit, and cure."""
+"""Input checks. Their errors name the quantity, its value, the limit with unit and a cure."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def check_positive(name: str, value: float, unit: str = "", cure: str = "") -> f
 
 
 def check_option(name: str, value: str, options: Iterable[str]) -> str:
-    """Return `value`; raise ParameterError when it is none of `options`."""
+    """Return `value`; raise ParameterError unless it is one of `options`."""
     allowed = tuple(options)
     if value not in allowed:
         raise ParameterError(f"{name} must be one of {', '.join(allowed)}; got {value!r}.")

@@ -17,7 +17,7 @@ class GearLubeError(Exception):
 
 
 class ParameterError(GearLubeError, ValueError):
-    """An input lies outside the range in which the model means anything.
+    """An input lies outside the valid range of the model.
 
     Examples
     --------
@@ -39,7 +39,7 @@ class TableError(GearLubeError, ValueError):
 
 
 class InterruptedRunError(GearLubeError):
-    """A long run was stopped from the keyboard; the message says what is kept."""
+    """A long run was stopped from the keyboard; the message says which results are stored."""
 
 
 class FileError(GearLubeError):

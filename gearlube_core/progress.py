@@ -1,4 +1,4 @@
-"""How long work reports what it does: the share that is done and a sentence."""
+"""Progress reports of long calculations: the share that is done and a sentence."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ def no_progress(share: float, sentence: str) -> None:
 
 
 def part_of(progress: Progress, first: float, last: float) -> Progress:
-    """Return a report for a part of the work that takes it from share `first` to `last` [-].
+    """Return the report for a part of the work between the shares `first` and `last` [-].
 
     >>> part_of(lambda share, sentence: print(f"{share:.2f} {sentence}"), 0.5, 0.9)(0.5, "teeth")
     0.70 teeth

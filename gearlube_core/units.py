@@ -1,4 +1,4 @@
-"""Conversions at the border between people's units and SI."""
+"""Conversions between everyday units and SI units."""
 
 from __future__ import annotations
 

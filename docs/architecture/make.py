@@ -37,7 +37,7 @@ def summary(module: str) -> str:
 def table(name: str) -> str:
     """Return the table of a contract's floors."""
     floors, container = layers(name)
-    lines = ["| Floor | Room | Holds |", "|---|---|---|"]
+    lines = ["| Layer | Module | Content |", "|---|---|---|"]
     for height, rooms in zip(range(len(floors), 0, -1), floors, strict=True):
         for room in rooms:
             module = f"{container}.{room}" if container else room

@@ -31,7 +31,7 @@ _SIGNALS = ("h", "pinion_angle", "pinion_speed", "wheel_angle", "wheel_speed")
 
 
 class Driveline:
-    """The car around the axle at a requested speed.
+    """The vehicle around the axle at a requested speed.
 
     Parameters
     ----------
@@ -40,12 +40,12 @@ class Driveline:
     speed : float
         Requested vehicle speed [m/s].
     axle_power_loss : float
-        Power lost in the axle, as far as known [W]; the speed controller finds the rest.
+        Known power loss of the axle [W]; the speed controller finds the rest.
 
     Notes
     -----
-    The gear is chosen for the requested speed and kept. The driveline starts in the periodic
-    steady state that its engine orders give with a rigid axle.
+    The gear is chosen for the requested speed and does not change. The driveline starts in its
+    periodic steady state, computed from the engine orders and a rigid axle.
     """
 
     def __init__(
@@ -105,7 +105,7 @@ class Driveline:
         return values
 
     def request_speed(self, speed: float) -> None:
-        """Let the speed controller go for `speed` [m/s], in the same gear."""
+        """Set the target of the speed controller to `speed` [m/s], in the same gear."""
         self._inputs[0] = check_within("speed", speed, 0.0, 120.0, "m/s", "Speeds are forward.")
 
     def step(

@@ -1,4 +1,4 @@
-"""Natural modes of the driveline with a rigid axle in between."""
+"""Natural modes of the driveline with a rigid axle."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ _Matrix = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CommunicationMode:
-    """One mode of the coupled system, and what the co-simulation makes of it.
+    """One mode of the coupled system, exact and in the co-simulation.
 
     Parameters
     ----------

@@ -145,7 +145,7 @@ def rigid_axle_jacobian(
 
 
 def periodic_deviation(parameters: DrivelineParameters, steady: SteadyState) -> NDArray[np.float64]:
-    """Return what the engine's orders add to the steady state at crank angle zero.
+    """Return the deviation that engine orders add to the steady state at crank angle zero.
 
     x_k = Re{(i k w - A)^-1 B a_k T_mean exp(i phase_k)}, summed over the orders k
 

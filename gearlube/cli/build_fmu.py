@@ -1,4 +1,4 @@
-"""`gearlube build-fmu`."""
+"""The command `gearlube build-fmu`."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ _LOGGER = logging.getLogger("gearlube")
 
 
 def build_fmu(
-    out: Annotated[Path, typer.Option(help="Folder that gets the FMUs.")] = Path(),
+    out: Annotated[Path, typer.Option(help="Folder for the FMUs.")] = Path(),
     model: Annotated[
         str | None,
         typer.Option(
-            help="hypoid-axle or helical-pair. Default: that of the file given, else both."
+            help="hypoid-axle or helical-pair. Default: the model of the given file, else both."
         ),
     ] = None,
     mesh_table: Annotated[

@@ -1,4 +1,4 @@
-"""Where messages and progress bars go."""
+"""The terminal to which messages and progress bars are written."""
 
 from __future__ import annotations
 

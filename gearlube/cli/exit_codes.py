@@ -1,4 +1,4 @@
-"""What the command `gearlube` returns to the shell."""
+"""Exit codes of the command `gearlube`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LOGGER = logging.getLogger("gearlube")
 
 @contextmanager
 def exit_on_error(when_stopped: str = "Stopped.") -> Iterator[None]:
-    """Log an error that ends a command, and exit with its code.
+    """Log an error that ends a command, and exit with the code of its kind.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def exit_on_error(when_stopped: str = "Stopped.") -> Iterator[None]:
 
 
 def exit_if_failed(reason: str) -> None:
-    """Log `reason` and exit as failed, unless it is empty."""
+    """Log `reason` and exit with the code of a failure; do nothing if it is empty."""
     if reason:
         _LOGGER.error("%s", reason)
         raise typer.Exit(FAILED)

@@ -1,4 +1,4 @@
-"""Commands that are imported when they are used."""
+"""Commands whose module is imported only when the command is used."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LazyCommand:
-    """Where a command is found.
+    """A command by the module and name of its function.
 
     Parameters
     ----------
@@ -81,4 +81,4 @@ def lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
 
 
 def _nothing() -> None:
-    """Make typer see a group where there is one command only."""
+    """Make typer treat an app with a single command as a group."""

@@ -1,4 +1,4 @@
-"""`gearlube native`."""
+"""The command `gearlube native`."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def native(
     program: Annotated[
         list[str] | None,
         typer.Argument(
-            help="Program and its arguments. Default: write the settings for a shell script.",
+            help="Program and its arguments. Default: print the settings for a shell script.",
             metavar="[PROGRAM [ARGUMENTS]...]",
         ),
     ] = None,
 ) -> None:
-    """Run a program that is not Python so that it can load the FMUs."""
+    """Run a program that is not written in Python so that it can load the FMUs."""
     from fmu_src.native_host import native_environment, shell_lines
 
     with exit_on_error():

@@ -14,7 +14,7 @@ from rich.progress import (
 
 
 def progress_bar(console: Console) -> Progress:
-    """Return a bar with what is done, of how much, time spent and time left."""
+    """Return a bar that shows parts done, all parts, time spent and time left."""
     return Progress(
         TextColumn("{task.description}"),
         BarColumn(),

@@ -1,4 +1,4 @@
-"""A study's progress as a bar on the terminal."""
+"""Show the progress of a study as a bar on the terminal."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gearlube_core.progress import Progress
 
 @contextmanager
 def progress_on(console: Console, name: str, parts: int = 1000) -> Iterator[Progress]:
-    """Give a callback that shows the share done [-], in `parts`, and the sentence it is given."""
+    """Yield a callback that shows the share done [-] as a bar of `parts`, with a sentence."""
     with progress_bar(console) as bar:
         task = bar.add_task(name, total=parts)
 

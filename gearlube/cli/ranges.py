@@ -1,4 +1,4 @@
-"""Ranges of numbers as people type them."""
+"""Ranges of numbers on the command line."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ def numbers_from(
     example: str,
     most: int = 2000,
 ) -> tuple[float, ...]:
-    """Return the numbers that ranges "first:last:step" and single values ask for, rising.
+    """Return the numbers of ranges "first:last:step" and single values, in rising order.
 
     Parameters
     ----------
     option
-        Its name, for errors.
+        Name of the option, for error messages.
     texts
-        As typed; also separated by commas.
+        Ranges and values as typed; commas may separate them.
     unit, low, high
         Limits of each number.
     example
-        A range that makes sense, for errors.
+        A sensible range, for error messages.
     most
         Largest number of values in a range.
 
     Raises
     ------
     ParameterError
-        A text is no range, or a number is out of its limits.
+        A text is not a range, or a number is outside its limits.
 
     Examples
     --------

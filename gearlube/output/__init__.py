@@ -1,1 +1,1 @@
-"""How results are written as text."""
+"""Results as text files."""

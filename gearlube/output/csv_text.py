@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 
 def csv_text(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return rows as lines of text below a head, comma between."""
+    """Return a header and rows as lines of comma-separated text."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(head)

@@ -1,4 +1,4 @@
-"""One look for all figures: legible, colour-blind safe, without pyplot's global state."""
+"""The style of all figures: legible, colour-blind safe, without pyplot's global state."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def _spread_out(heights: list[float], gap: float) -> list[float]:
 
 
 def outlined(text: Any, colour: str = "black", width: float = 2.0) -> Any:
-    """Give text or a line a thin outline, so that it reads on any background."""
+    """Give text or a line a thin outline, so that it is legible on any background."""
     from matplotlib import patheffects
 
     text.set_path_effects([patheffects.withStroke(linewidth=width, foreground=colour)])

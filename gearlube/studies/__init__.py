@@ -1,1 +1,1 @@
-"""Studies: each folder holds the settings, run, datasets, figures and command of one."""
+"""Studies: one folder each, with its settings, run function, datasets, figures and command."""

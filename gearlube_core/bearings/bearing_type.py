@@ -1,4 +1,4 @@
-"""What a model of a shaft needs of a type of bearing.
+"""Interface of a bearing type for shaft models.
 
 A bearing type is a NamedTuple of floats with the methods of `ShaftBearings`. It describes the two
 opposed bearings of one shaft. A new type is one new file. The functions below the classes call

@@ -7,20 +7,34 @@ bearing with side s = +1 is loaded by positive axial displacement, the one with 
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.parameters import FILM_FLOOR_APPROACH, BearingParameters
 from gearlube_core.kernels.jit import kernel
 
 
+class ApproachTerms(NamedTuple):
+    """Approach and rate of roller i at b = 2 pi i/N from the cage frame, side s = +-1.
+
+    g_i = g0 + s ga + g1 cos b + g2 sin b,  g_i' = s va + v1 cos b + v2 sin b, in units of
+    FILM_FLOOR_APPROACH and of it a second. The rates contain the turning of the cage.
+    """
+
+    g0: float
+    g1: float
+    g2: float
+    ga: float
+    v1: float
+    v2: float
+    va: float
+
+
 @kernel
 def approach_terms(
     motion: ShaftMotion, cos_c: float, sin_c: float, p: BearingParameters
-) -> tuple[float, float, float, float, float, float, float]:
-    """Return the approach and its rate as sums over the roller angle b from the cage frame.
-
-    g_i = g0 + s ga + g1 cos b + g2 sin b,  g_i' = s va + v1 cos b + v2 sin b, with b = 2 pi i/N,
-    in units of FILM_FLOOR_APPROACH. The rates contain the turning of the cage.
-    `cos_c` and `sin_c` are of the cage angle.
+) -> ApproachTerms:
+    """Return approach and rate of all rollers; `cos_c` and `sin_c` are of the cage angle.
 
     Notes
     -----
@@ -36,7 +50,7 @@ def approach_terms(
     v2 = radial * (motion.v2 * cos_c - motion.v1 * sin_c) - cage_speed * g1
     axial = scale * p.sin_contact
     g0 = p.interference / FILM_FLOOR_APPROACH
-    return g0, g1, g2, axial * motion.axial, v1, v2, axial * motion.v_axial
+    return ApproachTerms(g0, g1, g2, axial * motion.axial, v1, v2, axial * motion.v_axial)
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""What the roller kernels need to know about one bearing, as plain floats."""
+"""Parameters of one bearing for the roller kernels, as plain floats."""
 
 from __future__ import annotations
 

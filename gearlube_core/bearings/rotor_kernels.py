@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,26 +16,33 @@ from gearlube_core.kernels.jit import kernel
 N_STATE = 6  # r1, r2 [m], their velocities [m/s], lost energy and work on the cage [J]
 
 
+class Rotor(NamedTuple):
+    """`RotorOnBearing` as the kernels read it."""
+
+    mass: float  # kg
+    load: float  # N
+    shaft_speed: float  # rad/s
+    f_ref: float  # reference frequency of the hysteresis [Hz]
+    eta0: float  # Pa s
+    alpha: float  # 1/Pa
+    bearing: BearingParameters
+
+
 @kernel
 def rotor_rate(
     s: np.ndarray,
     cage_angle: float,
-    shaft_speed: float,
-    f_ref: float,
-    mass: float,
-    load: float,
-    eta0: float,
-    alpha: float,
-    p: BearingParameters,
+    rotor: Rotor,
     out: np.ndarray,
 ) -> None:
     """Write ds/dt: m r1'' = load + F_r1, m r2'' = F_r2, and the two powers."""
+    p, shaft_speed = rotor.bearing, rotor.shaft_speed
     motion = ShaftMotion(s[0], s[1], 0.0, s[2], s[3], 0.0, cage_angle, shaft_speed)
-    F_r1, F_r2, _, lost = bearing_forces(motion, f_ref, eta0, alpha, p, 1.0)
+    F_r1, F_r2, _, lost = bearing_forces(motion, rotor.f_ref, rotor.eta0, rotor.alpha, p, 1.0)
     out[0] = s[2]
     out[1] = s[3]
-    out[2] = (load + F_r1) / mass
-    out[3] = F_r2 / mass
+    out[2] = (rotor.load + F_r1) / rotor.mass
+    out[3] = F_r2 / rotor.mass
     out[4] = lost
     out[5] = p.cage_ratio * shaft_speed * cage_torque(s[0], s[1], F_r1, F_r2)
 
@@ -44,13 +52,7 @@ def rotor_history(
     s: np.ndarray,
     step: float,
     steps_per_sample: int,
-    shaft_speed: float,
-    f_ref: float,
-    mass: float,
-    load: float,
-    eta0: float,
-    alpha: float,
-    p: BearingParameters,
+    rotor: Rotor,
     states: np.ndarray,
     loads: np.ndarray,
     work: np.ndarray,
@@ -65,8 +67,7 @@ def rotor_history(
         Time step [s].
     steps_per_sample : int
         Steps between samples.
-    shaft_speed, f_ref, mass, load, eta0, alpha, p
-        As in `RotorOnBearing`.
+    rotor : Rotor
     states : ndarray, shape (n, 6)
         Receives the state at each sample.
     loads : ndarray, shape (n, n_rollers)
@@ -79,6 +80,7 @@ def rotor_history(
     int
         0, or 1 when the state is no longer finite.
     """
+    p, shaft_speed = rotor.bearing, rotor.shaft_speed
     cage_speed = p.cage_ratio * shaft_speed
     turn = 2.0 * math.pi
     k1 = work[0]
@@ -91,23 +93,23 @@ def rotor_history(
             a0 = (cage_speed * step * ((i - 1) * steps_per_sample + j)) % turn
             a1 = a0 + 0.5 * step * cage_speed
             a2 = a0 + step * cage_speed
-            rotor_rate(s, a0, shaft_speed, f_ref, mass, load, eta0, alpha, p, k1)
+            rotor_rate(s, a0, rotor, k1)
             for k in range(N_STATE):
                 y[k] = s[k] + 0.5 * step * k1[k]
-            rotor_rate(y, a1, shaft_speed, f_ref, mass, load, eta0, alpha, p, k2)
+            rotor_rate(y, a1, rotor, k2)
             for k in range(N_STATE):
                 y[k] = s[k] + 0.5 * step * k2[k]
-            rotor_rate(y, a1, shaft_speed, f_ref, mass, load, eta0, alpha, p, k3)
+            rotor_rate(y, a1, rotor, k3)
             for k in range(N_STATE):
                 y[k] = s[k] + step * k3[k]
-            rotor_rate(y, a2, shaft_speed, f_ref, mass, load, eta0, alpha, p, k4)
+            rotor_rate(y, a2, rotor, k4)
             for k in range(N_STATE):
                 s[k] += step / 6.0 * (k1[k] + 2.0 * (k2[k] + k3[k]) + k4[k])
         for k in range(N_STATE):
             states[i, k] = s[k]
         angle = (cage_speed * step * i * steps_per_sample) % turn
         motion = ShaftMotion(s[0], s[1], 0.0, s[2], s[3], 0.0, angle, shaft_speed)
-        roller_loads(motion, f_ref, eta0, alpha, p, 1.0, loads[i])
+        roller_loads(motion, rotor.f_ref, rotor.eta0, rotor.alpha, p, 1.0, loads[i])
         if not math.isfinite(s[0] + s[1] + s[2] + s[3]):
             return 1
     return 0

@@ -13,7 +13,7 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
-from gearlube_core.bearings.cage_frame import approach_terms
+from gearlube_core.bearings.cage_frame import ApproachTerms, approach_terms
 from gearlube_core.bearings.parameters import (
     COS_TABLE,
     FILM_FLOOR_APPROACH,
@@ -46,13 +46,7 @@ _Sums = tuple[
 @summing
 def _sums_line(
     count: int,
-    g: float,
-    g1: float,
-    g2: float,
-    ga: float,
-    v1: float,
-    v2: float,
-    va: float,
+    terms: ApproachTerms,
     film: float,
     squeeze_scale: float,
     K: float,
@@ -60,6 +54,7 @@ def _sums_line(
     w_min: float,
 ) -> _Sums:
     """Return the sums over both sides' rollers in the order of SUMS, LOST, STIFFNESS, DAMPING."""
+    g, g1, g2, ga, v1, v2, va = terms
     w_c = w_s = w_a = lost = 0.0
     k_cc = k_cs = k_ss = k_ca = k_sa = k_aa = 0.0
     d_cc = d_cs = d_ss = d_ca = d_sa = d_aa = 0.0
@@ -106,13 +101,7 @@ def _sums_line(
 @kernel
 def _sums_general(
     count: int,
-    g: float,
-    g1: float,
-    g2: float,
-    ga: float,
-    v1: float,
-    v2: float,
-    va: float,
+    terms: ApproachTerms,
     film: float,
     squeeze_scale: float,
     K: float,
@@ -122,6 +111,7 @@ def _sums_general(
     e: NDArray[float64],
 ) -> None:
     """Write the sums of `_sums_line` for any exponent n into the expansion `e`."""
+    g, g1, g2, ga, v1, v2, va = terms
     for i in range(SUMS, CAGE):
         e[i] = 0.0
     for i in range(count):
@@ -168,25 +158,25 @@ def expand_shaft_bearings(
     film, squeeze_scale = film_amplitude(motion.speed, eta0, alpha, p)
     cos_c = math.cos(motion.cage_angle)
     sin_c = math.sin(motion.cage_angle)
-    g0, g1, g2, ga, v1, v2, va = approach_terms(motion, cos_c, sin_c, p)
+    terms = approach_terms(motion, cos_c, sin_c, p)
     e[CAGE] = motion.cage_angle
     e[CAGE + 1] = cos_c
     e[CAGE + 2] = sin_c
-    e[0] = g1
-    e[1] = g2
-    e[2] = ga
-    e[3] = v1
-    e[4] = v2
-    e[5] = va
+    e[0] = terms.g1
+    e[1] = terms.g2
+    e[2] = terms.ga
+    e[3] = terms.v1
+    e[4] = terms.v2
+    e[5] = terms.va
     K = p.kn * FILM_FLOOR_APPROACH**p.n
     c = p.loss / f_ref
     w_min = 0.0 if p.clip != 0.0 else -math.inf
     if p.n == N_LINE:
-        sums = _sums_line(count, g0, g1, g2, ga, v1, v2, va, film, squeeze_scale, K, c, w_min)
+        sums = _sums_line(count, terms, film, squeeze_scale, K, c, w_min)
         for i in range(CAGE - SUMS):
             e[SUMS + i] = sums[i]
     else:
-        _sums_general(count, g0, g1, g2, ga, v1, v2, va, film, squeeze_scale, K, c, w_min, p.n, e)
+        _sums_general(count, terms, film, squeeze_scale, K, c, w_min, p.n, e)
     e[LOST] *= FILM_FLOOR_APPROACH / p.approach_factor
 
 

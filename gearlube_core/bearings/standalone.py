@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlube_core.bearings.rotor_kernels import N_STATE, rotor_history
+from gearlube_core.bearings.rotor_kernels import N_STATE, Rotor, rotor_history
 from gearlube_core.bearings.shaft_energy import bearing_energy
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_positive, check_within
@@ -135,17 +135,20 @@ class RotorOnBearing:
         n = round(duration / interval) + 1
         states = np.full((n, N_STATE), np.nan)
         loads = np.full((n, self.bearing.n_rollers), np.nan)
+        rotor = Rotor(
+            mass=self.mass,
+            load=self.load,
+            shaft_speed=self.shaft_speed,
+            f_ref=self.roller_pass_frequency,
+            eta0=self.eta0,
+            alpha=self.alpha,
+            bearing=self.bearing.parameters(),
+        )
         status = rotor_history(
             np.array([*displacement, *velocity, 0.0, 0.0]),
             interval / steps_per_sample,
             steps_per_sample,
-            self.shaft_speed,
-            self.roller_pass_frequency,
-            self.mass,
-            self.load,
-            self.eta0,
-            self.alpha,
-            self.bearing.parameters(),
+            rotor,
             states,
             loads,
             np.empty((5, N_STATE)),

@@ -81,7 +81,7 @@ def ellipticity(radius_ratio: float) -> float:
 def hertz_coefficients(
     R_x: float, R_y: float, contact_modulus: float
 ) -> tuple[float, float, float]:
-    """Return what a unit load would give: semi-axes along x and y, and mean pressure.
+    """Return semi-axes along x and y and mean pressure under a unit load.
 
     a = k b,  b = [3 E R W / (pi k E*)]^(1/3),  p_mean = W/(pi a b),  1/R = 1/R_x + 1/R_y
 

@@ -1,4 +1,4 @@
-"""Elastic and thermal data of a solid, and the three moduli of a pair that papers mix."""
+"""Elastic and thermal data of a solid, and the three moduli of a pair used in papers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gearlube_core.checks import check_within
 
 
 class SolidParameters(NamedTuple):
-    """A pair of like solids as the kernels see it; all floats, SI."""
+    """Data of a pair of equal solids for the kernels; all floats, SI."""
 
     contact_modulus: float  # E* [Pa]
     conductivity: float  # [W/(m K)]

@@ -8,12 +8,12 @@ import numpy as np
 
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.unilateral_kernels import (
+    conjugate_direction,
+    direction_with_penetration,
     longest_step,
     project,
-    separate,
     step_length,
-    turn,
-    turn_to_penetration,
+    update_separation,
 )
 from gearlube_core.contact.unilateral_problem import (
     Array,
@@ -116,7 +116,7 @@ def solve_rotation(
     start: Array | None = None,
     throw: bool = True,
 ) -> UnilateralSolution:
-    """Return the contact at a prescribed closing rotation; its torque is an answer.
+    """Return the contact at a prescribed closing rotation; its torque is a result.
 
     Parameters, errors and source as in `solve_torque`, without the constraint on the moments.
     `rotation` is delta [rad]; where it closes no gap all forces are zero, without error. The torque
@@ -206,7 +206,7 @@ def _solve(
     history: list[float] = []
     loaded_before = math.inf
     while True:
-        delta, loaded, penetrating, misfit, deepest = separate(
+        delta, loaded, penetrating, misfit, deepest = update_separation(
             forces, displacement, gap, arm, rotation, residual
         )
         work = float(forces @ displacement)
@@ -214,10 +214,12 @@ def _solve(
         if history[-1] <= tolerance or len(history) > max_iterations:
             break
         if penetrating > _PROPORTION * loaded:
-            turn_to_penetration(forces, residual, arm, fixed_torque, direction, probe)
+            direction_with_penetration(forces, residual, arm, fixed_torque, direction, probe)
             loaded = float(np.dot(direction, direction))
         else:
-            turn(forces, residual, arm, loaded / loaded_before, fixed_torque, direction, probe)
+            conjugate_direction(
+                forces, residual, arm, loaded / loaded_before, fixed_torque, direction, probe
+            )
         loaded_before = loaded
         product = problem.compliance(probe)
         operations += 1

@@ -1,4 +1,4 @@
-"""The vector passes of one conjugate-gradient iteration with proportioning."""
+"""Vector operations of one conjugate-gradient iteration with proportioning."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _ROUNDING = 1e-14
 
 
 @kernel
-def separate(
+def update_separation(
     forces: np.ndarray,
     displacement: np.ndarray,
     gap: np.ndarray,
@@ -20,7 +20,7 @@ def separate(
     rotation: float,
     residual: np.ndarray,
 ) -> tuple[float, float, float, float, float]:
-    """Write the angular separation of all cells; return how far it is from complementarity.
+    """Write the angular separation of all cells; return the error of complementarity.
 
     r = (g + u)/R - delta
 
@@ -60,7 +60,7 @@ def separate(
 
 
 @kernel
-def turn(
+def conjugate_direction(
     forces: np.ndarray,
     residual: np.ndarray,
     arm: np.ndarray,
@@ -69,7 +69,7 @@ def turn(
     direction: np.ndarray,
     probe: np.ndarray,
 ) -> None:
-    """Turn the search direction, t = r + factor t on loaded cells and zero elsewhere.
+    """Update the search direction: t = r + factor t on loaded cells, zero elsewhere.
 
     Under a fixed torque the mean over loaded cells is taken off, so that no step changes the sum
     of the moments. `direction` holds t [rad]; `probe` receives t/R, the forces that the
@@ -92,7 +92,7 @@ def turn(
 
 
 @kernel
-def turn_to_penetration(
+def direction_with_penetration(
     forces: np.ndarray,
     residual: np.ndarray,
     arm: np.ndarray,

@@ -84,7 +84,7 @@ class UnilateralProblem:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """How an iteration ended.
+    """Final status of an iteration.
 
     Parameters
     ----------

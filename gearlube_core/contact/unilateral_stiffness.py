@@ -20,7 +20,7 @@ def tangent_stiffness(
     tolerance: float = 1e-4,
     max_iterations: int = 1000,
 ) -> float:
-    """Return dT/d(delta) with the loaded cells held.
+    """Return dT/d(delta) for a fixed set of loaded cells.
 
     A y = R on loaded cells, y = 0 elsewhere;  dT/d(delta) = R.y
 

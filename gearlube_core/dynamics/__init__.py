@@ -1,1 +1,1 @@
-"""Gears in motion: hypoid axle, torsional hypoid pair, helical pair."""
+"""Gear dynamics: hypoid axle, torsional hypoid pair, helical pair."""

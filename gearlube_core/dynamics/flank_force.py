@@ -1,4 +1,4 @@
-"""Force between two flanks with backlash: elastic part and damping, whatever the model."""
+"""Force between two flanks with backlash: elastic part and damping, for all models."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mesh tables as the flat arrays that the kernels of a time step read."""
+"""Mesh tables as flat arrays for the kernels of a time step."""
 
 from __future__ import annotations
 

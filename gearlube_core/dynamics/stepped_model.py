@@ -1,4 +1,4 @@
-"""Gears in motion as an object: checked inputs, a step made or refused, a state to come back to."""
+"""Base class of time-stepped gear models: checked inputs, steps, saved and restored states."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ _OK = 0  # status of a kernel that made its step
 class Kernels(NamedTuple):
     """Compiled functions of a model, and what they take behind state and inputs."""
 
-    step: Callable[..., int]  # (state, trial, h, torques, oil temperature, *step_data)
+    step: Callable[..., int]  # (state, trial, h, inputs, *step_data)
     step_data: tuple[Any, ...]
-    write_outputs: Callable[..., None]  # (state, torques, oil temperature, *output_data)
+    write_outputs: Callable[..., None]  # (state, inputs, *output_data)
     output_data: tuple[Any, ...]
 
 
@@ -73,7 +73,8 @@ class SteppedModel(ABC, Generic[Control]):
         self._trial = np.zeros(states)
         self.output_names = output_names
         self._outputs = np.zeros(len(output_names))
-        self._inputs = np.zeros(_N_INPUTS)
+        # torques of pinion and wheel [N.m], oil temperature [K]: of the last step, of one tried
+        self._inputs, self._trial_inputs = np.zeros(_N_INPUTS), np.zeros(_N_INPUTS)
         self._control_type = type(control)
         self._control_values = flatten(control)
         self._oil, self._oil_range = oil, (oil.temperature_low, oil.temperature_high)
@@ -159,22 +160,14 @@ class SteppedModel(ABC, Generic[Control]):
                 f"A communication step of about 1e-4 s resolves {self._words.resolved}."
             )
         self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
-        kernels = self._kernels
-        status = kernels.step(
-            self._state,
-            self._trial,
-            h,
-            pinion_torque,
-            wheel_torque,
-            oil_temperature,
-            *kernels.step_data,
-        )
-        if status != _OK:
-            raise StepError(f"step of {h:g} s refused: {self._words.refusals[status]}.")
-        inputs = self._inputs
+        inputs, kernels = self._trial_inputs, self._kernels
         inputs[0] = pinion_torque
         inputs[1] = wheel_torque
         inputs[2] = oil_temperature
+        status = kernels.step(self._state, self._trial, h, inputs, *kernels.step_data)
+        if status != _OK:
+            raise StepError(f"step of {h:g} s refused: {self._words.refusals[status]}.")
+        self._inputs, self._trial_inputs = inputs, self._inputs
 
     def output(self, name: str) -> float:
         """Return one output by its name, an entry of `output_names`; units as in docs/fmu.md.
@@ -237,4 +230,4 @@ class SteppedModel(ABC, Generic[Control]):
         self._oil.check_temperature(oil, "oil.temperature")
 
     def _write_outputs(self) -> None:
-        self._kernels.write_outputs(self._state, *self._inputs.tolist(), *self._kernels.output_data)
+        self._kernels.write_outputs(self._state, self._inputs, *self._kernels.output_data)

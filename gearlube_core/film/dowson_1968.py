@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.film.line_film_law import LineFilmLaw, law_of_line_film
+from gearlube_core.film.line_film_law import LineFilmLaw, power_law_line_film
 from gearlube_core.kernels.jit import kernel
 
 _LAW = LineFilmLaw(coefficient=2.65, speed=0.70, material=0.54, load=-0.13)
@@ -38,4 +38,4 @@ def minimum_line_film_thickness(
     1e-10, G about 2500 to 5000, W' about 3e-5 to 3e-4. Quoted from later literature.
     Source: [dowson_1968], revising [dowson_higginson_1966].
     """
-    return law_of_line_film(_LAW, R, eta0, alpha, entrainment_speed, line_load, reduced_modulus)
+    return power_law_line_film(_LAW, R, eta0, alpha, entrainment_speed, line_load, reduced_modulus)

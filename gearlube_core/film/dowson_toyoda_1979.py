@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.checks import check_positive
-from gearlube_core.film.line_film_law import LineFilmLaw, law_of_line_film
+from gearlube_core.film.line_film_law import LineFilmLaw, power_law_line_film
 from gearlube_core.kernels.jit import kernel
 
 _LAW = LineFilmLaw(coefficient=3.06, speed=0.69, material=0.56, load=-0.10)
@@ -54,7 +54,7 @@ def line_film_thickness(
     of Ertel and Grubin: within a fifth, where the sum of speeds would make it 1.6 times thinner.
     Source: [dowson_toyoda_1979].
     """
-    return law_of_line_film(_LAW, R, eta0, alpha, entrainment_speed, line_load, reduced_modulus)
+    return power_law_line_film(_LAW, R, eta0, alpha, entrainment_speed, line_load, reduced_modulus)
 
 
 def central_line_film(

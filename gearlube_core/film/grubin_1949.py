@@ -87,7 +87,7 @@ def grubin_geometry(R_x: float, R_y: float, angle: float) -> tuple[float, float]
     -----
     Evaluate once per contact position. Source: [karagiannis_2012 (11)];
     [archard_cowking_1965] for psi. A factor on the pressure build-up would enter the film with
-    power 3/4; the printed 2/3 is kept, the difference is 0.5 % at R_e/R_s = 0.1 and 4 % for a
+    power 3/4; the printed 2/3 is used, the difference is 0.5 % at R_e/R_s = 0.1 and 4 % for a
     circle.
     """
     R_e = film_geometry(R_x, R_y, angle)[0]
@@ -157,7 +157,7 @@ def inlet_heating_factor(
     largest_pressure: float,
     reduced_modulus: float,
 ) -> float:
-    """Return by how much heating by shear in the inlet thins the film.
+    """Return the film reduction factor of inlet shear heating.
 
     phi = [1 - 13.2 (p_0/E') L^0.42] / [1 + 0.213 (1 + 2.23 S^0.83) L^0.64]
     L = beta eta0 u^2/K,  S = |dU|/u
@@ -185,7 +185,7 @@ def inlet_heating_factor(
     Notes
     -----
     A fit to line contact solutions up to L about 20 and S about 1; beyond, it is an
-    extrapolation, kept between 0 and 1. In pure rolling it is within 8 % of
+    extrapolation, limited to between 0 and 1. In pure rolling it is within 8 % of
     3.94/(3.94 + L^0.62) of [murch_wilson_1975].
     Source: [gupta_1992]
     """

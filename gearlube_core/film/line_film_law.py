@@ -1,4 +1,4 @@
-"""Power law of speed, material and load for the film of a line contact."""
+"""Film of a line contact as a power law of speed, material and load."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class LineFilmLaw(NamedTuple):
 
 
 @kernel
-def law_of_line_film(
+def power_law_line_film(
     law: LineFilmLaw,
     R: float,
     eta0: float,

@@ -1,4 +1,4 @@
-"""Central film of a line contact between its regimes, after Moes; sizes a domain and a start."""
+"""Central film of a line contact across all regimes, Moes 1992; used for domains and starts."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def central_film_group(M: float, L: float) -> float:
 
     Notes
     -----
-    A fit, within about 10 %; here it sizes domains and starts iterations, it is no result.
+    A fit, accurate to about 10 %. It only sets domain sizes and initial values here.
     Source: [moes_1992], coefficients for the central film as quoted by [venner_lubrecht_2000].
     """
     RI, EI = 3.0 / M, 2.621 * M**-0.2

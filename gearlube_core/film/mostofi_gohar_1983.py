@@ -1,7 +1,7 @@
 """Film thickness of a roller on a race with entraining and squeeze motion.
 
-[mostofi_gohar_1983] in the form that is printed as [mohammadpour_2015 (27)]. Kernels only; see the
-Notes of `central_film` for the conventions chosen.
+[mostofi_gohar_1983] in the form printed as [mohammadpour_2015 (27)]. Kernels only. The
+Notes of `central_film` explain the conventions.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Central film of a point contact between its regimes, after Nijenbanning, Venner and Moes."""
+"""Central film of a point contact across all regimes, Nijenbanning, Venner and Moes 1994."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class RegimeFilms(NamedTuple):
     elastic_isoviscous: float
     rigid_piezoviscous: float
     elastic_piezoviscous: float
-    light_load: float  # what bounds the elastic isoviscous film from above
+    light_load: float  # upper bound of the elastic isoviscous film
 
 
 def regime_films(M: float, L: float, radius_ratio: float = 1.0) -> RegimeFilms:

@@ -24,7 +24,7 @@ def solid_resistance(
     reduced_modulus: float,
     solid_effusivity_squared: float,
 ) -> float:
-    """Return the thermal resistance of a solid that passes under the contact.
+    """Return the thermal resistance of a solid that moves through the contact.
 
     r = [p R'/(E' Ks rho cs U)]^(1/2)
 
@@ -136,7 +136,7 @@ def plateau_stress_ratio(
 
 @kernel
 def limited_stress_ratio(plateau: float, newtonian_ratio: float, exponent: float) -> float:
-    """Return the plateau stress ratio kept between zero and the isothermal Eyring value.
+    """Return the plateau stress ratio, limited to between zero and the isothermal Eyring value.
 
     0 <= s <= asinh[eta0 exp(alpha p) |dU|/(h tau0)]
 

@@ -1,4 +1,4 @@
-"""Plain data that go into and come out of the friction of one flank."""
+"""Input and output data of the friction of one flank."""
 
 from __future__ import annotations
 

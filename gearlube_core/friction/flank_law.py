@@ -1,7 +1,7 @@
-"""What a model of meshing gears needs of a law of flank friction.
+"""Interface of a flank friction law for models of meshing gears.
 
-A law is a NamedTuple of floats with the method of `FlankLaw`. It holds what it needs to know of
-the flanks. A new law is one new file; `flank_laws.FLANK_LAWS` names the laws that ship.
+A law is a NamedTuple of floats with the method of `FlankLaw`. Its fields are the data of
+the flanks. A new law is one new file; `flank_laws.FLANK_LAWS` lists the laws of the package.
 """
 
 from __future__ import annotations

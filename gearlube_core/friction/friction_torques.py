@@ -37,7 +37,7 @@ def flank_speeds(w_p: float, w_g: float, arm_p: float, arm_g: float) -> tuple[fl
 def friction_torques(
     friction: float, sliding_speed: float, arm_p: float, arm_g: float
 ) -> tuple[float, float, float]:
-    """Return what friction adds to the torques on pinion and gear, and the power it takes.
+    """Return the friction torques on pinion and gear, and the power lost to friction.
 
     Q_p = -s f r_p,  Q_g = s f r_g,  s = sign(dU),  P = f |dU|
 

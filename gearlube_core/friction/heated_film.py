@@ -31,7 +31,7 @@ SEARCH_TOLERANCE = 1.0e-3  # K, of the last step; the error after a secant step 
 
 
 class FilmTraction(NamedTuple):
-    """What the flank does at a given film."""
+    """Stresses and temperatures of a flank at a given film."""
 
     Y: float  # of the film [-]
     log_viscosity: float  # ln eta at contact pressure and surface temperature
@@ -48,7 +48,9 @@ class FilmTraction(NamedTuple):
 
 
 @kernel
-def next_trial(x: float, g: float, x_old: float, g_old: float, low: float, high: float) -> float:
+def bracketed_secant_step(
+    x: float, g: float, x_old: float, g_old: float, low: float, high: float
+) -> float:
     """Return the next trial of a secant search kept inside a bracket."""
     trial = x - g * (x - x_old) / (g - g_old) if g != g_old else low - 1.0
     if not low <= trial <= high:
@@ -134,7 +136,7 @@ def film_traction(
             # Eyring films lose about tau0 for each e-fold of viscosity
             trial = flash - gap / (1.0 + per_stress * oil.tau0 * beta)
         else:
-            trial = next_trial(flash, gap, flash_old, gap_old, low, high)
+            trial = bracketed_secant_step(flash, gap, flash_old, gap_old, low, high)
         flash_old, gap_old = flash, gap
         flash = trial
         if abs(flash - flash_old) <= SEARCH_TOLERANCE:

@@ -1,4 +1,4 @@
-"""Shear stress of a film that thins by stress and by its own heat, Johnson and Greenwood 1980.
+"""Shear stress of a thermal Eyring film, Johnson and Greenwood 1980.
 
 A film of thickness h between surfaces of equal temperature, under one shear stress tau with
 tau* = tau0 sinh(tau/tau0) and eta = eta_s exp(-beta dT), has the temperature
@@ -74,7 +74,7 @@ def thermal_eyring_film_near(
     film_thickness: float,
     sliding_speed: float,
 ) -> ThermalEyringFilm:
-    """Return what `thermal_eyring_film` does, searching from Y = `start` [-]; 0: no idea of it."""
+    """Return the same as `thermal_eyring_film`, but search from Y = `start` [-]; 0: no guess."""
     slip = abs(sliding_speed)
     if slip == 0.0:
         return ThermalEyringFilm(0.0, 0.0, 1.0, 0.0, 0.0, CONVERGED)
@@ -175,7 +175,7 @@ def thermal_newtonian_stress(
     film_thickness: float,
     sliding_speed: float,
 ) -> float:
-    """Return the shear stress of the same film without an Eyring stress.
+    """Return the shear stress of a heated Newtonian film (no Eyring stress).
 
     tau = 8 K/(beta h |dU|) Y tanh Y,  sinh^2 Y = eta_s beta dU^2/(8 K)
 

@@ -25,7 +25,7 @@ _QUANTITIES = 8
 
 
 class SmallestFilm(NamedTuple):
-    """The thinnest film of a mesh period and its place."""
+    """The smallest film of a mesh period and its position."""
 
     thickness: float  # [m]
     phase: float  # [mesh periods]
@@ -102,7 +102,7 @@ class LineFrictionCycle:
 
     @property
     def smallest_film(self) -> SmallestFilm:
-        """Smallest of `minimum_film` where the flanks press on each other."""
+        """Smallest `minimum_film` of all loaded points."""
         pressed = (self.points.length > 0.0) & (self.line_load > 0.0)
         film = np.where(pressed, self.minimum_film, np.inf)
         n, i, m = np.unravel_index(int(film.argmin()), film.shape)

@@ -1,4 +1,4 @@
-"""Points on the contact lines of a helical pair over a mesh period, and the loads there."""
+"""Points on the contact lines of a helical pair over a mesh period, and their loads."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class LinePoints:
 
     @property
     def total_length(self) -> Array:
-        """Of all lines at each phase [m], shape (N,)."""
+        """Total length of all lines at each phase [m], shape (N,)."""
         return np.asarray(self.length.sum(axis=(1, 2)))
 
 
@@ -100,7 +100,7 @@ def line_points(pair: HelicalPair, phases: int = 48, nodes: int = 12) -> LinePoi
 
 
 def normal_force(pair: HelicalPair, pinion_torque: float) -> float:
-    """Return what all lines carry together, normal to the flanks [N].
+    """Return the total force of all lines, normal to the flanks [N].
 
     F_n = T_p/(r_bp cos b)
 

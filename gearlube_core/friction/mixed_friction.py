@@ -51,7 +51,7 @@ def contact_temperature_rise(
     conductivity: float,
     solid_conductivity: float,
 ) -> float:
-    """Return the mean temperature of the film over that of the oil.
+    """Return the mean temperature rise of the film above the oil.
 
     dT = q (1/m^2 + 1/s^2)^(-1/2) + q h/(12 K)
     m = (4/3) (1/2) [2 b/(pi Ks rho cs U)]^(1/2),  b = (16/pi) p R_e/E'

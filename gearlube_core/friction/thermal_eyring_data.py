@@ -1,4 +1,4 @@
-"""Plain data that go into and come out of a flank with a thermal Eyring film."""
+"""Input and output data of a flank with a thermal Eyring film."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class ThermalEyringOil(NamedTuple):
 
 
 class ThermalEyringOptions(NamedTuple):
-    """What is left open by Karagiannis et al. 2012; floats."""
+    """Choices that Karagiannis et al. 2012 leave open; floats."""
 
     coefficient: float  # of the film, `grubin_convention` [-]
     modulus: float  # of the load group of the film [Pa]

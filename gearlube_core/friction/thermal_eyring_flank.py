@@ -17,8 +17,8 @@ from gearlube_core.friction.flank_data import ContactGeometry
 from gearlube_core.friction.heated_film import (
     SEARCH_ITERATIONS,
     SEARCH_TOLERANCE,
+    bracketed_secant_step,
     film_traction,
-    next_trial,
 )
 from gearlube_core.friction.johnson_greenwood_1980 import NOT_CONVERGED, thermal_newtonian_stress
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR, contact_temperature_rise
@@ -165,7 +165,7 @@ def thermal_eyring_flank(
             else:
                 low = max(low, rise)
                 high = max(high, rise - 2.0 * gap)
-            trial = next_trial(rise, gap, rise_old, gap_old, low, high)
+            trial = bracketed_secant_step(rise, gap, rise_old, gap_old, low, high)
             rise_old, gap_old = rise, gap
             rise = trial
 

@@ -1,4 +1,4 @@
-"""Which mechanism limits the traction of a film: a map after Evans and Johnson 1986.
+"""Map of traction regimes after Evans and Johnson 1986: what limits the traction of a film.
 
 The largest traction that a heated film can reach over all sliding speeds depends on one number,
 

@@ -1,1 +1,1 @@
-"""Where the teeth of a helical pair touch under load, and how stiff they are."""
+"""Loaded tooth contact and mesh stiffness of a helical pair."""

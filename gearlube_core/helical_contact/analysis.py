@@ -32,7 +32,7 @@ class ContactSettings:
 
 
 class HelicalContact(NamedTuple):
-    """What a loaded mesh period gives: to look at, and for the dynamics."""
+    """Results of a loaded mesh period: a dataset, and the line mesh for dynamics."""
 
     dataset: xr.Dataset
     line_mesh: LineMesh

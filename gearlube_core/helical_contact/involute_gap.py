@@ -1,4 +1,4 @@
-"""Where the teeth of a pair are closest, on the line of action and at tip edges beyond its ends.
+"""Closest points of a tooth pair, on the line of action and at tip edges beyond its ends.
 
 A point Q of the transverse plane stands at (x, r_bp + y): y off the line of action. Both involutes
 touch at (x, r_bp) or would, were the teeth longer.
@@ -47,7 +47,7 @@ def tip_edge(x: ArrayLike, base_radius: float, tip_radius: float) -> Array:
 
 
 class Engagement(NamedTuple):
-    """Where flanks meet across the line of action at x; arrays of one shape [m]."""
+    """Position where the flanks meet across the line of action at x; arrays of one shape [m]."""
 
     y: Array  # nearest points of the two tooth bodies: 0, or on a tip edge beyond A or D
     pinion_arm: Array  # of the transverse force about the pinion's axis

@@ -32,7 +32,7 @@ _SHORTEST = 1e-5  # of the face width: shorter strips are left out
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StripSettings:
-    """How finely a strip is resolved.
+    """Resolution of a strip.
 
     Parameters
     ----------

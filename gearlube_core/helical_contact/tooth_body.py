@@ -1,4 +1,4 @@
-"""The teeth of a helical pair as finite-element bodies, and where contact stands on them."""
+"""The teeth of a helical pair as finite-element bodies, and contact positions on them."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def tooth_form(pair: HelicalPair, member: str) -> ToothForm:
 
 
 def half_angle(form: ToothForm, radius: ArrayLike) -> Array:
-    """Return half the angle that a tooth fills at a radius [m], [rad].
+    """Return half the angular tooth thickness [rad] at a radius [m].
 
     psi_b - inv(acos(r_b/r)). Below the base circle, where there is no involute, the flank goes on
     radially.

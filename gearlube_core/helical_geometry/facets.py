@@ -98,7 +98,7 @@ def facet_depth(
 def facet_depth_parabola(
     roll: ArrayLike, t: ArrayLike, point: ArrayLike, flank: InvoluteFlank, count: int
 ) -> _Array:
-    """Return the same with the facet's ends on the parabola that osculates the involute.
+    """Return the facet depth with the facet's ends on the involute's osculating parabola.
 
     Notes
     -----

@@ -84,8 +84,8 @@ class HelicalGearFile(InputFile):
     )
 
     @model_validator(mode="after")
-    def _hangs_together(self) -> HelicalGearFile:
-        """Refuse what no field can see alone."""
+    def _check_relations(self) -> HelicalGearFile:
+        """Check relations between fields."""
         known = field_notes(HelicalGearFile)
         for field in (*self.inferred, *self.completed):
             if not any(name == field or name.startswith(f"{field}.") for name in known):

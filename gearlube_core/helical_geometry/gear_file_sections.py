@@ -36,11 +36,12 @@ Torque = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Speed = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
 Viscosity = Annotated[float, Field(ge=1e-4, le=10.0, allow_inf_nan=False)]
 PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
+Modulus = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
 Stress = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
 
 
 class Pair(Section):
-    """What the members share; the module and the pressure angle normal or transverse."""
+    """Data shared by both members; module and pressure angle are normal or transverse."""
 
     normal_module_mm: Module | None = Field(
         default=None, description="Of the basic rack; give this or the transverse module"
@@ -59,9 +60,13 @@ class Pair(Section):
     centre_distance_mm: Length = Field(description="Between the parallel axes")
     face_width_mm: Width = Field(description="Common to both members")
     backlash_mm: Backlash = Field(default=0.0, description="Normal, along the line of action")
+    reduced_modulus_gpa: Modulus | None = Field(
+        default=None,
+        description="E' = 2 E* of both flanks, for films; absent: that of steel",
+    )
 
     @model_validator(mode="after")
-    def _one_of_each(self) -> Pair:
+    def _check_alternatives(self) -> Pair:
         for kind in ("module_mm", "pressure_angle_deg"):
             names = (f"normal_{kind}", f"transverse_{kind}")
             given = [name for name in names if getattr(self, name) is not None]
@@ -74,7 +79,7 @@ class Pair(Section):
 
 
 class Flank(Section):
-    """What is taken off one member's involute helicoids, in the transverse plane."""
+    """Material removed from one member's involute helicoids, in the transverse plane."""
 
     tip_relief_um: Removal = Field(default=0.0, description="At the tip; 0: none")
     tip_relief_depth_mm: Width | None = Field(
@@ -110,7 +115,7 @@ class Flank(Section):
     )
 
     @model_validator(mode="after")
-    def _relief_has_a_depth(self) -> Flank:
+    def _check_relief_depth(self) -> Flank:
         if self.tip_relief_um > 0.0 and self.tip_relief_depth_mm is None:
             raise ValueError(
                 "tip_relief_depth_mm is missing; it must be above 0 mm where there is relief"
@@ -137,7 +142,7 @@ class Bearing(Section):
     )
 
     @model_validator(mode="after")
-    def _gives_no_energy_away(self) -> Bearing:
+    def _check_positive_definite(self) -> Bearing:
         for along, about in (("x", "y"), ("y", "x")):
             stiffness = 1e3 * getattr(self, f"stiffness_{along}_n_per_um")  # kN/m
             limit = math.sqrt(stiffness * getattr(self, f"tilt_{about}_knm_per_rad"))
@@ -175,7 +180,7 @@ class Member(Section):
     bearing_2: Bearing | None = None
 
     @model_validator(mode="after")
-    def _has_a_root(self) -> Member:
+    def _check_root(self) -> Member:
         root, tip = self.root_diameter_mm, self.tip_diameter_mm
         if root is not None and not root < tip:
             raise ValueError(
@@ -215,7 +220,7 @@ class LineSteps(Section):
     )
 
     @model_validator(mode="after")
-    def _shows_steps_that_exist(self) -> LineSteps:
+    def _check_shown_steps(self) -> LineSteps:
         if any(step > self.count for step in self.shown):
             raise ValueError(f"shown must hold steps up to count, {self.count}, got {self.shown}")
         return self

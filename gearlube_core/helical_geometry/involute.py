@@ -1,4 +1,4 @@
-"""The transverse involute of one member, seen from one of its points.
+"""The transverse involute of one member, in coordinates at one of its points.
 
 A point of the flank is named by its roll length rho, its distance from the base circle along
 the line of action and so its radius of curvature. Around the point at rho the profile is the
@@ -22,7 +22,7 @@ _NEWTON_STEPS = 2  # t is linear in the square of the roll but for fourth powers
 
 
 class InvoluteFlank(NamedTuple):
-    """What a flank's micro-geometry needs of its member; all floats, SI."""
+    """Data of a member for the micro-geometry of its flank; all floats, SI."""
 
     base_radius: float  # r_b [m]
     tip_radius: float  # [m]

@@ -1,4 +1,4 @@
-"""Tooth stiffness after [iso_6336_1], method B: a fit that stands for a loaded contact."""
+"""Tooth stiffness after [iso_6336_1], method B: a fit that replaces a loaded contact analysis."""
 
 from __future__ import annotations
 

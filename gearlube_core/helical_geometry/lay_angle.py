@@ -1,4 +1,4 @@
-"""Lines of constant radius on a flank, seen on the tangent plane: grinding lay and relief."""
+"""Lines of constant radius on a flank in the tangent plane: grinding lay and relief."""
 
 from __future__ import annotations
 

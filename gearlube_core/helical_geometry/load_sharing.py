@@ -162,7 +162,7 @@ def _lengths(X: Any, plane: ContactPlane) -> Any:
 
 @kernel
 def _totals(X: Any, plane: ContactPlane) -> Any:
-    """Sum over the lines that are in contact together, whichever of them X names."""
+    """Return the sum over all lines that are in contact at the same time as line X."""
     totals = np.empty(X.size)
     count = line_count(plane)
     for i in range(X.size):

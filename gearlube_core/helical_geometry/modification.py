@@ -71,7 +71,7 @@ class Crown:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlankModification:
-    """Everything that makes one member's flank differ from an involute helicoid.
+    """Modifications of one member's flank from an involute helicoid.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ class FlankModification:
     def smooth_removal(
         self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank
     ) -> NDArray[np.float64]:
-        """Return the same without the facets."""
+        """Return the transverse removal without facets."""
         roll, z = np.broadcast_arrays(np.asarray(roll, dtype=float), np.asarray(z, dtype=float))
         total = np.zeros(roll.shape)
         if self.tip_relief is not None:
@@ -195,12 +195,12 @@ class ModifiedPair:
 
     @property
     def contact_start(self) -> float:
-        """Where the gear's relief ends and unrelieved contact starts: x [m]."""
+        """Position x [m] where the gear's relief ends and unrelieved contact starts."""
         return self.pair.tangent_length - _relief_start(self.gear, self.gear_flank)
 
     @property
     def contact_end(self) -> float:
-        """Where the pinion's relief begins: x [m]."""
+        """Position x [m] where the pinion's relief begins."""
         return _relief_start(self.pinion, self.pinion_flank)
 
     def pinion_removal(self, roll: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
@@ -230,7 +230,7 @@ class ModifiedPair:
         return self.pinion_removal(x, z) + self.gear_removal(self.pair.tangent_length - x, z)
 
     def normal_removal(self, x: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
-        """Return the same normal to the flanks [m]: times cos(beta_b)."""
+        """Return the removal normal to the flanks [m]: the transverse one times cos(beta_b)."""
         return np.asarray(self.removal(x, z) * math.cos(self.pair.base_helix_angle))
 
 

@@ -188,7 +188,7 @@ class HelicalPair:
 
     @property
     def plane(self) -> ContactPlane:
-        """What the contact-line kernels take."""
+        """Plane of contact for the contact-line kernels."""
         b = self.base_helix_angle
         return ContactPlane(
             A=self.contact_start,

@@ -21,7 +21,7 @@ def _check_size(amount: float, extent: float) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TipRelief:
-    """Relief that begins as a parabola and goes on as its tangent.
+    """Relief that begins as a parabola and continues as its tangent.
 
     r_ce = r_start + k (r_tip - r_start),  c_e = (r_ce - r_start)/(2 r_tip - r_ce - r_start) c_t
     r <= r_ce: ((r - r_start)/(r_ce - r_start))^2 c_e

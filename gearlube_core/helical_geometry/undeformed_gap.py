@@ -1,4 +1,4 @@
-"""Gap between the unloaded flanks about a contact line, as film and contact solvers take it.
+"""Gap between the unloaded flanks near a contact line, input of film and contact solvers.
 
 The grid lies in the common tangent plane: y along the line from mid-face, rising with z; x across
 it in the transverse plane, towards the pinion's root and the gear's tip, which is where both

@@ -1,1 +1,1 @@
-"""Where the teeth of a hypoid pair touch under load: what writes a mesh table."""
+"""Loaded tooth contact of a hypoid pair; it writes the mesh table."""

@@ -25,7 +25,7 @@ _LARGEST_MISFIT = 1e-3  # m, of a cutter's reference plane from the middle of th
 
 
 def check_settings_meet(file: HypoidGearFile) -> None:
-    """Raise ParameterError, with the settings that would cure it, when the cutters miss the teeth.
+    """Raise ParameterError if the cutters miss the teeth; name settings that would correct it.
 
     Small misfits only shift the contact; `setting_report` names them.
     """

@@ -1,4 +1,4 @@
-"""Everything a tooth contact analysis found, as one labelled dataset."""
+"""Results of a tooth contact analysis as one labelled dataset."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from gearlube_core.hypoid_contact.mesh_cycle import (
     Record,
 )
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.touching_error import touching_error
+from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
 from gearlube_core.hypoid_contact.unloaded_error import contact_ratio
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -184,7 +184,7 @@ def _mesh_error(pair: FlankPair) -> Array:
     phases = np.arange(ERROR_POSITIONS) / ERROR_POSITIONS
     shifts = np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1)
     angles = (phases[None, :] + shifts[:, None]) * pair.gear_pitch
-    error = touching_error(pair, angles.ravel()).error.reshape(angles.shape)
+    error = searched_transmission_error(pair, angles.ravel()).error.reshape(angles.shape)
     first = np.nanmin(pair.touching_sign * error, axis=0)
     return np.asarray(pair.touching_sign * first)
 

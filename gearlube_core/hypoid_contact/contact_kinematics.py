@@ -1,4 +1,4 @@
-"""Curvature and motion at opposite points of two flanks: what films, friction and forces need."""
+"""Curvature and motion at opposite points of two flanks: data for film, friction and forces."""
 
 from __future__ import annotations
 

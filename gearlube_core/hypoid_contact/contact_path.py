@@ -15,7 +15,7 @@ from gearlube_core.hypoid_contact.contact_point import (
     find_contact,
     trace_contact,
 )
-from gearlube_core.hypoid_contact.first_touch import FirstTouch, first_touch
+from gearlube_core.hypoid_contact.first_contact_point import FirstContactPoint, first_contact_point
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_sample, tooth_position
 
@@ -26,7 +26,7 @@ _TRIED = (0.0, -0.25, 0.25, -0.5, 0.5)  # gear angles [pitches] tried for a firs
 
 @dataclass(frozen=True, slots=True)
 class ContactPath:
-    """Where one pair of teeth touches, position by position; NaN where it does not.
+    """Points of contact of one tooth pair, one per position; NaN without contact.
 
     Parameters
     ----------
@@ -64,14 +64,14 @@ class ContactPath:
 
     @property
     def inside(self) -> NDArray[np.bool_]:
-        """Where the point lies on both teeth, and not beyond a fold, (N,)."""
+        """Whether the point lies on both teeth, and not beyond a fold, (N,)."""
         places = np.stack([self.gear_s, self.gear_t, self.pinion_s, self.pinion_t])
         on_teeth = ((places >= 0.0) & (places <= 1.0)).all(axis=0)
         return np.asarray(on_teeth & (self.pinion_regularity > 0.0))
 
 
 def contact_path(pair: FlankPair, gear_angles: Array) -> ContactPath:
-    """Return where the pair touches at the gear angles (N,) [rad], in any order.
+    """Return the points of contact at the gear angles (N,) [rad], in any order.
 
     Raises
     ------
@@ -143,10 +143,10 @@ def _facing(pair: FlankPair) -> float:
 
 def _first_contact(pair: FlankPair) -> tuple[float, Array]:
     """Return a gear angle [rad] and the seven unknowns there, for a contact on both teeth."""
-    nearest: FirstTouch | None = None
+    nearest: FirstContactPoint | None = None
     for pitches in _TRIED:
         angle = pitches * pair.gear_pitch
-        touch = first_touch(pair, angle)
+        touch = first_contact_point(pair, angle)
         if touch is None:
             continue
         nearest = nearest or touch

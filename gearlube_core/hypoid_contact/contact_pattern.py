@@ -1,4 +1,4 @@
-"""Contact pattern: where marking compound is wiped off while the teeth roll through the mesh."""
+"""Contact pattern: the area where marking compound is wiped off during meshing."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.hypoid_contact.ease_off import EaseOff
-from gearlube_core.hypoid_contact.touching_error import touching_error
+from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
 
 MARKING_COMPOUND = 6.35e-6  # m, a quarter of a thousandth of an inch: customary in bevel gear tests
 
@@ -37,7 +37,7 @@ class ContactPattern:
 
     @property
     def marked(self) -> NDArray[np.bool_]:
-        """Where the compound is wiped off, (m, n)."""
+        """Whether the compound is wiped off, (m, n)."""
         return np.asarray(np.nan_to_num(self.closest, nan=np.inf) <= self.thickness)
 
     @property
@@ -84,7 +84,7 @@ def contact_pattern(
     check_within("thickness", thickness, 1e-7, 1e-4, "m", "6.35e-6 is customary.")
     pair = ease.pair
     sign = pair.touching_sign
-    leading = sign * touching_error(pair, ease.gear_angle).error
+    leading = sign * searched_transmission_error(pair, ease.gear_angle).error
     leading[np.isnan(leading)] = np.inf
     if pairs == "all":
         leading = _envelope(leading, ease.gear_angle, pair.gear_pitch)
@@ -97,7 +97,7 @@ def contact_pattern(
 
 
 def _envelope(leading: Array, angle: Array, pitch: float) -> Array:
-    """Return the least of a pair and its neighbours, whole pitches away."""
+    """Return the minimum over a pair and its neighbours, whole pitches away."""
     shift = round(pitch / float(angle[1] - angle[0]))
     out = leading.copy()
     for k in range(shift, leading.size, shift):

@@ -1,4 +1,4 @@
-"""Where two flanks touch in a point: positions equal, normals opposite, both on their envelopes."""
+"""Point of contact of two flanks: equal positions, opposite normals, both points on envelopes."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def solve_in_place(rows: NDArray[float64], n: int) -> bool:
 def _put_column(
     rows: NDArray[float64], j: int, scale: float, change: Vector, turn_1: float, turn_2: float
 ) -> None:
-    """Write how an unknown moves the gap (3 equations) and turns the normals (2 equations)."""
+    """Write the derivatives of the gap (3 equations) and normals (2 equations) by an unknown."""
     rows[0, j] = change.x * scale / _LENGTH
     rows[1, j] = change.y * scale / _LENGTH
     rows[2, j] = change.z * scale / _LENGTH
@@ -151,7 +151,7 @@ def find_contact(
     x: NDArray[float64],
     rows: NDArray[float64],
 ) -> int:
-    """Find the rotation of the pinion and the point in which it touches the standing gear.
+    """Find the rotation of the pinion and the point in which it touches the fixed gear.
 
     r_p = r_g,  n_p x n_g = 0,  f_p = 0,  f_g = 0
 

@@ -48,7 +48,7 @@ def find_contact_rotations(
     start: NDArray[float64],
     found: NDArray[float64],
 ) -> None:
-    """Find with which rotation the pinion flank passes through each gear point.
+    """Find the rotation at which the pinion flank passes through each gear point.
 
     Goes from the middle angle and the middle of the grid outwards; each search starts from the
     same point at the angle before, else from a neighbour.

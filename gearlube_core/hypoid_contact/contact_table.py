@@ -127,7 +127,7 @@ def _windows(state: xr.Dataset, where: str) -> dict[str, Array]:
 
 
 def _window_start(node: NDArray[np.int_], share: Array, nodes: int, where: str) -> int:
-    """Return the first node of the `nodes` consecutive ones that hold the most load."""
+    """Return the first of the `nodes` consecutive nodes with the most load."""
     carried = np.bincount(
         (node - node.min()).ravel(), share.ravel(), minlength=int(np.ptp(node)) + 1
     )
@@ -145,7 +145,7 @@ def _window_start(node: NDArray[np.int_], share: Array, nodes: int, where: str) 
 
 
 def _held(values: Array, loaded: NDArray[np.bool_]) -> Array:
-    """Return values with unloaded nodes at those of the nearest loaded node, around the window."""
+    """Return values; unloaded nodes get the value of the nearest loaded node of the window."""
     count = values.size
     index = np.flatnonzero(loaded)
     distance = np.abs(np.arange(count)[:, None] - index[None, :])
@@ -176,7 +176,7 @@ _DERIVATIONS = {
 
 
 def _provenance(file: HypoidGearFile) -> dict[str, Provenance]:
-    """Return the origin of each datum: `completed` as soon as a completed setting shapes it."""
+    """Return the origin of each datum: `completed` if any completed setting affects it."""
     kind = "completed" if file.completed else "inferred"
     keys = (*_DERIVATIONS, *_WINDOW_SOURCES)
     return {key: Provenance(kind, _DERIVATIONS.get(key, _AT_CENTRE)) for key in keys}  # type: ignore[arg-type]

@@ -1,6 +1,6 @@
-"""Ease-off of the gear flank: its gap to the flank that the pinion would cut.
+"""Ease-off of the gear flank: its gap to the conjugate flank of the pinion.
 
-No equation of tangency enters, only how far the pinion turns until its flank passes through each
+It needs no equation of tangency, only the rotation at which the pinion flank passes through each
 point of the gear flank.
 """
 

@@ -1,4 +1,4 @@
-"""Where a straight line meets a flank, and the rotation that brings a flank to a point."""
+"""Intersection of a line with a flank, and the rotation that moves a flank to a point."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def intersect_line(
     direction: Vector,
     parameters: NDArray[float64],
 ) -> int:
-    """Find where the line `origin` [m] + s `direction` meets a flank.
+    """Find the intersection of the line `origin` [m] + s `direction` with a flank.
 
     Parameters
     ----------

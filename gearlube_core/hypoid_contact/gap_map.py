@@ -1,4 +1,4 @@
-"""The gap between two flanks over a whole tooth: coarsely, where could they touch."""
+"""Map of the gap between two flanks over a whole tooth, to find possible contact."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class GapMap:
 
 
 def within_tooth(flank: Flank, r: Array) -> NDArray[np.bool_]:
-    """Tell which points (..., 3) [m] of a flank's surface lie on the tooth, not beyond its edges.
+    """Return whether points (..., 3) [m] of a flank's surface lie within the edges of the tooth.
 
     Points in the frame of the member, rotation zero.
     """

@@ -37,7 +37,7 @@ _WIDE = 2.5  # half-width of a strip over the half-width of Hertz' line contact
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedSettings:
-    """How finely loaded contact is resolved.
+    """Resolution of loaded contact.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class LoadedSettings:
 
 @dataclass(frozen=True, slots=True)
 class LoadedPair:
-    """What one tooth pair carries.
+    """Load and contact of one tooth pair.
 
     Parameters
     ----------

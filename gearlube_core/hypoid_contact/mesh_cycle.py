@@ -37,7 +37,7 @@ _FORMAT = 2  # raise with every change of the model that changes results
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CycleSettings(MeshCycleSettings):
-    """Which positions and loads of the mesh are analysed.
+    """Positions and loads of the mesh to analyse.
 
     Parameters
     ----------

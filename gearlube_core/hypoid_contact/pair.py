@@ -1,4 +1,4 @@
-"""Two flanks that mesh: one pinion flank and one gear flank, and where the members stand."""
+"""Two meshing flanks, one of the pinion and one of the gear, and the positions of the members."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class FlankPair:
 
     @property
     def side(self) -> Side:
-        """Which flanks these are."""
+        """Side of the flanks: drive or coast."""
         return self.pinion.side
 
     @property

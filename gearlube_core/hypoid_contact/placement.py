@@ -1,4 +1,4 @@
-"""Where a member stands: its rotation and its misalignment."""
+"""Position of a member: its rotation and its misalignment."""
 
 from __future__ import annotations
 

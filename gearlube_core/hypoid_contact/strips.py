@@ -1,4 +1,4 @@
-"""A strip of rectangular cells along the line where a tooth pair touches."""
+"""A strip of rectangular cells along the contact line of a tooth pair."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from gearlube_core.kernels.jit import kernel
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StripSettings:
-    """How finely a strip is resolved.
+    """Resolution of a strip.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class StripSettings:
 
 @dataclass(frozen=True, slots=True)
 class StripFrame:
-    """Where a strip lies: the tangent plane at the middle of the expected contact.
+    """Frame of a strip: the tangent plane at the middle of the expected contact.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class Strip:
 
     @property
     def usable(self) -> NDArray[np.bool_]:
-        """Cells where both flanks are there, (nx, ny)."""
+        """Whether both flanks exist at a cell, (nx, ny)."""
         return np.isfinite(self.gap)
 
 
@@ -127,7 +127,7 @@ def contact_line(gaps: GapMap) -> tuple[Array, Array]:
 
 
 def strip_frame(gaps: GapMap, reach: float) -> StripFrame | None:
-    """Return the frame of a strip over the part of the contact line that `reach` can close.
+    """Return the frame of a strip over the part of the contact line with a gap below `reach`.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Unloaded transmission error of the meshing pair: tooth pairs hand over to one another."""
+"""Unloaded transmission error of the meshing gears, with handover between tooth pairs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SCAN = 32  # positions a pitch of the coarse path
 
 @dataclass(frozen=True, slots=True)
 class ContactRatio:
-    """How many pairs the unloaded path of contact spans, and how many really touch.
+    """Contact ratio from the unloaded path of contact, and number of pairs in real contact.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
     ------
     ParameterError
         When a pair leaves its teeth before the next takes over: the teeth then meet at edges and
-        the error is a sawtooth; touching_error gives it.
+        the error is a sawtooth; searched_transmission_error gives it.
 
     References
     ----------
@@ -128,7 +128,7 @@ def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
 
 
 def contact_ratio(pair: FlankPair) -> ContactRatio:
-    """Return over how many pitches the unloaded path of contact lies on both teeth."""
+    """Return the number of pitches over which the unloaded path of contact lies on both teeth."""
     path = _coarse_path(pair)
     margin = _margin(path)
     inside = margin >= 0.0
@@ -188,6 +188,6 @@ def _extreme(path: ContactPath) -> tuple[float, float]:
 def _edge_error(pair: FlankPair, what: str) -> ParameterError:
     return ParameterError(
         f"The path of contact of the {pair.side} flanks {what}: the teeth meet at edges and the "
-        "transmission error is a sawtooth (touching_error finds it). Check the flank angle "
-        "corrections, the blade edge radii and the misalignment."
+        "transmission error is a sawtooth (searched_transmission_error finds it). Check the flank "
+        "angle corrections, the blade edge radii and the misalignment."
     )

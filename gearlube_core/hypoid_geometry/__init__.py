@@ -1,1 +1,1 @@
-"""Hypoid gears: gear files, blanks and the flanks that a machine cuts."""
+"""Hypoid gears: gear files, blanks and cut flanks."""

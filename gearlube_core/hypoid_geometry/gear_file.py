@@ -48,8 +48,8 @@ class HypoidGearFile(InputFile):
     )
 
     @model_validator(mode="after")
-    def _hangs_together(self) -> HypoidGearFile:
-        """Refuse what no field can see alone."""
+    def _check_relations(self) -> HypoidGearFile:
+        """Check relations between fields."""
         for role, member in (("pinion", self.pinion), ("gear", self.gear)):
             if not member.face_width_mm < member.outer_cone_distance_mm:
                 raise ValueError(

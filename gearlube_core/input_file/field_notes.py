@@ -1,4 +1,4 @@
-"""What a data model says about its fields: one list for the reference page and the errors."""
+"""Notes on the fields of a data model, for reference pages and error messages."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def field_notes(model: type[BaseModel]) -> dict[str, FieldNote]:
 
 
 def sentence(error: Any, notes: dict[str, FieldNote]) -> str:
-    """Return one of pydantic's findings as: which field, what it must be, what was given."""
+    """Return a pydantic error as a sentence: field, allowed value, given value."""
     field = ".".join(str(part) for part in error["loc"])
     kind, note = error["type"], notes.get(field)
     if kind == "value_error":

@@ -1,4 +1,4 @@
-"""What every input file can do: be read from TOML, be varied, and name each wrong field."""
+"""Base of all input files: reading from TOML, variation, and errors for each wrong field."""
 
 from __future__ import annotations
 

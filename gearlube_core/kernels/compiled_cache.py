@@ -1,4 +1,4 @@
-"""Compiled code on disk that is found again only while all sources behind it are unchanged.
+"""Cache of compiled code on disk, valid while all its source files are unchanged.
 
 numba's own cache looks at the file of a kernel alone. Here the files that it imports count too
 (`source_files`), and so do the files of the NamedTuple classes and functions that a kernel is
@@ -31,7 +31,7 @@ class _Files(CompileResultCacheImpl):  # type: ignore[misc]
 
 
 class SourceCache(FunctionCache):  # type: ignore[misc]
-    """The compiled code of one function, kept on disk while no source behind it has changed."""
+    """The compiled code of one function on disk, valid while none of its sources has changed."""
 
     _impl_class = _Files
 

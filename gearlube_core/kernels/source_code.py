@@ -1,4 +1,4 @@
-"""What a Python source computes: its text without comments, docstrings and empty lines."""
+"""Python source without comments, docstrings and empty lines: the text that affects results."""
 
 from __future__ import annotations
 

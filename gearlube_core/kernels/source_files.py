@@ -1,4 +1,4 @@
-"""The source files that a Python file is made of: itself and the project files that it imports.
+"""The source files of a Python file: itself and the project files that it imports.
 
 A file's imports are found by reading its import lines; nothing is imported for it. Imports for
 type checkers do not count, nor does the `__init__` of a package where a name comes from one of its

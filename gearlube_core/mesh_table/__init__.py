@@ -1,1 +1,1 @@
-"""Mesh data against angle and load: what contact analysis writes and dynamics reads."""
+"""Mesh data against angle and load: written by contact analysis, read by dynamics."""

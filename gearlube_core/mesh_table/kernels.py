@@ -46,7 +46,7 @@ class MeshSeries(NamedTuple):
 def load_bracket(
     torque: float, side: float, levels: NDArray[float64], n_levels: int
 ) -> LoadBracket:
-    """Return where a load of abs(torque) [N.m] lies among the levels of one side; held outside.
+    """Return the load levels around abs(torque) [N.m] of one side; the end levels hold outside.
 
     Parameters
     ----------

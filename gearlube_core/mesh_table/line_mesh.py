@@ -1,6 +1,6 @@
 """Elastic contact lines of a helical pair against mesh phase and load: plain data.
 
-Statics write it, dynamics read it. The line load per unit length of the contact line is
+Contact analysis writes it, dynamics reads it. The load per unit length of the contact line is
 
     w = k (delta - e),  w >= 0
 
@@ -93,7 +93,7 @@ class LineMesh:
 
     @property
     def lines(self) -> int:
-        """Number of contact lines held."""
+        """Number of contact lines."""
         return int(self.density.shape[2])
 
 

@@ -1,4 +1,4 @@
-"""Line meshes on disk: NetCDF 3 with units and provenance, as mesh tables are."""
+"""Line meshes on disk: NetCDF 3 with units and provenance, like mesh tables."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def write_line_mesh(mesh: LineMesh, path: str | Path) -> Path:
 
 
 def read_line_mesh(path: str | Path) -> LineMesh:
-    """Read a mesh written by `write_line_mesh`; raise TableError when it is none."""
+    """Read a mesh written by `write_line_mesh`; raise TableError for any other file."""
     try:
         content = Path(path).read_bytes()
     except OSError as reason:

@@ -70,7 +70,7 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
 
 
 def read_mesh_table(path: str | Path) -> MeshTable:
-    """Read a table written by `write_mesh_table`; raise TableError when it is none.
+    """Read a table written by `write_mesh_table`; raise TableError for any other file.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""MeshTable: everything that mesh dynamics needs to know of a tooth contact."""
+"""MeshTable: all tooth contact data that mesh dynamics needs."""
 
 from __future__ import annotations
 
@@ -205,7 +205,7 @@ class MeshTable:
 
     @property
     def has_coast_levels(self) -> bool:
-        """Whether the coast flanks have data of their own."""
+        """Whether the coast flanks have separate data."""
         return bool(self.torque[0] < 0.0)
 
     @property

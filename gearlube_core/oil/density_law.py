@@ -1,4 +1,4 @@
-"""What a density law must give: rho/rho0 and its first two pressure derivatives.
+"""Interface of a density law: rho/rho0 and its first two pressure derivatives.
 
 A law is a NamedTuple of floats with the kernel `density_ratio`.
 """

@@ -25,6 +25,13 @@ class FilmOil(NamedTuple):
 
     The three laws are NamedTuples of the kind that `viscosity_law`, `density_law` and
     `shear_law` describe.
+
+    Examples
+    --------
+    >>> from gearlube_core.oil.film_oil_data import film_oil
+    >>> oil = film_oil(eta0=0.04, alpha=2e-8)
+    >>> round(viscosity(oil, 1e8), 2)  # Pa s at 0.1 GPa
+    0.25
     """
 
     eta0: float  # viscosity at ambient pressure and `temperature` [Pa s]

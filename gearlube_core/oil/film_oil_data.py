@@ -205,6 +205,12 @@ def film_oil_of(
     -----
     The pressure coefficient follows from a constant Roelands exponent. With "houpert" the
     viscosity is that of the law through 40 and 100 degC, within 3 % of Walther's line.
+
+    Examples
+    --------
+    >>> oil = film_oil_of(Lubricant.named("karagiannis_2012"), 353.15)  # at 80 degC
+    >>> round(oil.eta0, 4)  # Pa s
+    0.0239
     """
     check_option("law", law, VISCOSITY_LAWS)
     eta0 = lubricant.dynamic_viscosity(temperature)

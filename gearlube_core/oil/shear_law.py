@@ -1,4 +1,4 @@
-"""What a shear law must give: the shear rate over that of a Newtonian oil.
+"""Interface of a shear law: the shear rate over that of a Newtonian oil.
 
     du/dz = (tau0/eta) t G(|t|^2),  t = tau/tau0
 

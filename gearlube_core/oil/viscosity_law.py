@@ -1,4 +1,4 @@
-"""What a viscosity law must give: ln(eta/eta0) and its pressure derivative.
+"""Interface of a viscosity law: ln(eta/eta0) and its pressure derivative.
 
 A law is a NamedTuple of floats with the kernel `log_viscosity`. For thermal solutions it also
 needs `cooling_factor`, `cooling_at` and `viscosity_decline`; without these it is isothermal.

@@ -1,4 +1,4 @@
-"""Periodic motions of any model: shooting, continuation, stability."""
+"""Periodic motions of any dynamic model: shooting, continuation, stability."""
 
 from gearlube_core.periodic.branch import Branch, SpecialPoint
 from gearlube_core.periodic.branch_switching import BranchStart, switch_branch

@@ -1,4 +1,4 @@
-"""Points on a branch, and places between two of them."""
+"""Points on a branch of solutions, and points between two of them."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class Node(NamedTuple):
     determinant: float
 
 
-class Arc:
-    """Finds points of one branch and counts what that costs.
+class ArclengthCorrector:
+    """Finds points of one branch and counts the evaluations.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class Arc:
         )
 
     def first(self, evaluation: Evaluation, heading: Array) -> Node | None:
-        """Return a point whose tangent, the null vector of dr/dy, leans towards `heading`."""
+        """Return a point whose tangent, the null vector of dr/dy, is on the side of `heading`."""
         tangent = np.linalg.svd(evaluation.jacobian)[2][-1]
         return self.node(evaluation, tangent if tangent @ heading >= 0.0 else -tangent)
 
@@ -114,8 +114,8 @@ def hermite(a: Node, b: Node, fraction: float) -> tuple[Array, Array]:
     return place, direction / size if size > 0.0 else a.tangent
 
 
-def turn(a: Node, b: Node) -> float:
-    """Return by how much the branch turns from one point to the next [rad].
+def turning_angle(a: Node, b: Node) -> float:
+    """Return the angle by which the branch turns from one point to the next [rad].
 
     The larger of the angle between the tangents and twice the angle between tangent and chord,
     equal on an arc of a circle.

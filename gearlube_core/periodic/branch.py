@@ -1,4 +1,4 @@
-"""A branch of periodic motions as it is handed back."""
+"""A branch of periodic motions: the result of a continuation."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Ending = Literal["parameter limit", "closed", "point limit", "step limit", "inte
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SpecialPoint:
-    """A place on a branch where the motion changes its kind.
+    """A point on a branch where stability or the number of solutions changes.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class Branch:
     evaluations: int
 
     def at(self, parameter: float) -> np.ndarray[Any, np.dtype[np.intp]]:
-        """Return the rows at a parameter value that was asked for, in the order of the branch."""
+        """Return the rows at a requested parameter value, in the order of the branch."""
         reach = 1e-6 * float(np.ptp(self.parameter))
         return np.flatnonzero(np.abs(self.parameter - parameter) <= reach)
 
@@ -92,7 +92,7 @@ class Branch:
         return tuple(point for point in self.special if point.kind == kind)
 
     def runs(self) -> list[tuple[slice, bool]]:
-        """Return stretches of rows of one stability, to be drawn with one line style each.
+        """Return ranges of rows of equal stability, for one line style each.
 
         Neighbouring stretches share a row, so that the lines join. Special points belong to
         neither side.

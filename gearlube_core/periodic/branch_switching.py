@@ -1,4 +1,4 @@
-"""From a branch point or period doubling onto the branch that leaves there."""
+"""Switching to the new branch at a branch point or period doubling."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _HALVINGS = 6
 
 
 class BranchStart(NamedTuple):
-    """Where to start `follow` on a new branch: z, p, and the heading away from the old branch."""
+    """Start of `follow` on a new branch: z, p, and the direction away from the old branch."""
 
     unknowns: Array
     parameter: float

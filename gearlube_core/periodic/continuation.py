@@ -10,7 +10,7 @@ import numpy as np
 
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.periodic.arclength import Arc, Node, hermite, turn
+from gearlube_core.periodic.arclength import ArclengthCorrector, Node, hermite, turning_angle
 from gearlube_core.periodic.branch import Branch, Ending
 from gearlube_core.periodic.newton import Correction, NewtonSettings
 from gearlube_core.periodic.problem import Array, PeriodicProblem
@@ -140,7 +140,7 @@ def follow(
     low, high = (value / problem.parameter_scale for value in _checked_limits(limits))
     check_within("parameter", parameter, *limits)
     values = [check_finite("at", value) / problem.parameter_scale for value in at]
-    arc = Arc(problem, settings.newton)
+    arc = ArclengthCorrector(problem, settings.newton)
     node = _first(arc, problem.place(start, parameter), heading)
     recorder = Recorder(arc, node, values, settings.location_tolerance)
     ending: Ending = "point limit"
@@ -148,18 +148,18 @@ def follow(
         outward = node.tangent[-1]
         if (outward > 0.0 and node.place[-1] >= high) or (outward < 0.0 and node.place[-1] <= low):
             ending = "parameter limit"
-        walk = _Walk(arc, node, settings)
+        stepper = _BranchStepper(arc, node, settings)
         while ending == "point limit" and recorder.count < settings.max_points:
-            before, after = walk.node, walk.advance()
+            before, after = stepper.node, stepper.advance()
             if after is None:
                 ending = "step limit"
                 break
             bound = min(max(after.place[-1], low), high)
             if bound != after.place[-1]:
-                landed = recorder.landing(before, after, bound)
+                landed = recorder.point_at_parameter(before, after, bound)
                 ending = "step limit" if landed is None else "parameter limit"
                 after = landed
-            elif walk.steps > 3 and _passes(before, after, node):
+            elif stepper.steps > 3 and _passes(before, after, node):
                 ending, after = "closed", node
             if after is not None:
                 recorder.add(before, after)
@@ -177,7 +177,7 @@ def _checked_limits(limits: tuple[float, float]) -> tuple[float, float]:
     return low, high
 
 
-def _first(arc: Arc, place: Array, heading: float | Array) -> Node:
+def _first(arc: ArclengthCorrector, place: Array, heading: float | Array) -> Node:
     direction = np.zeros(place.size)
     if np.ndim(heading) == 0:
         direction[-1] = heading
@@ -209,10 +209,10 @@ def _passes(a: Node, b: Node, start: Node) -> bool:
     return float(apart @ apart) <= 1e-4 * squared
 
 
-class _Walk:
-    """Steps along a branch with a length that follows what the corrector needs."""
+class _BranchStepper:
+    """Steps along a branch; the step length adapts to the corrector's convergence."""
 
-    def __init__(self, arc: Arc, node: Node, settings: ContinuationSettings) -> None:
+    def __init__(self, arc: ArclengthCorrector, node: Node, settings: ContinuationSettings) -> None:
         self.arc, self.node, self.settings = arc, node, settings
         self.length, self.steps = settings.step, 0
 
@@ -231,7 +231,7 @@ class _Walk:
                 if node is not None:
                     return self._step_to(node)
             else:
-                angle = turn(here, node)
+                angle = turning_angle(here, node)
                 unmoved = unmoved + 1 if angle > 0.8 * refused else 0
                 refused = angle
                 shortest = self.length < 2.0 * self.settings.smallest_step

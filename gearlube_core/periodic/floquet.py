@@ -56,7 +56,7 @@ def floquet_multipliers(monodromy: Array, *, trivial: int = 0) -> Multipliers:
 
 
 def stability_margin(multipliers: Multipliers) -> float:
-    """Return 1 - max |mu| [-]: the least share of a disturbance that is gone after a period.
+    """Return 1 - max |mu| [-]: the smallest decay of a disturbance over one period.
 
     Negative where disturbances grow; one where nothing can be disturbed.
     """
@@ -69,7 +69,7 @@ def stable(multipliers: Multipliers) -> bool:
 
 
 def loss_of_stability(multipliers: Multipliers) -> Loss:
-    """Return through which side of the unit circle the largest multiplier has left.
+    """Return where the largest multiplier has left the unit circle.
 
     `none` while stable; `fold` for a real multiplier above one (a saddle, also beyond a branch
     point), `period doubling` for a real one below minus one, `Neimark-Sacker` for a complex pair.

@@ -1,4 +1,4 @@
-"""Damped Newton's method in the plane through a starting place."""
+"""Damped Newton's method in the plane through a starting point."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Status = Literal[
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewtonSettings:
-    """When Newton's method stops.
+    """Tolerance and limits of Newton's method.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Statement of a periodic motion as equations in a few unknowns and one parameter."""
+"""A periodic motion as a system of equations with one parameter."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PeriodMap = Callable[[Array, float], tuple[Array, Array, Array]]
 
 
 class Evaluation(NamedTuple):
-    """Scaled equations at one place.
+    """Values of the scaled equations at one point.
 
     `place` is (z / unknown scales, p / parameter scale), shape (m + 1,); `equations` the scaled
     residual, shape (m,); `jacobian` its derivative by place, shape (m, m + 1).
@@ -38,7 +38,7 @@ class Evaluation(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PeriodicProblem:
-    """r(z, p) = 0: a state that returns after a period, with any constants that are sought too.
+    """r(z, p) = 0: a state that repeats after a period, and other unknown constants if any.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def fixed_point_residual(period_map: PeriodMap, *, periods: int = 1) -> Residual
         P: maps (z, p) to the state after one period, shape (m,); dP/dz, shape (m, m); dP/dp,
         shape (m,).
     periods
-        How many periods the motion takes to close; 2 finds what comes out of a period doubling.
+        Number of periods after which the motion repeats; 2 for the motion after a period doubling.
 
     Raises
     ------

@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from gearlube_core.periodic.arclength import Arc, Node
+from gearlube_core.periodic.arclength import ArclengthCorrector, Node
 from gearlube_core.periodic.branch import Branch, Ending, SpecialPoint
 from gearlube_core.periodic.floquet import stable
 from gearlube_core.periodic.special_points import Crossing, crossings, locate
 
 
 class Recorder:
-    """Collects the points of a branch, with what lies between them.
+    """Collects the points of a branch, with requested values and special points between them.
 
     Parameters
     ----------
@@ -27,7 +27,9 @@ class Recorder:
         Width [-] within which special points are located.
     """
 
-    def __init__(self, arc: Arc, start: Node, values: Iterable[float], tolerance: float) -> None:
+    def __init__(
+        self, arc: ArclengthCorrector, start: Node, values: Iterable[float], tolerance: float
+    ) -> None:
         self._arc, self._tolerance = arc, tolerance
         self._values = np.unique(np.array(list(values), dtype=np.float64))
         self._nodes: list[Node] = [start]
@@ -43,8 +45,8 @@ class Recorder:
         """P of the last row."""
         return self._arc.problem.unscaled(self._nodes[-1].place)[1]
 
-    def landing(self, a: Node, b: Node, value: float) -> Node | None:
-        """Return the point between two others at a scaled parameter, by either route; or None."""
+    def point_at_parameter(self, a: Node, b: Node, value: float) -> Node | None:
+        """Return the point between two others at a scaled parameter; None if it is not found."""
         if a.place[-1] == value:
             return a
         node = self._arc.at_parameter(a, b, value)
@@ -73,11 +75,11 @@ class Recorder:
         values = self._values[(self._values > low) & (self._values < high)]
         if a.place[-1] > b.place[-1]:
             values = values[::-1]
-        found = (self.landing(a, b, float(value)) for value in values)
+        found = (self.point_at_parameter(a, b, float(value)) for value in values)
         return [node for node in found if node is not None]
 
     def branch(self, ending: Ending) -> Branch:
-        """Return what was collected."""
+        """Return the branch of all collected points."""
         problem = self._arc.problem
         places = np.array([node.place for node in self._nodes])
         gaps = np.linalg.norm(np.diff(places, axis=0), axis=1)

@@ -22,7 +22,7 @@ _CURES = {
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PeriodicMotion:
-    """A periodic motion and how it was found.
+    """A periodic motion with the record of its iteration.
 
     Parameters
     ----------

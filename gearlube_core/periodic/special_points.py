@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.periodic.arclength import Arc, Node
+from gearlube_core.periodic.arclength import ArclengthCorrector, Node
 from gearlube_core.periodic.branch import Kind
 from gearlube_core.periodic.floquet import doubling_test, exchange_test, torus_pair, torus_test
 
@@ -36,7 +36,7 @@ class Crossing(NamedTuple):
     smooth: bool
 
 
-def crossings(arc: Arc, a: Node, b: Node, tolerance: float) -> list[Crossing]:
+def crossings(arc: ArclengthCorrector, a: Node, b: Node, tolerance: float) -> list[Crossing]:
     """Return the special points from a (excluded) to b (included), in the order they are met.
 
     Parameters
@@ -81,8 +81,10 @@ def crossings(arc: Arc, a: Node, b: Node, tolerance: float) -> list[Crossing]:
     return sorted(found, key=lambda crossing: float(chord @ (crossing.node.place - a.place)))
 
 
-def locate(arc: Arc, a: Node, b: Node, test: Test, tolerance: float) -> tuple[Node, float, bool]:
-    """Return the point where a test function changes sign, the bracket's width, and if smoothly.
+def locate(
+    arc: ArclengthCorrector, a: Node, b: Node, test: Test, tolerance: float
+) -> tuple[Node, float, bool]:
+    """Return where a test function changes sign, the bracket's width, and whether smoothly.
 
     The Illinois variant of false position on the cubic between the ends of the bracket, each
     trial corrected onto the branch. If that fails, the better end of the bracket reached so far is

@@ -63,7 +63,7 @@ class AngleWindow:
 def whole_revolutions(
     orders: Sequence[float], minimum: int, *, search: int = 10, resolution: float = 0.5
 ) -> int:
-    """Return the number of revolutions in which every order completes whole cycles best.
+    """Return the number of revolutions for which all orders are closest to whole cycles.
 
     A line of order q falls on a bin of a window of N revolutions when N q is an integer. The
     window is the N in [minimum, minimum + search] with the smallest sum over the orders of the

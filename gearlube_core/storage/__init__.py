@@ -1,1 +1,1 @@
-"""Files written whole or not at all, stored results, worker processes."""
+"""Atomic file writes, stored results, worker processes."""

@@ -1,4 +1,4 @@
-"""Ctrl-C that waits until it does no harm."""
+"""Ctrl-C that takes effect only between tasks."""
 
 from __future__ import annotations
 

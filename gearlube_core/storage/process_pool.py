@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 
 class Pool(Protocol):
-    """Workers that can be opened more than once."""
+    """Interface of workers; they can be opened more than once."""
 
     def open(self, tasks: int) -> AbstractContextManager[Executor | None]:
         """Give an executor for `tasks` tasks; None: run them one by one in this process."""
@@ -76,7 +76,7 @@ def processors() -> int:
 
 
 def single_threaded() -> threadpool_limits:
-    """Limit the linear algebra of this process to one thread; use as a context or for good.
+    """Limit the linear algebra of this process to one thread; in a context or permanently.
 
     Small matrix products lose more time to threads that wait for each other than they gain.
     """

@@ -1,4 +1,4 @@
-"""Finished results on disk, one file each, found by a key that hashes all their inputs."""
+"""Finished results on disk, one file each, under a key that hashes all their inputs."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ logger = logging.getLogger(__name__)
 
 
 class FileFormat(Protocol[Result]):
-    """How one kind of result is written to a file, together with its key."""
+    """Interface of a file format for one kind of result and its key."""
 
     suffix: str
 
@@ -98,7 +98,7 @@ class ResultStore(Generic[Result]):
         return result
 
     def keep(self, key: str, result: Result) -> None:
-        """Write a result so that no reader sees half of it."""
+        """Write a result in one atomic step."""
         if self.folder is not None:
             self.folder.mkdir(parents=True, exist_ok=True)
             self.format.write(self._path(self.folder, key), key, result)

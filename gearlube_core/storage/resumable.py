@@ -1,4 +1,4 @@
-"""Many independent tasks, in parallel, with results that are kept and not computed twice."""
+"""Many independent tasks in parallel; results are stored and not computed twice."""
 
 from __future__ import annotations
 

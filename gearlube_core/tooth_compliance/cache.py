@@ -1,4 +1,4 @@
-"""Compliances kept on disk, found by a hash of everything that decides them."""
+"""Tooth compliances stored on disk under a hash of all their inputs."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def cached_tooth_compliance(
     settings: CondensationSettings,
     folder: Path | str | None = None,
 ) -> tuple[FlankCompliance, FlankCompliance]:
-    """Return `tooth_compliance` of the same arguments, from the disk where it is known.
+    """Return `tooth_compliance` of these arguments, read from the disk if stored there.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def stored_tooth_compliance(
     settings: CondensationSettings,
     folder: Path | str | None = None,
 ) -> tuple[FlankCompliance, FlankCompliance] | None:
-    """Return what `cached_tooth_compliance` would take from the disk, or None."""
+    """Return the stored compliance that `cached_tooth_compliance` would read, or None."""
     store = ResultStore(cache_folder(folder), ARRAYS)
     stored = store.read(compliance_key(geometry, solid, settings))
     return None if stored is None else _flanks(stored, settings)

@@ -3,7 +3,7 @@
     u = H p + W B W^T f,  B = M^-1 (C_fe - C_hs) M^-T,  M_ij = integral hat_i hat_j dA / A_i
 
 H p is the half-space displacement of the fine pressure, f the forces of the fine cells, W their
-bilinear weights on a coarse grid of hats. C_fe - C_hs holds what a half-space does not know
+bilinear weights on a coarse grid of hats. C_fe - C_hs contains what a half-space lacks
 (bending, shear, base, free faces), averaged over hats. M undoes the averaging: B is the projection
 on the hats of the influence function itself (least squares in the area), so that what W
 interpolates is not smoothed twice.
@@ -36,7 +36,7 @@ SIDES = ("left", "right")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CondensationSettings:
-    """How finely a tooth is resolved.
+    """Resolution of a tooth.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class FlankCompliance:
 
 
 def projected(averages: Array, gram: Array) -> Array:
-    """Return M^-1 averages M^-T with M = gram over its rows' sums: undo the hats' averaging."""
+    """Return M^-1 averages M^-T, M = gram over its row sums: inverts the averaging over hats."""
     averaging = gram / gram.sum(axis=1)[:, None]
     once = np.linalg.solve(averaging, averages)
     both = np.linalg.solve(averaging, once.T)

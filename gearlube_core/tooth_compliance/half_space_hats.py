@@ -1,7 +1,7 @@
 """Compliance of hat loads on the elastic half-space, on a flank's true points.
 
-What the flank would do if it were the surface of a half-space; subtracting it from the finite
-elements leaves what a loaded contact with its own half-space solution still lacks.
+This is the compliance of the flank as the surface of a half-space. Subtracting it from the finite
+elements leaves the part that a contact solver with its own half-space solution still needs.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 A long slender mesh, numbered layer by layer, has a block-tridiagonal stiffness. Dense blocks run
 at the speed of BLAS-3, and the products wanted, F^T K^-1 F = (L^-1 F)^T (L^-1 F), need the
-forward elimination only, so no factor is kept.
+forward elimination only, so no factor is stored.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the compliance model knows of one gear member: two flanks, the axis and the rim."""
+"""Geometry of one gear member for the compliance model: two flanks, the axis and the rim."""
 
 from __future__ import annotations
 

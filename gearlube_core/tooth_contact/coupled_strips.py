@@ -1,4 +1,4 @@
-"""Contact of several strips of cells on teeth that bend: one equilibrium of all tooth pairs."""
+"""Contact of several strips of cells on elastic teeth: one equilibrium of all tooth pairs."""
 
 from __future__ import annotations
 

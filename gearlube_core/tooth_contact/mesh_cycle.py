@@ -1,4 +1,4 @@
-"""What the mesh cycles of all gear pairs share: torques, mesh phases, stored positions."""
+"""Shared by the mesh cycles of all gear pairs: torques, mesh phases, stored positions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Position = TypeVar("Position")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshCycleSettings:
-    """Which positions and loads of the mesh are analysed.
+    """Positions and loads of the mesh to analyse.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class MeshCycleSettings:
 
 
 def stack_records(records: Iterable[Record]) -> Record:
-    """Return records of the same arrays as one, each array with a new leading dimension."""
+    """Stack records with equal arrays into one, each array with a new leading dimension."""
     rows = list(records)
     return {name: np.stack([row[name] for row in rows]) for name in rows[0]}
 

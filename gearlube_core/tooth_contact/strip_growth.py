@@ -1,4 +1,4 @@
-"""Loaded contact on strips that are enlarged until they hold it."""
+"""Loaded contact on strips that are enlarged until the whole contact lies inside."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Strips = TypeVar("Strips")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StripGrowth:
-    """How strips are enlarged that contact leaves.
+    """Enlargement of strips that are too small for the contact.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def solve_on_growing_strips(
     where: str,
     cure: str = "",
 ) -> tuple[Strips, CoupledSolution]:
-    """Return the strips that hold the contact, and its equilibrium on them.
+    """Return strips that contain the whole contact, and its equilibrium on them.
 
     Parameters
     ----------

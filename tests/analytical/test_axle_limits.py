@@ -6,10 +6,16 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.mesh_force import backlash_deflection
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from tests.helpers.axle_cases import conservative, operating_point, plain, record, running_axle
+from tests.helpers.axle_cases import (
+    axle_with,
+    conservative,
+    operating_point,
+    plain,
+    record,
+    running_axle,
+)
 
 MESH = plain(shipped_mesh_table("mohammadpour_2015"))
 I_P, I_G = 1734e-6, 5.81e-2  # kg m2, Mohammadpour et al. 2015, Table 1
@@ -45,7 +51,7 @@ def test_axle_on_rigid_bearings_is_the_two_dof_pair():
     differences = []
     for factor in (1e3, 1e5):
         parameters = stiff_bearings(
-            conservative(mohammadpour_2015_axle(mesh=MESH, steps_per_highest_period=30)), factor
+            conservative(axle_with(mesh=MESH, steps_per_highest_period=30)), factor
         )
         axle, *torques = running_axle(60, parameters, efficiency=0.99)
         start = axle.get_state()[0] * 1e-6
@@ -90,7 +96,7 @@ def test_two_dof_pair_on_mean_radii_swings_at_the_natural_frequency_of_the_one_d
     weight = np.where(np.arange(MESH.orders + 1) > 0, 0.15, 1.0)[:, None]
     faint = {key: MESH.series[key] * weight for key in ("k_m", "k_t")}
     mesh = replace(MESH, series=MESH.series | faint)
-    axle = mohammadpour_2015_axle(mesh=mesh, steps_per_highest_period=60, radii="mean")
+    axle = axle_with(mesh=mesh, steps_per_highest_period=60, radii="mean")
     parameters = stiff_bearings(conservative(axle), 1e5)
     axle, pinion_torque, wheel_torque = running_axle(20, parameters, efficiency=1.0)
     # a kick: ten per cent more torque than the static deflection balances

@@ -11,7 +11,7 @@ import pytest
 
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
 from gearlube_core.hypoid_geometry.flank.flank import Flank, ToothRegion
-from gearlube_core.hypoid_geometry.flank.sound_limit import sound_limit
+from gearlube_core.hypoid_geometry.flank.flank_root_limit import flank_root_limit
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 
 FAR = 20.0  # radius of cutter and cradle that stand for a rack [m]
@@ -60,7 +60,7 @@ def s_of(radius):
 
 
 def test_rack_deeper_than_the_limit_undercuts_down_from_the_base_circle(spur_flank):
-    limit = sound_limit(spur_flank, np.array([0.3, 0.5, 0.7]), 1.05 * LIMIT)
+    limit = flank_root_limit(spur_flank, np.array([0.3, 0.5, 0.7]), 1.05 * LIMIT)
     assert limit.undercut.all()
     # rack form 2e-3 (r / FAR) of the tangent's 13.7 mm, squared over the radius: 10 um of 8 mm
     np.testing.assert_allclose(limit.s, s_of(BASE_RADIUS), atol=2e-3)
@@ -69,7 +69,7 @@ def test_rack_deeper_than_the_limit_undercuts_down_from_the_base_circle(spur_fla
 
 def test_shallower_rack_leaves_the_flank_where_its_tip_line_runs(spur_flank):
     tip = 0.8 * LIMIT
-    limit = sound_limit(spur_flank, np.array([0.3, 0.5, 0.7]), tip)
+    limit = flank_root_limit(spur_flank, np.array([0.3, 0.5, 0.7]), tip)
     assert not limit.undercut.any()
     # line of action: tip below the pitch line, tip / tan(alpha) aside
     radius = math.hypot(PITCH_RADIUS - tip, tip / math.tan(ANGLE))

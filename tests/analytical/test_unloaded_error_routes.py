@@ -7,7 +7,7 @@ from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_migration, contact_path
 from gearlube_core.hypoid_contact.ease_off import ease_off
 from gearlube_core.hypoid_contact.placed_flank import placed_sample
-from gearlube_core.hypoid_contact.touching_error import touching_error
+from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from tests.helpers.contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
 
@@ -48,7 +48,7 @@ def test_tangency_and_turning_to_touch_give_one_transmission_error(side, displac
     path = path_on_teeth(side, **displacement)
     inside = path.inside
     assert inside.sum() >= 10
-    found = touching_error(path.pair, path.gear_angle[inside])
+    found = searched_transmission_error(path.pair, path.gear_angle[inside])
     # asked for: 1 urad; the stencils shrink to 1e-5 of the flank
     np.testing.assert_allclose(
         found.error, path.transmission_error[inside], rtol=0.0, atol=0.01 * MICRORADIAN
@@ -65,7 +65,9 @@ def test_edges_touch_after_the_surfaces_beyond_them_would(side):
     angles = np.array([-1.2, 1.5]) * pair.gear_pitch
     path = contact_path(pair, angles)
     assert not path.inside.any()
-    later = pair.touching_sign * (touching_error(pair, angles).error - path.transmission_error)
+    later = pair.touching_sign * (
+        searched_transmission_error(pair, angles).error - path.transmission_error
+    )
     assert (later > 1.0 * MICRORADIAN).all()
 
 

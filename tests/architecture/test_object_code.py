@@ -47,21 +47,19 @@ FREESTANDING = {"memcpy", "memset", "memmove"}
 POINTER = types.CPointer(types.float64)
 
 
-def axle_step(
-    s, trial, h, torque_p, torque_g, oil, levels, series, windows, parameters, control, work, out
-):
+def axle_step(s, trial, h, inputs, levels, series, windows, parameters, control, work, out):
     return COMMUNICATION_STEP(
         array_at(s, N_STATE),
         array_at(trial, N_STATE),
         h,
-        torque_p,
-        torque_g,
-        oil,
-        array_at(levels, LEVELS),
-        array_at(series, SERIES),
-        ORDERS,
-        array_at(windows, WINDOWS),
-        NODES,
+        array_at(inputs, 3),
+        (
+            array_at(levels, LEVELS),
+            array_at(series, SERIES),
+            ORDERS,
+            array_at(windows, WINDOWS),
+            NODES,
+        ),
         array_at(parameters, N_PARAMETERS),
         array_at(control, N_CONTROL),
         array_at(work, WORK),
@@ -85,7 +83,7 @@ def undefined_in_object(code: bytes) -> set[str]:
 
 
 def test_axle_step_needs_nothing_but_libm():
-    signature = types.int64(*2 * [POINTER], *4 * [types.float64], *7 * [POINTER])
+    signature = types.int64(*2 * [POINTER], types.float64, *8 * [POINTER])
     code, declared = lower_to_object(axle_step, signature, "gearlube_axle_step")
     wanted = undefined_in_object(code)
     assert wanted <= LIBM | FREESTANDING

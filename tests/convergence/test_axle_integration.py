@@ -8,6 +8,7 @@ from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axl
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, X
 from tests.helpers.axle_cases import (
     OIL,
+    axle_with,
     conservative,
     operating_point,
     output,
@@ -45,7 +46,7 @@ def test_step_halving_shows_fourth_order():
 @pytest.mark.parametrize("speed_kmh", [20, 60, 100])
 def test_default_steps_are_accurate_to_a_ten_thousandth_of_the_oscillation(speed_kmh):
     default = dte(speed_kmh, mohammadpour_2015_axle(), 0.25)[1000:]
-    fine = mohammadpour_2015_axle(steps_per_highest_period=160, steps_per_mesh_period=320)
+    fine = axle_with(steps_per_highest_period=160, steps_per_mesh_period=320)
     reference = dte(speed_kmh, fine, 0.25)[1000:]
     # the documented accuracy; 160 steps are another (22/160)^4 = 4e-4 of the error away
     assert np.max(np.abs(default - reference)) <= 1e-4 * np.ptp(reference)
@@ -62,7 +63,7 @@ def test_result_does_not_depend_on_the_communication_step():
 
 @pytest.mark.parametrize("speed_kmh", [20, 100])
 def test_rk4_agrees_with_dop853_on_the_same_right_hand_side(speed_kmh):
-    axle, *torques = running_axle(speed_kmh, mohammadpour_2015_axle(bearing_torque_loss="none"))
+    axle, *torques = running_axle(speed_kmh, axle_with(bearing_torque_loss="none"))
     record(axle, torques, ["mesh.dte"], 0.05)
     start = axle.get_state()[:N_ODE]
     times = np.arange(1, 201) * STEP
@@ -87,7 +88,7 @@ def test_separating_teeth_converge_at_the_order_of_a_kink():
     load = (1.2, 1.2 * 36 / 13)
 
     def run(steps):
-        parameters = mohammadpour_2015_axle(
+        parameters = axle_with(
             steps_per_highest_period=steps, bearing_torque_loss="none", friction="off"
         )
         axle = HypoidAxle(parameters)

@@ -64,7 +64,7 @@ def test_a_step_from_another_time_is_discarded(host: Host, time: float) -> None:
 
 def test_a_step_before_initialisation_is_discarded(host: Host) -> None:
     assert host.step() == DISCARD
-    assert "must be in phase STEPPING, is in INSTANTIATED" in host.messages("logStatusDiscard")
+    assert "must be in state STEPPING, is in INSTANTIATED" in host.messages("logStatusDiscard")
 
 
 @pytest.mark.parametrize(
@@ -138,7 +138,7 @@ def test_initialising_twice_is_fatal_and_the_model_stays_ready(host: Host) -> No
     assert host.status("exitInitializationMode") == FATAL
     host.start()
     assert host.status("enterInitializationMode") == FATAL
-    assert "must be in phase INSTANTIATED, is in STEPPING" in host.messages("logStatusFatal")
+    assert "must be in state INSTANTIATED, is in STEPPING" in host.messages("logStatusFatal")
     assert host.step() == OK
 
 

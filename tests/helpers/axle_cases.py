@@ -1,6 +1,7 @@
 """Operating points and stripped-down axles that several tests share."""
 
 from dataclasses import replace
+from inspect import signature
 
 import numpy as np
 
@@ -34,6 +35,13 @@ def running_axle(speed_kmh, parameters=None, efficiency=0.96):
         oil_temperature=OIL,
     )
     return axle, pinion_torque, wheel_torque
+
+
+def axle_with(**settings):
+    """Parameters of the paper's axle with arguments of its own and fields replaced, by name."""
+    own = signature(mohammadpour_2015_axle).parameters
+    axle = mohammadpour_2015_axle(**{name: settings.pop(name) for name in own if name in settings})
+    return replace(axle, **settings)
 
 
 def conservative(parameters, **changes):

@@ -7,7 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.film.line_film_law import LineFilmLaw, law_of_line_film
+from gearlube_core.film.line_film_law import LineFilmLaw, power_law_line_film
 from gearlube_core.friction.flank_data import FlankState
 from gearlube_core.kernels.jit import kernel
 
@@ -28,7 +28,7 @@ class ConstantFriction(NamedTuple):
     @kernel
     def flank_state(self, load, entrainment_speed, sliding_speed, geometry, oil):
         F = max(load, 1.0)
-        film = law_of_line_film(
+        film = power_law_line_film(
             MARTIN,
             geometry.R_e,
             oil.eta0,

@@ -9,11 +9,12 @@ from typing import Any
 
 from fmu_src import build, helical_pair, hypoid_axle
 from fmu_src.definition import Definition
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
+from tests.helpers.axle_cases import axle_with
+from tests.helpers.helical_march_cases import march_of
 
 H = 2.0**-10  # s; exact in binary, so that t + h is exact too
 
@@ -95,7 +96,7 @@ class Case:
 
 def helical(gear_name: str = "he_2007", stiffness_model: str = "uniform", **settings: Any) -> Any:
     mesh = named_line_mesh(gear_name) if stiffness_model == "line_mesh" else None
-    return helical_march(HelicalGearFile.named(gear_name), line_mesh=mesh, **settings)
+    return march_of(HelicalGearFile.named(gear_name), line_mesh=mesh, **settings)
 
 
 def settings_of(definition: Definition) -> dict[str, str]:
@@ -108,7 +109,7 @@ HYPOID_AXLE = Case(
     build=build.build_hypoid_axle,
     snapshot="value_references.json",
     arguments=settings_of(hypoid_axle.DEFINITION),
-    parameters=mohammadpour_2015_axle,
+    parameters=axle_with,
     model=HypoidAxle,
     changed={"bearing.preload": 4000.0, "oil.name": 2, "pinion.speed_start": 150.0},
     reals={

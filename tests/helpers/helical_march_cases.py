@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
+    ReplacedBearings,
+    helical_march_parameters,
+)
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.output_names import ENERGIES, OUTPUT_INDEX
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
@@ -24,7 +27,18 @@ PERIOD = 2.0 * math.pi / (25.0 * SPEED)  # s, of the mesh
 
 def he_march(**settings: Any) -> HelicalMarchParameters:
     """The pair with Coulomb friction unless set otherwise."""
-    return helical_march(HelicalGearFile.named("he_2007"), **{"friction": "constant"} | settings)
+    return march_of(HelicalGearFile.named("he_2007"), **{"friction": "constant"} | settings)
+
+
+def march_of(gear: HelicalGearFile, **settings: Any) -> HelicalMarchParameters:
+    """The pair with its arguments, bearings and fields replaced, by name."""
+
+    def taken(*names: str) -> dict[str, Any]:
+        return {name: settings.pop(name) for name in names if name in settings}
+
+    bearings = ReplacedBearings(**taken(*(f.name for f in fields(ReplacedBearings))))
+    own = taken("line_mesh", "stiffness_density", "oil")
+    return replace(helical_march_parameters(gear, bearings=bearings, **own), **settings)
 
 
 def started(

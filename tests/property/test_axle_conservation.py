@@ -7,7 +7,7 @@ import pytest
 
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, linearise, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, U_G, U_P, V_G, V_P, W_G, W_P
-from tests.helpers.axle_cases import OIL, conservative, output, record, running_axle
+from tests.helpers.axle_cases import OIL, axle_with, conservative, output, record, running_axle
 
 ENERGIES = ["energy.pinion_work", "energy.wheel_work", "energy.stored"]
 LOSSES = [
@@ -22,7 +22,7 @@ LOSSES = [
 @pytest.mark.parametrize("speed_kmh", [20, 100])
 @pytest.mark.parametrize("radii", ["consistent", "paper", "mean"])
 def test_axle_without_losses_conserves_energy(speed_kmh, radii):
-    parameters = conservative(mohammadpour_2015_axle(radii=radii, steps_per_highest_period=250))
+    parameters = conservative(axle_with(radii=radii, steps_per_highest_period=250))
     axle, *torques = running_axle(speed_kmh, parameters, efficiency=0.99)
     start = output(axle, "energy.stored")
     put_in, taken_out, stored = record(axle, torques, ENERGIES, 0.2)
@@ -33,9 +33,7 @@ def test_axle_without_losses_conserves_energy(speed_kmh, radii):
 
 
 def test_conservation_would_notice_a_missing_term():
-    parameters = conservative(
-        mohammadpour_2015_axle(equations="as_printed", steps_per_highest_period=250)
-    )
+    parameters = conservative(axle_with(equations="as_printed", steps_per_highest_period=250))
     axle, *torques = running_axle(20, parameters, efficiency=0.99)
     start = output(axle, "energy.stored")
     put_in, taken_out, stored = record(axle, torques, ENERGIES, 0.004)
@@ -46,7 +44,7 @@ def test_conservation_would_notice_a_missing_term():
 @pytest.mark.parametrize("speed_kmh", [20, 60, 100])
 def test_losses_account_for_all_energy_with_friction_and_damping_on(speed_kmh):
     # roller films breathe with the shaft speed without a counter-torque: off here
-    parameters = mohammadpour_2015_axle(steps_per_highest_period=60)
+    parameters = axle_with(steps_per_highest_period=60)
     parameters = replace(parameters, bearing=replace(parameters.bearing, film="off"))
     axle, *torques = running_axle(speed_kmh, parameters)
     start = output(axle, "energy.stored")
@@ -60,7 +58,7 @@ def test_losses_account_for_all_energy_with_friction_and_damping_on(speed_kmh):
 @pytest.mark.parametrize("speed_kmh", [20, 60, 100])
 @pytest.mark.parametrize("friction", ["consistent", "as_printed"])
 def test_no_loss_is_ever_negative(speed_kmh, friction):
-    axle, *torques = running_axle(speed_kmh, mohammadpour_2015_axle(friction=friction))
+    axle, *torques = running_axle(speed_kmh, axle_with(friction=friction))
     data = record(axle, torques, LOSSES, 0.1)
     # roundings of sums of about 100 J
     assert np.min(np.diff(data, axis=1)) >= -1e-13
@@ -131,7 +129,7 @@ def test_linear_stiffness_is_symmetric(preload):
 
 
 def test_printed_signs_make_the_stiffness_asymmetric():
-    axle, *torques = running_axle(60, mohammadpour_2015_axle(equations="as_printed"))
+    axle, *torques = running_axle(60, axle_with(equations="as_printed"))
     K = linearise(axle, OIL, torques[0]).stiffness
     torsion_to_lateral = K[0, 2:]
     lateral_to_torsion = K[2:, 0]
@@ -158,7 +156,7 @@ def test_flank_loads_sum_to_the_mesh_force(speed_kmh):
 
 
 def test_static_start_is_an_equilibrium_of_the_shafts():
-    axle, *_ = running_axle(60, conservative(mohammadpour_2015_axle(radii="mean")))
+    axle, *_ = running_axle(60, conservative(axle_with(radii="mean")))
     slope = axle.derivative(axle.get_state()[:N_ODE])
     # k_m varies with the angle about the mean that the start uses: up to 6 % of F = 1900 N
     limit = 0.08 * 1900.0 / np.array(3 * [12.0] + 3 * [49.9])

@@ -5,8 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import blend_mesh, follow_flank
+from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+    MeshAtLoad,
+    MeshLevels,
+    blend_mesh,
+    follow_flank,
+)
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     PHI_G,
@@ -23,6 +28,7 @@ from gearlube_core.mesh_table.table import MeshTable
 from tests.helpers.axle_cases import (
     OIL,
     RATIO,
+    axle_with,
     conservative,
     output,
     plain,
@@ -48,7 +54,7 @@ LOSSES = (
 
 def axle_of(mesh, torque=DRIVING, lossless=False, steps=120, **options):
     # roller films breathe with the shaft speed without a counter-torque: off here
-    parameters = mohammadpour_2015_axle(mesh=mesh, steps_per_highest_period=steps, **options)
+    parameters = axle_with(mesh=mesh, steps_per_highest_period=steps, **options)
     parameters = replace(parameters, bearing=replace(parameters.bearing, film="off"))
     axle = HypoidAxle(conservative(parameters) if lossless else parameters)
     axle.initialise(
@@ -108,14 +114,16 @@ def followed(x_um, side, backlash):
     """Position and side [um, -] after the table has followed the flanks, mean k_m before, after."""
     axle = axle_of(TWO_SIDED, backlash=backlash)
     mesh = axle.packed
-    both = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
-    series, window = np.zeros(mesh.series_size), np.zeros(mesh.window_size)
+    table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+    at_load = MeshAtLoad(
+        np.zeros(mesh.series_size), mesh.orders, np.zeros(mesh.window_size), mesh.nodes
+    )
     s = np.array(axle.state_view)
     s[X], s[SIDE] = x_um, side
-    blend_mesh(s[LOAD_TORQUE], side, *both, series, window)
-    before = mesh_series(series, mesh.orders, 13.0, s[PHI_P]).k_m
-    follow_flank(s, *both, axle.kernel_parameters, series, window)
-    return s[X], s[SIDE], before, mesh_series(series, mesh.orders, 13.0, s[PHI_P]).k_m
+    blend_mesh(s[LOAD_TORQUE], side, table, at_load)
+    before = mesh_series(at_load.series, mesh.orders, 13.0, s[PHI_P]).k_m
+    follow_flank(s, table, axle.kernel_parameters, at_load)
+    return s[X], s[SIDE], before, mesh_series(at_load.series, mesh.orders, 13.0, s[PHI_P]).k_m
 
 
 @pytest.mark.parametrize(("x", "side"), [(-4.0, 1.0), (4.0, -1.0)])

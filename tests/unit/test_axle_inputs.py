@@ -12,7 +12,7 @@ from gearlube_core.dynamics.hypoid_axle import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
-from tests.helpers.axle_cases import OIL, running_axle
+from tests.helpers.axle_cases import OIL, axle_with, running_axle
 
 START = {
     "pinion_speed": 145.0,
@@ -55,7 +55,7 @@ def axle(shared):
 )
 def test_a_parameter_out_of_range_says_what_limit_and_cure(change, message):
     with pytest.raises(ParameterError, match=message):
-        mohammadpour_2015_axle(**change)
+        axle_with(**change)
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def test_a_parameter_out_of_range_says_what_limit_and_cure(change, message):
 )
 def test_an_unknown_option_is_refused_with_the_choices(option, choices):
     with pytest.raises(ParameterError, match=f"{option} must be one of {choices}; got 'magic'"):
-        mohammadpour_2015_axle(**{option: "magic"})
+        axle_with(**{option: "magic"})
 
 
 def test_an_unknown_oil_is_refused_with_the_oils_there_are():

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numba.core.dispatcher import Dispatcher
 
-from gearlube_core.bearings import bearing_type, shaft_expansion
+from gearlube_core.bearings import bearing_type, cage_frame, shaft_expansion
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.dynamics import flank_force, hypoid_axle, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
@@ -20,7 +20,6 @@ from gearlube_core.dynamics.hypoid_axle import (
     integrate,
     mesh_at_load,
     mesh_force,
-    mohammadpour_2015_axle,
     outputs,
     rhs,
 )
@@ -42,7 +41,7 @@ from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table import kernels
 from gearlube_core.oil.lubricant_state import lubricant_state
-from tests.helpers.axle_cases import OIL, running_axle, with_coast_flanks
+from tests.helpers.axle_cases import OIL, axle_with, running_axle, with_coast_flanks
 
 AXLE, TORQUE_P, TORQUE_G = running_axle(60)
 for _ in range(20):
@@ -51,9 +50,7 @@ STATE = AXLE.get_state()[:N_STATE]
 MESH = AXLE.packed
 P = AXLE.kernel_parameters
 PRINTED = HypoidAxle(
-    mohammadpour_2015_axle(
-        equations="as_printed", friction="as_printed", mesh_damping="modal", radii="paper"
-    )
+    axle_with(equations="as_printed", friction="as_printed", mesh_damping="modal", radii="paper")
 ).kernel_parameters
 STATE_OF_OIL = lubricant_state(P.oil, OIL)
 INPUTS = integrate.step_inputs(STATE, TORQUE_P, TORQUE_G, STATE_OF_OIL, P)
@@ -71,7 +68,8 @@ SLOPE = np.zeros(N_ODE)
 rhs.axle_rhs(STATE, INPUTS, *AT_LOAD, P, 1.0, 1.0, SCRATCH, SLOPE)
 MOTION = bearing_type.ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
 MOVED = bearing_type.ShaftMotion(3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0)
-LOOP = (12, 10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0, 0.7, 3e-5, 40.0, 3e-5, 0.0)
+TERMS = cage_frame.ApproachTerms(10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0)
+LOOP = (12, TERMS, 0.7, 3e-5, 40.0, 3e-5, 0.0)
 EXPANSION = np.zeros(bearing_type.N_EXPANSION)
 shaft_expansion.expand_shaft_bearings(MOTION, 300.0, 0.0171, 2.4e-8, P.bearing_p, EXPANSION)
 SEPARATED = STATE.copy()
@@ -206,13 +204,16 @@ CASES += [
     (
         COMPILED.communication_step,
         (
-            STATE, zeros(N_STATE), 1e-4, *TORQUES, OIL, *TABLE, flatten(P), flatten(CONTROL),
-            WORK, zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
+            STATE, zeros(N_STATE), 1e-4, np.array([*TORQUES, OIL]), tuple(TABLE), flatten(P),
+            flatten(CONTROL), WORK, zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
         ),
     ),
     (
         COMPILED.outputs,
-        (STATE, *TORQUES, OIL, *TABLE, flatten(P), WORK, zeros(ROLLERS_MAX), zeros(N_OUTPUTS)),
+        (
+            STATE, np.array([*TORQUES, OIL]), tuple(TABLE), flatten(P), WORK,
+            zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
+        ),
     ),
 ]  # fmt: skip
 

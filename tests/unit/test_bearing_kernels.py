@@ -26,6 +26,7 @@ from gearlube_core.film import mostofi_gohar_1983 as film
 P = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()
 OIL = (0.0171, 2.383e-8)
 MOTION = ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
+ROTOR = rotor_kernels.Rotor(50.0, 1500.0, 209.0, 159.0, *OIL, P)
 SHAFT = (MOTION, 300.0, *OIL, P)
 CASES = [
     (film.squeeze_factor, (1e-3, 2.0)),
@@ -72,12 +73,12 @@ def test_compiled_rotor_equals_its_source():
     for function in (rotor_kernels.rotor_history, rotor_kernels.rotor_history.py_func):
         states, loads = np.zeros((5, 6)), np.zeros((5, 12))
         s = np.array([1e-6, 0, 0, 1e-3, 0, 0])
-        args = (s, 1e-5, 2, 209.0, 159.0, 50.0, 1500.0, *OIL, P, states, loads, np.zeros((5, 6)))
+        args = (s, 1e-5, 2, ROTOR, states, loads, np.zeros((5, 6)))
         assert function(*args) == 0
         results.append(np.append(states.ravel() / (np.abs(states).max(axis=0).sum()), loads))
     assert results[0] == pytest.approx(results[1], rel=1e-12, abs=1e-15)
     rate = np.zeros((2, 6))
-    args = (s, 0.1, 209.0, 159.0, 50.0, 1500.0, *OIL, P)
+    args = (s, 0.1, ROTOR)
     rotor_kernels.rotor_rate(*args, rate[0])
     rotor_kernels.rotor_rate.py_func(*args, rate[1])
     assert rate[0] == pytest.approx(rate[1], rel=1e-13)

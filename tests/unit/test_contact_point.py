@@ -14,11 +14,11 @@ from gearlube_core.hypoid_contact.contact_point import (
     solve_in_place,
 )
 from gearlube_core.hypoid_contact.ease_off import ease_off
-from gearlube_core.hypoid_contact.first_touch import first_touch
+from gearlube_core.hypoid_contact.first_contact_point import first_contact_point
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample, tooth_position
 from gearlube_core.hypoid_contact.placement import Misalignment, place_direction, place_point
-from gearlube_core.hypoid_contact.touching_error import touching_error
+from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
 from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from tests.helpers.contact_cases import SIDES, shipped_file, shipped_pair
@@ -46,7 +46,7 @@ def test_elimination_tells_a_singular_matrix():
 
 def start_of_search(side):
     pair = shipped_pair(side)
-    touch = first_touch(pair, 0.0)
+    touch = first_contact_point(pair, 0.0)
     x = np.concatenate([touch.gear_parameters, touch.pinion_parameters, [touch.pinion_turn]])
     facing = -pair.gear.outward * pair.pinion.outward
     motions = pair.gear.motion, pair.pinion.motion
@@ -128,13 +128,15 @@ def test_members_that_do_not_reach_each_other_say_so():
 def test_sawtooth_errors_name_the_route_that_finds_them():
     field = "pinion.cutter.concave_flank_angle_correction_deg"
     pair = FlankPair.from_file(shipped_file().varied({field: 0.0}), "drive")
-    with pytest.raises(ParameterError, match=r"sawtooth \(touching_error"):
+    with pytest.raises(ParameterError, match=r"sawtooth \(searched_transmission_error"):
         unloaded_error(pair)
 
 
-def test_a_pair_out_of_mesh_has_no_touching_error():
+def test_a_pair_out_of_mesh_has_no_searched_transmission_error():
     pair = shipped_pair("drive")
-    assert np.isnan(touching_error(pair, np.array([-3.0, 3.0]) * pair.gear_pitch).error).all()
+    assert np.isnan(
+        searched_transmission_error(pair, np.array([-3.0, 3.0]) * pair.gear_pitch).error
+    ).all()
 
 
 def test_contact_is_not_a_number_where_the_search_ends():

@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 from gearlube_core.dynamics.helical_pair.gear_file_pair import iso_mesh
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
+    ReplacedBearings,
+    helical_march_parameters,
+)
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.output_names import (
     LINES_MAX,
@@ -40,7 +43,7 @@ LINES = [f"line[{i}].load" for i in range(1, LINES_MAX + 1)]
 @pytest.mark.parametrize("name", ["he_2007", "jamali_2015_a", "jamali_2015_b"])
 def test_every_shipped_pair_runs_steadily_in_contact(name: str, friction: str) -> None:
     gear = HelicalGearFile.named(name)
-    parameters = helical_march(gear, friction=friction)
+    parameters = replace(helical_march_parameters(gear), friction=friction)
     operation = gear.operation
     torque = operation.pinion_torque_n_m
     model = HelicalPairModel(parameters)
@@ -159,20 +162,20 @@ def test_wrong_parameters_are_named(settings: dict[str, object], message: str) -
 def test_a_mesh_of_another_pair_is_refused() -> None:
     other = iso_mesh(HelicalGearFile.named("jamali_2015_a").helical_pair())
     with pytest.raises(ParameterError, match="mesh must belong to the pair of 25 and 31 teeth"):
-        helical_march(HelicalGearFile.named("he_2007"), line_mesh=other)
+        helical_march_parameters(HelicalGearFile.named("he_2007"), line_mesh=other)
 
 
 def test_a_line_mesh_and_a_density_exclude_each_other() -> None:
     gear = HelicalGearFile.named("he_2007")
     mesh = named_line_mesh("he_2007")
     with pytest.raises(ParameterError, match="must be 0 with a line mesh"):
-        helical_march(gear, line_mesh=mesh, stiffness_density=1e10)
+        helical_march_parameters(gear, line_mesh=mesh, stiffness_density=1e10)
 
 
 def test_the_loaded_contact_analysis_carries_the_torque_at_its_own_error() -> None:
     """Load and mean deflection of the shipped mesh at one of its levels, the energy closed."""
     mesh = named_line_mesh("he_2007")
-    model = started(helical_march(HelicalGearFile.named("he_2007"), line_mesh=mesh, friction="off"))
+    model = started(he_march(line_mesh=mesh, friction="off"))
     before = energies(model)
     rows = history(model, ["mesh.load", "mesh.separated"], 200, PERIOD / 10)
     pair = model.parameters.pair
@@ -187,9 +190,9 @@ def test_a_gear_without_bearings_needs_them_from_elsewhere() -> None:
         {"pinion.bearing_1": None, "pinion.bearing_2": None, "completed": {}}
     )
     with pytest.raises(ParameterError, match=r"pinion\.bearing_1 is missing"):
-        helical_march(bare)
-    given = {"radial_stiffness": 2e9, "axial_stiffness": 1e9, "bearing_distance": 0.06}
-    support = helical_march(bare, **given).pinion.support
+        helical_march_parameters(bare)
+    given = ReplacedBearings(radial_stiffness=2e9, axial_stiffness=1e9, bearing_distance=0.06)
+    support = helical_march_parameters(bare, bearings=given).pinion.support
     assert (support.first.K_xx, support.second.K_zz) == (1e9, 5e8)
     assert (support.first.position, support.second.position) == (0.06, -0.06)
 

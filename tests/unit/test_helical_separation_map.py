@@ -29,6 +29,7 @@ from gearlube_core.dynamics.helical_pair.separation.march import (
     march_work,
     separating_rates,
 )
+from gearlube_core.dynamics.helical_pair.separation.points import StagePoints
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
 from tests.helpers.separation_cases import crowned_mesh, separating_pair
@@ -84,9 +85,10 @@ def test_accelerations_are_those_of_the_twelve_coordinates():
         q, v = z[:n, None].copy(), z[n:, None].copy()
         a, rate = np.zeros((n, 1)), np.zeros((n, 1))
         _, touching = separating_rates(
-            q, v, p.pinion_torque, 1.0, table.points[step, 1], table.used[step, 1],
-            table.total[step, 1], problem.system, np.zeros((2, 1)), np.zeros((N_ROWS, 1)),
-            np.zeros((N_ROWS, N_BY)), a, rate,
+            q, v, p.pinion_torque, 1.0,
+            StagePoints(table.points[step, 1], table.used[step, 1], table.total[step, 1]),
+            problem.system, np.zeros((2, 1)), np.zeros((N_ROWS, 1)), np.zeros((N_ROWS, N_BY)),
+            a, rate,
         )  # fmt: skip
         rows = relative_rows(p)
         # psi all in the pinion: only the sum counts

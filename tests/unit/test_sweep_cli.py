@@ -5,8 +5,8 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from gearlube import command as cli
+from gearlube.cli.multi_value_options import repeat_flags
 from gearlube.cli.ranges import numbers_from
-from gearlube.cli.spread_values import spread
 from gearlube.studies.sweep import report as sweep_report
 from gearlube.studies.sweep import run as sweep_run
 from gearlube_core import __version__
@@ -47,12 +47,12 @@ def test_preloads_may_follow_one_flag_or_one_flag_each(calls):
 
 
 def test_values_are_spread_only_over_the_flags_that_take_several():
-    assert spread(["--preload", "1", "2", "--out", "3", "4"], FLAGS) == [
+    assert repeat_flags(["--preload", "1", "2", "--out", "3", "4"], FLAGS) == [
         *("--preload", "1", "--preload", "2", "--out", "3", "4")
     ]
-    assert spread(["--preload", "1", "x", "2"], FLAGS) == ["--preload", "1", "x", "2"]
-    assert spread(["--preload", "--out", "2"], FLAGS) == ["--preload", "--out", "2"]
-    assert spread(["--speeds", "20:40:10", "55"], FLAGS) == [
+    assert repeat_flags(["--preload", "1", "x", "2"], FLAGS) == ["--preload", "1", "x", "2"]
+    assert repeat_flags(["--preload", "--out", "2"], FLAGS) == ["--preload", "--out", "2"]
+    assert repeat_flags(["--speeds", "20:40:10", "55"], FLAGS) == [
         *("--speeds", "20:40:10", "--speeds", "55")
     ]
 

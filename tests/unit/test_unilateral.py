@@ -209,9 +209,9 @@ def kernel_arguments(name: str) -> tuple[Any, ...]:
     residual, direction, probe, product, displacement, gap = random.standard_normal((6, 9))
     arm = 1.0 + random.random(9)
     return {
-        "separate": (forces, displacement, gap, arm, math.nan, residual),
-        "turn": (forces, residual, arm, 0.4, True, direction, probe),
-        "turn_to_penetration": (forces, residual, arm, True, direction, probe),
+        "update_separation": (forces, displacement, gap, arm, math.nan, residual),
+        "conjugate_direction": (forces, residual, arm, 0.4, True, direction, probe),
+        "direction_with_penetration": (forces, residual, arm, True, direction, probe),
         "step_length": (residual, direction, probe, product),
         "longest_step": (forces, probe),
         "project": (forces, probe, arm, 0.7, 2.5),
@@ -220,7 +220,14 @@ def kernel_arguments(name: str) -> tuple[Any, ...]:
 
 @pytest.mark.parametrize(
     "name",
-    ["separate", "turn", "turn_to_penetration", "step_length", "longest_step", "project"],
+    [
+        "update_separation",
+        "conjugate_direction",
+        "direction_with_penetration",
+        "step_length",
+        "longest_step",
+        "project",
+    ],
 )
 def test_unilateral_kernels_run_the_same_compiled_and_in_python(name: str) -> None:
     function = getattr(kernels, name)

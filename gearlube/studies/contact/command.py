@@ -13,9 +13,9 @@ from rich.console import Console
 from rich.table import Table
 
 from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import JobsOption
 from gearlube.cli.progress_report import progress_on
-from gearlube.cli.spread_values import SpreadingCommand
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.contact.summary import ContactSummary
@@ -24,10 +24,10 @@ logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
 
 
-class ContactCommand(SpreadingCommand):
-    """Takes several torques after one option."""
+class ContactCommand(MultiValueCommand):
+    """A command whose option `--torques` takes several numbers."""
 
-    spreading = frozenset({"--torques"})
+    multi_value = frozenset({"--torques"})
 
 
 def contact(

@@ -1,4 +1,4 @@
-"""Tooth contact of a hypoid pair as a library call: from a gear file to dataset and mesh table."""
+"""Analyse the tooth contact of a hypoid pair: from a gear file to a dataset and a mesh table."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ POSITIONS = "positions"  # folder of finished positions, in that of the results
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactResults:
-    """What a tooth contact analysis found.
+    """Results of a tooth contact analysis.
 
     Parameters
     ----------

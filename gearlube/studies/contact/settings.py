@@ -1,4 +1,4 @@
-"""What a tooth contact analysis is asked for."""
+"""Settings of a tooth contact analysis."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The main numbers of a tooth contact analysis, and what is unsound about its gear file."""
+"""Main numbers of a tooth contact analysis, and warnings about its gear file."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def contact_summary(contact: xr.Dataset) -> list[ContactSummary]:
 
 
 def gear_file_warnings(file: HypoidGearFile) -> list[str]:
-    """Return what is unsound about the machine settings and the teeth, one sentence each.
+    """Return warnings about the machine settings and the teeth, one sentence each.
 
     Raises
     ------

@@ -1,9 +1,9 @@
-"""The study of lubricated films: solve a case, get a dataset, write files and figures if wanted.
+"""The study of lubricated films: solve a case, return a dataset, optionally write files.
 
-One call for each kind of film; all report their progress and return an `xarray.Dataset`, whose
-attribute `converged` is 1 or 0 and whose attribute `outcome` says in a sentence how it ended:
+There is one function for each kind of film. Each returns an `xarray.Dataset` whose
+attribute `converged` is 1 or 0; its attribute `outcome` states the result in a sentence:
 
-- `run_steady.run_line`, `run_point`, `run_helical_line`: a film at rest;
+- `run_steady.run_line`, `run_point`, `run_helical_line`: a steady film;
 - `run_march.run_helical_march`: a helical pair's film in time;
 - `run_hypoid.run_hypoid`: the films of a hypoid tooth pair, steady and in time;
 - `compare.compare_marches`: several marches of helical pairs in one figure.
@@ -15,7 +15,7 @@ attribute `converged` is 1 or 0 and whose attribute `outcome` says in a sentence
 >>> film.attrs["converged"]
 1
 
-With `folder` given a run also writes NetCDF, summary and figures; `results.write_film_results`
-does the same with any of these datasets. A film needs no case: see `gearlube_core.ehl` for the
-solvers, and `datasets` for the datasets of their solutions.
+If `folder` is given, NetCDF, summary and figures are written too. `results.write_film_results`
+does the same for a dataset. To solve a film without a case file, see `gearlube_core.ehl` for the
+solvers and `datasets` for turning their solutions into datasets.
 """

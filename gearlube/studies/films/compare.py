@@ -40,6 +40,22 @@ def compare_marches(
     ------
     ParameterError
         A folder holds no march, or the exponent is out of range.
+
+    Examples
+    --------
+    >>> from gearlube.studies.films.helical_case import HelicalLineCase
+    >>> from gearlube.studies.films.run_march import MarchSteps, run_helical_march
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> gears = HelicalGearFile.named("jamali_2015_a")
+    >>> marches = {
+    ...     name: run_helical_march(
+    ...         HelicalLineCase(file=gears, nodes=(33, 49), newtonian=newtonian),
+    ...         MarchSteps(first=300, last=301),
+    ...     )
+    ...     for name, newtonian in (("Eyring", False), ("Newtonian", True))
+    ... }
+    >>> compare_marches(marches).sizes["march"]
+    2
     """
     check_within("film_exponent", film_exponent, -5.0, 5.0)
     cycles = {

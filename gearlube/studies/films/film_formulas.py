@@ -1,4 +1,4 @@
-"""Published film formulas beside a computed film, each where it has a meaning."""
+"""Published film formulas for comparison with a computed film, where they apply."""
 
 from __future__ import annotations
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
-from gearlube_core.ehl.gears.helical_film import GRADINGS, JAMALI_2015_MODULUS, HelicalFilm
+from gearlube_core.ehl.gears.helical_film import GRADINGS, HelicalFilm
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.meshing_steps import (
     MeshingSteps,
-    jamali_2015_steps,
+    gear_file_steps,
     line_at_position,
     meshing_steps,
     position_of_line,
@@ -23,13 +23,11 @@ from gearlube_core.units import rpm_to_rads
 
 _STEEL = contact_modulus(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
 _STEP, _SMALLEST_SHARE = 0.04e-3, 0.16  # m, 1: [jamali_2015 sec. 4.4]
-# the thesis' own steps and E*, so that its step numbers name its positions
-_THESIS = {"jamali_2015_a": "a", "jamali_2015_b": "b"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HelicalLineCase:
-    """A contact line at rest at one position of its cycle.
+    """A contact line at one position of its cycle, for a steady film.
 
     Parameters
     ----------
@@ -57,6 +55,13 @@ class HelicalLineCase:
     ------
     ParameterError
         Something is missing, given twice or out of range.
+
+    Examples
+    --------
+    >>> gears = HelicalGearFile.named("jamali_2015_a")
+    >>> case = HelicalLineCase(file=gears, step=300.0, nodes=(33, 49))
+    >>> case.mesh
+    ((33, 49), 'uniform')
     """
 
     file: HelicalGearFile
@@ -81,10 +86,10 @@ class HelicalLineCase:
         ), own.spacing if self.spacing is None else self.spacing
 
     def film(self) -> HelicalFilm:
-        """Return the film through the cycle of which this is one position."""
+        """Return the film problem of the whole meshing cycle."""
         torque, speed = self._operation()
         modified = self.file.modified_pair()
-        thesis = _THESIS.get(self.file.name)
+        modulus = self.file.pair.reduced_modulus_gpa
         (across, along), spacing = self.mesh
         for name, count in (("across", across), ("along", along)):
             check_within(f"nodes {name} the line", count, 17, 2049)
@@ -92,19 +97,19 @@ class HelicalLineCase:
         return HelicalFilm(
             modified=modified,
             steps=meshing_steps(modified, _STEP, _SMALLEST_SHARE)
-            if thesis is None
-            else jamali_2015_steps(thesis),
+            if self.file.meshing_steps is None
+            else gear_file_steps(self.file),
             torque=torque,
             pinion_speed=speed,
             lubricant=self._lubricant(),
-            contact_modulus=_STEEL if thesis is None else JAMALI_2015_MODULUS,
+            contact_modulus=_STEEL if modulus is None else 0.5e9 * modulus,
             nodes=(across, along),
             grading=GRADINGS[spacing],
             convention=self.convention,
         )
 
     def step_of(self, film: HelicalFilm) -> float:
-        """Return the step at which the line is looked at [-]."""
+        """Return the step of the line's position in the meshing cycle [-]."""
         steps = film.steps
         if self.step is not None and self.position is not None:
             raise ParameterError(

@@ -23,7 +23,7 @@ _NAMES = {
 
 
 def step_file(folder: Path, step: int) -> Path:
-    """Return the file in `folder` of a step of a march whose whole film is kept."""
+    """Return the file in `folder` for the whole film of one step of a march."""
     return folder / f"step_{step:04d}.nc"
 
 
@@ -61,7 +61,7 @@ def write_film_results(dataset: xr.Dataset, folder: Path) -> None:
 def finished(
     dataset: xr.Dataset, folder: Path | None, progress: Progress = no_progress, share: float = 0.5
 ) -> xr.Dataset:
-    """Write the dataset that a run has found if `folder` is given, and return it.
+    """Write the dataset of a run if `folder` is given, and return the dataset.
 
     `share` of the run was done before.
     """

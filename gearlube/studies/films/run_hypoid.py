@@ -57,6 +57,10 @@ def run_hypoid(
     ------
     ParameterError
         Something is out of range, the pair carries no load, or a thermal case shall march.
+
+    Examples
+    --------
+    >>> films = run_hypoid(HypoidCase.named("mohammadpour_2015"))  # doctest: +SKIP
     """
     thermal = case.temperature == "thermal"
     if thermal and march:

@@ -31,7 +31,7 @@ logger = logging.getLogger("gearlube")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarchSteps:
-    """Steps of the meshing cycle that a march passes.
+    """Steps of the meshing cycle that a march covers.
 
     Parameters
     ----------
@@ -43,6 +43,11 @@ class MarchSteps:
     record_every
         Steps from one record of the march to the next. A stopped march goes on from its last
         record.
+
+    Examples
+    --------
+    >>> MarchSteps(first=60, last=110).record_every
+    5
     """
 
     first: int = 0
@@ -81,6 +86,13 @@ def run_helical_march(
     ------
     ParameterError
         The case is incomplete or out of range, or a record in `folder` cannot be read.
+
+    Examples
+    --------
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> case = HelicalLineCase(file=HelicalGearFile.named("jamali_2015_a"), nodes=(33, 49))
+    >>> run_helical_march(case, MarchSteps(first=300, last=302)).sizes["step"]
+    3
     """
     steps = steps or MarchSteps()
     film = case.film()
@@ -135,7 +147,7 @@ def run_helical_march(
 
 
 def _finish_snapshot(folder: Path, step: int, key: str, steady: FilmSolution) -> None:
-    """Add the film at rest to the snapshot that the march `key` has written, and draw both."""
+    """Add the steady film to the snapshot written by the march `key`, and draw both."""
     path = step_file(folder, step)
     stored = xr.load_dataset(path, engine="scipy") if path.exists() else None
     if stored is None or stored.attrs.get("march") != key:

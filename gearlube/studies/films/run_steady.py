@@ -29,7 +29,7 @@ logger = logging.getLogger("gearlube")
 def run_line(
     case: LineCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
-    """Return the film of a line contact, isothermal or thermal as the case says.
+    """Return the film of a line contact; the case chooses isothermal or thermal.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def run_line(
 def run_point(
     case: PointCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
-    """Return the film of a point contact, isothermal or thermal as the case says.
+    """Return the film of a point contact; the case chooses isothermal or thermal.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def run_point(
 def run_helical_line(
     case: HelicalLineCase, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
-    """Return the film on a helical pair's contact line, at rest at one position.
+    """Return the steady film on a helical pair's contact line at one position.
 
     Parameters
     ----------
@@ -122,6 +122,14 @@ def run_helical_line(
     ------
     ParameterError
         The case is incomplete or out of range.
+
+    Examples
+    --------
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> gears = HelicalGearFile.named("jamali_2015_a")
+    >>> film = run_helical_line(HelicalLineCase(file=gears, step=300.0, nodes=(33, 49)))
+    >>> film.sizes["x"], film.sizes["y"]
+    (33, 49)
     """
     film = case.film()
     step = case.step_of(film)
@@ -150,7 +158,7 @@ def _warn_of_heights(case: LineCase | PointCase) -> None:
 
 
 def _begin(folder: Path | None, progress: Progress, sentence: str) -> None:
-    """Make the folder before the film is solved, so that one that cannot be made stops here."""
+    """Make the folder before the film is solved, so that an error of the path stops the run now."""
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
     progress(0.0, sentence)

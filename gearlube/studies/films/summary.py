@@ -1,4 +1,4 @@
-"""The numbers of a line, a point or a helical pair's line, beside Hertz and film formulas."""
+"""Main numbers of a line or point contact, compared with Hertz and film formulas."""
 
 from __future__ import annotations
 

@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.table import Table
 
 from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import (
     HelicalGearArgument,
     JobsOption,
@@ -24,7 +25,6 @@ from gearlube.cli.options import (
 )
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
-from gearlube.cli.spread_values import SpreadingCommand
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
@@ -36,10 +36,10 @@ logger = logging.getLogger("gearlube")
 console = Console(stderr=True)
 
 
-class HelicalCommand(SpreadingCommand):
-    """Takes several values after some options."""
+class HelicalCommand(MultiValueCommand):
+    """A command with options that take several values."""
 
-    spreading = frozenset({"--mu", "--speeds-rpm", "--torques"})
+    multi_value = frozenset({"--mu", "--speeds-rpm", "--torques"})
 
 
 def helical(

@@ -1,6 +1,6 @@
 """Geometry of a helical or spur pair as a labelled dataset.
 
-Holds what Jamali 2015 plots in figures 4.1 to 4.6, 5.2 to 5.4, 5.17, 6.5 and 7.4, for any pair.
+Has the data of figures 4.1 to 4.6, 5.2 to 5.4, 5.17, 6.5 and 7.4 of Jamali 2015, for any pair.
 """
 
 from __future__ import annotations

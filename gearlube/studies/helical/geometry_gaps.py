@@ -148,7 +148,7 @@ def _crown_forms(modified: ModifiedPair, X: float, x: Array, y: Array) -> Part:
 
 
 def _facets(modified: ModifiedPair, X: float, x: Array) -> Part:
-    """Return how far the pinion's flank lies from the tangent plane at mid-face, with facets."""
+    """Return the distance of the pinion's faceted flank from the tangent plane at mid-face."""
 
     def heights(count: int) -> Array:
         faceted = replace(modified, pinion=replace(modified.pinion, facets=count))
@@ -208,7 +208,7 @@ def _equal_relief(modified: ModifiedPair, X: Array, y: Array) -> Part:
 
 
 def _line_in_relief(modified: ModifiedPair, member: str, X: Array, y: Array) -> int | None:
-    """Return which line, near the middle of the list if it can be, meets a member's relief."""
+    """Return the line nearest to the middle of the list that meets a member's relief."""
     for number in sorted(range(X.size), key=lambda n: abs(n - X.size // 2)):
         start = getattr(contact_line_gap(modified, float(X[number]), y), f"{member}_relief_start")
         if y[0] < start < y[-1]:

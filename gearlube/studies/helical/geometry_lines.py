@@ -26,7 +26,7 @@ _CHORD = 1e-3  # m, [jamali_2015 sec. 7.3]
 
 
 class Part(NamedTuple):
-    """Some variables of a dataset with the coordinates they need."""
+    """Variables of a dataset with their coordinates."""
 
     variables: Variables
     coordinates: Variables
@@ -161,7 +161,7 @@ def path_variables(pair: HelicalPair, pinion_speed: float) -> Part:
 
 
 def shown_line_variables(modified: ModifiedPair, X: Array, pinion_speed: float) -> Part:
-    """Return where the shown lines lie, and the sliding along them."""
+    """Return the position of the shown lines, and the sliding along them."""
     pair, plane = modified.pair, modified.pair.plane
     y = np.linspace(-0.5, 0.5, STATIONS) * pair.face_width / plane.cos_b
     segments = [clip_line(float(one), plane) for one in X]

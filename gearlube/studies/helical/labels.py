@@ -1,4 +1,4 @@
-"""Names, units and attributes that the datasets of a study share."""
+"""Names, units and attributes shared by the datasets of a study."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ _COMPOSITE_WORDS = {
 }
 
 
-def words_of(name: str) -> str:
-    """Return what a coordinate, composite or bearing force is, in words.
+def description_of(name: str) -> str:
+    """Return a description of a coordinate, composite displacement or bearing force.
 
-    >>> words_of("u_xp")
+    >>> description_of("u_xp")
     'displacement of the pinion along the line of action'
     """
     if name in _COMPOSITE_WORDS:
@@ -48,7 +48,7 @@ def words_of(name: str) -> str:
 
 
 def study_attributes(settings: HelicalSettings, command_line: str) -> dict[str, Any]:
-    """Return what a study was asked for, in SI, and where the pair's data are from."""
+    """Return the settings of a study in SI units, and the sources of the pair's data."""
     attributes: dict[str, Any] = {
         "name": settings.file.name,
         "source": settings.file.source,
@@ -65,7 +65,7 @@ def study_attributes(settings: HelicalSettings, command_line: str) -> dict[str, 
 
 
 def _provenance(file: HelicalGearFile) -> dict[str, str]:
-    """Return which fields the source implies or lacks, a sentence each."""
+    """Return a sentence for each field that the source only implies or does not give."""
     return {
         f"{origin}_fields": " ".join(f"{field}: {why}" for field, why in found.items())
         for origin, found in (("inferred", file.inferred), ("completed", file.completed))
@@ -74,7 +74,7 @@ def _provenance(file: HelicalGearFile) -> dict[str, str]:
 
 
 def pair_attributes(parameters: HelicalPairParameters) -> dict[str, Any]:
-    """Return the pair's numbers that decide its vibration, in SI."""
+    """Return the parameters that determine the pair's vibration, in SI units."""
     return {
         "pinion_teeth": parameters.pair.pinion_teeth,
         "gear_teeth": parameters.pair.gear_teeth,

@@ -1,4 +1,4 @@
-"""Loaded contact of the pair with ISO 6336-1, and the constant density beside it."""
+"""Loaded contact of the pair, compared with ISO 6336-1 and a constant stiffness density."""
 
 from __future__ import annotations
 

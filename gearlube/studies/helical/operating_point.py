@@ -9,7 +9,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.helical.labels import FORCES, LENGTHS, MOMENTS, TILTS, Variables, words_of
+from gearlube.studies.helical.labels import (
+    FORCES,
+    LENGTHS,
+    MOMENTS,
+    TILTS,
+    Variables,
+    description_of,
+)
 from gearlube.studies.helical.settings import HARMONICS
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
@@ -68,14 +75,14 @@ def operating_point(
 
     for names, unit in ((LENGTHS, "m"), (TILTS, "rad")):
         for name in names:
-            words = words_of(name)
+            words = description_of(name)
             add(name, [case.signal(name) for case in cases], unit, words)
             rate = [case.signal_rate(name) for case in cases]
             add(f"{name}_rate", rate, f"{unit}/s", f"rate of {words}")
     forces = np.array([case.bearing_force for case in cases])
     for names, unit in ((FORCES, "N"), (MOMENTS, "N.m")):
         for name in names:
-            add(name, forces[:, :, BEARING_FORCES.index(name)], unit, words_of(name))
+            add(name, forces[:, :, BEARING_FORCES.index(name)], unit, description_of(name))
     for name, values, unit, words in (
         ("friction_power", [c.friction_power for c in cases], "W", "power that friction takes"),
         (

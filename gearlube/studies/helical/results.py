@@ -1,4 +1,4 @@
-"""What a study of a helical pair found."""
+"""Results of a study of a helical pair."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gearlube_core.mesh_table.line_mesh import LineMesh
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HelicalResults:
-    """What was found; what a stopped study has not reached is absent.
+    """Results; a stopped study lacks the parts that it did not reach.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A study of a helical pair as a library call: from settings to datasets and line mesh."""
+"""Run a study of a helical pair: from settings to datasets and line mesh."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from gearlube_core.mesh_table.line_mesh_file import write_line_mesh
 from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 
-PARTS = "parts"  # folder of finished parts, in that of the results
+PARTS = "parts"  # subfolder for finished parts
 _COMPUTING = 0.95  # share of the running time before files and figures
 
 

@@ -37,7 +37,7 @@ def separation_dataset(
     speeds: int,
     observe: Callable[[float], None] = lambda share: None,
 ) -> xr.Dataset:
-    """Return branches of periodic motions with one-sided contact, and linear ones beside them.
+    """Return branches of periodic motions with one-sided contact, and linear ones to compare.
 
     Parameters
     ----------
@@ -60,11 +60,11 @@ def separation_dataset(
     found: list[dict[str, Any]] = []
     for ratio in ratios:
 
-        def tell(share: float) -> None:
+        def report_share(share: float) -> None:
             observe((len(found) + share) / len(ratios))
 
         damped = replace(parameters, mesh_damping_ratio=ratio, support_damping_ratio=ratio)
-        found.append(_branch(damped, speeds, tell))
+        found.append(_branch(damped, speeds, report_share))
     length = max(one["speed"].size for one in found)
     specials = max(len(one["special"]) for one in found)
     variables: Variables = {
@@ -129,7 +129,7 @@ def separation_dataset(
 
 
 def _branch(
-    linear: HelicalPairParameters, speeds: int, tell: Callable[[float], None]
+    linear: HelicalPairParameters, speeds: int, report_share: Callable[[float], None]
 ) -> dict[str, Any]:
     problem = SeparationProblem(replace(linear, contact="one_sided", line_divisions=DIVISIONS))
     low, high = (share * problem.natural_speed for share in RANGE)
@@ -144,7 +144,7 @@ def _branch(
                 limits=(low, high),
                 heading=heading,
                 at=asked,
-                progress=lambda _, now: tell(min(abs(now - speed) / (high - low), 1.0)),
+                progress=lambda _, now: report_share(min(abs(now - speed) / (high - low), 1.0)),
             )
 
         start = _start(problem, linear, speed)
@@ -189,7 +189,7 @@ def _branch(
 
 
 def _start(problem: SeparationProblem, linear: HelicalPairParameters, speed: float) -> np.ndarray:
-    """Return the motion with springs that also pull at mesh phase zero."""
+    """Return the state at mesh phase zero of the motion whose mesh springs also pull."""
     response = periodic_response(linear, speed, throw=False)
     places = [RELATIVE.index(name) for name in problem.names]
     return np.concatenate((response.displacement[0, places], response.rate[0, places]))

@@ -1,4 +1,4 @@
-"""What a study of a helical pair is asked for."""
+"""Settings of a study of a helical pair."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ PARTS = ("all", "contact", "dynamics", "geometry")
 RPM = math.pi / 30.0  # rad/s
 
 HARMONICS = 15  # [he_2007 sec. 6]
-SHOWN_MU = (0.01, 0.1)  # ditto, figures 6 to 8
+SHOWN_MU = (0.01, 0.1)  # [he_2007], figures 6 to 8
 LOAD_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)  # of the pinion torque
 _SPEEDS = 60
 _REACH = 1.1  # highest mesh frequency over that of the mesh's own mode
@@ -46,7 +46,7 @@ _COARSE = CondensationSettings(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HelicalSettings:
-    """One gear pair, one operating point, and the ranges around it.
+    """Settings of one gear pair: an operating point and the ranges of its sweeps.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ class HelicalSettings:
             check_within("density", self.density, 1e7, 1e13, "N/m2", cure)
         low, high = 0.999 * self.load_steps[0], 1.001 * self.load_steps[-1]
         if self.with_contact and self.mesh == "contact":
-            cure = "Let the range of torques hold the operating point."
+            cure = "The range of torques must contain the operating point."
             check_within("pinion_torque", self.pinion_torque, low, high, "N.m", cure)
         self.film()
         check_within("separation_speeds", self.separation_speeds, 0, 5000)
@@ -167,18 +167,18 @@ class HelicalSettings:
 
     @property
     def stiffness_density(self) -> float:
-        """Of mesh "density" [N/m2]."""
+        """Stiffness density of the mesh "density" [N/m2]."""
         return float(self.constant_mesh().density.max())
 
     def constant_mesh(self) -> LineMesh:
-        """Return the mesh of one density."""
+        """Return the mesh with one constant stiffness density."""
         pair = self.file.helical_pair()
         if self.density is None:
             return iso_mesh(pair, self.pinion_torque)
         return constant_density_mesh(pair, self.density, "given")
 
     def film(self) -> FilmFriction:
-        """Return the oil and the flanks that film friction depends on."""
+        """Return the oil and the flank data for film friction."""
         return FilmFriction(
             oil=Lubricant.named(self.oil),
             oil_temperature=self.oil_temperature,

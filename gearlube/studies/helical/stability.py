@@ -49,7 +49,7 @@ def stability_dataset(
     jobs: int | None = None,
     observe: Callable[[float], None] = lambda share: None,
 ) -> xr.Dataset:
-    """Return growth of disturbances over mesh frequency, against two axes.
+    """Return growth rates of disturbances over mesh frequency and two other axes.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ from gearlube_core.progress import Progress
 
 @dataclass(slots=True, kw_only=True)
 class RunningStudy:
-    """What a study has found so far, and how it computes.
+    """Results of a running study so far, and its computing resources.
 
     Parameters
     ----------
@@ -50,17 +50,17 @@ class RunningStudy:
 
     @property
     def parameters(self) -> HelicalPairParameters:
-        """The vibrating pair with the mesh that was asked for."""
+        """Parameters of the vibrating pair with the mesh of the settings."""
         return self.settings.parameters(self.mesh if self.settings.mesh == "contact" else None)
 
     def processes(self, seconds: float) -> int | None:
-        """Return how many processes are worth it for work of so many seconds of one processor."""
+        """Return how many processes pay off for work of so many seconds of one processor."""
         return 1 if seconds < _FEW else self.jobs
 
 
 @dataclass(frozen=True, slots=True)
 class StageReport:
-    """Reports the share of a stage that is done [-], with the stage's name where none is given."""
+    """Reports the share of a stage that is done [-]; the stage's name is the default text."""
 
     progress: Progress
     name: str
@@ -76,7 +76,7 @@ class Stage(NamedTuple):
     name: str
     cost: float  # typical running time [s]
     run: Callable[[RunningStudy, StageReport], None]
-    needed: bool = False  # by all that follow
+    needed: bool = False  # by all later stages
 
 
 # seconds of one processor; a process costs two or three before it begins
@@ -84,7 +84,7 @@ _STATE, _POINT, _CELL, _FEW = 0.07, 0.006, 0.002, 5.0
 
 
 def stages_of(settings: HelicalSettings) -> list[Stage]:
-    """Return the stages that settings ask for, in the order in which they run."""
+    """Return the stages that the settings require, in running order."""
     stages = []
     if settings.with_contact:
         stages.append(Stage("loaded contact", 30.0, _contact, settings.mesh == "contact"))

@@ -1,4 +1,4 @@
-"""What a study of a helical pair found, as rows of quantity, value and unit."""
+"""Main numbers of a study of a helical pair, as rows of quantity, value and unit."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def summary_rows(results: HelicalResults) -> list[Row]:
 
 
 def remarks(results: HelicalResults) -> list[str]:
-    """Return what to be careful with, a sentence each."""
+    """Return warnings about the results, one sentence each."""
     found, sentences = results.datasets, []
     if results.settings.file.completed:
         fields = ", ".join(results.settings.file.completed)
@@ -59,7 +59,7 @@ def remarks(results: HelicalResults) -> list[str]:
 
 
 def summary_csv(rows: list[Row]) -> str:
-    """Return rows as text with a head, comma between."""
+    """Return rows as comma-separated text with a header."""
     return csv_text(
         Row._fields, ([row.topic, row.quantity, f"{row.value:.6g}", row.unit] for row in rows)
     )

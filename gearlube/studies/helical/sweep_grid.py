@@ -12,7 +12,14 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.helical.labels import FORCES, LENGTHS, MOMENTS, TILTS, Variables, words_of
+from gearlube.studies.helical.labels import (
+    FORCES,
+    LENGTHS,
+    MOMENTS,
+    TILTS,
+    Variables,
+    description_of,
+)
 from gearlube.studies.helical.operating_point import HARMONIC_LABEL, MU_LABEL
 from gearlube.studies.helical.settings import HARMONICS
 from gearlube_core.arrays import Array
@@ -124,7 +131,10 @@ def sweep_dataset(
         variables[f"{name}_mean"] = (
             speed_first,
             constant["mean_bearing_force"][:, :, BEARING_FORCES.index(name)],
-            {"units": "N" if name in FORCES else "N.m", "long_name": f"mean {words_of(name)}"},
+            {
+                "units": "N" if name in FORCES else "N.m",
+                "long_name": f"mean {description_of(name)}",
+            },
         )
     for name, unit, words in (
         ("friction_torque", "N.m", "friction torque at the pinion"),
@@ -145,7 +155,7 @@ def sweep_dataset(
         )
     frequency = np.array([parameters.pair.mesh_frequency(speed) for speed in tasks])
     orders = np.arange(1, HARMONICS + 1) * 2.0 * np.pi * frequency[:, None]
-    words = f"amplitude of a mesh order: rate of {words_of('delta_z')}"
+    words = f"amplitude of a mesh order: rate of {description_of('delta_z')}"
     for prefix in ("", "film_"):
         if f"{prefix}delta_z_harmonic" in variables:
             dimensions, amplitude, _ = variables[f"{prefix}delta_z_harmonic"]
@@ -184,7 +194,7 @@ def _harmonics(record: Record, dimensions: tuple[str, ...], prefix: str) -> Vari
         f"{prefix}{name}_harmonic": (
             dimensions,
             record[kind][..., columns.index(name), :],
-            {"units": unit, "long_name": f"{what}: {words_of(name)}"},
+            {"units": unit, "long_name": f"{what}: {description_of(name)}"},
         )
         for names, unit, kind, columns in groups
         for name in names

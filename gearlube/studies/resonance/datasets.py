@@ -81,7 +81,7 @@ def resonance_dataset(study: ResonanceStudy) -> xr.Dataset:
 
 
 def study_attributes(study: ResonanceStudy) -> dict[str, Any]:
-    """Return what the study was asked for, in SI, and the properties of the pair."""
+    """Return the settings of the study in SI units, and the properties of the pair."""
     settings = study.settings
     attributes: dict[str, Any] = {
         "radii": settings.radii,

@@ -1,4 +1,4 @@
-"""What the flank contacts go through over a mesh cycle of a periodic motion."""
+"""States of the flank contacts over a mesh cycle of a periodic motion."""
 
 from __future__ import annotations
 

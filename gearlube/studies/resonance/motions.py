@@ -1,4 +1,4 @@
-"""Periodic motions at chosen frequencies, and a Poincare section of how others reach them."""
+"""Periodic motions at chosen frequencies, and a Poincare section of transient motions."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def motion_near(model: str, problem: PeriodProblem, start: Array, relative: floa
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoincareSection:
-    """Motions seen once a mesh period, at mesh phase zero.
+    """Motions sampled once per mesh period, at mesh phase zero.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ class PoincareSection:
 
 
 def richest_frequency(response: Response, settings: ResonanceSettings) -> float:
-    """Return the frequency, among those asked for, in the middle of those with most motions."""
+    """Return the middle one of the requested frequencies that have most motions."""
     counts = np.array([len(response.motions(value)) for value in settings.relative])
     most = settings.relative[counts == counts.max()]
     if counts.max() <= 1:
@@ -124,7 +124,7 @@ def richest_frequency(response: Response, settings: ResonanceSettings) -> float:
 def poincare_section(
     response: Response, settings: ResonanceSettings, relative: float
 ) -> PoincareSection:
-    """Return how motions from a grid of starts approach those that last.
+    """Return how motions from a grid of starting states approach periodic motions.
 
     Starts differ in the relative motion alone: each gets a transmission error and a rate of the
     mesh mode, without changing the momentum about the pinion.

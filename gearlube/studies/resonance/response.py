@@ -21,7 +21,7 @@ MOST_DOUBLED = 4  # period-doubled branches followed per model
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Segment:
-    """A branch and the equations it solves.
+    """A branch of motions and the equations that it solves.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Response:
 
     @property
     def natural_frequency(self) -> float:
-        """Of the mesh mode [Hz]."""
+        """Natural frequency of the mesh mode [Hz]."""
         return self.segments[0].problem.model.natural_frequency
 
     @property
@@ -71,7 +71,7 @@ class Response:
         return np.asarray(speed) / unit
 
     def motions(self, relative: float) -> list[tuple[Segment, int]]:
-        """Return segment and row of every motion found at a frequency that was asked for."""
+        """Return segment and row of every motion found at a requested frequency."""
         speed = self.segments[0].problem.model.pinion_speed(relative * self.natural_frequency)
         found: list[tuple[Segment, int]] = []
         for segment in self.segments:
@@ -82,7 +82,7 @@ class Response:
 
 
 def _same(segment: Segment, row: int, other: Segment, other_row: int) -> bool:
-    """Whether two rows at one frequency hold one motion, found from either end of the range."""
+    """Whether two rows at one frequency are the same motion, found from both ends of the range."""
     if segment.problem.periods != other.problem.periods:
         return False
     apart = segment.branch.unknowns[row] - other.branch.unknowns[other_row]

@@ -1,4 +1,4 @@
-"""Resonance of the torsional hypoid pair as a library call: from settings to datasets."""
+"""Run a resonance study of the torsional hypoid pair: from settings to datasets."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from gearlube_core.storage.atomic_file import write_dataset
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ResonanceResults:
-    """What a resonance study found; a stopped study leaves out what it has not reached.
+    """Results of a resonance study; a stopped study lacks the parts that it did not reach.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def run_resonance(
 
 
 def write_resonance(results: ResonanceResults, folder: Path) -> None:
-    """Write resonance.nc, cycle.nc and figures/, and load.nc with its figure where it is there."""
+    """Write resonance.nc, cycle.nc and figures/, and load.nc with its figure if computed."""
     folder.mkdir(parents=True, exist_ok=True)
     write_dataset(results.response, folder / "resonance.nc")
     write_dataset(results.cycle, folder / "cycle.nc")

@@ -1,4 +1,4 @@
-"""What a resonance study is asked for."""
+"""Settings of a resonance study."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ MODELS = {
 }
 SWEPT = ("two_dof", "one_dof")
 ORBITS_AT = (0.3, 0.65, 1.0)  # mesh over natural frequency, [karagiannis_2012 fig. 8] to 14
-HOT = 373.15  # K, ditto fig. 21
+HOT = 373.15  # K, [karagiannis_2012 fig. 21]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ResonanceSettings:
-    """One gear pair, its oil, and the range of mesh frequency.
+    """A gear pair, its oil and the range of mesh frequency.
 
     Parameters
     ----------
@@ -112,12 +112,12 @@ class ResonanceSettings:
 
     @property
     def relative(self) -> Array:
-        """Mesh over natural frequency of the rows asked for [-], shape (frequencies,)."""
+        """Mesh over natural frequency of the requested rows [-], shape (frequencies,)."""
         return np.linspace(self.first, self.last, self.frequencies)
 
     @property
     def orbits_at(self) -> tuple[float, ...]:
-        """Where motions are kept, mesh over natural frequency [-]."""
+        """Mesh over natural frequency at which motions are stored [-]."""
         return tuple(value for value in ORBITS_AT if self.first <= value <= self.last)
 
     def steps(self, model: str) -> int:

@@ -36,7 +36,7 @@ _LUBRICATED_COST = 8.0
 
 @dataclass(slots=True, kw_only=True)
 class ResonanceStudy:
-    """What was found; parts are empty where a study was stopped before them.
+    """Results of a study; parts that a stopped study did not reach are empty.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class _Stopped(Exception):  # noqa: N818
 def study_resonance(
     settings: ResonanceSettings, progress: Progress = no_progress
 ) -> ResonanceStudy:
-    """Run a study; on KeyboardInterrupt return what was found until then.
+    """Run a study; on KeyboardInterrupt return the results so far.
 
     Parameters
     ----------

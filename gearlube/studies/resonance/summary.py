@@ -167,7 +167,7 @@ def visited(relative: Array, stable: Array, direction: str) -> NDArray[np.intp]:
 
 
 def separated_ranges(branch: xr.Dataset, direction: str) -> list[tuple[float, float]]:
-    """Return where a slow sweep along a branch loses contact and regains it, in its order."""
+    """Return where a slow sweep along a branch loses and regains contact, in sweep order."""
     relative = branch["relative_frequency"].values
     rows = visited(relative, branch["stable"].values, direction)
     apart = branch["separation_share"].values[rows] > 0.0

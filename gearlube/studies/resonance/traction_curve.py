@@ -1,4 +1,4 @@
-"""Traction of one film against sliding speed, with what limits it left out in turn."""
+"""Traction of one film against sliding speed, with its limiting effects switched off in turn."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ CURVES = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TractionCurve:
-    """Film of the hardest loaded contact of a cycle, sheared at other rates.
+    """Traction of the most heavily loaded film of a cycle at other sliding speeds.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the axle loses, before a vehicle is coupled to it."""
+"""Mean power loss of the axle, measured before a vehicle is coupled to it."""
 
 from __future__ import annotations
 

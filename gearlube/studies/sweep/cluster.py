@@ -35,7 +35,7 @@ class FmuOnWorker(WorkerPlugin):
 
     @classmethod
     def of_file(cls, fmu: Path) -> FmuOnWorker:
-        """Return the plugin for an FMU; raise ParameterError when it is not one file."""
+        """Return the plugin for an FMU; raise ParameterError unless it is a single file."""
         if not fmu.is_file():
             raise ParameterError(f"A cluster needs the FMU as one file, {fmu} is none.")
         return cls(fmu.read_bytes())

@@ -1,4 +1,4 @@
-"""`gearlube sweep`."""
+"""The command `gearlube sweep`."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from typing import Annotated
 import typer
 
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import JobsOption, OilTemperatureOption, RoughnessOption
-from gearlube.cli.spread_values import SpreadingCommand
 
 logger = logging.getLogger("gearlube")
 
@@ -21,10 +21,10 @@ _QUICK_SPEEDS = ("20:100:40",)
 _DEFAULT_PRELOADS = (2500.0, 6000.0)
 
 
-class SweepCommand(SpreadingCommand):
-    """The options that take several values after one flag."""
+class SweepCommand(MultiValueCommand):
+    """A command whose options `--speeds` and `--preload` take several values."""
 
-    spreading = frozenset({"--speeds", "--preload"})
+    multi_value = frozenset({"--speeds", "--preload"})
 
 
 def sweep(

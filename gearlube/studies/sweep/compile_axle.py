@@ -1,4 +1,4 @@
-"""Compile the axle before many processes need it."""
+"""Compile the axle once before many processes run it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
-from gearlube.studies.sweep.partner import operation
+from gearlube.studies.sweep.operating_point import operation
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
 

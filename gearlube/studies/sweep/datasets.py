@@ -97,7 +97,12 @@ def save(dataset: xr.Dataset, directory: Path) -> Path:
 
 
 def load_sweep(path: Path | str) -> xr.Dataset:
-    """Read sweep.nc (or the folder it is in); `.sel(speed_kmh=60, preload=2500)` works on it."""
+    """Read sweep.nc (or the folder it is in); `.sel(speed_kmh=60, preload=2500)` works on it.
+
+    Examples
+    --------
+    >>> load_sweep("gearlube_sweep").sel(speed_kmh=60.0, preload=2500.0)  # doctest: +SKIP
+    """
     path = Path(path)
     dataset = read_compressed_dataset(path / "sweep.nc" if path.is_dir() else path)
     return dataset.set_xindex("speed_kmh") if "speed_kmh" not in dataset.xindexes else dataset

@@ -97,7 +97,7 @@ class FmuAxle:
         return callbacks
 
     def _refusal(self, what: str) -> str:
-        """Return `what` with what the FMU said about it, without the loader's stack notes."""
+        """Return `what` with the FMU's messages, without the loader's stack notes."""
         said = [text.removeprefix(f"{_INSTANCE}: ") for text in self.messages]
         reasons = [text for text in dict.fromkeys(said) if not text.startswith(_LOADER_NOTE)]
         distinct = [

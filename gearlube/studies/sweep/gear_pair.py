@@ -1,4 +1,4 @@
-"""Which gear pair an axle FMU holds."""
+"""The gear pair inside an axle FMU."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SHIPPED = "mohammadpour_2015"  # the table of an FMU without one of its own
 
 
 def mesh_table_of(directory: Path) -> MeshTable:
-    """Return the mesh table that the FMU unzipped at `directory` computes with."""
+    """Return the mesh table of the FMU unzipped at `directory`."""
     own = directory / "resources" / FILE_IN_FMU
     return read_mesh_table(own) if own.is_file() else shipped_mesh_table(SHIPPED)
 

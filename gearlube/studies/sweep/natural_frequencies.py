@@ -62,13 +62,14 @@ def _modes(
     preload: float, speed_kmh: float, settings: SweepSettings, mesh: MeshTable, road: RoadLoad
 ) -> dict[str, float]:
     # Imported here because it compiles kernels when the machine has none yet.
-    from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes, mohammadpour_2015_axle
+    from fmu_src.hypoid_axle import axle_parameters
+    from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes
 
     speed = kmh_to_ms(speed_kmh)
-    options = {name: getattr(settings, name) for name in FMU_PARAMETERS}
+    arguments = {name: getattr(settings, name) for name in FMU_PARAMETERS}
     torque = road.pinion_torque(speed)
     try:
-        axle = HypoidAxle(mohammadpour_2015_axle(mesh=mesh, bearing_preload=preload, **options))
+        axle = HypoidAxle(axle_parameters(arguments | {"bearing_preload": preload}, mesh))
         axle.initialise(
             pinion_speed=road.pinion_speed(speed),
             pinion_torque=torque,

@@ -14,7 +14,7 @@ from gearlube.studies.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LO
 from gearlube.studies.sweep.curves import mesh_cycle, roller_zone, spectra, waves
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
-from gearlube.studies.sweep.partner import operation
+from gearlube.studies.sweep.operating_point import operation
 from gearlube.studies.sweep.quantities import described
 from gearlube.studies.sweep.recording import Recording, record
 from gearlube.studies.sweep.scalars import scalars

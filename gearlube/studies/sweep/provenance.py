@@ -1,4 +1,4 @@
-"""Which code computed a point."""
+"""Version of the code that computed a point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Run one axle with its driver and keep what the axle does after it has settled."""
+"""Run one axle with its driver and record its outputs after it has settled."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from gearlube_core.errors import StepError
 from gearlube_core.spectra import whole_revolutions
 
 LEAST_SETTLING = 20  # mesh periods
-_MARGIN = 4  # samples before the window, so that the spline does not feel its end there
+_MARGIN = 4  # samples before the window, so that the end of the spline has no effect in it
 _SLOWEST = 0.8  # the shaft may slow down to this fraction before a point is given up
 
 
 class SteppedAxle(Protocol):
-    """What a run needs of an axle: `FmuAxle`, or a stand-in with known motion."""
+    """Interface of an axle for a run: `FmuAxle`, or a test model with known motion."""
 
     def initialise(self, pinion_torque: float, wheel_torque: float, temperature: float) -> None:
         """Start from these inputs [N.m, N.m, K]."""
@@ -158,7 +158,7 @@ def record(
 
 
 def revolutions_to_record(settings: SweepSettings, speed: float, cage_order: float) -> int:
-    """Return the whole pinion revolutions that hold the record and nearly whole cage turns."""
+    """Return the number of whole pinion revolutions to record, nearly whole cage turns."""
     for_time = settings.record_time * speed / (2.0 * math.pi)
     for_cage = settings.cage_turns / cage_order if cage_order > 0.0 else 0.0
     return whole_revolutions([cage_order], math.ceil(max(1.0, for_time, for_cage)), search=5)

@@ -1,4 +1,4 @@
-"""report.html: what was run, the numbers, the figures and the failures."""
+"""Write report.html: settings, main numbers, figures and failed points."""
 
 from __future__ import annotations
 
@@ -50,7 +50,13 @@ _COLUMNS = (
 def write_sweep_report(
     dataset: xr.Dataset, directory: Path | str, entries: Sequence[Entry] = CATALOGUE
 ) -> Path:
-    """Write report.html and figures/*.png into `directory`; return the path of the report."""
+    """Write report.html and figures/*.png into `directory`; return the path of the report.
+
+    Examples
+    --------
+    >>> from gearlube.studies.sweep.datasets import load_sweep
+    >>> write_sweep_report(load_sweep("gearlube_sweep"), "gearlube_sweep")  # doctest: +SKIP
+    """
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
     path = directory / "report.html"

@@ -1,4 +1,4 @@
-"""A grid of speeds and preloads: compute what is missing, keep every finished point."""
+"""Run a grid of speeds and preloads: compute missing points, store every finished one."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from gearlube_core.storage.resumable import resumable_results
 logger = logging.getLogger(__name__)
 
 _MOST_JOBS = 1024
-_PRELOAD_CURE = "A preload cannot pull; the paper has 2500 and 6000 N."
+_PRELOAD_CURE = "A preload must press; the paper uses 2500 and 6000 N."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,6 +111,15 @@ def run_sweep(
         The grid is empty, a value is out of range, or both `fmu` and `mesh_table` are given.
     InterruptedRunError
         After Ctrl-C, when the finished points have been saved.
+
+    Examples
+    --------
+    Two points take some seconds:
+
+    >>> settings = SweepSettings()
+    >>> results = run_sweep(  # doctest: +SKIP
+    ...     settings, speeds_kmh=[60.0], preloads=[2500.0, 6000.0], out="gearlube_sweep"
+    ... )
     """
     settings = settings or SweepSettings()
     speeds = sorted({check_within("speed", v, 1.0, 400.0, "km/h") for v in speeds_kmh})
@@ -196,7 +205,7 @@ def _run_here(
 
 
 def _mute_fmu() -> None:
-    """Leave out what the FMU logs in a worker: it comes back with the failed points."""
+    """Silence the FMU's log in a worker; failed points return its messages."""
     logging.getLogger("fmu_src").addHandler(logging.NullHandler())
 
 
@@ -245,7 +254,7 @@ def _is_finished(dataset: xr.Dataset) -> bool:
 
 
 def _failure(place: Place, error: Exception) -> xr.Dataset:
-    """Return the row of a point that ended with an error: whatever goes wrong becomes a row."""
+    """Return the row of a point that ended with an error of any kind."""
     if isinstance(error, BrokenExecutor):
         return failed_point(*place, f"The process of this point died several times: {error}")
     return failed_point(*place, f"{type(error).__name__}: {error}")

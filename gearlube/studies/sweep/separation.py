@@ -6,7 +6,7 @@ NONE, SINGLE_SIDED, DOUBLE_SIDED = 0, 1, 2
 
 
 def separation_class(dte_min: float, dte_max: float, backlash: float) -> int:
-    """Return how the teeth lose contact: 0 not at all, 1 single-sided, 2 double-sided impacts.
+    """Return the class of contact loss: 0 none, 1 single-sided, 2 double-sided impacts.
 
     With the drive flank in contact for x > 0 and the coast flank for x < -2b:
     single-sided when max >= 0 and -2b < min < 0, double-sided when min <= -2b and max >= 0.

@@ -1,4 +1,4 @@
-"""Everything that determines the result of one sweep point, apart from speed and preload."""
+"""Settings of a sweep: all inputs of a point except speed and preload."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ FMU_PARAMETERS = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepSettings:
-    """Model options, partner and timing that all points of a sweep share.
+    """Model options, driver and timing that all points of a sweep share.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ class SweepSettings:
 
 
 def quick_sweep_settings(settings: SweepSettings) -> SweepSettings:
-    """Return `settings` with a settling time and a record just long enough for a first look.
+    """Return `settings` with the shortest settling time and record for a first look.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The pair of He et al. 2007 with what the paper leaves out completed."""
+"""The pair of He et al. 2007; data missing in the paper are completed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.pair import HelicalPair
 
 PINION_TORQUE = 225.96966  # N.m, 2000 lbf in, [he_2007 sec. 6]
-PINION_SPEED = 104.71975511965977  # rad/s, 1000 rpm, ditto
+PINION_SPEED = 104.71975511965977  # rad/s, 1000 rpm, [he_2007]
 
 
 def he_2007_pair(mu: float, pair: HelicalPair | None = None) -> HelicalPairParameters:

@@ -1,4 +1,4 @@
-"""What the kernels of the helical pair need to know: floats, and the arrays of the mesh."""
+"""Parameters of the helical pair for its kernels: floats, and the arrays of the mesh."""
 
 from __future__ import annotations
 

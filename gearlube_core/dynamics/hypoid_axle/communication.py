@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gearlube_core.bearings.bearing_type import ShaftBearings
 from gearlube_core.dynamics.hypoid_axle.integrate import OK, StepControl, advance
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshLevels
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields, MeshLevels
 from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.friction.flank_law import FlankLaw
@@ -49,14 +49,8 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         s: NDArray[float64],
         trial: NDArray[float64],
         duration: float,
-        pinion_torque: float,
-        wheel_torque: float,
-        oil_temperature: float,
-        levels: NDArray[float64],
-        series: NDArray[float64],
-        n_orders: int,
-        windows: NDArray[float64],
-        n_nodes: int,
+        inputs: NDArray[float64],
+        mesh: MeshFields,
         parameters: NDArray[float64],
         control_values: NDArray[float64],
         work: NDArray[float64],
@@ -69,44 +63,42 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         ----------
         s, trial : ndarray of shape (N_STATE,)
             State, unchanged when the status is not OK; work space.
+        inputs : ndarray of shape (3,)
+            Torques of pinion and wheel [N.m], oil temperature [K].
+        mesh : tuple
+            Fields of `MeshLevels`.
         parameters, control_values : ndarray
             Flattened AxleParameters and StepControl.
 
-        Others as in `MeshLevels`, `advance` and `write_outputs`.
+        Others as in `advance` and `write_outputs`.
         """
-        table = MeshLevels(levels, series, n_orders, windows, n_nodes)
+        table = MeshLevels(*mesh)
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
         control: StepControl = tuple_from_array(control_values, StepControl)
-        torques = (pinion_torque, wheel_torque)
+        torques = (inputs[0], inputs[1])
         for i in range(N_STATE):
             trial[i] = s[i]
-        status = advance(trial, duration, torques, oil_temperature, table, p, control, work)
+        status = advance(trial, duration, torques, inputs[2], table, p, control, work)
         if status == OK:
             for i in range(N_STATE):
                 s[i] = trial[i]
-            write_outputs(s, torques, oil_temperature, table, p, work, rollers, out)
+            write_outputs(s, torques, inputs[2], table, p, work, rollers, out)
         return status
 
     @kernel
     def outputs(
         s: NDArray[float64],
-        pinion_torque: float,
-        wheel_torque: float,
-        oil_temperature: float,
-        levels: NDArray[float64],
-        series: NDArray[float64],
-        n_orders: int,
-        windows: NDArray[float64],
-        n_nodes: int,
+        inputs: NDArray[float64],
+        mesh: MeshFields,
         parameters: NDArray[float64],
         work: NDArray[float64],
         rollers: NDArray[float64],
         out: NDArray[float64],
     ) -> None:
         """Write the outputs of the state `s`; arguments as in `communication_step`."""
-        table = MeshLevels(levels, series, n_orders, windows, n_nodes)
+        table = MeshLevels(*mesh)
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        torques = (pinion_torque, wheel_torque)
-        write_outputs(s, torques, oil_temperature, table, p, work, rollers, out)
+        torques = (inputs[0], inputs[1])
+        write_outputs(s, torques, inputs[2], table, p, work, rollers, out)
 
     return AxleKernels(communication_step, outputs)

@@ -1,4 +1,4 @@
-"""What the axle kernels need to know, as nested tuples of floats."""
+"""Parameters of the axle for its kernels, as nested tuples of floats."""
 
 from __future__ import annotations
 

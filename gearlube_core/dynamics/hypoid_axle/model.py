@@ -18,7 +18,12 @@ from gearlube_core.dynamics.hypoid_axle.integrate import (
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+    MeshAtLoad,
+    MeshFields,
+    MeshLevels,
+    blend_mesh,
+)
 from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
@@ -108,14 +113,8 @@ class HypoidAxle(SteppedModel[StepControl]):
 
     def _with_data(self) -> Kernels:
         mesh = self.packed
-        data = (
-            mesh.levels,
-            mesh.series,
-            mesh.orders,
-            mesh.windows,
-            mesh.nodes,
-            flatten(self.kernel_parameters),
-        )
+        fields: MeshFields = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+        data = fields, flatten(self.kernel_parameters)
         work, rollers = np.zeros(work_size(mesh.orders, mesh.nodes)), np.zeros(ROLLERS_MAX)
         p = self.kernel_parameters
         kernels = axle_kernels(type(p.bearing_p), type(p.flank_law))

@@ -97,15 +97,15 @@ class HypoidAxleParameters:
     gear_mass: float
     roughness_rms: float
     backlash: float
-    equations: Equations
-    radii: Radii
-    mesh_stiffness: MeshStiffness
-    mesh_damping: MeshDamping
-    modal_loss_factor: float
-    friction: Friction | FlankLawMaker
-    bearing_torque_loss: TorqueLoss
-    steps_per_mesh_period: int
-    steps_per_highest_period: int
+    equations: Equations = "consistent"
+    radii: Radii = "consistent"
+    mesh_stiffness: MeshStiffness = "tangent"
+    mesh_damping: MeshDamping = "hysteretic"
+    modal_loss_factor: float = 0.06
+    friction: Friction | FlankLawMaker = "consistent"
+    bearing_torque_loss: TorqueLoss = "palmgren"
+    steps_per_mesh_period: int = 64
+    steps_per_highest_period: int = 22
     frequency_floor: float = FREQUENCY_FLOOR
     hysteretic_loss: float = HYSTERETIC_LOSS
 
@@ -197,18 +197,11 @@ def mohammadpour_2015_axle(
     backlash: float = 150e-6,
     mesh: MeshTable | None = None,
     oil: str = "mohammadpour_2015",
-    equations: Equations = "consistent",
-    radii: Radii = "consistent",
-    mesh_stiffness: MeshStiffness = "tangent",
-    mesh_damping: MeshDamping = "hysteretic",
-    modal_loss_factor: float = 0.06,
-    friction: Friction = "consistent",
     bearing_approach: Approach = "full",
-    bearing_torque_loss: TorqueLoss = "palmgren",
-    steps_per_mesh_period: int = 64,
-    steps_per_highest_period: int = 22,
 ) -> HypoidAxleParameters:
     """Return the axle of Mohammadpour et al. 2015 (Tables 1 and A1-A4).
+
+    Options of the model keep the defaults of `HypoidAxleParameters`; change them with `replace`.
 
     Parameters
     ----------
@@ -227,11 +220,16 @@ def mohammadpour_2015_axle(
     bearing_approach : {"full", "as_printed"}
         [mohammadpour_2015 (26)] with the full approach, or halved as printed.
 
-    See `HypoidAxleParameters` for the other parameters and for the errors.
+    Raises
+    ------
+    ParameterError
+        A value out of range, or an option or oil that does not exist.
 
     Examples
     --------
-    >>> mohammadpour_2015_axle(bearing_preload=6000.0).gear_mass  # kg
+    >>> from dataclasses import replace
+    >>> axle = mohammadpour_2015_axle(bearing_preload=6000.0)
+    >>> replace(axle, friction="off", equations="as_printed").gear_mass  # kg
     49.9
     """
     check_option("bearing_approach", bearing_approach, get_args(Approach))
@@ -256,13 +254,4 @@ def mohammadpour_2015_axle(
         gear_mass=49.9,
         roughness_rms=roughness_rms,
         backlash=backlash,
-        equations=equations,
-        radii=radii,
-        mesh_stiffness=mesh_stiffness,
-        mesh_damping=mesh_damping,
-        modal_loss_factor=modal_loss_factor,
-        friction=friction,
-        bearing_torque_loss=bearing_torque_loss,
-        steps_per_mesh_period=steps_per_mesh_period,
-        steps_per_highest_period=steps_per_highest_period,
     )

@@ -1,4 +1,4 @@
-"""What the kernels of the torsional pair need to know, as nested tuples of floats."""
+"""Parameters of the torsional pair for its kernels, as nested tuples of floats."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ FRICTION_FORMS = {
     "thermal_eyring": THERMAL_EYRING,
 }
 KARAGIANNIS_DAMPING = 2278.1  # N s/m, [karagiannis_2012 Table 1]
-KARAGIANNIS_DAMPING_RATIO = 0.03  # [-], ditto
+KARAGIANNIS_DAMPING_RATIO = 0.03  # [-], [karagiannis_2012 Table 1]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

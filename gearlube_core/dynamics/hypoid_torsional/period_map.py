@@ -1,4 +1,4 @@
-"""Map of a state over one period, with its derivatives; what a search for periodic motions needs.
+"""Map of a state over one period, with its derivatives, for the search of periodic motions.
 
 Interface of `period_problem.PeriodProblem`, in the order of use:
 

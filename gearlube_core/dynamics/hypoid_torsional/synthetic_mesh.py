@@ -1,4 +1,4 @@
-"""A mesh table from a handful of numbers, for parameter studies."""
+"""A synthetic mesh table from a few parameters, for parameter studies."""
 
 from __future__ import annotations
 

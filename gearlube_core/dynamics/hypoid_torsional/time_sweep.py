@@ -1,4 +1,4 @@
-"""Frequency sweeps by time integration, the state handed on from one frequency to the next."""
+"""Frequency sweeps by time integration; each frequency starts from the last state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all case files of lubricated films share."""
+"""Common part of all case files of lubricated films."""
 
 from __future__ import annotations
 

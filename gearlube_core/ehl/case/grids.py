@@ -1,4 +1,4 @@
-"""The sections of a case file on where and how the film is computed."""
+"""The sections of a case file for the domain, the grid and the solver."""
 
 from __future__ import annotations
 

@@ -41,7 +41,13 @@ class HypoidSolver(Section):
 
 
 class HypoidCase(FilmCase):
-    """One tooth pair of a hypoid axle through its engagement."""
+    """One tooth pair of a hypoid axle through its engagement.
+
+    Examples
+    --------
+    >>> HypoidCase.named("mohammadpour_2015").varied({"solver.steady": 5}).solver.steady
+    5
+    """
 
     title: ClassVar[str] = "hypoid flank"
     prefix: ClassVar[str] = "hypoid_"

@@ -1,4 +1,4 @@
-"""Heights along a line or over a plane as an instrument writes them, and their files."""
+"""Measured heights along a line or over a plane, and files of measuring instruments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ridge, dent and waviness on a point contact, and gaps with heights taken off them."""
+"""Ridge, dent and waviness on a point contact, and gaps with measured heights."""
 
 from __future__ import annotations
 

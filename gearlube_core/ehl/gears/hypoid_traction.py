@@ -1,4 +1,4 @@
-"""Traction of a flank's film: Newtonian, Eyring and heated Eyring shear of the same film."""
+"""Traction of a flank's film with Newtonian, Eyring and thermal Eyring shear."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a mesh table says of one tooth pair's contact: vectors in the axes of its ellipse."""
+"""Contact of one tooth pair from a mesh table, with vectors in the axes of its ellipse."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a line contact solution needs to know: contact, speeds, load, oil, domain, accuracy."""
+"""A line contact problem: contact, speeds, load, oil, domain, accuracy."""
 
 from __future__ import annotations
 
@@ -60,6 +60,16 @@ class LineProblem:
     Notes
     -----
     Half-spaces, smooth or with surface features long against the film (Reynolds).
+
+    Examples
+    --------
+    >>> from gearlube_core.oil.film_oil_data import film_oil
+    >>> line = LineProblem(
+    ...     lubricant=film_oil(eta0=0.04, alpha=2e-8), radius=0.01, line_load=2e5,
+    ...     reduced_modulus=2.3e11, speed_1=2.0, speed_2=2.0,
+    ... )
+    >>> round(1e-9 * line.hertz_pressure, 2)  # GPa
+    0.86
     """
 
     lubricant: FilmOil

@@ -1,4 +1,4 @@
-"""Dimensionless form of a line contact: x/b, p/p_H, h R/b^2, the one place where it is made."""
+"""Dimensionless form of a line contact: x/b, p/p_H, h R/b^2; defined only here."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What came out of a line contact solution, in SI, and how far it can be trusted."""
+"""Result of a line contact solution in SI units, with its convergence status."""
 
 from __future__ import annotations
 

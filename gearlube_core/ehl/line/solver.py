@@ -1,4 +1,4 @@
-"""Steady line contact from a cold start: nested grids, with a detour where a grid fails."""
+"""Steady line contact: nested grids, with continuation on a grid that does not converge."""
 
 from __future__ import annotations
 

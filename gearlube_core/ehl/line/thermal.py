@@ -1,4 +1,4 @@
-"""Steady thermal line contact: film and energy in turn until the temperature stands still."""
+"""Steady thermal line contact: film and energy are solved in turn until both converge."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Point contacts: films at rest, isothermal and thermal."""
+"""Steady films of point contacts, isothermal and thermal."""

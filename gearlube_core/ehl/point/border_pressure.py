@@ -1,4 +1,4 @@
-"""Pressure beside the border of a domain: whether the domain cuts the contact."""
+"""Pressure near the border of a domain, to check whether the domain cuts the contact."""
 
 from __future__ import annotations
 

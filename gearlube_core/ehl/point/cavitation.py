@@ -1,4 +1,4 @@
-"""Which point contacts may be solved with mass-conserving cavitation."""
+"""Limits of mass-conserving cavitation for point contacts."""
 
 from __future__ import annotations
 

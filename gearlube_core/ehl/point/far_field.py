@@ -1,4 +1,4 @@
-"""Pressure of the oil around a point contact, far from where its solids flatten."""
+"""Oil pressure around a point contact, far outside the Hertzian contact."""
 
 from __future__ import annotations
 

@@ -95,6 +95,17 @@ class PointContactProblem:
     ------
     ParameterError
         An input is out of range.
+
+    Examples
+    --------
+    `elliptical_contact` builds the problem of two smooth solids.
+
+    >>> from gearlube_core.oil.film_oil_data import film_oil
+    >>> oil = film_oil(eta0=0.04, alpha=2e-8)
+    >>> ball = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0,
+    ...                           contact_modulus=1.15e11, lubricant=oil)
+    >>> round(1e-9 * ball.hertz_contact[2], 2)  # GPa
+    0.8
     """
 
     gap: Gap
@@ -275,7 +286,7 @@ def elliptical_contact(
     Examples
     --------
     >>> from gearlube_core.oil.film_oil_data import film_oil
-    >>> ball = elliptical_contact(
+        >>> ball = elliptical_contact(
     ...     R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0, contact_modulus=1.15e11,
     ...     lubricant=film_oil(eta0=0.04, alpha=2e-8),
     ...     domain=ContactDomain(inlet=4.0, outlet=2.0, side=3.0),

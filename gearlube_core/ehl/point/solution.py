@@ -1,4 +1,4 @@
-"""Result of a point contact and whether it can be trusted."""
+"""Result of a point contact with its convergence status."""
 
 from __future__ import annotations
 

@@ -74,6 +74,17 @@ def solve_point_contact(
     contact. Mass-conserving cavitation keeps these unknowns: the oil in ruptured film follows from
     them, node after node downstream. References: [venner_lubrecht_2000] for the equations and
     the hybrid relaxation; [saad_1993] for GMRES.
+
+    Examples
+    --------
+    >>> from gearlube_core.ehl.point.problem import elliptical_contact
+    >>> from gearlube_core.oil.film_oil_data import film_oil
+    >>> oil = film_oil(eta0=0.04, alpha=2e-8)
+    >>> ball = elliptical_contact(R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0,
+    ...                           contact_modulus=1.15e11, lubricant=oil, nodes=(65, 65))
+    >>> film = solve_point_contact(ball)
+    >>> film.outcome.converged, round(1e6 * film.central_film, 2)  # um
+    (True, 0.38)
     """
     settings = PointSolverSettings() if settings is None else settings
     check_cavitation(problem, settings)

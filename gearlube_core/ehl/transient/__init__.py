@@ -1,1 +1,1 @@
-"""Films in motion: the march of a point contact in time."""
+"""Transient films: time integration of point contacts."""

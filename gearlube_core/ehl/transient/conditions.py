@@ -1,4 +1,4 @@
-"""What acts on a film at one time."""
+"""Gap, load and speeds of a film at one time."""
 
 from __future__ import annotations
 

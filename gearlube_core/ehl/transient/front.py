@@ -1,4 +1,4 @@
-"""Front of the oil under pressure: moved on its own between two Newton steps of the whole film.
+"""Front of the pressurised oil, updated alone between two Newton steps of the whole film.
 
 A Newton step opens the next node downstream of the nodes with pressure, no more. Where a gap
 closes quickly, at the edge of a relief, oil fills many nodes of a row within one time step.

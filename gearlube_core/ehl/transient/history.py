@@ -1,4 +1,4 @@
-"""Film at the times before a time step: what is stored, and the film to start from."""
+"""Film at earlier times: the stored oil, and the starting film of a time step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Newton iteration of one time step, with a preconditioner that outlives it."""
+"""Newton iteration of one time step; its preconditioner is reused in later steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A film that changes in time: what is given, and its grids."""
+"""A transient film problem and its grids."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Record of a march: everything that its next step depends on, in one file."""
+"""Record of a march in one file: all data that the next step needs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Multigrid cycle for long contacts: whole rows along the motion, grids that thin out across it.
+"""Multigrid cycle for long contacts: line solutions along the motion, coarsening across it.
 
 In a long contact the spacing along the contact is many times that along the motion. A row then
 feels its own pressure by far the most, over a good part of its length: rows are solved with the

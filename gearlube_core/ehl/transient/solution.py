@@ -1,4 +1,4 @@
-"""Film at one time, in SI, and whether it can be trusted."""
+"""Film at one time in SI units, with its convergence status."""
 
 from __future__ import annotations
 

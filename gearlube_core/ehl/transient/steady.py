@@ -1,4 +1,4 @@
-"""Steady film at one time of a film that changes: nested grids from the dry contact."""
+"""Steady film at one time of a transient problem: nested grids from the dry contact."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Flank surfaces of hypoid gears as their machine settings cut them."""
+"""Flank surfaces of hypoid gears, computed from machine settings."""

@@ -1,4 +1,4 @@
-"""Where a blade edge goes in the blank: points, derivatives and the equation of meshing.
+"""Motion of a blade edge in the blank: points, derivatives and the equation of meshing.
 
 One description covers every case: a cutter with its blade edge, carried by a cradle, cuts a work
 piece that turns with the cutter (continuous indexing) and with the cradle (roll). Everything is
@@ -50,7 +50,7 @@ class CuttingMotion(NamedTuple):
 
 
 class CutState(NamedTuple):
-    """Point of the blade edge in the blank and all that its neighbourhood needs.
+    """Point of the blade edge in the blank, with its derivatives.
 
     Derivatives with respect to u, th, ph; `meshing` is (r_u x r_th) . r_ph, zero on the envelope
     (for a form-cut flank: ph itself).

@@ -35,7 +35,7 @@ _START_GRID = (9, 17)  # stations of the coarse grid that starts every other sea
 
 @dataclass(frozen=True, slots=True)
 class ToothRegion:
-    """Where a tooth lies in the axial section of its blank: uniform depth, cones parallel.
+    """Region of a tooth in the axial section of its blank: uniform depth, parallel cones.
 
     s runs from the root line (0) to the tip (1) over `root_depth` + `addendum`, t from toe (0) to
     heel (1) over the face width.

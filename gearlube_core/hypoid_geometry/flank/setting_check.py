@@ -1,4 +1,4 @@
-"""Would these settings mesh? What single change would make them."""
+"""Check whether machine settings can mesh, and suggest single changes that would correct them."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _TRIALS = 41
 
 @dataclass(frozen=True, slots=True)
 class Suggestion:
-    """One field that, changed alone, would remove a misfit.
+    """A change of one field that alone would remove a misfit.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class Suggestion:
 
 
 def reference_misfit(file: HypoidGearFile, role: str) -> float:
-    """Return how far a cutter's reference plane misses the middle of the working depth [m].
+    """Return the distance of a cutter's reference plane from the middle of the working depth [m].
 
     For the pinion: height of the mean reference point over the plane, at the cradle angle that
     brings it to the point radius. For the gear: height of the cutter's path over the middle of the
@@ -110,7 +110,7 @@ def pressure_angle_mismatch(file: HypoidGearFile, side: Side) -> float:
 
 
 def suggest_settings(file: HypoidGearFile, limit: float = REFERENCE_LIMIT) -> list[Suggestion]:
-    """Return the single changes that would put a missing reference plane back; empty if it meets.
+    """Return single changes that would move the reference plane to its place; empty if correct.
 
     Every setting that moves the plane is searched on its own, 20 mm or 20 deg to both sides; those
     that cannot close the misfit are left out.
@@ -159,7 +159,7 @@ def suggest_corrections(file: HypoidGearFile, limit: float = MISMATCH_LIMIT) -> 
 
 
 def setting_report(file: HypoidGearFile) -> list[str]:
-    """Return what keeps the flanks of a gear file from meshing well, one sentence each."""
+    """Return the faults of a gear file that prevent good meshing, one sentence each."""
     sentences = []
     suggestions = suggest_settings(file)
     for role in ("pinion", "gear"):

@@ -1,4 +1,4 @@
-"""Point, normal and curvature of a cut flank, and where on it a given place lies."""
+"""Point, normal and curvature of a cut flank, and the flank coordinates of a given point."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role, Side
-from gearlube_core.hypoid_geometry.flank.sound_limit import SoundLimit, sound_limit
+from gearlube_core.hypoid_geometry.flank.flank_root_limit import FlankRootLimit, flank_root_limit
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 _MARGIN = 0.05  # s above a fold, where the slope of the flank is still that of its sound part
@@ -72,9 +72,9 @@ class Tooth:
         """Rotation [rad] that brings the coast flank of rotation zero to this tooth."""
         return 0.5 * self.towards * self.pitch
 
-    def limit(self, side: Side, t: Array) -> SoundLimit:
+    def limit(self, side: Side, t: Array) -> FlankRootLimit:
         """Return where a flank ends towards the root, at face positions t (n,)."""
-        return sound_limit(self._flank(side), np.asarray(t, float), self.blade_tip)
+        return flank_root_limit(self._flank(side), np.asarray(t, float), self.blade_tip)
 
     def angles(self, side: Side, s: Array, t: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Return the polar angle of a flank of this tooth, and where it had to be extended.

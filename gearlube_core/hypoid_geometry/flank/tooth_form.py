@@ -1,4 +1,4 @@
-"""What a tooth looks like: thickness, topland, root and undercut, as numbers and as sentences."""
+"""Form of a tooth: thickness, topland, root and undercut, as numbers and as sentences."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.hypoid_geometry.flank.flank import Role, Side
-from gearlube_core.hypoid_geometry.flank.sound_limit import SoundLimit
+from gearlube_core.hypoid_geometry.flank.flank_root_limit import FlankRootLimit
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import MILLIMETRE
@@ -35,7 +35,7 @@ class ToothForm:
         Normal circular tooth thickness on the pitch cone [m].
     slot : ndarray of shape (n,)
         Normal width of the slot on the root cone [m], flanks extended down to it.
-    drive, coast : SoundLimit
+    drive, coast : FlankRootLimit
         Where the flanks end towards the root.
     active : float
         Profile position s to which the tip of the mate reaches [-].
@@ -48,13 +48,13 @@ class ToothForm:
     topland: Array
     thickness: Array
     slot: Array
-    drive: SoundLimit
-    coast: SoundLimit
+    drive: FlankRootLimit
+    coast: FlankRootLimit
     active: float
     normal_module: float
 
     def report(self) -> list[str]:
-        """Return what is unusual about the tooth, one sentence each; empty for a sound tooth."""
+        """Return warnings about the tooth, one sentence each; empty for a regular tooth."""
         return [*self._tip(), *self._root(), *self._undercut("drive"), *self._undercut("coast")]
 
     def _tip(self) -> list[str]:

@@ -1,4 +1,4 @@
-"""What lies where on the gear flank: ease-off, unloaded path and pattern, pressure under load."""
+"""Maps on the gear flank: ease-off, unloaded contact path and pattern, pressure under load."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def ease_off_map(dataset: xr.Dataset) -> Any:
 
 
 def pressure_maps(dataset: xr.Dataset) -> Any:
-    """Return the highest pressure that each place of the gear flank sees, both sides, by torque."""
+    """Return maps of the highest pressure at each point of the gear flank, per side and torque."""
     torques = _spread(dataset["torque"].values, 4)
     with house_style():
         figure = new_figure(10.5, 8.6)

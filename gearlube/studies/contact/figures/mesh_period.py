@@ -1,4 +1,4 @@
-"""What repeats with the mesh: transmission errors, stiffness, contact radii."""
+"""Quantities that repeat every mesh period: transmission error, stiffness, contact radii."""
 
 from __future__ import annotations
 

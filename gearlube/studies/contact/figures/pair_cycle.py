@@ -1,4 +1,4 @@
-"""What one tooth pair goes through from entry to exit."""
+"""Load share, pressure and contact geometry of one tooth pair from entry to exit."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from gearlube.studies.films.commands.console import errors_ended
+from gearlube.studies.films.commands.console import exit_on_errors
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 
@@ -38,7 +38,7 @@ def compare(
     """
     from gearlube.studies.films.compare import compare_marches
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         folders: dict[str, Path] = {}
         for entry in marches:
             name, given, folder = entry.rpartition("=")

@@ -1,4 +1,4 @@
-"""What the commands `gearlube ehl` share: progress, summary, messages and exit codes."""
+"""Shared by the commands `gearlube ehl`: progress, summary, messages and exit codes."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ console = Console(stderr=True)
 _SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm"), "1": (1.0, "")}
 
 
-def errors_ended(out: Path) -> AbstractContextManager[None]:
-    """Turn errors into messages and exit codes; `out` is where results go."""
+def exit_on_errors(out: Path) -> AbstractContextManager[None]:
+    """Turn errors into messages and exit codes; `out` is the folder of results."""
     return exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again.")
 
 
 def solve_and_show(solve: Callable[[Progress], xr.Dataset], out: Path) -> None:
-    """Solve with a progress bar, print what was found; end with a failure if it did not converge.
+    """Solve with a progress bar and print a summary; exit as failed if it did not converge.
 
-    `solve` takes the callback of the progress and writes its files into `out`.
+    `solve` takes the progress callback and writes its files into `out`.
     """
     from gearlube.studies.films.results import dataset_file
 
@@ -89,7 +89,7 @@ def _ratio_table(name: str, rows: list[RatioRow]) -> Table:
 
 
 def _table(title: str, *headings: str) -> Table:
-    """Return a table without rows; columns whose heading begins with > are set to the right."""
+    """Return an empty table; columns whose heading begins with > are aligned to the right."""
     table = Table(title=title)
     for heading in headings:
         table.add_column(

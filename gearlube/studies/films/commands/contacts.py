@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 import typer
 
 from gearlube.cli.options import CaseArgument, ExampleOption
-from gearlube.studies.films.commands.console import errors_ended, solve_and_show
+from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.checks import check_finite
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
@@ -62,7 +62,7 @@ def line(
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import LineCase
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         if example:
             typer.echo(LineCase.shipped_text(case), nl=False)
             return
@@ -102,7 +102,7 @@ def point(
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import PointCase
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         if example:
             typer.echo(PointCase.shipped_text(case), nl=False)
             return
@@ -122,7 +122,7 @@ def point(
 def _changed(
     case: Case, changes: dict[str, Any], entrainment: float | None, slide_roll: float | None
 ) -> Case:
-    """Return the case with what the options replace."""
+    """Return the case with the values that the options give."""
     given = {field: value for field, value in changes.items() if value is not None}
     for name, value, unit in (
         ("--entrainment", entrainment, "m/s"),

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from gearlube.cli.options import HelicalGearArgument, SpeedOfFileOption, TorqueOfFileOption
-from gearlube.studies.films.commands.console import errors_ended, solve_and_show
+from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
@@ -95,7 +95,7 @@ def helical(
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
 ) -> None:
-    """Solve the film on a helical pair's contact line, at rest at one position or marching.
+    """Solve the film on a helical pair's contact line, steady at one position or in time.
 
     At rest: helical.nc, summary.csv, figures. With --march: cycle.nc, its figures and step_*.nc of
     the snapshots; a stopped march goes on from its record in OUT when the same command runs again.
@@ -105,7 +105,7 @@ def helical(
     from gearlube.studies.films.helical_case import HelicalLineCase, with_flanks
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         _check_options(step, position, march, snapshots)
         file = with_flanks(
             HelicalGearFile.given(gear), facets, crown_start, relief_parabola, relief_exponent
@@ -145,7 +145,7 @@ def helical(
 def _check_options(
     step: float | None, position: float | None, march: str | None, snapshots: str | None
 ) -> None:
-    """Refuse options that exclude each other."""
+    """Raise ParameterError if options exclude each other."""
     if march is None and snapshots is not None:
         raise ParameterError(
             f"--snapshots must be given with --march, got {snapshots!r} alone. Give both."

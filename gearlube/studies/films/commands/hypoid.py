@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from gearlube.cli.options import CaseArgument, ExampleOption
-from gearlube.studies.films.commands.console import errors_ended, solve_and_show
+from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.errors import ParameterError
 
 _QUICK = {
@@ -92,13 +92,13 @@ def hypoid(
 ) -> None:
     """Solve the films of a hypoid tooth pair through its engagement, beside the formulas.
 
-    Writes hypoid.nc, summary.csv and figures. Options replace what the case says. A stopped march
-    goes on from its record in OUT when the same command runs again.
+    Writes hypoid.nc, summary.csv and figures. Options override the case file. A stopped march
+    continues from the last step stored in OUT when the same command runs again.
     """
     from gearlube.studies.films import run_hypoid
     from gearlube_core.ehl.case.hypoid_case import HypoidCase
 
-    with errors_ended(out):
+    with exit_on_errors(out):
         if example:
             typer.echo(HypoidCase.shipped_text(case), nl=False)
             return

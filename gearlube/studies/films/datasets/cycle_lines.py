@@ -48,7 +48,7 @@ class CycleLines:
             ) from None
 
     def add(self, step: int, solution: FilmSolution) -> None:
-        """Keep the lines of a step."""
+        """Store the pressure and film along the line at one step."""
         self._y = solution.y
         self._rows[step] = (solution.pressure.max(axis=0), solution.film.min(axis=0))
 
@@ -61,7 +61,7 @@ class CycleLines:
         write_arrays(self._path, arrays)
 
     def variables(self, steps: Array) -> dict[str, Variable]:
-        """Return variables over `steps` and y; not a number at steps that are not kept."""
+        """Return variables over `steps` and y; NaN at steps that are not stored."""
         pressure, film = (np.full((steps.size, self._y.size), np.nan) for _ in range(2))
         for k, step in enumerate(steps):
             if int(step) in self._rows:
@@ -76,12 +76,12 @@ class CycleLines:
 
 
 def step_dataset(line: xr.Dataset, march: str) -> xr.Dataset:
-    """Return the dataset of a line as that of a step of the march `march`."""
+    """Mark the dataset of a line as one step of the march `march`."""
     return line.assign_attrs(contact="helical_step", march=march)
 
 
 def with_steady_film(dataset: xr.Dataset, steady: FilmSolution) -> xr.Dataset:
-    """Return the dataset of a step with the film of the line at rest there beside its own."""
+    """Add the steady film at the same line position to the dataset of a step."""
     plane = ("x", "y")
     beside = dataset.assign(
         steady_pressure=noted(plane, steady.pressure, "Pa", "pressure with the line at rest"),

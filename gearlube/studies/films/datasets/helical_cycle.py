@@ -76,7 +76,7 @@ def cycle_dataset(
 
 
 def with_steady_points(dataset: xr.Dataset, steady: dict[int, FilmSolution]) -> xr.Dataset:
-    """Return the curves of a cycle with largest pressures and smallest films at rest.
+    """Return the curves of a cycle with the largest pressures and smallest films of steady lines.
 
     `steady` holds the films of the line at rest by their steps.
     """
@@ -95,7 +95,7 @@ def with_steady_points(dataset: xr.Dataset, steady: dict[int, FilmSolution]) -> 
 
 
 def march_key(film: HelicalFilm, first: int) -> str:
-    """Return a short name that differs where pair, operation, oil, grid or first step do."""
+    """Return a short key that is unique for pair, operation, oil, grid and first step."""
     return hashlib.sha256(repr((film, first)).encode()).hexdigest()[:12]
 
 

@@ -156,7 +156,7 @@ def _curves(
 
 
 def _squeeze(steady: FilmCurves, march: FilmCurves) -> dict[str, Variable]:
-    """Return films, pressure and friction in time over those of steady films."""
+    """Return ratios of film, pressure and friction in time to those of steady films."""
     found = {}
     for name in ("central_film", "minimum_film", "pressure_max", "traction_heated"):
         there = np.interp(steady["time"], march["time"], march[name])
@@ -187,7 +187,7 @@ def _whole_films(flank: HypoidFlank, steady: FilmCurves) -> dict[str, Variable]:
 
 
 def hypoid_key(flank: HypoidFlank) -> str:
-    """Return a short name that differs where contact, oil, grid or steps do."""
+    """Return a short key that is unique for contact, oil, grid and steps."""
     cycle = flank.film.cycle
     digest = hashlib.sha256(
         repr((flank.case.solver, flank.film.lubricant, flank.film.flow)).encode()

@@ -1,4 +1,4 @@
-"""Variables of datasets with units and names; those that several datasets share."""
+"""Dataset variables with units and long names, and variables that several datasets share."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A contact line in a step of a march beside the same line at rest."""
+"""A contact line at one step of a march, beside the steady film of the same line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SHARES = (0.05, 0.15, 0.35, 0.65, 0.85, 0.95)  # of the loaded length
 
 
 def step_contours(dataset: xr.Dataset) -> Any:
-    """Return contours of film and pressure, marching above and at rest below."""
+    """Return contours of film and pressure: in time above, steady below."""
     with house_style():
         figure = new_figure(12.0, 6.4)
         axes = figure.subplots(2, 2, sharex=True, sharey=True)
@@ -50,7 +50,7 @@ def step_contours(dataset: xr.Dataset) -> Any:
 
 
 def step_sections(dataset: xr.Dataset) -> Any:
-    """Return sections of film and pressure across the line, marching and at rest."""
+    """Return sections of film and pressure across the line, in time and steady."""
     with house_style():
         figure = new_figure(11.0, 8.4)
         of, x = dataset.attrs, 1e3 * dataset["x"].values

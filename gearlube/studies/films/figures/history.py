@@ -1,4 +1,4 @@
-"""How a solution converged."""
+"""Convergence history of a solution."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _FLOOR = 1e-17  # drawn in place of an exact zero
 
 
 def residual_history(dataset: xr.Dataset) -> Any:
-    """Return the residuals of all Newton steps, grids from coarse to fine in turn.
+    """Return the residuals of all Newton steps, from the coarsest to the finest grid.
 
     For a thermal film the changes of temperature from turn to turn.
     """

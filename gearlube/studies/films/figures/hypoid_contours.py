@@ -19,7 +19,7 @@ _THICK = 1.8  # central films that have contours
 
 
 def hypoid_contours(dataset: xr.Dataset) -> Any:
-    """Return contours of pressure and film at the kept instants, the dry contact dashed.
+    """Return contours of pressure and film at the stored instants, with the dry contact dashed.
 
     The minor axis is drawn upwards and stretched; arrows show entrainment in that stretching.
     """
@@ -66,7 +66,7 @@ def _plan(ax: Any, one: xr.Dataset, reach: list[float], colour: str) -> None:
 
 
 def _arrow(ax: Any, reach: list[float], psi: float) -> None:
-    """Draw entrainment along the stretched axes, so that it crosses the contact as oil does."""
+    """Draw the entrainment direction in the stretched axes of the figure."""
     start = (-0.85 * reach[0], -1.35 * reach[1])
     across = 0.5 * reach[1]
     along = across * np.tan(psi)

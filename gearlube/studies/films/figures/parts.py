@@ -1,4 +1,4 @@
-"""Parts that several figures of films share: contours, two scales, outlines, titles."""
+"""Shared parts of film figures: contours, two scales, outlines, titles."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def titled(dataset: xr.Dataset, what: str) -> str:
 def shown_range(
     dataset: xr.Dataset, axis: str, side: float, loaded_share: float
 ) -> tuple[float, float]:
-    """Return the limits of an axis [mm]: where something happens, inside the domain.
+    """Return the limits of an axis [mm] that enclose the loaded zone, inside the domain.
 
     At least `side` [m] to both sides, and as far as the pressure is above `loaded_share` of the
     largest.

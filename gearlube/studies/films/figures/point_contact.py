@@ -105,7 +105,7 @@ def point_temperature(dataset: xr.Dataset) -> Any:
 
 
 def _plan(ax: Any, dataset: xr.Dataset, colour: str) -> None:
-    """Draw what lies in the plane: the dry contact, the direction of entrainment, the axes.
+    """Draw the dry contact, the direction of entrainment and the axes.
 
     Slender contacts are stretched across; the arrow then is as well.
     """
@@ -128,7 +128,7 @@ def _plan(ax: Any, dataset: xr.Dataset, colour: str) -> None:
 
 
 def _stretch(dataset: xr.Dataset) -> str:
-    """Return words for a plan whose axes have two scales."""
+    """Return a note for a plan whose two axes have different scales."""
     (x_low, x_high), (y_low, y_high) = _shown(dataset, "x"), _shown(dataset, "y")
     ratio = (y_high - y_low) / (x_high - x_low)
     return "" if 1.0 / _SLENDER < ratio < _SLENDER else ", scales of x and y differ"

@@ -1,7 +1,7 @@
-"""A tooth pair of a hypoid axle: what loads and moves its film, and formulas beside it.
+"""The film of a hypoid tooth pair: its load and motion, and film formulas for comparison.
 
 These modules join the axle model (`dynamics`), the contact of the flanks (`hypoid_contact`) and
-the film (`ehl`). In the core none of the three may import another: a film must not need an axle,
-and the axle's FMU must not need a film solver. So they meet here. The physics stays in the core;
-here it is called, sampled over one engagement and put in the axes of the film.
+the film (`ehl`). In the core none of the three may import another: a film must not need an axle
+and the axle's FMU must not need a film solver. They are combined here. The physics stays in
+the core; here it is sampled over one engagement and transformed to the axes of the film.
 """

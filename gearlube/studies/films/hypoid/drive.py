@@ -1,4 +1,4 @@
-"""Load and speed of a hypoid pair's teeth over time: from the axle's motion, or at rest."""
+"""Load and speed of a hypoid tooth pair over time: from the axle's motion, or quasi-static."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ _FEWEST = 8  # samples of a cycle
 
 @dataclass(frozen=True, slots=True)
 class HypoidFlank:
-    """A case ready to be solved.
+    """The film problem of a case, with mesh data, motion and oil.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def hypoid_flank(case: HypoidCase) -> HypoidFlank:
 
 
 def loaded_span(case: HypoidCase, phase: Array, load: Array) -> slice:
-    """Return the samples around the largest load that carry, within the phases asked for."""
+    """Return the loaded samples around the largest load, within the requested phases."""
     most = float(load.max())
     carries = (load >= case.smallest_load * most) & (load > 0.0)
     carries &= (phase >= case.first_phase) & (phase <= case.last_phase)

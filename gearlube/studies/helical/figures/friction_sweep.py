@@ -7,7 +7,7 @@ from typing import Any
 import xarray as xr
 
 from gearlube.plotting.style import house_style, new_figure
-from gearlube.studies.helical.figures.layout import NOTHING, say_nothing, title
+from gearlube.studies.helical.figures.layout import NOTHING, note_no_vibration, title
 
 _ROWS = (
     (("u_xp", "$u_{xp}$"), ("u_yp", "$u_{yp}$"), ("u_zp", "$u_{zp}$")),
@@ -21,7 +21,7 @@ _FORCES = (
 
 
 def friction_harmonics(sweep: xr.Dataset) -> Any:
-    """Return mesh orders of motions against friction; [he_2007 sec. 6] tells what they do."""
+    """Return mesh orders of motions against friction; [he_2007 sec. 6] discusses them."""
     return _panels(sweep, _ROWS, 1e6, "µm", "Mesh orders of the motions against friction")
 
 
@@ -57,7 +57,7 @@ def _panels(
                     ax.set_yscale("log")
                     ax.set_ylim(1e-4 * top, 2.0 * top)
                 else:
-                    say_nothing(ax)
+                    note_no_vibration(ax)
             line[0].set_ylabel(f"amplitude [{unit}]")
         for ax in axes[-1]:
             ax.set_xlabel("coefficient of friction µ")

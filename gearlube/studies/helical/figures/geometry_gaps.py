@@ -156,7 +156,7 @@ def _relief_lines(ax: Any, dataset: xr.Dataset, member: str) -> None:
 def _label_line(
     ax: Any, x: Any, y: Any, text: str, limits: tuple[float, float], width: float
 ) -> None:
-    """Name a line in the middle of what is seen of it."""
+    """Write the name of a line at the middle of its visible part."""
     seen = np.flatnonzero((y > limits[0]) & (y < limits[1]) & (np.abs(x) < width))
     if seen.size > _SEEN:
         at = seen[seen.size // 2]

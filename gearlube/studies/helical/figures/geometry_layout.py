@@ -1,4 +1,4 @@
-"""What the geometry figures share: one column of axes for each pair, names and marks."""
+"""Shared parts of the geometry figures: one column of axes per pair, names and marks."""
 
 from __future__ import annotations
 

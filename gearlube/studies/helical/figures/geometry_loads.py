@@ -1,4 +1,4 @@
-"""Lengths and loads of contact lines over the meshing cycle, and where the lines lie."""
+"""Length, load and position of contact lines over the meshing cycle."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def unmodified_lines(datasets: Sequence[xr.Dataset]) -> Any:
 
 
 def relieved_lines(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return the same between the starts of tip relief: [jamali_2015 fig. 4.2]."""
+    """Return length and load of a line between the starts of tip relief: [jamali_2015 fig. 4.2]."""
     return _lines(datasets, 1, "Contact lines between the starts of tip relief")
 
 
@@ -112,7 +112,7 @@ def contact_plane(datasets: Sequence[xr.Dataset]) -> Any:
 
 
 def _zone(ax: Any, low: float, high: float, half: float, member: str) -> None:
-    """Shade where a member's tip is relieved, if it is."""
+    """Shade the zone of a member's tip relief, if it has any."""
     if high > low:
         ax.fill_between([low, high], -half, half, color=GREY, alpha=0.35, lw=0)
         ax.text(

@@ -1,4 +1,4 @@
-"""What the figures of a helical pair share: cases, colours, axes over a mesh period."""
+"""Shared parts of the figures of a helical pair: cases, colours, axes over a mesh period."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ def title(dataset: xr.Dataset, what: str) -> str:
     at = dataset.attrs
     return (
         f"{what}: {at['name']}, {at['pinion_torque']:.4g} N·m, "
-        f"{at['pinion_speed'] / RPM:.5g} rpm, mesh {mesh_words(dataset)}"
+        f"{at['pinion_speed'] / RPM:.5g} rpm, mesh {mesh_description(dataset)}"
     )
 
 
-def mesh_words(dataset: xr.Dataset) -> str:
-    """Return how the mesh is modelled, in words."""
+def mesh_description(dataset: xr.Dataset) -> str:
+    """Return a description of the mesh model."""
     return "of loaded contact" if dataset.attrs["mesh"] == "contact" else "of constant density"
 
 
@@ -60,7 +60,7 @@ def stems(ax: Any, order: Array, sets: list[tuple[Array, str, str]]) -> None:
     ax.set_xlim(order[0] - 0.7, order[-1] + 0.7)
     ax.set_xticks(order[::2])
     if not top > NOTHING:
-        say_nothing(ax)
+        note_no_vibration(ax)
         return
     low = min((float(a[a > 0.0].min()) for a, _, _ in sets if (a > 0.0).any()), default=top)
     floor = max(10.0**-_DECADES * top, 0.3 * low, 1e-30)
@@ -73,8 +73,8 @@ def stems(ax: Any, order: Array, sets: list[tuple[Array, str, str]]) -> None:
     ax.set_ylim(floor, 3.0 * max(top, floor))
 
 
-def say_nothing(ax: Any) -> None:
-    """Write that there is no vibration in a panel."""
+def note_no_vibration(ax: Any) -> None:
+    """Write in a panel that there is no vibration."""
     ax.text(0.5, 0.5, "none", transform=ax.transAxes, ha="center", va="center", color=GREY)
 
 
@@ -87,7 +87,7 @@ def mark_orders(ax: Any, response: xr.Dataset) -> None:
 
 
 def distinct(frequencies: Array, apart: float = 0.01) -> Array:
-    """Return frequencies without those that lie within a share of the one before."""
+    """Return frequencies without those too close to the one before, as a share of it."""
     kept: list[float] = []
     for frequency in np.sort(frequencies):
         if not kept or frequency > (1.0 + apart) * kept[-1]:

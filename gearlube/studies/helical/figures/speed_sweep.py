@@ -8,7 +8,13 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import GREEN, GREY, cell_edges, house_style, new_figure, outlined
-from gearlube.studies.helical.figures.layout import NOTHING, RPM, distinct, mesh_words, say_nothing
+from gearlube.studies.helical.figures.layout import (
+    NOTHING,
+    RPM,
+    distinct,
+    mesh_description,
+    note_no_vibration,
+)
 from gearlube.studies.helical.settings import SHOWN_MU
 
 _RANGE = 60.0  # dB
@@ -25,7 +31,7 @@ _CURVES = 4  # coefficients of friction in one panel
 
 def _heading(sweep: xr.Dataset, what: str) -> str:
     at = sweep.attrs
-    return f"{what}: {at['name']}, {at['pinion_torque']:.4g} N·m, mesh {mesh_words(sweep)}"
+    return f"{what}: {at['name']}, {at['pinion_torque']:.4g} N·m, mesh {mesh_description(sweep)}"
 
 
 def campbell(sweep: xr.Dataset) -> Any:
@@ -44,7 +50,7 @@ def campbell(sweep: xr.Dataset) -> Any:
             ax.set_xlabel("pinion speed [rpm]")
             amplitude = part[f"{name}_harmonic"].values
             if not np.nanmax(amplitude) > NOTHING:
-                say_nothing(ax)
+                note_no_vibration(ax)
                 continue
             level = 20.0 * np.log10(np.maximum(amplitude, NOTHING))
             top = 10.0 * np.ceil(0.1 * np.nanmax(level))
@@ -107,7 +113,7 @@ def order_cuts(sweep: xr.Dataset) -> Any:
             else:
                 for ax in line:
                     ax.set_yscale("linear")
-                    say_nothing(ax)
+                    note_no_vibration(ax)
             line[0].set_ylabel(label)
         for ax, order in zip(axes[0], _ORDERS, strict=True):
             ax.set_title(f"mesh order {order}")
@@ -135,7 +141,7 @@ def friction_speed_maps(sweep: xr.Dataset) -> Any:
             ax.set_xlabel("pinion speed [rpm]")
             ax.grid(False)
             if not np.nanmax(power) > NOTHING**2:
-                say_nothing(ax)
+                note_no_vibration(ax)
                 continue
             level = 10.0 * np.log10(np.maximum(power.transpose("mu", "speed").values, NOTHING**2))
             top = 5.0 * np.ceil(0.2 * np.nanmax(level))

@@ -15,7 +15,7 @@ from gearlube.plotting.style import (
     house_style,
     new_figure,
 )
-from gearlube.studies.helical.figures.layout import RPM, distinct, mesh_words
+from gearlube.studies.helical.figures.layout import RPM, distinct, mesh_description
 from gearlube.studies.helical.stability import LIGHT_DAMPING
 
 _COLOURS = (BLUE, VERMILLION)
@@ -66,7 +66,7 @@ def instability(stability: xr.Dataset) -> Any:
         axes[2].set_xlabel("mesh frequency [kHz]; dotted: twice a natural one; others: sums of two")
         figure.suptitle(
             f"Parametric instability, black line its limit: {at['name']}, "
-            f"{at['pinion_torque']:.4g} N·m, mesh {mesh_words(stability)}",
+            f"{at['pinion_torque']:.4g} N·m, mesh {mesh_description(stability)}",
             fontsize=11.0,
         )
     return figure
@@ -116,7 +116,7 @@ def separation(dataset: xr.Dataset) -> Any:
         figure.legend(*top.get_legend_handles_labels(), ncols=2, loc="outside lower center")
         figure.suptitle(
             f"Tooth separation, µ = {at['mu']:g}, backlash {1e6 * at['backlash']:.3g} µm: "
-            f"{at['name']}, {at['pinion_torque']:.4g} N·m, mesh {mesh_words(dataset)}; "
+            f"{at['name']}, {at['pinion_torque']:.4g} N·m, mesh {mesh_description(dataset)}; "
             "dash-dotted: mesh resonance",
             fontsize=10.0,
         )

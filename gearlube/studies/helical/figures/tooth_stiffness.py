@@ -1,4 +1,4 @@
-"""Stiffness of tooth pairs from loaded contact and with one density."""
+"""Stiffness of tooth pairs from loaded contact and with one stiffness density."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ _ROWS: tuple[tuple[tuple[str, str, float], ...], ...] = (
 
 
 def contact_properties(cycle: xr.Dataset) -> Any:
-    """Return what a tooth pair goes through from entry to exit, and its neighbours.
+    """Return contact properties of a tooth pair and its neighbours, from entry to exit.
 
     Compare [karagiannis_2012 fig. 18] [karagiannis_2012 fig. 20] [karagiannis_2012 fig. 21].
     """

@@ -46,7 +46,7 @@ def _draw(ax: Any, motion: xr.Dataset, **style: Any) -> None:
 
 
 def _no_contact(ax: Any) -> None:
-    """Shade where teeth are apart, if that is in sight."""
+    """Shade where teeth are apart, if that is within the axes."""
     low, high = ax.get_ylim()
     if low < 0.0:
         ax.axhspan(low, 0.0, color=GREY, alpha=0.3, lw=0)
@@ -210,7 +210,7 @@ def phase_portraits(cycle: xr.Dataset) -> Any:
 
 
 def poincare_section(cycle: xr.Dataset) -> Any:
-    """Return how motions from many starts approach lasting ones, seen once a mesh period."""
+    """Return the Poincare section: motions from many starts, sampled once per mesh period."""
     x, rate = 1e6 * cycle["section_x"].values, 1e3 * cycle["section_rate"].values
     relative = cycle.attrs["section_relative_frequency"]
     with house_style():

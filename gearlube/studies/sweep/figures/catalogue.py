@@ -20,7 +20,7 @@ from gearlube.studies.sweep.figures.waveforms import roller_zone, waveforms
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """A figure, its file name and what to look for in it; `essential` for a first look."""
+    """A figure, its file name and a hint for the reader; `essential` ones suit a first look."""
 
     name: str
     caption: str

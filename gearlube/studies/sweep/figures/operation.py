@@ -1,4 +1,4 @@
-"""Where the axle was run: torques, and the frequencies that meet the bearing modes."""
+"""Operating points of the axle: torques, and excitation frequencies beside bearing modes."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ _ROWS = 160  # frequency cells of a map; a cell shows the largest line inside it
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MapChannel:
-    """What a colour map shows.
+    """Quantity of a colour map.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the transmission error and a roller load look like over one revolution."""
+"""Waveforms of the transmission error and of a roller load over one revolution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the mesh's varying stiffness makes the pair unstable by itself."""
+"""Parametric instability of the pair from its varying mesh stiffness."""
 
 from __future__ import annotations
 

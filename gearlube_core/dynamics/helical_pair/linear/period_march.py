@@ -39,6 +39,17 @@ class PeriodMarch(NamedTuple):
     steps: int
 
 
+class SystemEntries(NamedTuple):
+    """What a `LinearSystem` keeps constant, for the kernels."""
+
+    K: MatrixEntries
+    C: Array
+    E: MatrixEntries
+    W: MatrixEntries
+    f: Array
+    damping: float
+
+
 def march_period(
     system: LinearSystem, period: float, samples: int, steps_per_oscillation: int
 ) -> PeriodMarch:
@@ -64,11 +75,16 @@ def march_period(
     steps = np.maximum(steps, 1)
     states = np.zeros((breaks.size, 2 * n, 2 * n + 1))
     work, sums = np.zeros((7, n, 2 * n + 1)), np.zeros((7, 2 * n + 1))
-    _march(
-        states, work, sums, np.diff(breaks) * period / steps, steps,
-        system_moments(system, _stage_phases(breaks, steps)), matrix_entries(system.K), system.C,
-        matrix_entries(system.E), matrix_entries(system.W), system.f, system.damping,
-    )  # fmt: skip
+    entries = SystemEntries(
+        K=matrix_entries(system.K),
+        C=system.C,
+        E=matrix_entries(system.E),
+        W=matrix_entries(system.W),
+        f=system.f,
+        damping=system.damping,
+    )
+    moments = system_moments(system, _stage_phases(breaks, steps))
+    _march(states, work, sums, np.diff(breaks) * period / steps, steps, moments, entries)
     sample = np.searchsorted(breaks, grid[:-1] - _MERGED)
     return PeriodMarch(breaks, sample, states[:, :, :-1], states[:, :, -1], int(steps.sum()))
 
@@ -90,12 +106,7 @@ def _march(
     time_steps: Array,
     steps: np.ndarray,
     moments: Array,
-    K: MatrixEntries,
-    C: Array,
-    E: MatrixEntries,
-    W: MatrixEntries,
-    f: Array,
-    damping: float,
+    p: SystemEntries,
 ) -> None:
     """Fill `states` of shape (B, 2n, 2n + 1); the last column is the forced one."""
     q, v, q_s, v_s, a, q_sum, v_sum = (
@@ -121,7 +132,7 @@ def _march(
             _copy(v_sum, v)
             for stage in range(4):
                 now = moments[row + (stage + 1) // 2]
-                _accelerate(q_s, v_s, now, K, C, E, W, f, damping, sums, a)
+                _accelerate(q_s, v_s, now, p, sums, a)
                 weight = h / 6.0 if stage in (0, 3) else h / 3.0
                 ahead = h if stage == 2 else 0.5 * h
                 for i in range(n):
@@ -149,32 +160,27 @@ def _accelerate(
     q: Array,
     v: Array,
     moments: Array,
-    K: MatrixEntries,
-    C: Array,
-    E: MatrixEntries,
-    W: MatrixEntries,
-    f: Array,
-    damping: float,
+    p: SystemEntries,
     sums: Array,
     a: Array,
 ) -> None:
     """Fill the accelerations of all columns; forces act on the last column only."""
     n, columns = q.shape
-    c_mesh = damping_constant(damping, moments[0, 0])
+    c_mesh = damping_constant(p.damping, moments[0, 0])
     for i in range(n):
-        rate = C[i] + (c_mesh if i == n - 1 else 0.0)
+        rate = p.C[i] + (c_mesh if i == n - 1 else 0.0)
         for j in range(columns):
             a[i, j] = -rate * v[i, j]
-        a[i, columns - 1] += f[i]
-    add_product(-1.0, K, q, a)
+        a[i, columns - 1] += p.f[i]
+    add_product(-1.0, p.K, q, a)
     # rows 5 and 6 hold the strains, 0 to 4 the sums
     for j in range(columns):
         sums[5, j] = 0.0
         sums[6, j] = 0.0
-    add_product(1.0, E, q, sums[5:])
+    add_product(1.0, p.E, q, sums[5:])
     for i in range(5):
         g_0, g_1 = moments[i, 0], moments[i, 1]
         for j in range(columns):
             sums[i, j] = g_0 * sums[5, j] + g_1 * sums[6, j]
         sums[i, columns - 1] -= moments[i, 2]
-    add_product(1.0, W, sums, a)
+    add_product(1.0, p.W, sums, a)

@@ -176,6 +176,16 @@ def periodic_response(
     has it as an option, see `HelicalMarchParameters.equations` for the difference. It is quadratic
     in the motion, and an impulse where whole lines of a spur pair enter or leave under load, so
     that it is no part of a linear system with moments of the mesh.
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.helical_pair.gear_file_pair import helical_pair_parameters
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> gears = HelicalGearFile.named("he_2007")
+    >>> pair = helical_pair_parameters(gears, pinion_torque=226.0, mu=0.05)
+    >>> psi = periodic_response(pair, 104.7).signal("psi")  # transmission error [m]
+    >>> f"{1e6 * (psi.max() - psi.min()):.1f} um"
+    '1.8 um'
     """
     check_positive("pinion_speed", pinion_speed, "rad/s")
     settings = settings or ResponseSettings()

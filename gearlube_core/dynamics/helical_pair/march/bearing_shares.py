@@ -1,4 +1,4 @@
-"""What each bearing carries of a member's displacement and velocity."""
+"""Shares of each bearing in the support force of a member's displacement and velocity."""
 
 from __future__ import annotations
 

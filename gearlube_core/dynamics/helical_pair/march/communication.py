@@ -6,6 +6,7 @@ from numpy import float64
 from numpy.typing import NDArray
 
 from gearlube_core.dynamics.helical_pair.march.integrate import OK, advance
+from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields
 from gearlube_core.dynamics.helical_pair.march.outputs import write_outputs
 from gearlube_core.dynamics.helical_pair.march.state import N_STATE
 from gearlube_core.kernels.jit import kernel
@@ -16,12 +17,8 @@ def communication_step(
     s: NDArray[float64],
     trial: NDArray[float64],
     duration: float,
-    pinion_torque: float,
-    wheel_torque: float,
-    oil_temperature: float,
-    levels: NDArray[float64],
-    densities: NDArray[float64],
-    offsets: NDArray[float64],
+    inputs: NDArray[float64],
+    mesh: MeshFields,
     data: NDArray[float64],
     bearings: NDArray[float64],
     control: NDArray[float64],
@@ -39,33 +36,9 @@ def communication_step(
     """
     for i in range(N_STATE):
         trial[i] = s[i]
-    status = advance(
-        trial,
-        duration,
-        pinion_torque,
-        wheel_torque,
-        oil_temperature,
-        levels,
-        densities,
-        offsets,
-        data,
-        control,
-        work,
-    )
+    status = advance(trial, duration, inputs, mesh, data, control, work)
     if status == OK:
         for i in range(N_STATE):
             s[i] = trial[i]
-        write_outputs(
-            s,
-            pinion_torque,
-            wheel_torque,
-            oil_temperature,
-            levels,
-            densities,
-            offsets,
-            data,
-            bearings,
-            work,
-            out,
-        )
+        write_outputs(s, inputs, mesh, data, bearings, work, out)
     return status

@@ -1,4 +1,4 @@
-"""What the marching kernels need to know of a pair: floats only."""
+"""Constants of a pair for the time integration kernels: floats only."""
 
 from __future__ import annotations
 

@@ -9,7 +9,11 @@ from scipy.optimize import root
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
-from gearlube_core.dynamics.helical_pair.march.mesh_data import MarchMesh, mesh_at_torque
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    MarchMesh,
+    MeshFields,
+    mesh_at_torque,
+)
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
     LOAD_TORQUE,
@@ -45,6 +49,7 @@ class MarchRates:
     def __init__(self, constants: MarchConstants, mesh: MarchMesh, data: Array) -> None:
         self.constants = constants
         self.mesh = mesh
+        self._fields: MeshFields = (mesh.torque, mesh.density, mesh.offset)
         self._data = data
         motion = constants.motion
         mobilities = [
@@ -58,7 +63,7 @@ class MarchRates:
     def at(self, state: Array, pinion_torque: float, wheel_torque: float) -> Array:
         """Return d/dt of the integrated states, shape (N_ODE,), at a state of shape (N_STATE,)."""
         slope = np.zeros(N_ODE)
-        mesh_at_torque(state[LOAD_TORQUE], *self.mesh, self._data)
+        mesh_at_torque(state[LOAD_TORQUE], self._fields, self._data)
         march_rates(state, pinion_torque, wheel_torque, self._data, slope)
         return slope
 
@@ -67,7 +72,7 @@ class MarchRates:
         if self.constants.friction_form > 0.0:
             state[REFRESHED] = -1.0
             oil = lubricant_state(self.constants.oil, oil_temperature)
-            mesh_at_torque(state[LOAD_TORQUE], *self.mesh, self._data)
+            mesh_at_torque(state[LOAD_TORQUE], self._fields, self._data)
             refresh_friction(state, self._data, oil)
 
 

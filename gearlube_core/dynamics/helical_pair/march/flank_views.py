@@ -1,4 +1,4 @@
-"""Motion of the pair as its drive flanks and its coast flanks see it: kernels."""
+"""Motion of the pair in the coordinates of its drive flanks and coast flanks: kernels."""
 
 from __future__ import annotations
 

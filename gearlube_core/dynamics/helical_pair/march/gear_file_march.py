@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
@@ -12,9 +12,6 @@ from gearlube_core.dynamics.helical_pair.gear_file_pair import (
 )
 from gearlube_core.dynamics.helical_pair.march.parameters import (
     Body,
-    Equations,
-    Form,
-    Friction,
     HelicalMarchParameters,
 )
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import (
@@ -27,29 +24,58 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 
+_ZERO = "0 takes the value of the gear file."
 
-def helical_march(
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReplacedBearings:
+    """What takes the place of the gear file's bearings, the same for both members.
+
+    Parameters
+    ----------
+    radial_stiffness, axial_stiffness : float
+        Of both bearings of a member together [N/m], 0 to 1e12; 0: those of the file.
+    bearing_distance : float
+        From mid-face to each bearing [m], 0 to 10; 0: that of the file.
+
+    Raises
+    ------
+    ParameterError
+        A value out of range.
+
+    Examples
+    --------
+    >>> gear = HelicalGearFile.named("he_2007")
+    >>> stiff = ReplacedBearings(axial_stiffness=1e9)
+    >>> helical_march_parameters(gear, bearings=stiff).gear.support.second.K_zz  # N/m, half of it
+    500000000.0
+    """
+
+    radial_stiffness: float = 0.0
+    axial_stiffness: float = 0.0
+    bearing_distance: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, high, unit in (
+            ("radial_stiffness", 1e12, "N/m"),
+            ("axial_stiffness", 1e12, "N/m"),
+            ("bearing_distance", 10.0, "m"),
+        ):
+            check_within(name, getattr(self, name), 0.0, high, unit, _ZERO)
+
+
+def helical_march_parameters(
     gear: HelicalGearFile,
     *,
     line_mesh: LineMesh | None = None,
     stiffness_density: float = 0.0,
-    backlash: float | None = None,
-    friction: Friction = "film",
-    friction_coefficient: float = 0.05,
     oil: str = "mohammadpour_2015",
-    roughness_rms: float = 0.5e-6,
-    mesh_damping_ratio: float = 0.05,
-    support_damping_ratio: float = 0.05,
-    radial_stiffness: float = 0.0,
-    axial_stiffness: float = 0.0,
-    bearing_distance: float = 0.0,
-    form: Form = "twelve_dof",
-    equations: Equations = "consistent",
-    steps_per_mesh_period: int = 64,
-    steps_per_highest_period: int = 8,
-    friction_updates_per_mesh_period: int = 16,
+    bearings: ReplacedBearings | None = None,
 ) -> HelicalMarchParameters:
     """Return the marching model of a gear file.
+
+    Backlash is that of the file, options of the model keep the defaults of
+    `HelicalMarchParameters`; change them with `replace`.
 
     Parameters
     ----------
@@ -58,30 +84,28 @@ def helical_march(
     line_mesh : LineMesh, optional
         Stiffness along its contact lines; by default one density.
     stiffness_density : float
-        That density [N/m2]; 0: that of ISO 6336-1. With a line mesh it must be 0.
-    backlash : float, optional
-        Normal [m]; by default that of the file.
+        That density [N/m2], 0 to 1e12; 0: that of ISO 6336-1. With a line mesh it must be 0.
     oil : str
         Name in the lubricant library.
-    radial_stiffness, axial_stiffness : float
-        Of both bearings of a member together [N/m]; 0: those of the file.
-    bearing_distance : float
-        From mid-face to each bearing [m]; 0: that of the file.
-
-    See `HelicalMarchParameters` for the other parameters.
+    bearings : ReplacedBearings, optional
+        In place of the file's.
 
     Raises
     ------
     ParameterError
         A value out of range, a mesh of another pair, or no bearings anywhere.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> gear = HelicalGearFile.named("he_2007")
+    >>> parameters = helical_march_parameters(gear, bearings=ReplacedBearings(radial_stiffness=2e9))
+    >>> dry = replace(parameters, friction="off", backlash=50e-6)
+    >>> dry.pinion.support.first.K_xx  # N/m, half of both bearings together
+    1000000000.0
     """
-    for name, value, high, unit in (
-        ("stiffness_density", stiffness_density, 1e12, "N/m2"),
-        ("radial_stiffness", radial_stiffness, 1e12, "N/m"),
-        ("axial_stiffness", axial_stiffness, 1e12, "N/m"),
-        ("bearing_distance", bearing_distance, 10.0, "m"),
-    ):
-        check_within(name, value, 0.0, high, unit, "0 takes the value of the gear file.")
+    check_within("stiffness_density", stiffness_density, 0.0, 1e12, "N/m2", _ZERO)
+    instead = bearings or ReplacedBearings()
     pair = gear.helical_pair()
     if line_mesh is None:
         line_mesh = iso_mesh(pair)
@@ -99,7 +123,7 @@ def helical_march(
             mass=given.mass,
             inertia=given.diametral_inertia,
             polar_inertia=given.polar_inertia,
-            support=_support(gear, role, radial_stiffness, axial_stiffness, bearing_distance),
+            support=_support(gear, role, instead),
         )
 
     return HelicalMarchParameters(
@@ -107,25 +131,15 @@ def helical_march(
         mesh=line_mesh,
         pinion=body("pinion"),
         gear=body("gear"),
-        backlash=pair.backlash if backlash is None else backlash,
-        friction=friction,
-        friction_coefficient=friction_coefficient,
+        backlash=pair.backlash,
         oil=Lubricant.named(oil),
-        roughness_rms=roughness_rms,
-        mesh_damping_ratio=mesh_damping_ratio,
-        support_damping_ratio=support_damping_ratio,
-        form=form,
-        equations=equations,
-        steps_per_mesh_period=steps_per_mesh_period,
-        steps_per_highest_period=steps_per_highest_period,
-        friction_updates_per_mesh_period=friction_updates_per_mesh_period,
     )
 
 
-def _support(
-    gear: HelicalGearFile, role: Role, radial: float, axial: float, distance: float
-) -> ShaftSupport:
+def _support(gear: HelicalGearFile, role: Role, instead: ReplacedBearings) -> ShaftSupport:
     """Return the file's bearings with what is not zero in their place."""
+    radial, axial = instead.radial_stiffness, instead.axial_stiffness
+    distance = instead.bearing_distance
     if not gear.body(role).supports:
         if 0.0 in (radial, axial, distance):
             raise ParameterError(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
-from gearlube_core.dynamics.helical_pair.march.mesh_data import mesh_at_torque
+from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
     LOAD_TORQUE,
@@ -95,12 +95,8 @@ def rk4_step(
 def advance(
     s: NDArray[float64],
     duration: float,
-    pinion_torque: float,
-    wheel_torque: float,
-    oil_temperature: float,
-    levels: NDArray[float64],
-    densities: NDArray[float64],
-    offsets: NDArray[float64],
+    inputs: NDArray[float64],
+    mesh: MeshFields,
     data: NDArray[float64],
     control_values: NDArray[float64],
     work: NDArray[float64],
@@ -113,12 +109,10 @@ def advance(
         Changed in place, also when the status is not OK.
     duration : float
         Communication step [s].
-    pinion_torque, wheel_torque : float
-        [N.m]
-    oil_temperature : float
-        [K]
-    levels, densities, offsets
-        Line mesh at all levels, see `mesh_data.MarchMesh`.
+    inputs : ndarray of shape (3,)
+        Torques of pinion and wheel [N.m], oil temperature [K].
+    mesh : tuple
+        Line mesh at all levels, the fields of `mesh_data.MarchMesh`.
     data : ndarray
         Pair data; the mesh in it is brought to the present level.
     control_values : ndarray
@@ -139,8 +133,9 @@ def advance(
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     control: StepControl = tuple_from_array(control_values, StepControl)
     stages = work
-    mesh_at_torque(s[LOAD_TORQUE], levels, densities, offsets, data)
-    oil = lubricant_state(p.oil, oil_temperature)
+    pinion_torque, wheel_torque = inputs[0], inputs[1]
+    mesh_at_torque(s[LOAD_TORQUE], mesh, data)
+    oil = lubricant_state(p.oil, inputs[2])
     wanted = duration * step_rate(p, control, s[W_P])
     if not wanted < MAX_STEPS:
         return TOO_MANY_STEPS

@@ -67,6 +67,21 @@ class HelicalPairModel(SteppedModel[StepControl]):
     References
     ----------
     [he_2007]
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from gearlube_core.dynamics.helical_pair.march import gear_file_march
+    >>> from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    >>> file = HelicalGearFile.named("he_2007")
+    >>> parameters = gear_file_march.helical_march_parameters(file)
+    >>> gears = HelicalPairModel(replace(parameters, friction="constant"))
+    >>> gears.initialise(
+    ...     pinion_speed=104.7, pinion_torque=226.0, wheel_torque=280.0, oil_temperature=333.15
+    ... )
+    >>> gears.step(1e-4, 226.0, 280.0, 333.15)
+    >>> gears.output("mesh.separated")
+    0.0
     """
 
     def __init__(self, parameters: HelicalMarchParameters) -> None:
@@ -91,7 +106,7 @@ class HelicalPairModel(SteppedModel[StepControl]):
         )
 
     def _with_data(self) -> Kernels:
-        data, work = (*self.mesh, self._data, self._bearings), np.zeros(WORK_SIZE)
+        data, work = (tuple(self.mesh), self._data, self._bearings), np.zeros(WORK_SIZE)
         return Kernels(
             communication_step,
             (*data, self._control_values, work, self._outputs),

@@ -17,7 +17,7 @@ from gearlube_core.dynamics.helical_pair.march.flank_views import (
 from gearlube_core.dynamics.helical_pair.march.flank_wrench import flank_wrench, turned_wrench
 from gearlube_core.dynamics.helical_pair.march.line_outputs import write_lines
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
-from gearlube_core.dynamics.helical_pair.march.mesh_data import mesh_at_torque
+from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,
@@ -102,12 +102,8 @@ def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[floa
 @kernel
 def write_outputs(
     s: NDArray[float64],
-    pinion_torque: float,
-    wheel_torque: float,
-    oil_temperature: float,
-    levels: NDArray[float64],
-    densities: NDArray[float64],
-    offsets: NDArray[float64],
+    inputs: NDArray[float64],
+    mesh: MeshFields,
     data: NDArray[float64],
     bearings: NDArray[float64],
     work: NDArray[float64],
@@ -120,8 +116,9 @@ def write_outputs(
     """
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     rates = work[0:N_ODE]
-    mesh_at_torque(s[LOAD_TORQUE], levels, densities, offsets, data)
-    march_rates(s, pinion_torque, wheel_torque, data, rates)
+    oil_temperature = inputs[2]
+    mesh_at_torque(s[LOAD_TORQUE], mesh, data)
+    march_rates(s, inputs[0], inputs[1], data, rates)
     flanks = p.motion.flanks
     plane = flanks.plane
     drive = drive_view(s, flanks)

@@ -121,10 +121,10 @@ class HelicalMarchParameters:
     pinion: Body
     gear: Body
     backlash: float
-    friction: Friction
-    friction_coefficient: float
     oil: Lubricant
-    roughness_rms: float
+    friction: Friction = "film"
+    friction_coefficient: float = 0.05
+    roughness_rms: float = 0.5e-6
     solid: Solid = STEEL_MOHAMMADPOUR_2015
     mesh_damping_ratio: float = 0.05
     support_damping_ratio: float = 0.05

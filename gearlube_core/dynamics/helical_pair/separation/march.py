@@ -17,7 +17,7 @@ from gearlube_core.dynamics.helical_pair.separation.forces import (
     VALUE,
     separating_sums,
 )
-from gearlube_core.dynamics.helical_pair.separation.points import SeparationPoints
+from gearlube_core.dynamics.helical_pair.separation.points import SeparationPoints, StagePoints
 from gearlube_core.dynamics.helical_pair.separation.system import SeparationSystem
 from gearlube_core.kernels.jit import kernel
 
@@ -38,9 +38,7 @@ def separating_rates(
     v: Array,
     torque: float,
     speed: float,
-    points: Array,
-    count: int,
-    total: Array,
+    stage: StagePoints,
     system: SeparationSystem,
     strains: Array,
     products: Array,
@@ -54,8 +52,6 @@ def separating_rates(
     ----------
     q, v : ndarray of shape (n, columns)
         Last column: the state. Others, if any: its derivatives by 2n states, torque and speed.
-    points, count, total
-        Of one stage of `SeparationPoints`.
     strains, products, sums : ndarray
         Work space of shapes (2, columns), (N_ROWS, columns), (N_ROWS, N_BY).
     a, v_rate : ndarray of shape (n, columns)
@@ -64,10 +60,17 @@ def separating_rates(
     """
     n, columns = q.shape
     last = columns - 1
+    total = stage.total
     strains[:, :] = 0.0
     add_product(1.0, system.E, q, strains)
     touching = separating_sums(
-        strains[0, last], strains[1, last], points, count, system.backlash, system.build_up, sums
+        strains[0, last],
+        strains[1, last],
+        stage.points,
+        stage.used,
+        system.backlash,
+        system.build_up,
+        sums,
     )
     for i in range(N_ROWS):
         by_0, by_1 = sums[i, BY_Y0], sums[i, BY_Y1]
@@ -181,9 +184,7 @@ def march_separating(
                 v_s,
                 torque,
                 speed,
-                table.points[at, row],
-                table.used[at, row],
-                table.total[at, row],
+                StagePoints(table.points[at, row], table.used[at, row], table.total[at, row]),
                 system,
                 strains,
                 products,

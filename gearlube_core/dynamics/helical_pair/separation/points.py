@@ -37,6 +37,14 @@ class SeparationPoints(NamedTuple):
     total: Array  # sum of k dl, and by pinion torque, shape (steps, STAGES, 2)
 
 
+class StagePoints(NamedTuple):
+    """Points at one stage."""
+
+    points: Array  # shape (capacity, N_POINT), as in `SeparationPoints`
+    used: int  # number of points
+    total: Array  # shape (2,), as in `SeparationPoints`
+
+
 def step_phases(plane: ContactPlane, mesh: MeshArrays, steps: int) -> tuple[Array, Array, Array]:
     """Return phases at the start of steps, their widths and those of their stages.
 

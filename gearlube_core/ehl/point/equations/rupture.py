@@ -1,4 +1,4 @@
-"""Oil that flows through ruptured film, on one grid of a point contact: kernels.
+"""Oil flow through ruptured film, on one grid of a point contact: kernels.
 
 A node without pressure holds what its upstream neighbours bring and no more than its gap. Rows and
 columns are those of `point_stencil`: entrainment points to larger indices, so one sweep does.

@@ -1,4 +1,4 @@
-"""Oil that ruptured nodes pass on downstream, on one grid of a point contact: kernels."""
+"""Downstream transport of oil from ruptured nodes, on one grid of a point contact: kernels."""
 
 from __future__ import annotations
 

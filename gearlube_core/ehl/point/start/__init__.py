@@ -1,1 +1,1 @@
-"""Ways to the film of a point contact where Newton's method fails directly."""
+"""Starting values and continuation for point contacts where Newton's method fails directly."""

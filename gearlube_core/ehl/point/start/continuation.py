@@ -1,4 +1,4 @@
-"""One grid of a point contact, by way of easier problems where Newton's method fails directly."""
+"""Continuation from easier problems on one grid, where Newton's method fails directly."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Way to a starved point contact: the oil on its way in is thinned step by step."""
+"""Continuation to a starved point contact: the inlet oil layer is thinned step by step."""
 
 from __future__ import annotations
 

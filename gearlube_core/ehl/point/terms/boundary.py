@@ -1,4 +1,4 @@
-"""Where the oil is held at ambient pressure: on the border, or wherever the film is thick."""
+"""Boundary condition of ambient pressure: on the border, or wherever the film is thick."""
 
 from __future__ import annotations
 

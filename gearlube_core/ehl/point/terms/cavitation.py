@@ -1,4 +1,4 @@
-"""Cavitation on one grid: films that break with the gap full of oil, or with what oil arrives."""
+"""Cavitation on one grid: Reynolds condition (gap full of oil), or mass-conserving."""
 
 from __future__ import annotations
 

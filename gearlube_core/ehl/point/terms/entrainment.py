@@ -1,4 +1,4 @@
-"""Entrainment of the rows of a grid: that of the problem, or one of every row."""
+"""Entrainment speed on a grid: one for the whole problem, or one for each row."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Viscosity and density of the oil at the nodes: at one temperature, or at that of the film."""
+"""Viscosity and density of the oil at the nodes, at one temperature or the film temperature."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Border of a grid beyond which the oil goes on: its pressure and the load beyond."""
+"""Open border of a grid: pressure on it, and the load of the oil outside."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a change of pressure brings to ruptured nodes, and where it comes out as a residual."""
+"""Oil that a change of pressure moves to ruptured nodes, and the residual that it causes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Solids on one grid of a film: what they take of the pressure where they touch."""
+"""Solid contact on one grid of a film: contact pressure of touching solids."""
 
 from __future__ import annotations
 

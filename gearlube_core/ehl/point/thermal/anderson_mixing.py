@@ -1,4 +1,4 @@
-"""Mixing of the last turns of a fixed-point iteration, so that it converges in fewer."""
+"""Anderson mixing: combines the last fixed-point iterates to converge faster."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Surface temperature of a moving half-space under heat on the cells of a grid at rest."""
+"""Surface temperature of a moving half-space heated on the cells of a fixed grid."""
 
 from __future__ import annotations
 

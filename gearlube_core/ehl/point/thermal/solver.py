@@ -1,4 +1,4 @@
-"""Steady thermal point contact: film and energy in turn until both are balanced."""
+"""Steady thermal point contact: film and energy are solved in turn until both converge."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Unloaded transmission error as the least rotation of the pinion to contact, by search.
+"""Unloaded transmission error by search: the least rotation of the pinion to contact.
 
-Second route beside the path of contact: no normals are compared, edges of the teeth count.
+A second method beside the path of contact. It compares no normals and includes edge contact.
 """
 
 from __future__ import annotations
@@ -11,37 +11,39 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.contact_rotations import contact_rotations
-from gearlube_core.hypoid_contact.first_touch import first_touch
+from gearlube_core.hypoid_contact.first_contact_point import first_contact_point
 from gearlube_core.hypoid_contact.pair import FlankPair
 
 _STENCIL = np.linspace(-1.0, 1.0, 3)
 _FINE = np.linspace(-1.0, 1.0, 41)
-_FIRST = np.array([0.1, 0.06])  # of tooth height and face width: about the grid of first_touch
+_FIRST = np.array(
+    [0.1, 0.06]
+)  # of tooth height and face width: about the grid of first_contact_point
 _SMALLEST = 1e-5
 _SHRINK = 0.3
 _ROUNDS = 40  # ten shrink to the smallest, the others travel
 
 
-class TouchingError(NamedTuple):
-    """First touch of one pair: error [rad], profile and face position on the gear [-], (N,)."""
+class SearchedTransmissionError(NamedTuple):
+    """First contact of one pair: error [rad], profile and face position on the gear [-], (N,)."""
 
     error: Array
     s: Array
     t: Array
 
 
-def touching_error(pair: FlankPair, gear_angles: Array) -> TouchingError:
-    """Return where one pair touches first at gear angles (N,) [rad], by search.
+def searched_transmission_error(pair: FlankPair, gear_angles: Array) -> SearchedTransmissionError:
+    """Return the first contact of one pair at gear angles (N,) [rad], by search.
 
     The extreme over the points of both teeth of the pinion angle at touch less teeth ratio times
     gear angle, found with parabolas through stencils of nine points that shrink about it. NaN
     where no flank point of the pinion reaches the gear flank: the pair is out of mesh.
     """
-    return TouchingError(*np.array([_touch(pair, float(a)) for a in gear_angles]).T)
+    return SearchedTransmissionError(*np.array([_touch(pair, float(a)) for a in gear_angles]).T)
 
 
 def _touch(pair: FlankPair, angle: float) -> tuple[float, float, float]:
-    touch = first_touch(pair, angle)
+    touch = first_contact_point(pair, angle)
     if touch is None:
         return np.nan, np.nan, np.nan
     x, size = np.array([touch.gear_s, touch.gear_t]), _FIRST

@@ -1,12 +1,12 @@
-"""The states of an FMI 2.0 co-simulation slave that gearlube tells apart."""
+"""States of an FMI 2.0 co-simulation slave."""
 
 from __future__ import annotations
 
 from enum import IntEnum
 
 
-class Phase(IntEnum):
-    """Place in the FMI state machine."""
+class SlaveState(IntEnum):
+    """State of a slave in the FMI state machine."""
 
     INSTANTIATED = 0
     INITIALISING = 1
@@ -16,4 +16,4 @@ class Phase(IntEnum):
     @property
     def settable(self) -> tuple[str, ...]:
         """Causalities that can be set: parameters are fixed once initialised."""
-        return ("input",) if self >= Phase.STEPPING else ("input", "parameter")
+        return ("input",) if self >= SlaveState.STEPPING else ("input", "parameter")

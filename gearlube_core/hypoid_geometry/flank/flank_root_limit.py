@@ -1,4 +1,4 @@
-"""How far down a cut flank is sound: to the line of the blade tips, or to a fold (undercut)."""
+"""Lower limit of a regular flank: the line of the blade tips, or a fold (undercut)."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ _MIDDLE = 0.6  # s, where every search starts
 _LEAP = 1e-3  # m of blade height; more between neighbouring solutions is another sheet
 
 
-class SoundLimit(NamedTuple):
-    """End of a sound flank towards the root, at each face position, shape (n,).
+class FlankRootLimit(NamedTuple):
+    """Lower limit of the regular flank towards the root, at each face position, shape (n,).
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class SoundLimit(NamedTuple):
     fold: Array
 
 
-def sound_limit(flank: Flank, t: Array, blade_tip: float) -> SoundLimit:
+def flank_root_limit(flank: Flank, t: Array, blade_tip: float) -> FlankRootLimit:
     """Return where a flank ends towards the root.
 
     Each face position is followed from the middle of the profile down, from solution to solution,
@@ -90,7 +90,7 @@ def sound_limit(flank: Flank, t: Array, blade_tip: float) -> SoundLimit:
     fold = np.maximum(s, LOWEST)
     undercut = np.isnan(tip_line) & (fold > LOWEST)
     end = np.where(np.isnan(tip_line), fold, tip_line)
-    return SoundLimit(end, undercut, fold)
+    return FlankRootLimit(end, undercut, fold)
 
 
 def _follow(flank: Flank, s: Array, t: Array, starts: Array) -> tuple[NDArray[np.bool_], Array]:

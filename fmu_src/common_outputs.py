@@ -1,4 +1,4 @@
-"""Outputs that both FMUs have; a change here changes both lists, whose references are released."""
+"""Outputs of both FMUs. A change here changes both tables, whose references are released."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def motion() -> tuple[Variable, ...]:
 
 
 def displacements(member: str, word: str) -> tuple[Variable, ...]:
-    """Return where a member has moved to."""
+    """Return the displacements of a member."""
     return tuple(
         output(f"{member}.displacement.{axis}", "m", f"Displacement of the {word} along {axis}",
                1e-5, "um")
@@ -28,5 +28,5 @@ def displacements(member: str, word: str) -> tuple[Variable, ...]:
 
 
 def energies(words: dict[str, str]) -> tuple[Variable, ...]:
-    """Return energies by their names and what they are."""
+    """Return energies by name and description."""
     return tuple(output(f"energy.{name}", "J", text, 100.0) for name, text in words.items())

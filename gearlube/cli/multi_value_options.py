@@ -11,10 +11,10 @@ from typer.core import TyperCommand
 _VALUE = re.compile(r"^[+\-]?[\d.]")  # a number, or a range that begins with one
 
 
-def spread(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
-    """Repeat a flag before every number that follows it.
+def repeat_flags(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
+    """Return the arguments with a flag repeated before each of its numbers.
 
-    >>> spread(["--preload", "2500", "6000", "--out", "x"], {"--preload"})
+    >>> repeat_flags(["--preload", "2500", "6000", "--out", "x"], {"--preload"})
     ['--preload', '2500', '--preload', '6000', '--out', 'x']
     """
     result: list[str] = []
@@ -32,11 +32,11 @@ def spread(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
     return result
 
 
-class SpreadingCommand(TyperCommand):
-    """A command whose options named in `spreading` take all the numbers that follow them."""
+class MultiValueCommand(TyperCommand):
+    """A command whose options in `multi_value` take one or more numbers each."""
 
-    spreading: Collection[str] = frozenset()
+    multi_value: Collection[str] = frozenset()
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse `args` after repeating the flags."""
-        return super().parse_args(ctx, spread(args, self.spreading))
+        return super().parse_args(ctx, repeat_flags(args, self.multi_value))

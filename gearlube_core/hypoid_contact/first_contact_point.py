@@ -1,4 +1,4 @@
-"""Where on the gear flank the pinion touches first as it rotates, on a grid."""
+"""First point of contact on the gear flank as the pinion rotates, on a grid."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ _GRID = (9, 13)  # profile and face positions
 
 
 @dataclass(frozen=True, slots=True)
-class FirstTouch:
-    """The grid point that touches first, with all that starts an exact search."""
+class FirstContactPoint:
+    """The grid point of first contact, with the starting values of an exact search."""
 
     gear_angle: float  # rad
     gear_s: float
@@ -25,8 +25,8 @@ class FirstTouch:
     pinion_turn: float  # rad, about the work axis
 
 
-def first_touch(pair: FlankPair, gear_angle: float) -> FirstTouch | None:
-    """Return which point of a coarse grid on the gear flank touches first; None if none does."""
+def first_contact_point(pair: FlankPair, gear_angle: float) -> FirstContactPoint | None:
+    """Return the first point of contact on a coarse grid of the gear flank, or None."""
     s, t = np.meshgrid(*(np.linspace(0.0, 1.0, k) for k in _GRID), indexing="ij")
     gear = pair.gear.parameters(s, t)
     reach = contact_rotations(pair, gear, np.array([gear_angle])).on_tooth()
@@ -34,7 +34,7 @@ def first_touch(pair: FlankPair, gear_angle: float) -> FirstTouch | None:
     if np.isnan(order).all():
         return None
     i, j = np.unravel_index(np.nanargmin(order), order.shape)
-    return FirstTouch(
+    return FirstContactPoint(
         gear_angle,
         float(s[i, j]),
         float(t[i, j]),

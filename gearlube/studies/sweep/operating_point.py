@@ -1,4 +1,4 @@
-"""Which driver a point runs against, and the shaft speed that goes with its vehicle speed."""
+"""Operating point of the axle: its driver, and the shaft speed of a vehicle speed."""
 
 from __future__ import annotations
 

@@ -1,0 +1,63 @@
+"""What `import gearlube` gives, and the page that shows it."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from pathlib import Path
+
+import pytest
+
+import gearlube
+from docs import api
+
+ROOT = Path(__file__).parents[2]
+SCRIPTS = (
+    "axle_torque_ramp",
+    "film_with_own_oil",
+    "helical_transmission_error",
+    "sliding_point_contact",
+    "speed_sweep",
+)
+
+
+@pytest.mark.parametrize("name", gearlube.__all__)
+def test_every_public_name_has_words_and_an_example(name):
+    assert inspect.getdoc(getattr(gearlube, name))
+    assert api.example(name)
+
+
+def test_the_page_is_up_to_date():
+    """If not: python -m docs.api."""
+    assert api.page() == api.PAGE.read_text(encoding="utf-8")
+
+
+def test_every_name_is_in_one_group():
+    grouped = [name for group in api.groups() for name in group.names]
+    assert sorted(grouped) == sorted(gearlube.__all__)
+    assert len(set(grouped)) == len(grouped)
+
+
+def test_an_unknown_name_says_where_the_names_are():
+    with pytest.raises(AttributeError, match=r"docs/api\.md"):
+        gearlube.no_such_name  # noqa: B018
+
+
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_library_scripts_are_short_and_use_public_names_alone(script):
+    text = (ROOT / "examples" / f"{script}.py").read_text(encoding="utf-8")
+    tree = ast.parse(text)
+    own = [
+        node.module if isinstance(node, ast.ImportFrom) else node.names[0].name
+        for node in ast.walk(tree)
+        if isinstance(node, (ast.Import, ast.ImportFrom))
+    ]
+    packages = ("gearlube_core", "fmu_src", "drivetrain", "gearlube.")
+    assert not [name for name in own if name.startswith(packages)]
+    statements = [node for node in ast.walk(tree) if isinstance(node, ast.stmt)]
+    words = [node for node in statements if isinstance(node, ast.Expr) and _is_text(node)]
+    assert len(statements) - len(words) <= 20
+
+
+def _is_text(node: ast.Expr) -> bool:
+    return isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
