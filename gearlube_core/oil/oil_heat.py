@@ -24,6 +24,11 @@ class OilHeat:
     ------
     ParameterError
         When a number is out of range.
+
+    Examples
+    --------
+    >>> OilHeat(conductivity=0.12)
+    OilHeat(expansion=0.0, conductivity=0.12, heat_capacity=2000.0)
     """
 
     expansion: float = 0.0

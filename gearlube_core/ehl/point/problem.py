@@ -230,6 +230,11 @@ class ContactDomain:
     ----------
     inlet, outlet, side
         Upstream, downstream and to the sides [-]; None: as far as the film needs.
+
+    Examples
+    --------
+    >>> ContactDomain(inlet=4.0)
+    ContactDomain(inlet=4.0, outlet=None, side=None)
     """
 
     inlet: float | None = None
@@ -286,7 +291,7 @@ def elliptical_contact(
     Examples
     --------
     >>> from gearlube_core.oil.film_oil_data import film_oil
-        >>> ball = elliptical_contact(
+    >>> ball = elliptical_contact(
     ...     R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0, contact_modulus=1.15e11,
     ...     lubricant=film_oil(eta0=0.04, alpha=2e-8),
     ...     domain=ContactDomain(inlet=4.0, outlet=2.0, side=3.0),
