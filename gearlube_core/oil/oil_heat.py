@@ -1,4 +1,4 @@
-"""Heat in the oil of a film."""
+"""Thermal data of the oil of a film."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from gearlube_core.checks import check_positive, check_within
 
 @dataclass(frozen=True, slots=True)
 class OilHeat:
-    """What thermal solutions need of an oil; mineral oils where nothing is said.
+    """Thermal data of an oil for thermal solutions; the defaults are typical of mineral oils.
 
     Parameters
     ----------
     expansion
-        Of volume with temperature [1/K], 0 to 0.01.
+        Coefficient of thermal volume expansion [1/K], 0 to 0.01.
     conductivity
-        [W/(m K)], positive.
+        Thermal conductivity [W/(m K)], positive.
     heat_capacity
-        [J/(kg K)], positive.
+        Specific heat capacity [J/(kg K)], positive.
 
     Raises
     ------
@@ -27,8 +27,8 @@ class OilHeat:
 
     Examples
     --------
-    >>> OilHeat(conductivity=0.12)
-    OilHeat(expansion=0.0, conductivity=0.12, heat_capacity=2000.0)
+    >>> OilHeat(conductivity=0.13).heat_capacity  # J/(kg K)
+    2000.0
     """
 
     expansion: float = 0.0

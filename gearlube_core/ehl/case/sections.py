@@ -133,7 +133,7 @@ class Oil(Section):
 
 
 class Body(Section):
-    """One of the two solids; steel where nothing is said."""
+    """One of the two solids; steel by default."""
 
     youngs_modulus_gpa: Modulus = Field(
         default=_STEEL.youngs_modulus / _GIGA, description="Young's modulus"

@@ -39,7 +39,7 @@ def solve_helical_line(
     *,
     throw: bool = True,
 ) -> FilmSolution:
-    """Return the steady film with the line at rest at a step of its cycle.
+    """Return the steady film of the line at one step of its cycle.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ def steady_films(
     progress: Progress | None = None,
     throw: bool = True,
 ) -> FilmCurves:
-    """Return the films as if the conditions of each time had lasted.
+    """Return the steady films for the conditions of each time.
 
     All on the grid of the march, so that what differs from it is the film's history.
 

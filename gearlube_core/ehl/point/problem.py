@@ -224,7 +224,7 @@ def expected_film(problem: PointContactProblem) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ContactDomain:
-    """How far a film is computed, in semi-axes of the dry contact along the same axis.
+    """Size of the domain of a film, in semi-axes of the dry contact along the same axis.
 
     Parameters
     ----------
@@ -233,8 +233,8 @@ class ContactDomain:
 
     Examples
     --------
-    >>> ContactDomain(inlet=4.0)
-    ContactDomain(inlet=4.0, outlet=None, side=None)
+    >>> ContactDomain(inlet=4.0).outlet is None
+    True
     """
 
     inlet: float | None = None
