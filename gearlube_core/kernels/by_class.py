@@ -31,18 +31,20 @@ def by_class(otherwise: Callable[..., Any] | None = None) -> Callable[[_Function
 
     Examples
     --------
-    >>> from typing import NamedTuple
-    >>> from gearlube_core.kernels.jit import kernel
-    >>> class Spring(NamedTuple):
-    ...     stiffness: float
-    ...     @kernel
-    ...     def spring_force(self, length):
-    ...         return self.stiffness * length
-    >>> @by_class()
-    ... def spring_force(spring, length):
-    ...     '''Return the force [N].'''
-    >>> spring_force(Spring(20.0), 0.5)
-    10.0
+    In the file of the callers::
+
+        @by_class()
+        def spring_force(spring: Any, length: float) -> float:
+            '''Return the force [N].'''
+
+    and in any file::
+
+        class LinearSpring(NamedTuple):
+            stiffness: float  # [N/m]
+
+            @kernel
+            def spring_force(self, length: float) -> float:
+                return self.stiffness * length
     """
 
     def decorate(declared: _Function) -> _Function:
