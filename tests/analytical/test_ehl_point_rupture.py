@@ -107,12 +107,12 @@ def _wavy_contact(nodes: int) -> PointContactProblem:
     return PointContactProblem(
         gap=lambda x, y: HEIGHT * (1.0 - np.cos(2.0 * math.pi * x / WAVE)) + 0.0 * y,
         entrainment=(SPEED, 0.0),
-        load=10.0,
+        load=5.0,
         contact_modulus=1e13,
         lubricant=film_oil(eta0=VISCOSITY, alpha=0.0, density_law="incompressible"),
         x_limits=(-0.3 * WAVE, 1.6 * WAVE),
-        y_limits=(-10.0 * WAVE, 10.0 * WAVE),
-        nodes=(nodes, 33),
+        y_limits=(-5.0 * WAVE, 5.0 * WAVE),
+        nodes=(nodes, 17),
         hertz=shape,
     )
 
@@ -124,10 +124,10 @@ def test_film_of_a_wavy_wall_breaks_and_forms_again_where_the_closed_form_says()
         solution = solve_point_contact(
             problem, PointSolverSettings(cavitation="mass_conserving", tolerance=1e-8)
         )
-        x, p = problem.x, solution.pressure[:, 16]
-        # 20 by 2 waves: the ends of the walls are exp(-16) away from the middle row; solids of
+        x, p = problem.x, solution.pressure[:, 8]
+        # 10 by 2 waves: the ends of the walls are exp(-8) away from the middle row; solids of
         # 1e13 Pa bend by 1e-4 of the film
-        mean = solution.film[:, 16].min() + HEIGHT
+        mean = solution.film[:, 8].min() + HEIGHT
         e = HEIGHT / mean
         start = 2.0 * math.pi * 0.2
 
@@ -161,8 +161,8 @@ def test_film_of_a_wavy_wall_breaks_and_forms_again_where_the_closed_form_says()
         away = np.abs((phase - reform + math.pi) % (2.0 * math.pi) - math.pi) > 0.15
         inner = (x > x[1]) & away
         # what is left at the border, the bend of the walls and the node of the rupture
-        assert np.abs(solution.fill[:, 16] - fill)[inner].max() < 0.02
-        broken = solution.fill[:, 16] < 1.0
+        assert np.abs(solution.fill[:, 8] - fill)[inner].max() < 0.02
+        broken = solution.fill[:, 8] < 1.0
         formed = x[:-1][broken[:-1] & ~broken[1:]][0]
         assert formed == pytest.approx(
             (reform / (2.0 * math.pi) - 0.5) * WAVE, abs=2.5 * (x[1] - x[0])
@@ -177,7 +177,7 @@ def test_starvation_lowers_the_film_to_the_layer_that_comes() -> None:
     settings = PointSolverSettings(cavitation="mass_conserving")
     flooded = solve_point_contact(problem, settings)
     squeezed = density(problem.lubricant, flooded.maximum_pressure) / problem.lubricant.rho0
-    layers = np.array([20.0, 3.0, 1.5, 0.7, 0.2, 0.05])
+    layers = np.array([20.0, 1.5, 0.7, 0.05])
     shares = []
     for layer in layers:
         thin = replace(problem, inlet_layer=layer * flooded.central_film * squeezed)
@@ -192,7 +192,7 @@ def test_starvation_lowers_the_film_to_the_layer_that_comes() -> None:
     assert found[-1] == pytest.approx(layers[-1], rel=5e-3)
     assert (found < np.minimum(1.0, layers) * 1.003).all()
     # the form of Chevalier et al. 1998, r/(1 + r^g)^(1/g): sharper the larger g
-    for layer, share in zip(layers[1:4], found[1:4], strict=True):
+    for layer, share in zip(layers[1:3], found[1:3], strict=True):
         bounds = [layer / (1.0 + layer**g) ** (1.0 / g) for g in (2.0, 5.0)]
         assert bounds[0] - 0.01 < share < bounds[1] + 0.01
 

@@ -5,6 +5,7 @@ under the same load: 5 % beside the two digits printed. Loads are shared as the 
 """
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -43,17 +44,23 @@ def largest(*args, **kwargs):
     return float(dry(*args, **kwargs)[0].pressure.max()) / 1e9
 
 
+@cache
+def over_the_cycle(design):
+    """Return steps of a cycle and the largest pressure in each [GPa]."""
+    steps = np.arange(25, 575, 25)
+    return steps, np.array([largest(design, step, (101, 128)) for step in steps])
+
+
 @pytest.mark.parametrize(("design", "low", "high"), [("a", 1.02, 1.25), ("b", 0.82, 1.12)])
 def test_range_over_the_cycle(design, low, high):
     # printed from a figure to two digits; dry 1.05..1.26 (A), 0.83..1.12 (B)
-    pressures = np.array([largest(design, step, (101, 128)) for step in range(25, 575, 25)])
+    _, pressures = over_the_cycle(design)
     assert pressures[3:-3].min() == pytest.approx(low, rel=0.05)
     assert pressures.max() == pytest.approx(high, rel=0.05)
 
 
 def test_design_a_peaks_near_steps_100_and_500():
-    steps = np.arange(40, 575, 20)
-    pressures = np.array([largest("a", step, (101, 128)) for step in steps])
+    steps, pressures = over_the_cycle("a")
     first, second = steps < 290, steps >= 290
     assert abs(steps[first][pressures[first].argmax()] - 100) <= 50
     assert abs(steps[second][pressures[second].argmax()] - 500) <= 50
