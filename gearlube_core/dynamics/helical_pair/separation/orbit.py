@@ -72,11 +72,6 @@ class SeparationOrbit:
         """Share of the time in which part of the lines or all of them are off [-]."""
         return self._share(self.contact_share < 1.0 - 1e-12)
 
-    @property
-    def back_contact_share(self) -> float:
-        """Share of the time on the back flanks [-]."""
-        return self._share(self.flank_force < 0.0)
-
     def _share(self, when: np.ndarray[Any, np.dtype[np.bool_]]) -> float:
         return float(self.weight @ when)
 
