@@ -56,7 +56,15 @@ COMMANDS = {
 
 # variables that tell of the run, not of physics; what is left unbalanced near convergence is
 # rounding, and its history with it
-_OF_THE_RUN = ("seconds", "wall", "duration", "real_time", "residual_history", "load_error_history")
+_OF_THE_RUN = (
+    "seconds",
+    "wall",
+    "duration",
+    "real_time",
+    "residual_history",
+    "load_error_history",
+    "heat_balance_history",
+)
 
 
 def take(folder: Path, names: list[str]) -> None:
