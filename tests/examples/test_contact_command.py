@@ -26,12 +26,12 @@ from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 COARSE_BODY = ToothBodySettings(
     neighbour_pitches=0.0,
     condensation=CondensationSettings(
-        profile_hats=4,
-        lengthwise_hats=7,
-        density=MeshDensity(profile=6, lengthwise=12, thickness=2, fillet=2, slot=1, rim=1),
+        profile_hats=3,
+        lengthwise_hats=5,
+        density=MeshDensity(profile=4, lengthwise=8, thickness=2, fillet=2, slot=1, rim=1),
     ),
 )
-COARSE_CELLS = LoadedSettings(strips=StripSettings(cells_across=12, cells_along=16))
+COARSE_CELLS = LoadedSettings(strips=StripSettings(cells_across=9, cells_along=12))
 
 
 def run(*arguments):
