@@ -13,7 +13,7 @@ from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.studies.contact import run as contact_run
 from gearlube.studies.contact.figures import CONTACT_CATALOGUE
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.hypoid_contact import mesh_cycle
+from gearlube_core.hypoid_contact import contact_dataset, mesh_cycle
 from gearlube_core.hypoid_contact.analysis import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.strips import StripSettings
@@ -42,6 +42,7 @@ def run(*arguments):
 def coarse(monkeypatch, tmp_path):
     """The command with coarse teeth and cells, and a cache of its own."""
     monkeypatch.setenv("GEARLUBE_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(contact_dataset, "ERROR_POSITIONS", 32)
     real = contact_run.run_contact
 
     def run_coarse(file, settings, **options):
