@@ -54,8 +54,9 @@ COMMANDS = {
     "hypoid_film": ["ehl", "hypoid", "--quick"],
 }  # fmt: skip
 
-# variables that tell of the run, not of physics
-_OF_THE_RUN = ("seconds", "wall", "duration", "real_time")
+# variables that tell of the run, not of physics; what is left unbalanced near convergence is
+# rounding, and its history with it
+_OF_THE_RUN = ("seconds", "wall", "duration", "real_time", "residual_history", "load_error_history")
 
 
 def take(folder: Path, names: list[str]) -> None:

@@ -6,12 +6,12 @@ import math
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.driveline.steady_state import GEAR_INERTIA, PINION_INERTIA
 from drivetrain.road_load import RoadLoad
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError, StepError
 
@@ -49,10 +49,10 @@ class Driver(Protocol):
     def vehicle_speed(self) -> float:
         """Speed of the vehicle [m/s]."""
 
-    def get_state(self) -> NDArray[np.float64]:
+    def get_state(self) -> Array:
         """Return everything that determines the future, shape (n,)."""
 
-    def set_state(self, state: NDArray[np.float64]) -> None:
+    def set_state(self, state: Array) -> None:
         """Continue bit by bit from what `get_state` returned."""
 
 
@@ -172,11 +172,11 @@ class SpeedHold:
         self._state = (elapsed + h, integral, expected, float(wheel_speed), 1.0)
         return torque, self._load
 
-    def get_state(self) -> NDArray[np.float64]:
+    def get_state(self) -> Array:
         """Return everything that determines the future, shape (5,)."""
         return np.array(self._state)
 
-    def set_state(self, state: NDArray[np.float64]) -> None:
+    def set_state(self, state: Array) -> None:
         """Continue bit by bit from what `get_state` returned."""
         values = np.asarray(state, dtype=np.float64)
         if values.shape != (5,) or not np.all(np.isfinite(values)):
@@ -221,10 +221,10 @@ class CoupledVehicle:
         """Speed of the vehicle's mass [m/s]."""
         return self.driveline.vehicle_speed
 
-    def get_state(self) -> NDArray[np.float64]:
+    def get_state(self) -> Array:
         """Return everything that determines the future, shape (n,)."""
         return self.driveline.get_state()
 
-    def set_state(self, state: NDArray[np.float64]) -> None:
+    def set_state(self, state: Array) -> None:
         """Continue bit by bit from what `get_state` returned."""
         self.driveline.set_state(state)

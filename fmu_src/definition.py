@@ -7,10 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fmu_src.variable import Variable
+from gearlube_core.arrays import Array
 
 Value = float | int | bool | str
 
@@ -19,17 +17,17 @@ class Model(Protocol):
     """Interface of a running model that a slave steps."""
 
     @property
-    def outputs(self) -> NDArray[np.float64]:
+    def outputs(self) -> Array:
         """Present outputs, in the order of `Definition.output_names`."""
 
     @property
     def step(self) -> Callable[..., None]:
         """(h, *inputs): advance by h [s]; on failure raise a GearLubeError and keep the state."""
 
-    def get_state(self) -> NDArray[np.float64]:
+    def get_state(self) -> Array:
         """Return the whole state, enough to continue from it."""
 
-    def set_state(self, state: NDArray[np.float64]) -> None:
+    def set_state(self, state: Array) -> None:
         """Continue from a state that `get_state` returned."""
 
 

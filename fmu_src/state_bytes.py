@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from uuid import UUID
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 
 _MAGIC = b"gearlube"
@@ -36,8 +36,8 @@ class Snapshot:
 
     phase: int
     time: float
-    values: NDArray[np.float64]
-    model: NDArray[np.float64]
+    values: Array
+    model: Array
 
     def to_bytes(self, guid: UUID) -> bytes:
         """Return the snapshot, marked with the GUID of the FMU it belongs to."""

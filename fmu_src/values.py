@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_src.definition import Definition, Value
 from fmu_src.variable import Variable
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 
 _CACHED_INDICES = 64  # lists of references whose index is cached; hosts repeat a few
@@ -53,7 +54,7 @@ class Values:
         references = definition.references
         self._inputs = np.array(definition.references_of("input"), dtype=np.intp)
         self._outputs = np.array([references[n] for n in definition.output_names], dtype=np.intp)
-        self.array: NDArray[np.float64] = np.array([v.start or 0.0 for v in self._table])
+        self.array: Array = np.array([v.start or 0.0 for v in self._table])
         self.refused: dict[int, str] = {}
         self.allow_setting("input", "parameter")
 
@@ -80,7 +81,7 @@ class Values:
             if variable.causality == "parameter"
         }
 
-    def store_outputs(self, outputs: NDArray[np.float64]) -> None:
+    def store_outputs(self, outputs: Array) -> None:
         """Copy the outputs of the model."""
         self.array[self._outputs] = outputs
 
@@ -131,7 +132,7 @@ class Values:
         self.refused[vr] = f"{variable.name} must be {_limits(variable)}, got {value}."
         self._on_refusal(f"{self.refused[vr]} No step is taken until a legal value replaces it.")
 
-    def restore(self, array: NDArray[np.float64]) -> None:
+    def restore(self, array: Array) -> None:
         """Take over saved values, legal or not."""
         self.array[:] = array
         self.refused.clear()

@@ -32,6 +32,7 @@ from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel as 
 from gearlube_core.oil.lubricant import Lubricant as Lubricant
 from gearlube_core.oil.lubricant import lubricant_names as lubricant_names
 from gearlube_core.oil.film_oil import FilmOil as FilmOil
+from gearlube_core.oil.oil_heat import OilHeat as OilHeat
 from gearlube_core.oil.film_oil_data import film_oil as film_oil
 from gearlube_core.oil.film_oil_data import film_oil_of as film_oil_of
 
@@ -53,6 +54,7 @@ from gearlube_core.ehl.line.problem import LineProblem as LineProblem
 from gearlube_core.ehl.line.problem import LineSettings as LineSettings
 from gearlube_core.ehl.line.solver import solve_line as solve_line
 from gearlube_core.ehl.point.problem import PointContactProblem as PointContactProblem
+from gearlube_core.ehl.point.problem import ContactDomain as ContactDomain
 from gearlube_core.ehl.point.problem import elliptical_contact as elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings as PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact as solve_point_contact

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from docs.helical.cases import HE
+from gearlube_core.arrays import Array
 
 INCH = 0.0254  # m
 ORDER = ("A", "P", "C", "Q", "D", "E", "H", "G", "R")
@@ -21,7 +22,7 @@ def drawn_landmarks() -> dict[str, float]:
     along = np.array([math.cos(turn), math.sin(turn)])
     foot = float(pitch_point @ along)
 
-    def cuts(middle: ArrayLike, radius: float) -> NDArray[np.float64]:
+    def cuts(middle: ArrayLike, radius: float) -> Array:
         """Distances from the pitch point to where the line of action cuts a circle."""
         offset = pitch_point - np.asarray(middle)
         roots = np.roots([1.0, 2.0 * offset @ along, offset @ offset - radius**2])

@@ -7,13 +7,13 @@ is from half of it on.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from docs.resonance.contacts import COLD, HOT, Contacts
 from docs.resonance.evidence import Evidence
 from docs.resonance.film_exponent import load_exponents
 from docs.resonance.verdicts import OPEN, Claim, Verdict, judge
 from gearlube.studies.resonance.traction_curve import SHEAR_RATES, traction_curve
+from gearlube_core.arrays import Array
 from gearlube_core.friction.traction_regime import EYRING
 
 UM = 1e6
@@ -261,7 +261,7 @@ def _shipped(found: str, verdict: str, reason: str) -> Verdict:
     return Verdict(found, verdict, "-", "-", reason)
 
 
-def _range(values: NDArray[np.float64]) -> str:
+def _range(values: Array) -> str:
     return f"{values.min():.3g} to {values.max():.3g}"
 
 
@@ -273,7 +273,7 @@ def _hardest_film(contacts: Contacts) -> float:
     return contacts.at_hardest("film_thickness")
 
 
-def _boundary_share(contacts: Contacts) -> NDArray[np.float64]:
+def _boundary_share(contacts: Contacts) -> Array:
     return contacts.loaded("boundary_friction") / contacts.loaded("viscous_friction")
 
 

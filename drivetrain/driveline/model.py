@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivetrain.driveline.equations import INDEX, POWERS, STATES, driveline_equations
 from drivetrain.driveline.parameters import DrivelineParameters
@@ -18,6 +17,7 @@ from drivetrain.driveline.stepper import (
     driveline_stepper,
     interval_jacobian,
 )
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError, StepError
 
@@ -158,11 +158,11 @@ class Driveline:
         self._memory[:] = self._next
         return torque, load
 
-    def get_state(self) -> NDArray[np.float64]:
+    def get_state(self) -> Array:
         """Return everything that determines the future, shape (n,)."""
         return np.concatenate([self._memory, self._inputs])
 
-    def set_state(self, state: NDArray[np.float64]) -> None:
+    def set_state(self, state: Array) -> None:
         """Continue bit by bit from what `get_state` returned."""
         values = np.asarray(state, dtype=np.float64)
         size = self._memory.size
@@ -175,7 +175,7 @@ class Driveline:
         self._memory[:] = values[:size]
         self._inputs[:] = values[size:]
 
-    def interval_jacobian(self, h: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def interval_jacobian(self, h: float) -> tuple[Array, Array]:
         """Return the linear map of one interval of `h` [s] at the smooth steady state.
 
         Returns
@@ -202,7 +202,7 @@ class Driveline:
         )
 
     @property
-    def inputs(self) -> NDArray[np.float64]:
+    def inputs(self) -> Array:
         """Requested speed [m/s], mean engine torque there [N m], scale of the orders [-]."""
         return self._inputs.copy()
 

@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from drivetrain.driveline.equations import INDEX, STATES
 from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.torsional_axle import TorsionalAxle
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ConvergenceError
 
-_Matrix = NDArray[np.float64]
+_Matrix = Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

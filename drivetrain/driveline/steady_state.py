@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivetrain.driveline.equations import INDEX, STATES, driveline_equations
 from drivetrain.driveline.parameters import DrivelineParameters
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ConvergenceError
 
@@ -36,7 +36,7 @@ class SteadyState:
         Engine speed over propshaft speed [-].
     """
 
-    state: NDArray[np.float64]
+    state: Array
     pinion_speed: float
     wheel_speed: float
     pinion_torque: float
@@ -116,7 +116,7 @@ def rigid_axle_jacobian(
     steady: SteadyState,
     pinion_inertia: float = PINION_INERTIA,
     gear_inertia: float = GEAR_INERTIA,
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the exact Jacobian of driveline and rigid axle at a steady state.
 
     (I_p + I_g / i^2) w_p' = T_p - T_w / i,  w_w = w_p / i
@@ -144,7 +144,7 @@ def rigid_axle_jacobian(
     return np.array(jacobian(point))
 
 
-def periodic_deviation(parameters: DrivelineParameters, steady: SteadyState) -> NDArray[np.float64]:
+def periodic_deviation(parameters: DrivelineParameters, steady: SteadyState) -> Array:
     """Return the deviation that engine orders add to the steady state at crank angle zero.
 
     x_k = Re{(i k w - A)^-1 B a_k T_mean exp(i phase_k)}, summed over the orders k

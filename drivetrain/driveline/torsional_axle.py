@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivetrain.driveline.steady_state import GEAR_INERTIA, PINION_INERTIA
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.errors import ParameterError
 
-_Matrix = NDArray[np.float64]
+_Matrix = Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+
+from gearlube_core.arrays import Array
 
 # [okabe_ito_2008], colours that people with colour vision deficiency tell apart.
 BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY = (
@@ -84,7 +85,7 @@ def speed_limits(dataset: xr.Dataset) -> tuple[float, float]:
     return float(speeds[0]) - pad, float(speeds[-1]) + pad
 
 
-def cell_edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
+def cell_edges(centres: Array) -> Array:
     """Return the edges of cells around `centres`; a lone cell is 2 wide."""
     if centres.size == 1:
         return np.array([centres[0] - 1.0, centres[0] + 1.0])

@@ -1,7 +1,8 @@
 """Interface of a bearing type for shaft models.
 
 A bearing type is a NamedTuple of floats with the methods of `ShaftBearings`. It describes the two
-opposed bearings of one shaft. A new type is one new file; see `kernels.tuple_methods`.
+opposed bearings of one shaft. A new type is one new file. The functions below the classes call
+the method of the type that is given; see `kernels.by_class`.
 
 Coordinates are those of `cage_frame`.
 """
@@ -10,10 +11,8 @@ from __future__ import annotations
 
 from typing import NamedTuple, Protocol, Self
 
-from numpy import float64
-from numpy.typing import NDArray
-
-from gearlube_core.kernels.tuple_methods import compile_methods
+from gearlube_core.arrays import Array
+from gearlube_core.kernels.by_class import by_class
 from gearlube_core.oil.lubricant_state import LubricantState
 
 N_EXPANSION = 25  # largest number of floats in the expansion of the forces on one shaft
@@ -35,8 +34,9 @@ class ShaftMotion(NamedTuple):
 class ShaftBearings(Protocol):
     """Two opposed bearings of one shaft; a NamedTuple of floats with these methods.
 
-    The methods are compiled: they take and return floats, NamedTuples and float64 arrays, do not
-    allocate and do not raise. `f_ref` is the reference frequency of the hysteresis [Hz].
+    The methods are kernels (`kernels.jit.kernel`): they take and return floats, NamedTuples and
+    float64 arrays, do not allocate and do not raise. `f_ref` is the reference frequency of the
+    hysteresis [Hz].
     """
 
     @property
@@ -48,12 +48,12 @@ class ShaftBearings(Protocol):
         motion: ShaftMotion,
         f_ref: float,
         oil: LubricantState,
-        expansion: NDArray[float64],
+        expansion: Array,
     ) -> None:
         """Write what `expanded_forces` needs near this motion into `expansion`, (N_EXPANSION,)."""
 
     def expanded_forces(
-        self, motion: ShaftMotion, expansion: NDArray[float64]
+        self, motion: ShaftMotion, expansion: Array
     ) -> tuple[float, float, float, float]:
         """Return F_r1, F_r2, F_a of both bearings on the shaft [N] and the lost power [W]."""
 
@@ -71,7 +71,7 @@ class ShaftBearings(Protocol):
         f_ref: float,
         oil: LubricantState,
         side: float,
-        rollers: NDArray[float64],
+        rollers: Array,
     ) -> tuple[float, float, float]:
         """Return the load of roller 0 and the largest and smallest load of one bearing [N].
 
@@ -96,12 +96,9 @@ class Bearing(Protocol):
         """Return the axial force of either bearing at rest [N]."""
 
 
-compile_methods(
-    ShaftBearings,
-    "expand_forces",
-    "expanded_forces",
-    "shaft_forces",
-    "shaft_energy",
-    "roller_load_range",
-    "shaft_drag",
-)
+expand_forces = by_class()(ShaftBearings.expand_forces)
+expanded_forces = by_class()(ShaftBearings.expanded_forces)
+shaft_forces = by_class()(ShaftBearings.shaft_forces)
+shaft_energy = by_class()(ShaftBearings.shaft_energy)
+roller_load_range = by_class()(ShaftBearings.roller_load_range)
+shaft_drag = by_class()(ShaftBearings.shaft_drag)

@@ -9,9 +9,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.cage_frame import ApproachTerms, approach_terms
 from gearlube_core.bearings.parameters import (
@@ -108,7 +106,7 @@ def _sums_general(
     c: float,
     w_min: float,
     n: float,
-    e: NDArray[float64],
+    e: Array,
 ) -> None:
     """Write the sums of `_sums_line` for any exponent n into the expansion `e`."""
     g, g1, g2, ga, v1, v2, va = terms
@@ -143,7 +141,7 @@ def expand_shaft_bearings(
     eta0: float,
     alpha: float,
     p: BearingParameters,
-    e: NDArray[float64],
+    e: Array,
 ) -> None:
     """Write the expansion of both bearings' forces about this state into `e`.
 
@@ -184,7 +182,7 @@ def expand_shaft_bearings(
 def expanded_shaft_forces(
     motion: ShaftMotion,
     p: BearingParameters,
-    e: NDArray[float64],
+    e: Array,
 ) -> tuple[float, float, float, float]:
     """Return the forces of both bearings on the shaft near the state of the expansion `e`.
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.bearings.parameters import BearingParameters
@@ -12,6 +10,7 @@ from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
 from gearlube_core.bearings.shaft_expansion import expand_shaft_bearings, expanded_shaft_forces
 from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
 
@@ -20,8 +19,9 @@ class TaperedRollerParameters(BearingParameters):
 
     __slots__ = ()
 
+    @kernel
     def expand_forces(
-        self, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: NDArray[float64]
+        self, motion: ShaftMotion, f_ref: float, oil: LubricantState, expansion: Array
     ) -> None:
         """Write the expansion of the forces about this motion."""
         expand_shaft_bearings(
@@ -33,8 +33,9 @@ class TaperedRollerParameters(BearingParameters):
             expansion,
         )
 
+    @kernel
     def expanded_forces(
-        self, motion: ShaftMotion, expansion: NDArray[float64]
+        self, motion: ShaftMotion, expansion: Array
     ) -> tuple[float, float, float, float]:
         """Return the forces on the shaft [N] and the lost power [W] near the expansion."""
         return expanded_shaft_forces(
@@ -43,6 +44,7 @@ class TaperedRollerParameters(BearingParameters):
             expansion,
         )
 
+    @kernel
     def shaft_forces(
         self, motion: ShaftMotion, f_ref: float, oil: LubricantState
     ) -> tuple[float, float, float, float, float, float, float]:
@@ -55,6 +57,7 @@ class TaperedRollerParameters(BearingParameters):
             self,
         )
 
+    @kernel
     def shaft_energy(self, motion: ShaftMotion, oil: LubricantState) -> float:
         """Return the elastic energy of both bearings [J]."""
         return shaft_bearing_energy(
@@ -68,13 +71,14 @@ class TaperedRollerParameters(BearingParameters):
             self,
         )
 
+    @kernel
     def roller_load_range(
         self,
         motion: ShaftMotion,
         f_ref: float,
         oil: LubricantState,
         side: float,
-        rollers: NDArray[float64],
+        rollers: Array,
     ) -> tuple[float, float, float]:
         """Return the load of roller 0, the largest and the smallest load of one bearing [N]."""
         roller_loads(
@@ -93,6 +97,7 @@ class TaperedRollerParameters(BearingParameters):
             smallest = min(smallest, rollers[i])
         return rollers[0], largest, smallest
 
+    @kernel
     def shaft_drag(self, speed: float, axial_load: float, oil: LubricantState) -> float:
         """Return the drag torque of one bearing [N m]."""
         return drag_torque(speed, axial_load, oil.nu, self)

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.unilateral_kernels import (
     conjugate_direction,
@@ -15,12 +16,7 @@ from gearlube_core.contact.unilateral_kernels import (
     step_length,
     update_separation,
 )
-from gearlube_core.contact.unilateral_problem import (
-    Array,
-    Outcome,
-    UnilateralProblem,
-    UnilateralSolution,
-)
+from gearlube_core.contact.unilateral_problem import Outcome, UnilateralProblem, UnilateralSolution
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 _FINEST = 1e-12  # rounding of the convolution ends the descent there

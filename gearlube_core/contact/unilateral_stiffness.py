@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.contact.unilateral_problem import (
-    Array,
-    UnilateralProblem,
-    UnilateralSolution,
-)
+from gearlube_core.contact.unilateral_problem import UnilateralProblem, UnilateralSolution
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.kernels.jit import kernel
 
 
 @kernel
-def mean_power(
-    s: NDArray[float64], rates: NDArray[float64], energy: int, mark: int, duration: float
-) -> float:
+def mean_power(s: Array, rates: Array, energy: int, mark: int, duration: float) -> float:
     """Return the mean rate of the energy s[energy] over the last communication step [W].
 
     Parameters

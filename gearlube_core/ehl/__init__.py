@@ -61,6 +61,7 @@ _NAMES = {
     "solve_thermal_line": "line.thermal",
     "PointContactProblem": "point.problem",
     "EllipticParaboloid": "point.problem",
+    "ContactDomain": "point.problem",
     "elliptical_contact": "point.problem",
     "SolidContact": "point.solid_contact",
     "PointSolverSettings": "point.settings",

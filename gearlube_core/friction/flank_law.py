@@ -12,14 +12,14 @@ from typing import Protocol
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
-from gearlube_core.kernels.tuple_methods import compile_methods
+from gearlube_core.kernels.by_class import by_class
 from gearlube_core.oil.lubricant_state import LubricantState
 
 
 class FlankLaw(Protocol):
     """Film and friction of one flank; a NamedTuple of floats with this method.
 
-    The method is compiled: it does not allocate and does not raise.
+    The method is a kernel (`kernels.jit.kernel`): it does not allocate and does not raise.
     """
 
     def flank_state(
@@ -39,4 +39,5 @@ class FlankLaw(Protocol):
 # makes a law for the roughness and the solids of a pair
 FlankLawMaker = Callable[[SurfaceParameters, SolidParameters], FlankLaw]
 
-compile_methods(FlankLaw, "flank_state")
+# of the law that is given; see `kernels.by_class`
+flank_state = by_class()(FlankLaw.flank_state)

@@ -10,6 +10,7 @@ from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import AS_PRINTED, CONSISTENT, ContactGeometry, FlankState
 from gearlube_core.friction.flank_law import FlankLawMaker
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
 
@@ -20,6 +21,7 @@ class MixedFlankFriction(NamedTuple):
     solid: SolidParameters
     form: float  # CONSISTENT or AS_PRINTED [-]
 
+    @kernel
     def flank_state(
         self,
         load: float,

@@ -21,7 +21,7 @@ _STILL_AREA_OVER_WIDTH_SQUARED = math.pi * (0.5 * 4.7) ** 2
 
 
 class LineState(NamedTuple):
-    """Film and friction at a point of a contact line; all floats, SI."""
+    """Film and friction at one point of a contact line; all floats, SI."""
 
     film_thickness: float  # central film [m]
     film_ratio: float  # film over composite roughness [-]

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.involute import (
@@ -16,7 +17,7 @@ from gearlube_core.helical_geometry.involute import (
 )
 from gearlube_core.helical_geometry.pair import HelicalPair
 
-_Array = NDArray[np.float64]
+_Array = Array
 _ROOT_STEPS = 4  # the quartic's fourth power is 1e-4 of its linear term: two would do
 
 

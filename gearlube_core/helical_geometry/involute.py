@@ -11,13 +11,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.helical_geometry.pair import HelicalPair
 
 MEMBERS = ("pinion", "gear")
-_Array = NDArray[np.float64]
+_Array = Array
 _NEWTON_STEPS = 2  # t is linear in the square of the roll but for fourth powers of the turn
 
 

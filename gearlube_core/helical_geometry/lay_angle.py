@@ -5,15 +5,16 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
 from gearlube_core.helical_geometry.facets import parabola_distance
 from gearlube_core.helical_geometry.involute import involute_flank, relative_position
 from gearlube_core.helical_geometry.pair import HelicalPair
 
 FORMS = ("involute", "parabola")
-_Array = NDArray[np.float64]
+_Array = Array
 
 
 class LayAngles(NamedTuple):

@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -16,7 +17,7 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.units import MILLIMETRE
 
 
-def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> NDArray[np.float64]:
+def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> Array:
     """Return X of the line whose end on the face z = -W/2 lies at s_i.
 
     X = x_P + s_i + F tan(beta_b)
@@ -36,7 +37,7 @@ def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> NDArray[np.float64]:
     return np.asarray(s_i, dtype=float) + pair.pitch_point + _lag(pair)
 
 
-def position_of_line(X: ArrayLike, pair: HelicalPair) -> NDArray[np.float64]:
+def position_of_line(X: ArrayLike, pair: HelicalPair) -> Array:
     """Return s_i [m] of the lines X [m], any shape."""
     return np.asarray(X, dtype=float) - pair.pitch_point - _lag(pair)
 
@@ -76,15 +77,15 @@ class MeshingSteps:
         check_within("count", self.count, 1, 1_000_000)
         check_within("first_position", self.first_position, -1.0, 1.0, "m", "Give metres.")
 
-    def position(self, n: ArrayLike) -> NDArray[np.float64]:
+    def position(self, n: ArrayLike) -> Array:
         """Return s_i [m] at steps n, any shape."""
         return self.first_position + self.step * np.asarray(n, dtype=float)
 
-    def line(self, n: ArrayLike) -> NDArray[np.float64]:
+    def line(self, n: ArrayLike) -> Array:
         """Return X [m] at steps n, any shape."""
         return line_at_position(self.position(n), self.pair)
 
-    def step_at(self, s_i: ArrayLike) -> NDArray[np.float64]:
+    def step_at(self, s_i: ArrayLike) -> Array:
         """Return the step [-], not rounded, at which the line lies at s_i [m]."""
         return (np.asarray(s_i, dtype=float) - self.first_position) / self.step
 

@@ -10,8 +10,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.facets import check_facets, facet_depth
@@ -54,7 +55,7 @@ class Crown:
         check_within("amount", self.amount, 0.0, _LARGEST, "m", _METRES)
         check_within("start", self.start, 0.0, 1.0, "m", _METRES)
 
-    def removal(self, z: ArrayLike, face_width: float) -> NDArray[np.float64]:
+    def removal(self, z: ArrayLike, face_width: float) -> Array:
         """Return the removal [m] at z [m] from mid-face, any shape; goes on past the faces."""
         depth = np.maximum(np.abs(np.asarray(z, dtype=float)) - self.start, 0.0)
         return np.asarray(self.amount * (depth / (0.5 * face_width - self.start)) ** 2)
@@ -105,7 +106,7 @@ class FlankModification:
             value = check_finite(name, getattr(self, name), "m", _METRES)
             check_within(name, value, -_LARGEST, _LARGEST, "m", _METRES)
 
-    def removal(self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank) -> NDArray[np.float64]:
+    def removal(self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank) -> Array:
         """Return the transverse removal, down to the facets where there are any.
 
         Parameters
@@ -127,9 +128,7 @@ class FlankModification:
             total = total + facet_depth(roll, 0.0, roll, flank, self.facets)
         return total
 
-    def smooth_removal(
-        self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank
-    ) -> NDArray[np.float64]:
+    def smooth_removal(self, roll: ArrayLike, z: ArrayLike, flank: InvoluteFlank) -> Array:
         """Return the transverse removal without facets."""
         roll, z = np.broadcast_arrays(np.asarray(roll, dtype=float), np.asarray(z, dtype=float))
         total = np.zeros(roll.shape)
@@ -203,15 +202,15 @@ class ModifiedPair:
         """Position x [m] where the pinion's relief begins."""
         return _relief_start(self.pinion, self.pinion_flank)
 
-    def pinion_removal(self, roll: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
+    def pinion_removal(self, roll: ArrayLike, z: ArrayLike) -> Array:
         """Return the pinion's transverse removal [m] at roll length and z [m]."""
         return self.pinion.removal(roll, z, self.pinion_flank)
 
-    def gear_removal(self, roll: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
+    def gear_removal(self, roll: ArrayLike, z: ArrayLike) -> Array:
         """Return the gear's transverse removal [m] at its roll length and z [m]."""
         return self.gear.removal(roll, z, self.gear_flank)
 
-    def removal(self, x: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
+    def removal(self, x: ArrayLike, z: ArrayLike) -> Array:
         """Return the transverse removal of both flanks at points of the plane of contact.
 
         Parameters
@@ -229,7 +228,7 @@ class ModifiedPair:
         x = np.asarray(x, dtype=float)
         return self.pinion_removal(x, z) + self.gear_removal(self.pair.tangent_length - x, z)
 
-    def normal_removal(self, x: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
+    def normal_removal(self, x: ArrayLike, z: ArrayLike) -> Array:
         """Return the removal normal to the flanks [m]: the transverse one times cos(beta_b)."""
         return np.asarray(self.removal(x, z) * math.cos(self.pair.base_helix_angle))
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 
 _METRES = "Give metres, not micrometres or millimetres."
@@ -67,7 +68,7 @@ class TipRelief:
         """Removal over radius at the tip [-]: 2 c_t/((2 - k)(r_tip - r_start))."""
         return 2.0 * self.amount / ((2.0 - self.k) * self.extent)
 
-    def removal(self, r: ArrayLike, tip_radius: float) -> NDArray[np.float64]:
+    def removal(self, r: ArrayLike, tip_radius: float) -> Array:
         """Return the removal [m] at radius `r` [m], any shape; zero below r_start."""
         depth = np.maximum(np.asarray(r, dtype=float) - (tip_radius - self.extent), 0.0)
         parabola = self.k * self.extent
@@ -110,7 +111,7 @@ class PowerTipRelief:
         _check_size(self.amount, self.extent)
         check_within("beta", self.beta, 1.0, 10.0, "", "1 is linear relief, 2 parabolic.")
 
-    def removal(self, r: ArrayLike, tip_radius: float) -> NDArray[np.float64]:
+    def removal(self, r: ArrayLike, tip_radius: float) -> Array:
         """Return the removal [m] at radius `r` [m], any shape; zero below r_start."""
         depth = np.maximum(np.asarray(r, dtype=float) - (tip_radius - self.extent), 0.0)
         return np.asarray(self.amount * (depth / self.extent) ** self.beta)

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.helical_geometry.facets import facet_depth, facet_depth_parabola
 from gearlube_core.helical_geometry.involute import (
@@ -25,7 +26,7 @@ from gearlube_core.helical_geometry.involute import (
 from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair
 
 FORMS = ("involute", "parabola")
-_Array = NDArray[np.float64]
+_Array = Array
 _SECTION_STEPS = 3  # each gains two digits: the gap moves its section by sin(b) times itself
 
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.placement import (
     Placement,
     place_direction,
@@ -28,7 +26,7 @@ _TOLERANCE = 1e-10  # of the largest steps
 
 
 @kernel
-def solve_in_place(rows: NDArray[float64], n: int) -> bool:
+def solve_in_place(rows: Array, n: int) -> bool:
     """Solve n linear equations given as `rows` (n, n + 1), right side last, by elimination.
 
     The solution takes the place of the last column. Returns whether the matrix is regular.
@@ -55,7 +53,7 @@ def solve_in_place(rows: NDArray[float64], n: int) -> bool:
 
 @kernel
 def _put_column(
-    rows: NDArray[float64], j: int, scale: float, change: Vector, turn_1: float, turn_2: float
+    rows: Array, j: int, scale: float, change: Vector, turn_1: float, turn_2: float
 ) -> None:
     """Write the derivatives of the gap (3 equations) and normals (2 equations) by an unknown."""
     rows[0, j] = change.x * scale / _LENGTH
@@ -66,7 +64,7 @@ def _put_column(
 
 
 @kernel
-def _put_meshing(rows: NDArray[float64], i: int, first: int, state: CutState) -> None:
+def _put_meshing(rows: Array, i: int, first: int, state: CutState) -> None:
     """Write a member's equation of meshing, its unknowns starting at column `first`."""
     size = max(
         abs(state.meshing_u) * _STEP_HEIGHT,
@@ -86,7 +84,7 @@ def _put_equations(
     pinion: CutState,
     gear_placed: Placement,
     pinion_placed: Placement,
-    rows: NDArray[float64],
+    rows: Array,
 ) -> float:
     """Write the seven equations linearised about a state; return the cosine of the normals."""
     n_g = place_direction(gear_placed, gear.normal)
@@ -148,8 +146,8 @@ def find_contact(
     gear_placed: Placement,
     pinion_base: Placement,
     facing: float,
-    x: NDArray[float64],
-    rows: NDArray[float64],
+    x: Array,
+    rows: Array,
 ) -> int:
     """Find the rotation of the pinion and the point in which it touches the fixed gear.
 
@@ -210,12 +208,12 @@ def trace_contact(
     gear_base: Placement,
     pinion_base: Placement,
     facing: float,
-    turns: NDArray[float64],
+    turns: Array,
     longest_step: float,
     start_turn: float,
-    start: NDArray[float64],
-    found: NDArray[float64],
-    rows: NDArray[float64],
+    start: Array,
+    found: Array,
+    rows: Array,
 ) -> None:
     """Follow the contact from a known one through the rotations `turns` of the gear, in order.
 

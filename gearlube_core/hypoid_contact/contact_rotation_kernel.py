@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_rotation
 from gearlube_core.hypoid_contact.placement import Placement, place_point, turned
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion
@@ -19,9 +17,9 @@ def _try_from(
     pinion: CuttingMotion,
     base: Placement,
     target: Vector,
-    start: NDArray[float64],
+    start: Array,
     extra_turn: float,
-    found: NDArray[float64],
+    found: Array,
 ) -> bool:
     """Search from `start` (4,), its rotation moved by `extra_turn`; NaN in `found` on failure."""
     if math.isnan(start[0]):
@@ -41,12 +39,12 @@ def find_contact_rotations(
     pinion: CuttingMotion,
     pinion_base: Placement,
     gear_base: Placement,
-    points: NDArray[float64],
-    turns: NDArray[float64],
+    points: Array,
+    turns: Array,
     middle: int,
     ratio: float,
-    start: NDArray[float64],
-    found: NDArray[float64],
+    start: Array,
+    found: Array,
 ) -> None:
     """Find the rotation at which the pinion flank passes through each gear point.
 

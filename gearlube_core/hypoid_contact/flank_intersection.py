@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.placement import (
     Placement,
     place_direction,
@@ -59,7 +57,7 @@ def intersect_line(
     placement: Placement,
     origin: Vector,
     direction: Vector,
-    parameters: NDArray[float64],
+    parameters: Array,
 ) -> int:
     """Find the intersection of the line `origin` [m] + s `direction` with a flank.
 
@@ -112,7 +110,7 @@ def intersect_rotation(
     motion: CuttingMotion,
     placement: Placement,
     target: Vector,
-    parameters: NDArray[float64],
+    parameters: Array,
 ) -> int:
     """Find the rotation about its work axis with which a flank passes through `target` [m].
 

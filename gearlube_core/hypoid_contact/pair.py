@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from gearlube_core.arrays import Array
@@ -27,7 +26,7 @@ from gearlube_core.hypoid_geometry.flank.flank import Flank, Side
 from gearlube_core.hypoid_geometry.flank.machine_frames import reference_point
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
-Angle = TypeVar("Angle", float, NDArray[np.float64])
+Angle = TypeVar("Angle", float, Array)
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,11 @@ from numba.core import cgutils
 from numba.core.types import Type
 from numba.extending import intrinsic, overload
 from numba.np import arrayobj
-from numpy.typing import NDArray
+
+from gearlube_core.arrays import Array
 
 
-def flatten(values: tuple[Any, ...]) -> NDArray[np.float64]:
+def flatten(values: tuple[Any, ...]) -> Array:
     """Return the floats of a nested NamedTuple, fields in order, as a new array."""
 
     def leaves(part: tuple[Any, ...]) -> Iterator[float]:
@@ -44,7 +45,7 @@ def _parts(tuple_class: type, variants: Sequence[type] = ()) -> list[type]:
     return [chosen.get(hint, hint) for hint in hints]
 
 
-def tuple_from_array(array: NDArray[np.float64], tuple_class: Any, *variants: Any) -> Any:
+def tuple_from_array(array: Array, tuple_class: Any, *variants: Any) -> Any:
     """Return the NamedTuple `tuple_class` built from the first floats of a contiguous array.
 
     Parameters

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.kernels.jit import kernel
 
 # order of the series in a packed coefficient array
@@ -43,9 +41,7 @@ class MeshSeries(NamedTuple):
 
 
 @kernel
-def load_bracket(
-    torque: float, side: float, levels: NDArray[float64], n_levels: int
-) -> LoadBracket:
+def load_bracket(torque: float, side: float, levels: Array, n_levels: int) -> LoadBracket:
     """Return the load levels around abs(torque) [N.m] of one side; the end levels hold outside.
 
     Parameters
@@ -78,9 +74,7 @@ def load_bracket(
 
 
 @kernel
-def blend_levels(
-    packed: NDArray[float64], size: int, bracket: LoadBracket, out: NDArray[float64]
-) -> None:
+def blend_levels(packed: Array, size: int, bracket: LoadBracket, out: Array) -> None:
     """Interpolate data packed level by level, shape (L * size,), into out, shape (size,)."""
     lower = bracket.lower * size
     upper = bracket.upper * size
@@ -89,9 +83,7 @@ def blend_levels(
 
 
 @kernel
-def mesh_series(
-    coefficients: NDArray[float64], n_orders: int, z_p: float, phi: float
-) -> MeshSeries:
+def mesh_series(coefficients: Array, n_orders: int, z_p: float, phi: float) -> MeshSeries:
     """Return all series at pinion angle `phi` [rad].
 
     `coefficients` has shape (N_SERIES * (2 n_orders + 1),): the series are grouped by order,
@@ -136,9 +128,7 @@ def mesh_series(
 
 
 @kernel
-def transmission_error(
-    coefficients: NDArray[float64], n_orders: int, z_p: float, phi: float
-) -> float:
+def transmission_error(coefficients: Array, n_orders: int, z_p: float, phi: float) -> float:
     """Return e [m] at pinion angle `phi` [rad]; `coefficients` as in `mesh_series`."""
     c1 = math.cos(z_p * phi)
     s1 = math.sin(z_p * phi)
@@ -154,13 +144,13 @@ def transmission_error(
 
 @kernel
 def pair_channels(
-    window: NDArray[float64],
+    window: Array,
     n_nodes: int,
     z_p: float,
     phi: float,
     pair: int,
     n_channels: int,
-    out: NDArray[float64],
+    out: Array,
 ) -> None:
     """Interpolate the window channels of one tooth pair into out, shape (n_channels,).
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from gearlube_core.kernels.by_law import by_law
+from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.jit import kernel
 
 
-@by_law()
+@by_class()
 def density_ratio(law: Any, p: float) -> tuple[float, float, float]:
     """Return rho/rho0 and its first and second pressure derivative.
 

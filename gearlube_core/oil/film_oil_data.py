@@ -13,10 +13,13 @@ from gearlube_core.oil.eyring_1936 import NEWTONIAN, Eyring
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.houpert_1985 import houpert_log_viscosity, houpert_parameters
 from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.oil_heat import OilHeat
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 from gearlube_core.oil.roelands_houpert import barus, roelands
 from gearlube_core.oil.shear_law import rate_ratio
 from gearlube_core.oil.viscosity_law import log_viscosity
+
+_MINERAL = OilHeat()
 
 VISCOSITY_LAWS = ("barus", "roelands", "houpert")
 DENSITY_LAWS = {"dowson_higginson": DOWSON_HIGGINSON_1966, "incompressible": INCOMPRESSIBLE}
@@ -34,9 +37,7 @@ def film_oil(
     limiting_shear: tuple[float, float] | None = None,
     temperature: float = 313.15,
     temperature_exponent: float = 0.0,
-    expansion: float = 0.0,
-    conductivity: float = 0.14,
-    heat_capacity: float = 2000.0,
+    heat: OilHeat = _MINERAL,
 ) -> FilmOil:
     """Return the oil of a film from its numbers and laws.
 
@@ -61,8 +62,10 @@ def film_oil(
         Limiting shear stress at ambient pressure [Pa] and its slope with pressure [-].
     temperature : float
         Of the oil at the inlet [K].
-    temperature_exponent, expansion, conductivity, heat_capacity : float
-        S0 of Houpert [-], [1/K], [W/(m K)], [J/(kg K)]: used by thermal solutions only.
+    temperature_exponent : float
+        S0 of Houpert [-], used by thermal solutions only.
+    heat : OilHeat
+        Thermal expansion, conductivity and heat capacity, used by thermal solutions only.
 
     Returns
     -------
@@ -78,6 +81,11 @@ def film_oil(
     >>> oil = film_oil(eta0=0.00625, alpha=13.3e-9)
     >>> round(oil.viscosity.Z, 4)
     0.5676
+    >>> from gearlube_core.oil.oil_heat import OilHeat
+    >>> hot = film_oil(eta0=0.04, alpha=2e-8, law="houpert", temperature_exponent=1.1,
+    ...                heat=OilHeat(expansion=6.5e-4))
+    >>> hot.expansion, hot.conductivity
+    (0.00065, 0.14)
     """
     lowest = 1.0001 * ROELANDS_KAPPA if law in ("roelands", "houpert") else 0.0
     check_positive("eta0", eta0, "Pa s", "20 cP is 0.02 Pa s.")
@@ -87,9 +95,6 @@ def film_oil(
     check_within("temperature_exponent", temperature_exponent, 0.0, 5.0)
     if law != "houpert" and temperature_exponent > 0.0:
         check_within("temperature_exponent", temperature_exponent, 0.0, 0.0, "", "Take houpert.")
-    check_within("expansion", expansion, 0.0, 1e-2, "1/K")
-    check_positive("conductivity", conductivity, "W/(m K)")
-    check_positive("heat_capacity", heat_capacity, "J/(kg K)")
     limit, slope = (0.0, 0.0) if limiting_shear is None else limiting_shear
     check_within("limiting_shear[0]", limit, 0.0, 1e10, "Pa", "5 MPa is 5e6 Pa.")
     check_within("limiting_shear[1]", slope, 0.0, 1.0)
@@ -102,9 +107,9 @@ def film_oil(
         tau_limit=float(limit),
         limit_slope=float(slope),
         temperature=float(temperature),
-        expansion=float(expansion),
-        conductivity=float(conductivity),
-        heat_capacity=float(heat_capacity),
+        expansion=float(heat.expansion),
+        conductivity=float(heat.conductivity),
+        heat_capacity=float(heat.heat_capacity),
     )
 
 
@@ -231,8 +236,10 @@ def film_oil_of(
         ),
         temperature=temperature,
         temperature_exponent=S0,
-        conductivity=lubricant.conductivity + lubricant.conductivity_slope * offset,
-        heat_capacity=lubricant.heat_capacity,
+        heat=OilHeat(
+            conductivity=lubricant.conductivity + lubricant.conductivity_slope * offset,
+            heat_capacity=lubricant.heat_capacity,
+        ),
     )
 
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from gearlube_core.kernels.by_law import by_law
+from gearlube_core.kernels.by_class import by_class
 
 
-@by_law()
+@by_class()
 def rate_ratio(law: Any, q: float) -> tuple[float, float]:
     """Return G and dG/dq.
 

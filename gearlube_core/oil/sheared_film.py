@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.kernels.by_law import by_law
+from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.shear_flow import shear_flow
 from gearlube_core.oil.shear_law import rate_ratio
@@ -78,7 +78,7 @@ def _layered_stress(law: Any, eta: np.ndarray, h: float, slope: float, sliding: 
     return law.tau0 * T
 
 
-@by_law(_flow_factor)
+@by_class(_flow_factor)
 def flow_factor(law: Any, sigma: float, a: float) -> tuple[float, float, float]:
     """Return the flow by pressure over its Newtonian value, and its derivatives.
 
@@ -99,25 +99,25 @@ def flow_factor(law: Any, sigma: float, a: float) -> tuple[float, float, float]:
     raise NotImplementedError
 
 
-@by_law(_mid_stress)
+@by_class(_mid_stress)
 def mid_stress(law: Any, sigma: float, a: float) -> float:
     """Return the shear stress at mid-film over tau0 [-]; `sigma` and `a` as in `flow_factor`."""
     raise NotImplementedError
 
 
-@by_law(_shear_rate)
+@by_class(_shear_rate)
 def shear_rate(law: Any, stress: float, eta: float) -> float:
     """Return the shear rate du/dz [1/s] at a stress [Pa] and a viscosity [Pa s]."""
     raise NotImplementedError
 
 
-@by_law(_stress_share)
+@by_class(_stress_share)
 def stress_share(law: Any, stress: float) -> float:
     """Return d ln(tau)/d ln(eta) at one shear rate [-]; stress [Pa], not negative."""
     raise NotImplementedError
 
 
-@by_law(_layered_stress)
+@by_class(_layered_stress)
 def layered_stress(law: Any, eta: np.ndarray, h: float, slope: float, sliding: float) -> float:
     """Return the shear stress at mid-film where viscosity varies across it.
 

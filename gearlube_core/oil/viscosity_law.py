@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from gearlube_core.kernels.by_law import by_law
+from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.jit import kernel
 
 
@@ -30,7 +30,7 @@ def _zero(law: Any, p: float, temperature: float, oil_temperature: float) -> flo
     return 0.0
 
 
-@by_law()
+@by_class()
 def log_viscosity(law: Any, p: float, cooling: float) -> tuple[float, float]:
     """Return ln(eta/eta0) and its pressure derivative.
 
@@ -51,19 +51,19 @@ def log_viscosity(law: Any, p: float, cooling: float) -> tuple[float, float]:
     raise NotImplementedError
 
 
-@by_law(_one)
+@by_class(_one)
 def cooling_factor(law: Any, temperature: float, oil_temperature: float) -> float:
     """Return the cooling factor [-] at a temperature, of an oil at `oil_temperature` [K]."""
     raise NotImplementedError
 
 
-@by_law(_one_at)
+@by_class(_one_at)
 def cooling_at(law: Any, p: float, log_ratio: float) -> float:
     """Return the cooling factor [-] at which ln(eta/eta0) is `log_ratio` at a pressure [Pa]."""
     raise NotImplementedError
 
 
-@by_law(_zero)
+@by_class(_zero)
 def viscosity_decline(law: Any, p: float, temperature: float, oil_temperature: float) -> float:
     """Return -d ln eta/dT [1/K] at a pressure [Pa] and a temperature [K]."""
     raise NotImplementedError

@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from gearlube_core.arrays import Array
 from gearlube_core.periodic.floquet import Multipliers, floquet_multipliers
 from gearlube_core.periodic.newton import Correction, NewtonSettings, correct
-from gearlube_core.periodic.problem import Array, Evaluation, PeriodicProblem
+from gearlube_core.periodic.problem import Evaluation, PeriodicProblem
 
 
 class Node(NamedTuple):

@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.periodic.floquet import Multipliers
-from gearlube_core.periodic.problem import Array
 
 Kind = Literal["fold", "branch point", "exchange", "period doubling", "Neimark-Sacker"]
 Ending = Literal["parameter limit", "closed", "point limit", "step limit", "interrupted"]

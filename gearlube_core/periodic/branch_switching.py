@@ -6,11 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.periodic.branch import SpecialPoint
 from gearlube_core.periodic.newton import NewtonSettings, correct
-from gearlube_core.periodic.problem import Array, PeriodicProblem
+from gearlube_core.periodic.problem import PeriodicProblem
 
 _DEFAULTS = NewtonSettings()
 _SINGULAR = 1e-3  # second smallest singular value over the largest at a branch point, at most

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.periodic.arclength import ArclengthCorrector, Node, hermite, turning_angle
 from gearlube_core.periodic.branch import Branch, Ending
 from gearlube_core.periodic.newton import Correction, NewtonSettings
-from gearlube_core.periodic.problem import Array, PeriodicProblem
+from gearlube_core.periodic.problem import PeriodicProblem
 from gearlube_core.periodic.recorder import Recorder
 from gearlube_core.periodic.shooting import require
 

@@ -6,8 +6,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-from gearlube_core.periodic.problem import Array
 
 Multipliers = np.ndarray[Any, np.dtype[np.complex128]]
 Loss = Literal["none", "fold", "period doubling", "Neimark-Sacker"]

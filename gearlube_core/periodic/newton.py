@@ -7,9 +7,10 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.periodic.problem import Array, Evaluation, PeriodicProblem
+from gearlube_core.periodic.problem import Evaluation, PeriodicProblem
 
 Status = Literal[
     "converged", "iteration limit", "no descent", "singular Jacobian", "map not finite at the start"

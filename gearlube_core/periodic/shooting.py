@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.periodic.floquet import Multipliers, floquet_multipliers, stability_margin
 from gearlube_core.periodic.newton import Correction, NewtonSettings, Status, correct
-from gearlube_core.periodic.problem import Array, PeriodicProblem
+from gearlube_core.periodic.problem import PeriodicProblem
 
 _DEFAULTS = NewtonSettings()
 _CURES = {

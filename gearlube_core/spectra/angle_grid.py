@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.errors import ParameterError
 
@@ -54,7 +54,7 @@ class AngleWindow:
         return 2.0 * math.pi * self.revolutions / self.mean_speed
 
     @property
-    def angle(self) -> NDArray[np.float64]:
+    def angle(self) -> Array:
         """Shaft angles of the samples [rad], shape (size,)."""
         step = 2.0 * math.pi / self.samples_per_revolution
         return self.start + step * np.arange(self.size, dtype=np.float64)
@@ -97,8 +97,8 @@ def whole_revolutions(
 
 
 def angle_window(
-    time: NDArray[np.float64],
-    angle: NDArray[np.float64],
+    time: Array,
+    angle: Array,
     *,
     revolutions: int,
     samples_per_revolution: int,
@@ -141,9 +141,7 @@ def angle_window(
     )
 
 
-def resample(
-    angle: NDArray[np.float64], signals: NDArray[np.float64], window: AngleWindow
-) -> NDArray[np.float64]:
+def resample(angle: Array, signals: Array, window: AngleWindow) -> Array:
     """Interpolate signals onto the equal-angle grid of `window` with a cubic spline.
 
     Parameters

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 
 _END = 6  # intervals after which the end condition of the spline has decayed to (sqrt(3) - 2)^6
@@ -27,7 +27,7 @@ class Extremes:
         return self.maximum - self.minimum
 
 
-def extremes(signal: NDArray[np.float64], refine: int = 1) -> Extremes:
+def extremes(signal: Array, refine: int = 1) -> Extremes:
     """Return the extremes of equally spaced samples, between the samples when `refine` > 1.
 
     With s samples per cycle the largest sample lies up to 1 - cos(pi/s) below the crest (19 % at

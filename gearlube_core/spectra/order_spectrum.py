@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.errors import ParameterError
 from gearlube_core.spectra.angle_grid import AngleWindow
@@ -28,12 +28,12 @@ class OrderSpectrum:
         Mean shaft speed over the window [rad/s].
     """
 
-    order: NDArray[np.float64]
-    amplitude: NDArray[np.float64]
+    order: Array
+    amplitude: Array
     mean_speed: float
 
     @property
-    def frequency(self) -> NDArray[np.float64]:
+    def frequency(self) -> Array:
         """Frequency of every bin at the mean speed [Hz]: f = order * mean_speed / (2 pi)."""
         return self.order * self.mean_speed / (2.0 * math.pi)
 
@@ -46,7 +46,7 @@ class OrderSpectrum:
         )
 
 
-def order_spectrum(samples: NDArray[np.float64], window: AngleWindow) -> OrderSpectrum:
+def order_spectrum(samples: Array, window: AngleWindow) -> OrderSpectrum:
     """Return the amplitude spectrum of equal-angle samples, without a weighting window.
 
     The window spans whole revolutions, so every integer order falls on a bin and does not leak:

@@ -14,7 +14,7 @@ from gearlube_core.oil.density_law import density_in_units, density_ratio
 from gearlube_core.oil.film_oil import density, density_slope
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import flow_out
-from tests.helpers.small_films import film_in_time, line_film, point_film
+from tests.helpers.small_films import line_film, oil_balance, point_film
 
 
 class Tait(NamedTuple):
@@ -35,21 +35,6 @@ class Tait(NamedTuple):
         slope = up * ratio * ratio / (self.K0 * inner)
         bend = slope * (2.0 * slope / ratio - (1.0 + self.K1) / (self.K0 * inner))
         return ratio, slope, bend
-
-
-class PlainDowsonHigginson(NamedTuple):
-    """rho/rho0 = 1 + (gamma - lambda) p/(1 + lambda p), coefficients in 1/GPa."""
-
-    gamma: float
-    lam: float
-
-    @kernel
-    def density_ratio(self, p: float) -> tuple[float, float, float]:
-        q = 1e-9 * max(p, 0.0)
-        up = 1e-9 * (self.gamma - self.lam) if p >= 0.0 else 0.0
-        below = 1.0 + self.lam * q
-        ratio = 1.0 + (self.gamma - self.lam) * q / below
-        return ratio, up / below**2, -2e-9 * self.lam * up / below**3
 
 
 LAW = Tait(1.2e9, 10.5)
@@ -81,24 +66,18 @@ def test_line_film_holds_oil_of_that_density():
     film = line_film(OIL)
     assert film.density == pytest.approx(870.0 * tait(np.maximum(film.pressure, 0.0)), rel=1e-12)
     # what flows through every section is the same, to the accuracy of the solution
-    flow = film.mass_flow[10:150]
+    flow = film.mass_flow[5:75]
     assert flow == pytest.approx(flow[0], rel=1e-6)
 
 
 def test_point_film_conserves_mass_with_it():
     # the printed flow of the fields in SI; the film is solved to 1e-9 of the entrained flow
-    assert abs(flow_out(point_film(OIL), 10, 25, 16, 32)) < 1e-5
+    assert abs(flow_out(point_film(OIL), 7, 17, 11, 21)) < 1e-7
 
 
-def test_dowson_and_higginson_written_anew_give_the_films_of_the_built_in_law():
-    anew, built_in = (
-        film_oil(eta0=0.05, alpha=15e-9, density_law=law)
-        for law in (PlainDowsonHigginson(2.266, 1.683), "dowson_higginson")
-    )
-    # films are solved to 1e-9
-    assert line_film(anew).film == pytest.approx(line_film(built_in).film, rel=1e-8)
-    assert point_film(anew).film == pytest.approx(point_film(built_in).film, rel=1e-8)
-    assert film_in_time(anew).film == pytest.approx(film_in_time(built_in).film, rel=1e-8)
+def test_film_in_time_conserves_mass_with_it():
+    # solved to 1e-9 of the entrained flow
+    assert abs(oil_balance(OIL)) < 1e-7
 
 
 def test_a_law_of_another_reference_density_is_refused():

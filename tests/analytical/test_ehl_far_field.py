@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import dblquad
 
 from gearlube_core.ehl.point.far_field import FarField
-from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.problem import ContactDomain, PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.errors import ParameterError
@@ -159,9 +159,10 @@ def test_border_through_the_contact_says_so_with_oil_beyond() -> None:
 
 
 def test_oil_goes_on_beyond_a_given_domain_only_if_asked() -> None:
-    given = moes_contact(3.0, 5.0, nodes=(33, 33), inlet=20.0)
+    domain = ContactDomain(inlet=20.0)
+    given = moes_contact(3.0, 5.0, nodes=(33, 33), domain=domain)
     assert not given.oil_beyond
-    assert moes_contact(3.0, 5.0, nodes=(33, 33), inlet=20.0, oil_beyond=True).oil_beyond
+    assert moes_contact(3.0, 5.0, nodes=(33, 33), domain=domain, oil_beyond=True).oil_beyond
     assert not moes_contact(3.0, 5.0, nodes=(33, 33), oil_beyond=False).oil_beyond
     assert not moes_contact(50.0, 5.0, nodes=(33, 33)).oil_beyond
     with pytest.raises(ParameterError, match="both sides of 0 m"):

@@ -25,6 +25,7 @@ from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.film_oil import thermal_viscosity
 from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
+from gearlube_core.oil.oil_heat import OilHeat
 from tests.helpers.ehl_line_cases import thesis_line
 
 T0 = 363.15  # K
@@ -34,7 +35,7 @@ OIL = film_oil(
     law="houpert",
     temperature=T0,
     temperature_exponent=1.0,
-    expansion=6.5e-4,
+    heat=OilHeat(expansion=6.5e-4),
     eyring_stress=10e6,
 )
 
@@ -87,7 +88,8 @@ def test_developed_film_between_cold_walls_has_the_parabola_of_conduction():
 
 def test_surfaces_warm_with_the_root_of_the_distance():
     h, n, step = 0.05e-6, 400, 1e-6
-    oil = film_oil(eta0=0.5, alpha=0.0, law="barus", temperature=T0, heat_capacity=1e-3)
+    heat = OilHeat(heat_capacity=1e-3)
+    oil = film_oil(eta0=0.5, alpha=0.0, law="barus", temperature=T0, heat=heat)
     surfaces = SurfaceHeating(5.0, 6.0, 2e-8, 2e-8, T0)
     T, flux, _, heating = marched(uniform_film(n, 0.0, h, 0.0, 5.5), step, surfaces, oil, 9)
     # like bodies share the heat evenly; an oil without heat capacity carries none away

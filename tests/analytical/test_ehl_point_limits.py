@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.point.level import PointLevel
-from gearlube_core.ehl.point.problem import elliptical_contact
+from gearlube_core.ehl.point.problem import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.oil.film_oil_data import film_oil
@@ -32,9 +32,7 @@ def _kapitza_residual(nodes: int, wedge: str, angle: float) -> float:
         contact_modulus=1e11,
         lubricant=ISOVISCOUS,
         nodes=(nodes, nodes),
-        inlet=4.0,
-        outlet=4.0,
-        side=4.0,
+        domain=ContactDomain(inlet=4.0, outlet=4.0, side=4.0),
     )
     scales = PointScales.of(problem)
     level = PointLevel(problem, scales, (nodes, nodes), wedge)
@@ -70,9 +68,7 @@ def test_a_stiff_contact_floats_on_the_rigid_isoviscous_film() -> None:
         contact_modulus=1e13,
         lubricant=ISOVISCOUS,
         nodes=(161, 161),
-        inlet=50.0,
-        outlet=15.0,
-        side=50.0,
+        domain=ContactDomain(inlet=50.0, outlet=15.0, side=50.0),
     )
     solution = solve_point_contact(problem)
     # half of Kapitza's antisymmetric pressure: W = 12 pi eta u R/5 sqrt(2 R/h)

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
-from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
+from gearlube_core.ehl.point.problem import ContactDomain, EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.ehl.point.solver import solve_point_contact
@@ -199,7 +199,11 @@ def test_starvation_lowers_the_film_to_the_layer_that_comes() -> None:
 
 def test_the_middle_of_a_long_contact_is_a_line_contact() -> None:
     problem = moes_contact(
-        200.0, 5.0, nodes=(129, 65), radius_ratio=radius_ratio(20.0), inlet=4.0, outlet=2.0
+        200.0,
+        5.0,
+        nodes=(129, 65),
+        radius_ratio=radius_ratio(20.0),
+        domain=ContactDomain(inlet=4.0, outlet=2.0),
     )
     a_x, _, largest = problem.hertz_contact
     load = 0.5 * math.pi * a_x * largest

@@ -21,6 +21,7 @@ from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.thermal.solver import PointThermalSettings, solve_thermal_point
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from gearlube_core.oil.oil_heat import OilHeat
 
 T0 = 363.15  # K
 OIL = film_oil(
@@ -29,7 +30,7 @@ OIL = film_oil(
     law="houpert",
     temperature=T0,
     temperature_exponent=1.0,
-    expansion=6.5e-4,
+    heat=OilHeat(expansion=6.5e-4),
     eyring_stress=10e6,
 )
 ENTRAINED = (4.0, 1.0)

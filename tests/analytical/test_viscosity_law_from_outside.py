@@ -27,9 +27,9 @@ from gearlube_core.oil.viscosity_law import cooling_at, cooling_factor
 from tests.helpers.ehl_point_cases import flow_out
 from tests.helpers.small_films import (
     SPEED,
-    film_in_time,
     line_contact,
     line_film,
+    oil_balance,
     point_film,
 )
 
@@ -106,16 +106,12 @@ T0 = 313.15
 FREE_VOLUME = film_oil(eta0=0.05, law=Yasutomi(16.04, 18.18, T0), temperature=T0)
 
 
-def test_barus_written_anew_gives_the_films_of_the_built_in_law():
+def test_barus_written_anew_gives_the_numbers_of_the_built_in_law():
     for p in (-1e8, 0.0, 1e8, 1e9):
         # rounding of the exponent, up to 15
         assert viscosity(PLAIN, p) == pytest.approx(viscosity(BUILT_IN, p), rel=1e-13)
+        assert viscosity_slope(PLAIN, p) == pytest.approx(viscosity_slope(BUILT_IN, p), rel=1e-13)
     assert pressure_viscosity(PLAIN) == ALPHA
-    # films are solved to 1e-9
-    ours, theirs = line_film(PLAIN), line_film(BUILT_IN)
-    assert ours.film == pytest.approx(theirs.film, rel=1e-8)
-    assert point_film(PLAIN).film == pytest.approx(point_film(BUILT_IN).film, rel=1e-8)
-    assert film_in_time(PLAIN).film == pytest.approx(film_in_time(BUILT_IN).film, rel=1e-8)
 
 
 def test_film_formulas_take_alpha_of_the_law():
@@ -141,7 +137,7 @@ def test_free_volume_law_has_the_slopes_of_its_values():
 
 
 def test_line_film_of_the_free_volume_law_satisfies_reynolds():
-    film = line_film(FREE_VOLUME, nodes=801)
+    film = line_film(FREE_VOLUME, nodes=401)
     x, p, h, rho = film.x, film.pressure, film.film, film.density
     # printed law, not the kernel: log10(eta/eta0) at the oil's temperature
     T_g, F = 190.0 + 189.0 * np.log1p(0.719e-9 * p), 1.0 - 0.188 * np.log1p(27.52e-9 * p)
@@ -151,14 +147,14 @@ def test_line_film_of_the_free_volume_law_satisfies_reynolds():
     slope = 12.0 * eta * (rho * SPEED * h - flow) / (rho * h**3)
     inlet = (x < 0.0) & (p < 0.2 * p.max())
     rise = cumulative_trapezoid(slope[inlet], x[inlet], initial=0.0)
-    # first-order carried mass on 800 cells
+    # first-order carried mass on 400 cells
     assert rise[-1] == pytest.approx(p[inlet][-1] - p[inlet][0], rel=0.02)
 
 
-def test_point_film_of_the_free_volume_law_conserves_mass():
-    # the printed flow of the fields in SI; the film is solved to 1e-9 of the entrained flow
-    assert abs(flow_out(point_film(FREE_VOLUME), 10, 25, 16, 32)) < 1e-5
-    assert film_in_time(FREE_VOLUME).minimum_film > 0.0
+def test_films_of_the_free_volume_law_conserve_mass():
+    # the printed flow of the fields in SI; films are solved to 1e-9 of the entrained flow
+    assert abs(flow_out(point_film(FREE_VOLUME), 7, 17, 11, 21)) < 1e-7
+    assert abs(oil_balance(FREE_VOLUME)) < 1e-7
 
 
 def test_heat_thins_the_film_of_the_free_volume_law():
@@ -166,7 +162,7 @@ def test_heat_thins_the_film_of_the_free_volume_law():
     settings = LineSettings(nodes=101)
     steel = STEEL_MOHAMMADPOUR_2015
     hot = solve_thermal_line(contact, steel, steel, settings, thermal=ThermalSettings(heights=9))
-    cold = line_film(FREE_VOLUME, nodes=101)
+    cold = line_film(FREE_VOLUME)
     assert hot.film.film.min() < cold.film.min()
 
 

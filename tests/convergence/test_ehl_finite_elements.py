@@ -15,7 +15,12 @@ from gearlube_core.ehl.point.equations.finite_elements import (
     upwind_shares,
 )
 from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
-from gearlube_core.ehl.point.equations.stencil import FlowSlopes, StencilParameters
+from gearlube_core.ehl.point.equations.stencil import (
+    CarriedMass,
+    FlowSlopes,
+    FlowTensor,
+    StencilParameters,
+)
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
@@ -94,10 +99,7 @@ def residual_of(grid, pressure, film, source, compliance):
         grid,
         pressure,
         density * film,
-        cubic,
-        CROSS * cubic,
-        0.7 * cubic,
-        fluidity,
+        FlowTensor(cubic, CROSS * cubic, 0.7 * cubic, fluidity),
         source,
         compliance,
         density,
@@ -112,14 +114,9 @@ def derivatives_of(grid, pressure, film, compliance, free=None):
     element_derivatives(
         grid,
         pressure,
-        cubic,
-        CROSS * cubic,
-        0.7 * cubic,
-        fluidity,
+        FlowTensor(cubic, CROSS * cubic, 0.7 * cubic, fluidity),
         np.full(pressure.shape, THICKENING),
-        density,
-        np.full(pressure.shape, DENSENING),
-        film,
+        CarriedMass(density, np.full(pressure.shape, DENSENING), film),
         FlowSlopes(
             cubic,
             0.7 * cubic,

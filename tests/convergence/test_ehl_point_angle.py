@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gearlube_core.ehl.point.problem import elliptical_contact
+from gearlube_core.ehl.point.problem import ContactDomain, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.traction import point_traction
@@ -26,9 +26,7 @@ def film_and_friction(nodes: int, angle: float) -> np.ndarray:
         lubricant=film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6),
         nodes=(nodes, nodes),
         # a square whose corner does not flood the inlet better than its side does
-        inlet=6.0,
-        outlet=6.0,
-        side=6.0,
+        domain=ContactDomain(inlet=6.0, outlet=6.0, side=6.0),
     )
     solution = solve_point_contact(problem, PointSolverSettings(wedge="quick"))
     friction = point_traction(

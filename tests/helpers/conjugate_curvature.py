@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
@@ -20,7 +19,7 @@ class RelativeCurvature(NamedTuple):
 
 def conjugate_relative_curvature(
     *,
-    shape_operator: NDArray[np.float64],
+    shape_operator: Array,
     normal: Array,
     velocity_1: Array,
     velocity_2: Array,

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.film.line_film_law import LineFilmLaw, power_law_line_film
 from gearlube_core.friction.flank_data import FlankState
+from gearlube_core.kernels.jit import kernel
 
 SPEED, TORQUE, OIL = 240.0, 66.0, 368.15  # rad/s, N.m, K
 # a formula of another package: the film of rigid cylinders, Martin 1916, 4.9 eta u R/w
@@ -24,6 +25,7 @@ class ConstantFriction(NamedTuple):
     sigma: float
     reduced_modulus: float
 
+    @kernel
     def flank_state(self, load, entrainment_speed, sliding_speed, geometry, oil):
         F = max(load, 1.0)
         film = power_law_line_film(

@@ -35,7 +35,7 @@ def moes_contact(
     radius_ratio: float = 1.0,
     angle: float = 0.0,
     lubricant: FilmOil | None = None,
-    **domain: Any,
+    **given: Any,
 ) -> PointContactProblem:
     """Return the contact with load M and material L of Moes; L = 0 is isoviscous."""
     material = ALPHA * REDUCED_MODULUS
@@ -52,7 +52,7 @@ def moes_contact(
         contact_modulus=0.5 * REDUCED_MODULUS,
         lubricant=lubricant,
         nodes=nodes,
-        **domain,
+        **given,
     )
 
 
@@ -71,16 +71,31 @@ def moes_film(problem: PointContactProblem, film: float) -> float:
 
 
 def flow_out(solution: PointSolution, i0: int, i1: int, j0: int, j1: int) -> float:
-    """Return what leaves a box of nodes over what enters it upstream, less one [-].
+    """Return what leaves a box of nodes over what enters it upstream, less one [-]."""
+    problem = solution.problem
+    steps = problem.x[1] - problem.x[0], problem.y[1] - problem.y[0]
+    fields = solution.pressure, solution.film
+    entering, gain = box_flow(
+        *fields, problem.lubricant, problem.entrainment[0], steps, (i0, i1, j0, j1)
+    )
+    return -gain / entering
+
+
+def box_flow(
+    p: np.ndarray,
+    h: np.ndarray,
+    oil: FilmOil,
+    speed: float,
+    steps: tuple[float, float],
+    box: tuple[int, int, int, int],
+) -> tuple[float, float]:
+    """Return what enters a box of nodes upstream and what stays in it [kg/s].
 
     With central faces the flow is that of the printed equation, evaluated from SI fields.
     """
-    problem = solution.problem
-    oil = problem.lubricant
-    p, h = solution.pressure, solution.film
+    (dx, dy), (i0, i1, j0, j1) = steps, box
     rho = np.vectorize(lambda q: density(oil, q))(p)
     eta = np.vectorize(lambda q: viscosity(oil, q))(p)
-    dx, dy = problem.x[1] - problem.x[0], problem.y[1] - problem.y[0]
 
     def along_x(i: int) -> float:
         a, b = slice(i, i + 1), slice(i + 1, i + 2)
@@ -92,7 +107,7 @@ def flow_out(solution: PointSolution, i0: int, i1: int, j0: int, j1: int) -> flo
         )
         fluidity = np.where(rising, logarithmic, fluidity)
         cubic = np.sqrt(rho[a, rows] * h[a, rows] ** 3 * rho[b, rows] * h[b, rows] ** 3)
-        couette = 0.5 * problem.entrainment[0] * (rho * h)[i : i + 2, rows].sum(axis=0)
+        couette = 0.5 * speed * (rho * h)[i : i + 2, rows].sum(axis=0)
         poiseuille = cubic * fluidity / 12.0 * (p[b, rows] - p[a, rows]) / dx
         return float((couette - poiseuille[0]).sum() * dy)
 
@@ -104,4 +119,4 @@ def flow_out(solution: PointSolution, i0: int, i1: int, j0: int, j1: int) -> flo
         return float(-(cubic * fluidity / 12.0 * (p[b] - p[a]) / dy).sum() * dx)
 
     entering = along_x(i0 - 1)
-    return (along_x(i1) - entering + along_y(j1) - along_y(j0 - 1)) / entering
+    return entering, entering - along_x(i1) - along_y(j1) + along_y(j0 - 1)

@@ -13,6 +13,7 @@ from gearlube_core.dynamics.hypoid_axle import (
     linearise,
     mohammadpour_2015_axle,
 )
+from gearlube_core.kernels.jit import kernel
 
 STIFFNESS = 3e8  # N/m, of the two bearings of a shaft together, in every direction
 SPEED, TORQUE, OIL = 240.0, 66.0, 368.15  # rad/s, N.m, K
@@ -25,25 +26,31 @@ class SpringBearings(NamedTuple):
     stiffness: float
     cage_ratio: float
 
+    @kernel
     def expand_forces(self, motion, f_ref, oil, expansion):
         expansion[0] = 0.0
 
+    @kernel
     def expanded_forces(self, motion, expansion):
         k = self.stiffness
         return -k * motion.r1, -k * motion.r2, -k * motion.axial, 0.0
 
+    @kernel
     def shaft_forces(self, motion, f_ref, oil):
         k = 0.5 * self.stiffness
         F = (-k * motion.r1, -k * motion.r2, -k * motion.axial)
         return F[0], F[1], F[2], F[0], F[1], F[2], 0.0
 
+    @kernel
     def shaft_energy(self, motion, oil):
         square = motion.r1 * motion.r1 + motion.r2 * motion.r2 + motion.axial * motion.axial
         return 0.5 * self.stiffness * square
 
+    @kernel
     def roller_load_range(self, motion, f_ref, oil, side, rollers):
         return 0.0, 0.0, 0.0
 
+    @kernel
     def shaft_drag(self, speed, axial_load, oil):
         return 0.0
 

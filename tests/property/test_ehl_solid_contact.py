@@ -10,7 +10,7 @@ import pytest
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle
 from gearlube_core.ehl.gears.helical_film import jamali_2015_film
 from gearlube_core.ehl.point.dry_contact import dry_contact
-from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.problem import ContactDomain, PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact, SolidLayer
 from gearlube_core.ehl.point.solver import solve_point_contact
@@ -30,9 +30,7 @@ def _contact(speed: float, thickness: float | None) -> PointContactProblem:
         contact_modulus=0.5 * REDUCED_MODULUS,
         lubricant=film_oil(eta0=ETA0, alpha=ALPHA),
         nodes=(49, 49),
-        inlet=2.5,
-        outlet=1.6,
-        side=1.8,
+        domain=ContactDomain(inlet=2.5, outlet=1.6, side=1.8),
     )
     solids = None if thickness is None else SolidContact(thickness=thickness)
     return dataclasses.replace(problem, solids=solids)

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gearlube.studies.helical.geometry_gaps import gap_variables
 from gearlube.studies.helical.geometry_lines import (
@@ -19,6 +19,7 @@ from gearlube.studies.helical.geometry_lines import (
     relieved_lines_always_touch,
     shown_line_variables,
 )
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.errors import ParameterError
@@ -138,7 +139,7 @@ def gear_file_geometry(
     )
 
 
-def shown_lines(modified: ModifiedPair) -> NDArray[np.float64]:
+def shown_lines(modified: ModifiedPair) -> Array:
     """Return X of three lines [m]: early, in the middle and late in the meshing cycle.
 
     At 75, 300 and 500 parts of 575 of the cycle in which the unrelieved line is long enough, as
@@ -154,7 +155,7 @@ def shown_lines(modified: ModifiedPair) -> NDArray[np.float64]:
     return line_at_position(first + part * (last - first), pair)
 
 
-def _check_lines(X: NDArray[np.float64], modified: ModifiedPair) -> None:
+def _check_lines(X: Array, modified: ModifiedPair) -> None:
     plane = modified.pair.plane
     last = plane.D + plane.W * plane.sin_b / plane.cos_b
     if X.ndim != 1 or X.size == 0 or not ((plane.A < X) & (last > X)).all():

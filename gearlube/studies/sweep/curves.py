@@ -6,11 +6,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.sweep.channels import FLANK_QUANTITIES, FLANKS
 from gearlube.studies.sweep.recording import Recording
 from gearlube.studies.sweep.scalars import radial_displacement
+from gearlube_core.arrays import Array
 from gearlube_core.spectra import AngleWindow, order_spectrum, resample
 
 HIGHEST_FREQUENCY = 4000.0  # Hz, end of the stored spectra: 0.8 of the Nyquist frequency
@@ -95,8 +95,8 @@ def roller_zone(recording: Recording) -> Variables:
     sector = np.floor(np.mod(cage, turn) / turn * CAGE_SECTORS).astype(np.int64) % CAGE_SECTORS
     count = np.bincount(sector, minlength=CAGE_SECTORS)
     total = np.bincount(sector, weights=load, minlength=CAGE_SECTORS)
-    low: NDArray[np.float64] = np.full(CAGE_SECTORS, np.inf)
-    high: NDArray[np.float64] = np.full(CAGE_SECTORS, -np.inf)
+    low: Array = np.full(CAGE_SECTORS, np.inf)
+    high: Array = np.full(CAGE_SECTORS, -np.inf)
     np.minimum.at(low, sector, load)
     np.maximum.at(high, sector, load)
     empty = count == 0

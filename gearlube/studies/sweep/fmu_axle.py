@@ -9,8 +9,8 @@ from types import TracebackType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError, StepError
 
 INPUTS = ("pinion.torque", "wheel.torque", "oil.temperature")
@@ -64,7 +64,7 @@ class FmuAxle:
         self._inputs = (ctypes.c_double * len(INPUTS))()
         self._output_references = self._references(channels)
         self._outputs = (ctypes.c_double * len(channels))()
-        self._view: NDArray[np.float64] = np.ctypeslib.as_array(self._outputs)
+        self._view: Array = np.ctypeslib.as_array(self._outputs)
         self._time = 0.0
 
     def __enter__(self) -> FmuAxle:
@@ -139,7 +139,7 @@ class FmuAxle:
             raise StepError(self._refusal("The axle FMU could not be initialised")) from error
         self._time = 0.0
 
-    def read(self) -> NDArray[np.float64]:
+    def read(self) -> Array:
         """Return the channels; the array is overwritten by the next call."""
         slave = self._slave
         slave.fmi2GetReal(

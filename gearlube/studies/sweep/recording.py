@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivetrain.drivers import Driver
 from gearlube.studies.sweep.settings import SweepSettings
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.errors import StepError
 from gearlube_core.spectra import whole_revolutions
@@ -30,7 +30,7 @@ class SteppedAxle(Protocol):
     def step(self, h: float, pinion_torque: float, wheel_torque: float) -> None:
         """Advance by `h` [s]."""
 
-    def read(self) -> NDArray[np.float64]:
+    def read(self) -> Array:
         """Return the current channels."""
 
 
@@ -60,19 +60,19 @@ class Recording:
         Mean of the vehicle speeds at the start and at the end of the record [m/s].
     """
 
-    time: NDArray[np.float64]
+    time: Array
     channels: tuple[str, ...]
-    values: NDArray[np.float64]
-    torques: NDArray[np.float64]
+    values: Array
+    torques: Array
     step: float
     steps_per_mesh_period: int
     teeth: int
     revolutions: int
     vehicle_speed: float
 
-    def __getitem__(self, channel: str) -> NDArray[np.float64]:
+    def __getitem__(self, channel: str) -> Array:
         """Return the samples of one channel, shape (n,)."""
-        column: NDArray[np.float64] = self.values[:, self.channels.index(channel)]
+        column: Array = self.values[:, self.channels.index(channel)]
         return column
 
 

@@ -6,11 +6,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlube.studies.sweep.channels import AXES, BEARINGS, FLANKS, LOSSES
 from gearlube.studies.sweep.recording import Recording
 from gearlube.studies.sweep.separation import separation_class
+from gearlube_core.arrays import Array
 from gearlube_core.spectra import AngleWindow, extremes
 
 _REFINE = 4  # points read between samples of smooth signals: 5 samples a cycle become 20
@@ -19,7 +19,7 @@ _CONTACT = 1e-3  # a flank counts as loaded above this share of its largest load
 Variables = dict[str, Any]
 
 
-def radial_displacement(recording: Recording) -> NDArray[np.float64]:
+def radial_displacement(recording: Recording) -> Array:
     """Return the pinion's distance from its preloaded rest position across its axis [m].
 
     r = sqrt(y^2 + z^2), shape (n,). Not taken about the mean, so that its extremes show the

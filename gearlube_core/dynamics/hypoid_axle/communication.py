@@ -11,9 +11,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings
 from gearlube_core.dynamics.hypoid_axle.integrate import OK, StepControl, advance
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
@@ -46,16 +44,16 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
 
     @kernel
     def communication_step(
-        s: NDArray[float64],
-        trial: NDArray[float64],
+        s: Array,
+        trial: Array,
         duration: float,
-        inputs: NDArray[float64],
+        inputs: Array,
         mesh: MeshFields,
-        parameters: NDArray[float64],
-        control_values: NDArray[float64],
-        work: NDArray[float64],
-        rollers: NDArray[float64],
-        out: NDArray[float64],
+        parameters: Array,
+        control_values: Array,
+        work: Array,
+        rollers: Array,
+        out: Array,
     ) -> int:
         """Advance the axle by `duration` [s] and write its outputs; return a status.
 
@@ -87,13 +85,13 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
 
     @kernel
     def outputs(
-        s: NDArray[float64],
-        inputs: NDArray[float64],
+        s: Array,
+        inputs: Array,
         mesh: MeshFields,
-        parameters: NDArray[float64],
-        work: NDArray[float64],
-        rollers: NDArray[float64],
-        out: NDArray[float64],
+        parameters: Array,
+        work: Array,
+        rollers: Array,
+        out: Array,
     ) -> None:
         """Write the outputs of the state `s`; arguments as in `communication_step`."""
         table = MeshLevels(*mesh)

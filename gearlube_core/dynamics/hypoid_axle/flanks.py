@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import (
@@ -23,6 +21,7 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Z,
 )
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
+from gearlube_core.friction.flank_law import flank_state
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
@@ -44,7 +43,7 @@ class FlankSum(NamedTuple):
 
 
 @kernel
-def sliding_speed(s: NDArray[float64], channels: NDArray[float64]) -> float:
+def sliding_speed(s: Array, channels: Array) -> float:
     """Return the sliding speed of the pinion over the gear flank [m/s].
 
     dU = w_p r_p - w_g r_g + xi.(v_p - v_g): the rate that the friction force does work on, so that
@@ -61,15 +60,16 @@ def sliding_speed(s: NDArray[float64], channels: NDArray[float64]) -> float:
 
 @kernel
 def pair_friction(
-    s: NDArray[float64],
+    s: Array,
     load: float,
     sliding: float,
-    channels: NDArray[float64],
+    channels: Array,
     oil: LubricantState,
     p: AxleParameters,
 ) -> FlankState:
     """Return the state of one flank under `load` [N] that slides at `sliding` [m/s]."""
-    return p.flank_law.flank_state(
+    return flank_state(
+        p.flank_law,
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,
@@ -80,15 +80,15 @@ def pair_friction(
 
 @kernel
 def flank_sum(
-    s: NDArray[float64],
+    s: Array,
     force: float,
-    window: NDArray[float64],
+    window: Array,
     n_nodes: int,
     oil: LubricantState,
     p: AxleParameters,
     refresh: float,
-    friction: NDArray[float64],
-    channels: NDArray[float64],
+    friction: Array,
+    channels: Array,
 ) -> FlankSum:
     """Return the friction of all pairs that share the mesh force `force` [N].
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import shaft_drag
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -78,7 +77,7 @@ def step_limit(
 
 @kernel
 def rk4_step(
-    s: NDArray[float64],
+    s: Array,
     h: float,
     first: float,
     expand: float,
@@ -86,8 +85,8 @@ def rk4_step(
     mesh: MeshAtLoad,
     oil: LubricantState,
     p: AxleParameters,
-    scratch: NDArray[float64],
-    stages: NDArray[float64],
+    scratch: Array,
+    stages: Array,
 ) -> None:
     """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
 
@@ -135,7 +134,7 @@ def work_size(n_orders: int, n_nodes: int) -> int:
 
 @kernel
 def step_inputs(
-    s: NDArray[float64],
+    s: Array,
     pinion_torque: float,
     wheel_torque: float,
     oil: LubricantState,
@@ -145,21 +144,21 @@ def step_inputs(
     drag_p = 0.0
     drag_g = 0.0
     if p.drag != 0.0:
-        drag_p = 2.0 * p.bearing_p.shaft_drag(s[W_P], p.preload, oil)
-        drag_g = 2.0 * p.bearing_g.shaft_drag(s[W_G], p.preload, oil)
+        drag_p = 2.0 * shaft_drag(p.bearing_p, s[W_P], p.preload, oil)
+        drag_g = 2.0 * shaft_drag(p.bearing_g, s[W_G], p.preload, oil)
     return StepInputs(pinion_torque, wheel_torque, drag_p, drag_g)
 
 
 @kernel
 def advance(
-    s: NDArray[float64],
+    s: Array,
     duration: float,
     torques: tuple[float, float],
     oil_temperature: float,
     table: MeshLevels,
     p: AxleParameters,
     control: StepControl,
-    work: NDArray[float64],
+    work: Array,
 ) -> int:
     """Advance the axle by `duration` [s] under constant inputs; return a status.
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
@@ -34,23 +32,23 @@ from gearlube_core.mesh_table.kernels import (
 class MeshLevels(NamedTuple):
     """The mesh table at all its loads; shapes as in `packed_mesh.PackedMesh`."""
 
-    levels: NDArray[float64]  # signed pinion torque [N.m]
-    series: NDArray[float64]  # Fourier coefficients
+    levels: Array  # signed pinion torque [N.m]
+    series: Array  # Fourier coefficients
     n_orders: int
-    windows: NDArray[float64]  # data of the tooth pairs
+    windows: Array  # data of the tooth pairs
     n_nodes: int
 
 
 # the same as a plain tuple: Python hands that over 0.6 us faster a call
-MeshFields = tuple[NDArray[float64], NDArray[float64], int, NDArray[float64], int]
+MeshFields = tuple[Array, Array, int, Array, int]
 
 
 class MeshAtLoad(NamedTuple):
     """The mesh table at one load."""
 
-    series: NDArray[float64]  # shape (N_SERIES * (2 n_orders + 1),)
+    series: Array  # shape (N_SERIES * (2 n_orders + 1),)
     n_orders: int
-    window: NDArray[float64]  # shape ((n_nodes + 1) * N_CHANNELS,)
+    window: Array  # shape ((n_nodes + 1) * N_CHANNELS,)
     n_nodes: int
 
 
@@ -64,7 +62,7 @@ def blend_mesh(load_torque: float, side: float, table: MeshLevels, mesh: MeshAtL
 
 @kernel
 def lateral_and_unloaded(
-    s: NDArray[float64], m: MeshSeries, series: NDArray[float64], n_orders: int, z_p: float
+    s: Array, m: MeshSeries, series: Array, n_orders: int, z_p: float
 ) -> float:
     """Return n.(u_p - u_g) - e [m]: what the transmission error holds besides the rotation."""
     lateral = (
@@ -77,7 +75,7 @@ def lateral_and_unloaded(
 
 @kernel
 def follow_flank(
-    s: NDArray[float64],
+    s: Array,
     table: MeshLevels,
     p: AxleParameters,
     mesh: MeshAtLoad,

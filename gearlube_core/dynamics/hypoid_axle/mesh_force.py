@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -46,9 +44,7 @@ def reference_frequency(p: AxleParameters, pinion_speed: float) -> float:
 
 
 @kernel
-def mesh_force(
-    s: NDArray[float64], series: NDArray[float64], n_orders: int, p: AxleParameters
-) -> MeshForce:
+def mesh_force(s: Array, series: Array, n_orders: int, p: AxleParameters) -> MeshForce:
     """Return the mesh force in state `s`.
 
     x' = R_p w_p - R_g w_g + n.(v_p - v_g) + n'.(u_p - u_g) w_p - e' w_p

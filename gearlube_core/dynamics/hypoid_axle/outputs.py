@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
-from gearlube_core.bearings.bearing_type import ShaftBearings, ShaftMotion
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import (
+    ShaftBearings,
+    ShaftMotion,
+    roller_load_range,
+    shaft_energy,
+    shaft_forces,
+)
 from gearlube_core.dynamics.hypoid_axle import output_names as at
 from gearlube_core.dynamics.hypoid_axle.flanks import pair_friction, sliding_speed
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
@@ -64,7 +68,7 @@ _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
 @kernel
 def stored_energy(
-    s: NDArray[float64],
+    s: Array,
     mesh_stiffness: float,
     oil: LubricantState,
     p: AxleParameters,
@@ -75,22 +79,22 @@ def stored_energy(
         kinetic += p.m_p * s[V_P + i] * s[V_P + i] + p.m_g * s[V_G + i] * s[V_G + i]
     f = backlash_deflection(s[X] * UM, p.backlash)
     elastic = 0.5 * mesh_stiffness * f * f
-    elastic += p.bearing_p.shaft_energy(pinion_motion(s), oil)
-    elastic += p.bearing_g.shaft_energy(gear_motion(s), oil)
+    elastic += shaft_energy(p.bearing_p, pinion_motion(s), oil)
+    elastic += shaft_energy(p.bearing_g, gear_motion(s), oil)
     return 0.5 * kinetic + elastic
 
 
 @kernel
 def write_flanks(
-    s: NDArray[float64],
+    s: Array,
     force: float,
-    window: NDArray[float64],
+    window: Array,
     n_nodes: int,
     oil_temperature: float,
     oil: LubricantState,
     p: AxleParameters,
-    channels: NDArray[float64],
-    out: NDArray[float64],
+    channels: Array,
+    out: Array,
 ) -> None:
     """Write load, film, film ratio, friction coefficient and temperature of every flank.
 
@@ -122,15 +126,15 @@ def write_shaft(
     bearings: ShaftBearings,
     first: int,
     axes: tuple[int, int, int],
-    rollers: NDArray[float64],
-    out: NDArray[float64],
+    rollers: Array,
+    out: Array,
 ) -> float:
     """Write forces and extreme roller loads of two bearings; return roller 1 of the first [N].
 
     Their outputs begin at `first`. `axes` are the places (0, 1, 2) of r1, r2 and the shaft in
     x, y, z; `rollers` is work space of shape (ROLLERS_MAX,).
     """
-    F = bearings.shaft_forces(motion, f_ref, oil)
+    F = shaft_forces(bearings, motion, f_ref, oil)
     one = first + at.BEARING_FORCE
     out[one + axes[0]] = F[0]
     out[one + axes[1]] = F[1]
@@ -142,7 +146,7 @@ def write_shaft(
     first_roller = 0.0
     for k in range(2):
         side = 1.0 - 2.0 * k
-        load, largest, smallest = bearings.roller_load_range(motion, f_ref, oil, side, rollers)
+        load, largest, smallest = roller_load_range(bearings, motion, f_ref, oil, side, rollers)
         base = first + k * at.N_BEARING_QUANTITIES
         out[base + at.ROLLER_LOAD_MAX] = largest
         out[base + at.ROLLER_LOAD_MIN] = smallest
@@ -152,7 +156,7 @@ def write_shaft(
 
 
 @kernel
-def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[float64]) -> None:
+def write_losses(s: Array, rates: Array, out: Array) -> None:
     """Write powers lost and efficiencies, averaged over the last communication step.
 
     Efficiency is 1 - loss/input with the work put in at the side that drives; 0 where no work is
@@ -186,14 +190,14 @@ def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[floa
 
 @kernel
 def write_outputs(
-    s: NDArray[float64],
+    s: Array,
     torques: tuple[float, float],
     oil_temperature: float,
     table: MeshLevels,
     p: AxleParameters,
-    work: NDArray[float64],
-    rollers: NDArray[float64],
-    out: NDArray[float64],
+    work: Array,
+    rollers: Array,
+    out: Array,
 ) -> None:
     """Write all outputs, in the order of OUTPUT_NAMES, into `out` of shape (N_OUTPUTS,).
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
-from gearlube_core.bearings.bearing_type import N_EXPANSION, ShaftMotion
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import (
+    N_EXPANSION,
+    ShaftMotion,
+    expand_forces,
+    expanded_forces,
+)
 from gearlube_core.bearings.cage_frame import cage_torque
 from gearlube_core.dynamics.hypoid_axle.flanks import flank_sum
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
@@ -55,7 +58,7 @@ class StepInputs(NamedTuple):
 
 
 @kernel
-def pinion_motion(s: NDArray[float64]) -> ShaftMotion:
+def pinion_motion(s: Array) -> ShaftMotion:
     """Return the motion of the pinion in its bearings.
 
     The shaft lies along x: r1 = z, r2 = y turns with the pinion, which drives about -x.
@@ -73,7 +76,7 @@ def pinion_motion(s: NDArray[float64]) -> ShaftMotion:
 
 
 @kernel
-def gear_motion(s: NDArray[float64]) -> ShaftMotion:
+def gear_motion(s: Array) -> ShaftMotion:
     """Return the motion of the gear in its bearings; the shaft lies along z."""
     return ShaftMotion(
         s[U_G] * UM,
@@ -89,15 +92,15 @@ def gear_motion(s: NDArray[float64]) -> ShaftMotion:
 
 @kernel
 def axle_rhs(
-    s: NDArray[float64],
+    s: Array,
     inputs: StepInputs,
     mesh_data: MeshAtLoad,
     oil: LubricantState,
     p: AxleParameters,
     tractions: float,
     bearings: float,
-    scratch: NDArray[float64],
-    ds: NDArray[float64],
+    scratch: Array,
+    ds: Array,
 ) -> float:
     """Write ds/dt of the N_ODE integrated states into `ds`; return the mesh force [N].
 
@@ -152,10 +155,10 @@ def axle_rhs(
     pinion = pinion_motion(s)
     gear = gear_motion(s)
     if bearings != 0.0:
-        p.bearing_p.expand_forces(pinion, f_ref, oil, expansion_p)
-        p.bearing_g.expand_forces(gear, f_ref, oil, expansion_g)
-    p_z, p_y, p_x, lost_p = p.bearing_p.expanded_forces(pinion, expansion_p)
-    g_x, g_y, g_z, lost_g = p.bearing_g.expanded_forces(gear, expansion_g)
+        expand_forces(p.bearing_p, pinion, f_ref, oil, expansion_p)
+        expand_forces(p.bearing_g, gear, f_ref, oil, expansion_g)
+    p_z, p_y, p_x, lost_p = expanded_forces(p.bearing_p, pinion, expansion_p)
+    g_x, g_y, g_z, lost_g = expanded_forces(p.bearing_g, gear, expansion_g)
     shared = p.consistent
     cage_p = cage_torque(pinion.r1, pinion.r2, p_z, p_y)
     cage_g = cage_torque(gear.r1, gear.r2, g_x, g_y)

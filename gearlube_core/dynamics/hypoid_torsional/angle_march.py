@@ -12,9 +12,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM, pair_rates, reduced_rates
 from gearlube_core.kernels.jit import kernel
@@ -43,7 +41,7 @@ def angle_slope(
     phi: float,
     load_torque: float,
     speed: float,
-    rows: NDArray[float64],
+    rows: Array,
     i: int,
     p: TorsionalParameters,
 ) -> AngleSlope:
@@ -67,12 +65,12 @@ def angle_slope(
 
 @kernel
 def angle_step(
-    y: NDArray[float64],
+    y: Array,
     phi: float,
     h: float,
     load_torque: float,
     speed: float,
-    rows: NDArray[float64],
+    rows: Array,
     i: int,
     p: TorsionalParameters,
 ) -> float:
@@ -129,14 +127,14 @@ def angle_step(
 
 @kernel
 def march(
-    y: NDArray[float64],
+    y: Array,
     first_period: int,
     periods: int,
     load_torque: float,
     speed: float,
-    rows: NDArray[float64],
+    rows: Array,
     p: TorsionalParameters,
-    record: NDArray[float64],
+    record: Array,
 ) -> int:
     """Advance `y` over whole mesh periods; return OK or NOT_FINITE.
 

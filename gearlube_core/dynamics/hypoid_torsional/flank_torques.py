@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import (
     THERMAL_EYRING,
     TorsionalParameters,
@@ -43,7 +41,7 @@ class FlankTorques(NamedTuple):
 
 @kernel
 def thermal_pair(
-    rows: NDArray[float64],
+    rows: Array,
     i: int,
     at: int,
     load: float,
@@ -69,7 +67,7 @@ def thermal_pair(
 
 @kernel
 def pair_friction(
-    rows: NDArray[float64],
+    rows: Array,
     i: int,
     at: int,
     load: float,
@@ -97,7 +95,7 @@ def pair_friction(
 
 @kernel
 def flank_torques(
-    rows: NDArray[float64], i: int, w_p: float, w_g: float, force: float, p: TorsionalParameters
+    rows: Array, i: int, w_p: float, w_g: float, force: float, p: TorsionalParameters
 ) -> FlankTorques:
     """Return the friction torques of all pairs that share the mesh force `force` [N].
 

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series, pair_channels
@@ -24,13 +22,13 @@ _PAIRS = PAIRS
 
 @kernel
 def mesh_row(
-    series: NDArray[float64],
+    series: Array,
     n_orders: int,
-    window: NDArray[float64],
+    window: Array,
     n_nodes: int,
     z_p: float,
     phi: float,
-    row: NDArray[float64],
+    row: Array,
 ) -> None:
     """Write the mesh data at pinion angle `phi` [rad] into `row`, shape (N_ROW,)."""
     m: MeshSeries = mesh_series(series, n_orders, z_p, phi)
@@ -47,12 +45,12 @@ def mesh_row(
 
 @kernel
 def mesh_rows(
-    series: NDArray[float64],
+    series: Array,
     n_orders: int,
-    window: NDArray[float64],
+    window: Array,
     n_nodes: int,
     z_p: float,
-    rows: NDArray[float64],
+    rows: Array,
 ) -> None:
     """Write the rows at equal angles over one mesh period, shape (2 steps, N_ROW).
 

@@ -21,9 +21,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_torsional.angle_march import (
     DIVERGED_UM,
     N_Y,
@@ -47,7 +45,7 @@ WORK = 2 * N_Y + 3 * N_Y * N_COLUMNS
 
 @kernel
 def _add_row(
-    turned: NDArray[float64], upper: AngleSlope, lower: AngleSlope, width: float, column: int
+    turned: Array, upper: AngleSlope, lower: AngleSlope, width: float, column: int
 ) -> None:
     """Add the derivative by one argument to a column."""
     turned[0, column] += (upper.y_0 - lower.y_0) / width
@@ -58,16 +56,16 @@ def _add_row(
 
 @kernel
 def slope_derivative(
-    trial: NDArray[float64],
-    tangent: NDArray[float64],
+    trial: Array,
+    tangent: Array,
     phi: float,
     load_torque: float,
     speed: float,
-    rows: NDArray[float64],
+    rows: Array,
     at: int,
     p: TorsionalParameters,
-    slope: NDArray[float64],
-    turned: NDArray[float64],
+    slope: Array,
+    turned: Array,
 ) -> None:
     """Write dy/dphi and J tangent + d(dy/dphi)/d(load torque, speed).
 
@@ -118,14 +116,14 @@ def slope_derivative(
 
 @kernel
 def period_map(
-    y: NDArray[float64],
-    derivatives: NDArray[float64],
+    y: Array,
+    derivatives: Array,
     load_torque: float,
     speed: float,
     periods: int,
-    rows: NDArray[float64],
+    rows: Array,
     p: TorsionalParameters,
-    work: NDArray[float64],
+    work: Array,
 ) -> int:
     """Advance `y` over `periods` mesh periods from pinion angle zero, with derivatives.
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
 from gearlube_core.dynamics.hypoid_torsional.flank_torques import FlankTorques, flank_torques
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
@@ -51,7 +49,7 @@ def pair_rates(
     phi: float,
     load_torque: float,
     speed: float,
-    rows: NDArray[float64],
+    rows: Array,
     i: int,
     p: TorsionalParameters,
 ) -> PairRates:
@@ -145,7 +143,7 @@ def reduced_rates(
     v: float,
     phi: float,
     speed: float,
-    rows: NDArray[float64],
+    rows: Array,
     i: int,
     p: TorsionalParameters,
 ) -> ReducedRates:

@@ -68,11 +68,11 @@ class TimeSweep:
 
 @kernel
 def settle_load(
-    y: NDArray[np.float64],
+    y: Array,
     revolutions: int,
     load_torque: float,
     speed: float,
-    rows: NDArray[np.float64],
+    rows: Array,
     p: TorsionalParameters,
 ) -> float:
     """March whole revolutions and return the load torque [N.m] under which `speed` stays.
@@ -98,17 +98,17 @@ def settle_load(
 
 @kernel
 def sweep_kernel(
-    y: NDArray[np.float64],
-    speeds: NDArray[np.float64],
+    y: Array,
+    speeds: Array,
     balance: int,
     settle: int,
     keep: int,
     load_torque: float,
-    rows: NDArray[np.float64],
+    rows: Array,
     p: TorsionalParameters,
-    record: NDArray[np.float64],
-    mean_speeds: NDArray[np.float64],
-    load_torques: NDArray[np.float64],
+    record: Array,
+    mean_speeds: Array,
+    load_torques: Array,
 ) -> int:
     """March through all speeds; return the index of the first that is not finite, or their number.
 

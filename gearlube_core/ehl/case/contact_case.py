@@ -24,7 +24,7 @@ from gearlube_core.ehl.case.surfaces import (
 from gearlube_core.ehl.gap.micro_geometry import RoughGap
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.point.cavitation import check_cavitation
-from gearlube_core.ehl.point.problem import PointContactProblem, elliptical_contact
+from gearlube_core.ehl.point.problem import ContactDomain, PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.thermal.solver import check_thermal
 from gearlube_core.errors import ParameterError
@@ -274,9 +274,7 @@ class PointCase(ContactCase):
             lubricant=oil,
             sliding=self.sliding if oil.shear.tau0 > 0.0 or self.temperature == "thermal" else None,
             nodes=(self.solver.nodes_x, self.solver.nodes_y),
-            inlet=self.domain.inlet,
-            outlet=self.domain.outlet,
-            side=self.domain.side,
+            domain=ContactDomain(self.domain.inlet, self.domain.outlet, self.domain.side),
             oil_beyond=self.domain.oil_beyond,
             inlet_layer=None if self.inlet_layer_um is None else _MICRO * self.inlet_layer_um,
         )

@@ -11,6 +11,7 @@ from gearlube_core.input_file.input_file import Section
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.oil_heat import OilHeat
 from gearlube_core.units import celsius_to_kelvin
 
 _GIGA, _MEGA = 1e9, 1e6
@@ -123,14 +124,16 @@ class Oil(Section):
             limiting_shear=None if limit is None else (limit * _MEGA, self.limiting_stress_slope),
             temperature=temperature,
             temperature_exponent=self.temperature_exponent,
-            expansion=self.expansion_per_k,
-            conductivity=self.conductivity_w_m_k,
-            heat_capacity=self.heat_capacity_j_kg_k,
+            heat=OilHeat(
+                expansion=self.expansion_per_k,
+                conductivity=self.conductivity_w_m_k,
+                heat_capacity=self.heat_capacity_j_kg_k,
+            ),
         )
 
 
 class Body(Section):
-    """One of the two solids; steel where nothing is said."""
+    """One of the two solids; steel by default."""
 
     youngs_modulus_gpa: Modulus = Field(
         default=_STEEL.youngs_modulus / _GIGA, description="Young's modulus"

@@ -8,7 +8,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.film_columns import film_row
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curves
+from gearlube_core.ehl.transient.curves import FilmCurves, NumberedSteps, Progress, march_curves
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
 
@@ -39,7 +39,7 @@ def solve_helical_line(
     *,
     throw: bool = True,
 ) -> FilmSolution:
-    """Return the steady film with the line at rest at a step of its cycle.
+    """Return the steady film of the line at one step of its cycle.
 
     Parameters
     ----------
@@ -91,14 +91,12 @@ def march_helical_cycle(
     check_within("first", first, 0, film.steps.count)
     check_within("last", last, first, film.steps.count)
     check_within("substeps", substeps, 1, 1000)
+    steps = NumberedSteps(first, last, first * film.time_step, film.time_step, substeps)
     return march_curves(
         film.moving_film(),
         COLUMNS,
         lambda step, solution: film_row(COLUMNS, solution, step=float(step)),
-        steps=(first, last),
-        start_time=first * film.time_step,
-        step_time=film.time_step,
-        substeps=substeps,
+        steps,
         scheme=scheme,
         settings=settings,
         keep=keep,

@@ -147,7 +147,7 @@ class HelicalFilm:
         return np.where(inside, np.minimum(heights, self.largest_gap), self.largest_gap)
 
     def conditions(self, x: Array, y: Array, time: float) -> FilmConditions:
-        """Return what acts on the film at a time [s]."""
+        """Return gap, load and speeds of the film at a time [s]."""
         X = self.line(time)
         return FilmConditions(self.gap(x, y, X), self.load(X), *self.surface_speeds(y, X))
 

@@ -12,7 +12,7 @@ from gearlube_core.ehl.gears.film_columns import film_row
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_traction import flank_traction
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.transient.curves import FilmCurves, Progress, march_curves
+from gearlube_core.ehl.transient.curves import FilmCurves, NumberedSteps, Progress, march_curves
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
@@ -46,7 +46,7 @@ def steady_films(
     progress: Progress | None = None,
     throw: bool = True,
 ) -> FilmCurves:
-    """Return the films as if the conditions of each time had lasted.
+    """Return the steady films for the conditions of each time.
 
     All on the grid of the march, so that what differs from it is the film's history.
 
@@ -120,9 +120,7 @@ def march_flank(
         film.moving_film(),
         COLUMNS,
         lambda _, solution: _row(film, solution, beta),
-        steps=(0, steps),
-        start_time=first,
-        step_time=(last - first) / steps,
+        NumberedSteps(0, steps, start_time=first, step_time=(last - first) / steps),
         scheme=scheme,
         settings=settings,
         checkpoint=checkpoint,

@@ -80,14 +80,14 @@ class HypoidFilm:
         return replace(problem, y_limits=(low, high))
 
     def domain(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return limits along x and y [m] within which all instants find room."""
+        """Return limits along x and y [m] that contain the contact of all instants."""
         problems = [self.problem(instant) for instant in self.cycle.instants()]
         limits = np.array([[*problem.x_limits, *problem.y_limits] for problem in problems])
         low, high = limits.min(axis=0), limits.max(axis=0)
         return (float(low[0]), float(high[1])), (float(low[2]), float(high[3]))
 
     def conditions(self, x: Array, y: Array, time: float) -> FilmConditions:
-        """Return what acts on the film at a time [s]."""
+        """Return gap, load and speeds of the film at a time [s]."""
         now = self.cycle.at(time)
         u, v = now.entrainment
         slip, side_slip = now.sliding

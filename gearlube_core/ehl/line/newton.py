@@ -50,7 +50,7 @@ def flow_residual(system: LineSystem, state: LineState, free: np.ndarray) -> flo
 
 
 def flow_scale(system: LineSystem, state: LineState) -> float:
-    """Return the flow through the loaded part [-], the yardstick of residuals."""
+    """Return the flow through the loaded part [-], the scale of residuals."""
     P = state.P
     loaded = P - 0.3 * P.max() >= 0.0
     mean = float((system.rows.rho[loaded] * system.H[loaded]).mean())
@@ -60,7 +60,7 @@ def flow_scale(system: LineSystem, state: LineState) -> float:
 
 
 def rounding_floor(system: LineSystem, state: LineState) -> float:
-    """Return the residual [-] that rounding of film, pressure and flow alone can leave."""
+    """Return the residual [-] that rounding errors of film, pressure and flow can cause."""
     rows, c = system.rows, system.coefficients
     carried = (abs(c.speed) + c.step * c.storage) * float((rows.rho * np.abs(system.H)).sum())
     pumped = float((np.abs(rows.by_pressure[:, 2]) * state.P).sum())

@@ -122,12 +122,12 @@ class LineProblem:
         )
 
     def film_guess(self) -> float:
-        """Return a film [m] of the right size, to choose a domain and a start."""
+        """Return an estimate of the film [m], for the domain and the initial values."""
         g = self.groups()
         return self.radius * math.sqrt(2.0 * g.U) * central_film_group(g.M, g.L)
 
     def extent(self) -> tuple[float, float]:
-        """Return first and last x [m]: as given, or wide enough that the inlet is flooded."""
+        """Return first and last x [m]: as given, or wide enough for a flooded inlet."""
         if self.domain is not None:
             return self.domain
         b = self.half_width

@@ -106,7 +106,7 @@ def build_solution(
     records: tuple[tuple[int, NewtonRecord], ...],
     problem: LineProblem,
 ) -> LineSolution:
-    """Return the solution in SI of a state that was evaluated last."""
+    """Return the solution in SI units of the state that was evaluated last."""
     system.evaluate(state)
     scales, oil = system.scales, system.oil
     p, h = state.P * scales.pressure, system.H * scales.film

@@ -24,7 +24,7 @@ class LineState:
     H0: float
 
     def copy(self) -> LineState:
-        """Return a state that shares nothing with this one."""
+        """Return a deep copy of the state."""
         return LineState(self.P.copy(), self.void.copy(), self.H0)
 
 
@@ -104,7 +104,7 @@ class LineSystem:
         )
 
     def load_error(self, state: LineState) -> float:
-        """Return carried load less the set one, over the set one [-]; [jamali_2015 (4.5)]."""
+        """Return the relative error of the load [-]; [jamali_2015 (4.5)]."""
         return float(self.step * state.P.sum() / self.load - 1.0)
 
     def factorise(self, nodes: np.ndarray, voids: np.ndarray) -> Factors:

@@ -203,7 +203,7 @@ class _Energy:
         return -tau if self.backward else tau
 
     def turn(self, film: LineSolution) -> float:
-        """Take the temperatures of a film to the system; return their largest change [K]."""
+        """Update the temperatures of the system from a film; return their largest change [K]."""
         p, h = self.along(film.pressure), self.along(film.film)
         rho = self.along(film.density)
         flow = np.abs(film.mass_flow)

@@ -20,7 +20,7 @@ TIME_SCHEMES = ("bdf2", "crank_nicolson")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LineHistory:
-    """What changes with time; what is left out stays as at the start.
+    """Quantities that change in time; the others stay constant.
 
     Parameters
     ----------

@@ -222,6 +222,29 @@ def expected_film(problem: PointContactProblem) -> float:
     return max(elastic, rigid, soft if R_e <= R_s else 0.0, touching)
 
 
+@dataclass(frozen=True, slots=True)
+class ContactDomain:
+    """Size of the domain of a film, in semi-axes of the dry contact along the same axis.
+
+    Parameters
+    ----------
+    inlet, outlet, side
+        Upstream, downstream and to the sides [-]; None: as far as the film needs.
+
+    Examples
+    --------
+    >>> ContactDomain(inlet=4.0).outlet is None
+    True
+    """
+
+    inlet: float | None = None
+    outlet: float | None = None
+    side: float | None = None
+
+
+_AS_NEEDED = ContactDomain()
+
+
 def elliptical_contact(
     *,
     R_x: float,
@@ -232,9 +255,7 @@ def elliptical_contact(
     lubricant: FilmOil,
     nodes: tuple[int, int] = (129, 129),
     sliding: tuple[float, float] | None = None,
-    inlet: float | None = None,
-    outlet: float | None = None,
-    side: float | None = None,
+    domain: ContactDomain = _AS_NEEDED,
     oil_beyond: bool | None = None,
     inlet_layer: float | None = None,
 ) -> PointContactProblem:
@@ -246,9 +267,8 @@ def elliptical_contact(
         Relative radii of curvature along x and y [m].
     entrainment, load, contact_modulus, lubricant, nodes, sliding
         As in `PointContactProblem`.
-    inlet, outlet, side
-        Extent of the domain upstream, downstream and to the sides, in semi-axes of the dry
-        contact along the same axis [-]. By default as far as the film needs.
+    domain
+        By default as far as the film needs.
     oil_beyond
         As in `PointContactProblem`. None: where the domain is the default one, flooded, and oil
         outside would carry more than 2.5 % of the load.
@@ -271,11 +291,14 @@ def elliptical_contact(
     Examples
     --------
     >>> from gearlube_core.oil.film_oil_data import film_oil
-    >>> oil = film_oil(eta0=0.04, alpha=2e-8)
-    >>> contact = elliptical_contact(R_x=0.012, R_y=0.06, entrainment=(2.0, 0.0), load=80.0,
-    ...                              contact_modulus=1.15e11, lubricant=oil)
-    >>> contact.nodes
-    (129, 129)
+    >>> ball = elliptical_contact(
+    ...     R_x=0.01, R_y=0.01, entrainment=(2.0, 0.0), load=20.0, contact_modulus=1.15e11,
+    ...     lubricant=film_oil(eta0=0.04, alpha=2e-8),
+    ...     domain=ContactDomain(inlet=4.0, outlet=2.0, side=3.0),
+    ... )
+    >>> a_x, a_y, _ = ball.hertz_contact
+    >>> [round(x / a_x, 6) for x in ball.x_limits], [round(y / a_y, 6) for y in ball.y_limits]
+    ([-4.0, 2.0], [-3.0, 3.0])
     """
     shape = EllipticParaboloid(R_x, R_y)
     problem = PointContactProblem(
@@ -292,27 +315,26 @@ def elliptical_contact(
         inlet_layer=inlet_layer,
     )
     film = expected_film(problem)
-    extent = inlet, outlet, side
-    near = _on_domain(problem, film, extent, 0.0)
+    near = _on_domain(problem, film, domain, 0.0)
     if oil_beyond is None:
-        own = inlet_layer is None and all(reach is None for reach in extent)
+        own = inlet_layer is None and domain == _AS_NEEDED
         oil_beyond = own and near.far_field().load(film)[0] > _LOAD_BEYOND * load
     if oil_beyond:
         return replace(near, oil_beyond=True)
-    return _on_domain(problem, film, extent, _FLOODED_MORE)
+    return _on_domain(problem, film, domain, _FLOODED_MORE)
 
 
 def _on_domain(
     problem: PointContactProblem,
     film: float,
-    extent: tuple[float | None, float | None, float | None],
+    domain: ContactDomain,
     more: float,
 ) -> PointContactProblem:
-    """Return the problem with the limits for a film [m]; extent as in `elliptical_contact`.
+    """Return the problem with the limits for a film [m].
 
     `more` times the films of gap on top at the inlet where it is thicker than solids flatten.
     """
-    inlet, outlet, side = extent
+    inlet, outlet, side = domain.inlet, domain.outlet, domain.side
     R_x, R_y = problem.hertz.R_x, problem.hertz.R_y
     a_x, a_y, _ = problem.hertz_contact
     entrainment = problem.entrainment

@@ -41,15 +41,35 @@ class FilmCurves:
         return int((self["converged"] == 0.0).sum())
 
 
+@dataclass(frozen=True, slots=True)
+class NumberedSteps:
+    """Equal steps of a film in time.
+
+    Parameters
+    ----------
+    first, last
+        Their numbers.
+    start_time
+        Of the first step [s].
+    step_time
+        From one step to the next [s].
+    substeps
+        Time steps for one step.
+    """
+
+    first: int
+    last: int
+    start_time: float
+    step_time: float
+    substeps: int = 1
+
+
 def march_curves(
     film: MovingFilm,
     columns: tuple[str, ...],
     row: Row,
+    steps: NumberedSteps,
     *,
-    steps: tuple[int, int],
-    start_time: float,
-    step_time: float,
-    substeps: int = 1,
     scheme: str = "bdf2",
     settings: PointSolverSettings | None = None,
     keep: tuple[int, ...] = (),
@@ -67,13 +87,7 @@ def march_curves(
     columns, row
         Names of the columns, and the numbers in them of a step and its film.
     steps
-        The first and the last.
-    start_time
-        Of the first step [s].
-    step_time
-        From one step to the next [s].
-    substeps
-        Time steps for one step.
+        Their numbers and times.
     scheme, settings
         As in `FilmMarch`.
     keep
@@ -93,13 +107,13 @@ def march_curves(
         The checkpoint belongs to another march.
     """
     check_within("checkpoint_every", checkpoint_every, 1, 1_000_000)
-    first, last = steps
+    first, last = steps.first, steps.last
     path = None if checkpoint is None else Path(checkpoint)
     record = MarchRecord.read(path) if path is not None and path.exists() else None
     march = FilmMarch(
         film,
-        step_time / substeps,
-        start_time=start_time,
+        steps.step_time / steps.substeps,
+        start_time=steps.start_time,
         scheme=scheme,
         settings=settings,
         record=record,
@@ -116,7 +130,7 @@ def march_curves(
             film, march.settings, record.kept_steps, record.kept_fields, record.kept_values
         )
     for n in range(first + len(rows), last + 1):
-        while march.steps < (n - first) * substeps:
+        while march.steps < (n - first) * steps.substeps:
             solution = march.step(throw=False)
         if throw and not solution.converged:
             raise ConvergenceError(f"Step {n}: {solution.outcome}")

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_geometry.flank.cutting_motion import (
     CutState,
     CuttingMotion,
@@ -112,7 +110,7 @@ def surface_point(
 
 
 @kernel
-def locate(motion: CuttingMotion, radius: float, axial: float, parameters: NDArray[float64]) -> int:
+def locate(motion: CuttingMotion, radius: float, axial: float, parameters: Array) -> int:
     """Find the flank point at `radius` [m] from and `axial` [m] along the work axis.
 
     Parameters

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.plotting.style import new_figure
+from gearlube_core.arrays import Array
 
 MILLI, MICRO, KILO = 1e3, 1e6, 1e-3
 
@@ -58,6 +58,6 @@ def pitch_line(ax: Any, label: bool = True) -> None:
         )  # fmt: skip
 
 
-def scaled(dataset: xr.Dataset, name: str, factor: float = 1.0, **at: Any) -> NDArray[np.float64]:
+def scaled(dataset: xr.Dataset, name: str, factor: float = 1.0, **at: Any) -> Array:
     """Return the values of a variable times a factor, at some of its coordinates."""
     return factor * np.asarray(dataset[name].sel(**at).values, dtype=float)

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.plotting.style import (
     BLUE,
@@ -20,6 +19,7 @@ from gearlube.plotting.style import (
     preload_label,
     series,
 )
+from gearlube_core.arrays import Array
 
 _SOURCES = {
     "friction_viscous": ("flank friction, fluid", BLUE),
@@ -64,7 +64,7 @@ def _efficiencies(ax: Any, dataset: xr.Dataset) -> None:
     ax.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0), handlelength=2.6)
 
 
-def _bar_group(speed: NDArray[np.float64]) -> float:
+def _bar_group(speed: Array) -> float:
     """Return the width of the bars at one speed [km/h], not wider than 8 % of the axis."""
     if speed.size == 1:
         return 4.0

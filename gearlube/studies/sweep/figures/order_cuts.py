@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.plotting.style import (
     house_style,
@@ -15,6 +14,7 @@ from gearlube.plotting.style import (
     series,
     speed_limits,
 )
+from gearlube_core.arrays import Array
 
 HARMONICS = (1, 2, 3)
 
@@ -44,7 +44,7 @@ def order_cuts(dataset: xr.Dataset) -> Any:
     return figure
 
 
-def harmonic_amplitude(row: xr.Dataset, harmonic: int) -> NDArray[np.float64]:
+def harmonic_amplitude(row: xr.Dataset, harmonic: int) -> Array:
     """Return the amplitude [m] of mesh order `harmonic` at every speed of one preload."""
     result = np.full(row.sizes["speed"], np.nan)
     target = harmonic * row["mesh_frequency"].values

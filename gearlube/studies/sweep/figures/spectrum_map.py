@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gearlube.plotting.style import (
     cell_edges,
@@ -17,6 +16,7 @@ from gearlube.plotting.style import (
     outlined,
     preload_label,
 )
+from gearlube_core.arrays import Array
 
 _DYNAMIC_RANGE = 70.0  # dB between the top and the bottom of the colour scale
 _LOWEST_LINE = 0.02  # lines that stay below this share of the axis are left out
@@ -131,7 +131,7 @@ def spectrum_map(
     return figure
 
 
-def _columns(speeds: NDArray[np.float64]) -> list[tuple[float, float]]:
+def _columns(speeds: Array) -> list[tuple[float, float]]:
     """Return the edges of the column of every speed; columns touch unless speeds are far apart."""
     edges = cell_edges(speeds)
     widest = max(0.07 * float(speeds[-1] - speeds[0]), 2.0)
@@ -152,9 +152,7 @@ def default_top(dataset: xr.Dataset) -> float:
     return min(highest, 100.0 * np.ceil(top / 100.0))
 
 
-def _decibels(
-    point_row: xr.Dataset, channel: MapChannel, edges: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _decibels(point_row: xr.Dataset, channel: MapChannel, edges: Array) -> Array:
     """Return levels [dB] of shape (frequency cells, speeds); NaN where there is no result."""
     speeds = point_row.sizes["speed"]
     level = np.full((edges.size - 1, speeds), np.nan)
@@ -169,9 +167,7 @@ def _decibels(
     return level
 
 
-def _largest_in_cells(
-    frequency: NDArray[np.float64], amplitude: NDArray[np.float64], edges: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _largest_in_cells(frequency: Array, amplitude: Array, edges: Array) -> Array:
     """Return the largest amplitude in every cell; empty cells take the nearest line."""
     cells = edges.size - 1
     peak = np.full(cells, -np.inf)

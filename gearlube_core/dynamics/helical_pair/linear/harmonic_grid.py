@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     COMPOSITES,

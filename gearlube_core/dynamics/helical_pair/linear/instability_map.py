@@ -8,8 +8,8 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     linear_system,
     natural_frequencies,

@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import COORDINATES, Array, MeshArrays
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.kernel_parameters import COORDINATES, MeshArrays
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import N_COLUMNS, point_capacity
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmField, film_moments
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor

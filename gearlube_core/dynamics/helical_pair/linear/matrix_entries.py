@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
+from gearlube_core.arrays import Array
 from gearlube_core.kernels.jit import kernel
 
 

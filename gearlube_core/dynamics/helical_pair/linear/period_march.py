@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
     LinearSystem,
     event_phases,

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.integrate import OK, advance
 from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields
 from gearlube_core.dynamics.helical_pair.march.outputs import write_outputs
@@ -14,16 +12,16 @@ from gearlube_core.kernels.jit import kernel
 
 @kernel
 def communication_step(
-    s: NDArray[float64],
-    trial: NDArray[float64],
+    s: Array,
+    trial: Array,
     duration: float,
-    inputs: NDArray[float64],
+    inputs: Array,
     mesh: MeshFields,
-    data: NDArray[float64],
-    bearings: NDArray[float64],
-    control: NDArray[float64],
-    work: NDArray[float64],
-    out: NDArray[float64],
+    data: Array,
+    bearings: Array,
+    control: Array,
+    work: Array,
+    out: Array,
 ) -> int:
     """Advance the pair by `duration` [s] and write its outputs; return a status.
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import (
     FlankConstants,
     MarchConstants,
@@ -45,7 +43,7 @@ def point_load(
     at_line: float,
     phase: float,
     line: int,
-    data: NDArray[float64],
+    data: Array,
     p: FlankConstants,
 ) -> float:
     """Return w [N/m] at a fraction of a line where the compression is `g` [m]."""
@@ -82,7 +80,7 @@ def line_point(
     line: int,
     place: int,
     pinion_speed: float,
-    data: NDArray[float64],
+    data: Array,
     lubricant: LubricantState,
     p: MarchConstants,
 ) -> tuple[float, float, float, LineState]:
@@ -123,8 +121,8 @@ def line_point(
 def refresh_flank(
     view: FlankView,
     at: int,
-    s: NDArray[float64],
-    data: NDArray[float64],
+    s: Array,
+    data: Array,
     lubricant: LubricantState,
     p: MarchConstants,
 ) -> None:
@@ -139,9 +137,7 @@ def refresh_flank(
 
 
 @kernel
-def refresh_friction(
-    s: NDArray[float64], data: NDArray[float64], lubricant: LubricantState
-) -> bool:
+def refresh_friction(s: Array, data: Array, lubricant: LubricantState) -> bool:
     """Compute the friction coefficients in the state anew if they are due; return whether.
 
     They are due so many times in a mesh period, and when a flank comes into contact or leaves it.

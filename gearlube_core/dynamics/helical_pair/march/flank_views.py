@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import FlankConstants
 from gearlube_core.dynamics.helical_pair.march.state import (
     PHI_P,
@@ -31,7 +29,7 @@ class FlankView(NamedTuple):
 
 
 @kernel
-def drive_view(s: NDArray[float64], p: FlankConstants) -> FlankView:
+def drive_view(s: Array, p: FlankConstants) -> FlankView:
     """Return compression and phase of the drive flanks; s[PSI] is -psi of docs/conventions.md."""
     plane = p.plane
     a, tilt = plane_strain(
@@ -53,7 +51,7 @@ def turned(x: float, y: float, p: FlankConstants) -> tuple[float, float]:
 
 
 @kernel
-def coast_view(s: NDArray[float64], p: FlankConstants) -> FlankView:
+def coast_view(s: Array, p: FlankConstants) -> FlankView:
     """Return compression and phase of the coast flanks.
 
     Notes
@@ -82,7 +80,7 @@ def touches(view: FlankView, offset_low: float, p: FlankConstants) -> bool:
 
 
 @kernel
-def coast_near(s: NDArray[float64], offset_low: float, p: FlankConstants) -> bool:
+def coast_near(s: Array, offset_low: float, p: FlankConstants) -> bool:
     """Return whether the coast flanks can touch: a bound that costs less than their view."""
     reach = 0.0
     for i in range(3):

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import FlankConstants
 from gearlube_core.dynamics.helical_pair.march.flank_views import turned
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums
@@ -46,9 +44,7 @@ def turned_wrench(w: Wrench, p: FlankConstants) -> Wrench:
 
 
 @kernel
-def friction_heat(
-    sums: LineSums, direction: float, s: NDArray[float64], p: FlankConstants
-) -> float:
+def friction_heat(sums: LineSums, direction: float, s: Array, p: FlankConstants) -> float:
     """Return the heat of the drive flanks' friction [W], with the true velocities."""
     rate = sums.F * (s[V_P + 1] - s[V_G + 1] + p.plane.x_g * s[W_G])
     rate -= sums.Fz * (s[OM_P] - s[OM_G]) + sums.Fx * (s[W_P] + s[W_G])
@@ -56,9 +52,7 @@ def friction_heat(
 
 
 @kernel
-def turned_friction_heat(
-    sums: LineSums, direction: float, s: NDArray[float64], p: FlankConstants
-) -> float:
+def turned_friction_heat(sums: LineSums, direction: float, s: Array, p: FlankConstants) -> float:
     """Return the heat of the coast flanks' friction [W]."""
     _, v_p = turned(s[V_P], s[V_P + 1], p)
     _, v_g = turned(s[V_G], s[V_G + 1], p)

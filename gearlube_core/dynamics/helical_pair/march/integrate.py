@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
 from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
@@ -59,12 +57,12 @@ def step_rate(p: MarchConstants, control: StepControl, pinion_speed: float) -> f
 
 @kernel
 def rk4_step(
-    s: NDArray[float64],
+    s: Array,
     h: float,
     pinion_torque: float,
     wheel_torque: float,
-    data: NDArray[float64],
-    stages: NDArray[float64],
+    data: Array,
+    stages: Array,
 ) -> None:
     """Advance `s` by `h` [s] with the classic fourth-order Runge-Kutta scheme.
 
@@ -93,13 +91,13 @@ def rk4_step(
 
 @kernel
 def advance(
-    s: NDArray[float64],
+    s: Array,
     duration: float,
-    inputs: NDArray[float64],
+    inputs: Array,
     mesh: MeshFields,
-    data: NDArray[float64],
-    control_values: NDArray[float64],
-    work: NDArray[float64],
+    data: Array,
+    control_values: Array,
+    work: Array,
 ) -> int:
     """Advance the pair by `duration` [s] under constant inputs; return a status.
 

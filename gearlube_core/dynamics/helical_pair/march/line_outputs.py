@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march import output_names as at
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import line_point
@@ -21,12 +19,12 @@ from gearlube_core.oil.lubricant_state import LubricantState
 def write_lines(
     view: FlankView,
     mu_at: int,
-    s: NDArray[float64],
+    s: Array,
     oil_temperature: float,
-    data: NDArray[float64],
+    data: Array,
     lubricant: LubricantState,
     p: MarchConstants,
-    out: NDArray[float64],
+    out: Array,
 ) -> float:
     """Write the quantities of every line of the flank in `view`; return the thinnest film [m].
 

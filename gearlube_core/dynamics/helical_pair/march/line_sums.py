@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
 from gearlube_core.dynamics.helical_pair.march.constants import MotionConstants
 from gearlube_core.dynamics.helical_pair.march.mesh_data import STATIONS_AT
@@ -51,8 +49,8 @@ def line_sums(
     a: float,
     tilt: float,
     phase: float,
-    data: NDArray[float64],
-    mu: NDArray[float64],
+    data: Array,
+    mu: Array,
     mu_at: int,
 ) -> LineSums:
     """Return the sums over all lines of a flank.

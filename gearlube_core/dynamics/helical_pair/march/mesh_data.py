@@ -13,8 +13,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy import float64
-from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
@@ -68,7 +66,7 @@ def pair_data(constants: MarchConstants, mesh: LineMesh) -> Array:
 def mesh_at_torque(
     torque: float,
     mesh: MeshFields,
-    data: NDArray[float64],
+    data: Array,
 ) -> None:
     """Write the mesh at a torque [N.m] into the pair data, linear between levels.
 

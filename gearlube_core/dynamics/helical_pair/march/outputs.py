@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march import output_names as at
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, SupportConstants
 from gearlube_core.dynamics.helical_pair.march.flank_views import (
@@ -49,7 +47,7 @@ _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
 
 @kernel
-def member_energy(s: NDArray[float64], u: int, v: int, k: SupportConstants) -> float:
+def member_energy(s: Array, u: int, v: int, k: SupportConstants) -> float:
     """Return kinetic energy of translation and tilt plus elastic energy of the support [J]."""
     x, y, z, a_x, a_y = s[u], s[u + 1], s[u + 2], s[u + 3], s[u + 4]
     elastic = k.K_xx * x * x + k.K_yy * y * y + k.K_zz * z * z
@@ -62,7 +60,7 @@ def member_energy(s: NDArray[float64], u: int, v: int, k: SupportConstants) -> f
 
 
 @kernel
-def write_bearings(s: NDArray[float64], bearings: NDArray[float64], out: NDArray[float64]) -> None:
+def write_bearings(s: Array, bearings: Array, out: Array) -> None:
     """Write the forces of the four bearings on their shafts."""
     for j in range(at.N_BEARINGS):
         u = U_P if j < 2 else U_G
@@ -75,7 +73,7 @@ def write_bearings(s: NDArray[float64], bearings: NDArray[float64], out: NDArray
 
 
 @kernel
-def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[float64]) -> None:
+def write_losses(s: Array, rates: Array, out: Array) -> None:
     """Write powers lost and efficiencies, averaged over the last communication step.
 
     Before the first step: instantaneous. Efficiency is 1 - loss/input with the work put in at the
@@ -101,13 +99,13 @@ def write_losses(s: NDArray[float64], rates: NDArray[float64], out: NDArray[floa
 
 @kernel
 def write_outputs(
-    s: NDArray[float64],
-    inputs: NDArray[float64],
+    s: Array,
+    inputs: Array,
     mesh: MeshFields,
-    data: NDArray[float64],
-    bearings: NDArray[float64],
-    work: NDArray[float64],
-    out: NDArray[float64],
+    data: Array,
+    bearings: Array,
+    work: Array,
+    out: Array,
 ) -> None:
     """Write all outputs, in the order of OUTPUT_NAMES, into `out` of shape (N_OUTPUTS,).
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from numpy import float64
-from numpy.typing import NDArray
-
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import (
     FlankConstants,
     MotionConstants,
@@ -51,7 +49,7 @@ from gearlube_core.kernels.jit import kernel
 
 @kernel
 def support_rates(
-    s: NDArray[float64],
+    s: Array,
     u: int,
     v: int,
     F_x: float,
@@ -60,7 +58,7 @@ def support_rates(
     M_x: float,
     M_y: float,
     k: SupportConstants,
-    ds: NDArray[float64],
+    ds: Array,
 ) -> float:
     """Write the accelerations of one member under the forces given; return the dampers' heat [W].
 
@@ -88,11 +86,11 @@ def sums_damping(sums: LineSums, closing: float, p: FlankConstants) -> float:
 
 @kernel
 def march_rates(
-    s: NDArray[float64],
+    s: Array,
     pinion_torque: float,
     wheel_torque: float,
-    data: NDArray[float64],
-    ds: NDArray[float64],
+    data: Array,
+    ds: Array,
 ) -> None:
     """Write d/dt of the N_ODE integrated states into `ds`.
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, MeshArrays
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.helical_geometry.contact_line import (
     ContactPlane,
     clip_line,

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters, gear_flanks
 from gearlube_core.contact.solid import Solid, SolidParameters, solid_parameters
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, MeshArrays
+from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     MU,

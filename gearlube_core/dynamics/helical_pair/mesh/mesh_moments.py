@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, MeshArrays
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
     DENSITY,
     LENGTH,

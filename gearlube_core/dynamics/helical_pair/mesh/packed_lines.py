@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, MeshArrays
+from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.mesh_table.line_mesh import LineMesh
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import built_up
 from gearlube_core.dynamics.helical_pair.separation.points import (
     ALONG,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.linear.matrix_entries import add_product
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_constant, flank_damping
 from gearlube_core.dynamics.helical_pair.separation.forces import (

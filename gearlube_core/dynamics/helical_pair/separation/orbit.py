@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array
+from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import bearing_forces
@@ -71,11 +71,6 @@ class SeparationOrbit:
     def lift_off_share(self) -> float:
         """Share of the time in which part of the lines or all of them are off [-]."""
         return self._share(self.contact_share < 1.0 - 1e-12)
-
-    @property
-    def back_contact_share(self) -> float:
-        """Share of the time on the back flanks [-]."""
-        return self._share(self.flank_force < 0.0)
 
     def _share(self, when: np.ndarray[Any, np.dtype[np.bool_]]) -> float:
         return float(self.weight @ when)

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, MeshArrays
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.dynamics.helical_pair.linear.linear_system import event_phases
 from gearlube_core.dynamics.helical_pair.mesh import contact_points as at
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import contact_points, point_capacity

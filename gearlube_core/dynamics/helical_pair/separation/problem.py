@@ -15,9 +15,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
 from gearlube_core.dynamics.flank_force import DAMPING_BUILD_UP
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, MeshArrays
+from gearlube_core.dynamics.helical_pair.kernel_parameters import MeshArrays
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE, linear_system
 from gearlube_core.dynamics.helical_pair.mesh.packed_lines import pack_lines
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearlube_core.dynamics.helical_pair.kernel_parameters import Array, SupportArrays
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.helical_pair.kernel_parameters import SupportArrays
 
 BEARING_FORCES = tuple(
     f"{kind}_{axis}{member}" for member in "pg" for kind in "FM" for axis in "xyz"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,23 +29,37 @@ ALIGNED = 1.0e-12
 _EVEN = 1.0e-9  # spread of sliding along x over sliding along y
 
 
+class ShearUnits(NamedTuple):
+    """Stresses over tau0 per unit of the fields, sliding, and the limiting stress."""
+
+    couette: np.ndarray  # of sliding, times film and fluidity, of every row, shape (ny,) [-]
+    # stress drop over half the film, over film and difference of pressure between the nodes on
+    # both sides [-]; along x of every column, shape (nx,)
+    sigma_x: np.ndarray
+    sigma_y: float
+    cosine: float  # of the angle from x to sliding
+    sine: float
+    limit: float  # limiting stress at ambient pressure [-]
+    limit_slope: float  # its slope with pressure [-]; both 0: none
+
+
+class FactorArrays(NamedTuple):
+    """Flow factors of every node and their slopes; arrays of shape (ny, nx) [-]."""
+
+    along: np.ndarray  # flow along sliding over its Newtonian value
+    across: np.ndarray
+    steepness: np.ndarray  # d ln(flow)/d ln(dp/ds) along sliding, as without dp/dr
+    stiffness: np.ndarray  # -d ln(flow)/d ln(eta) along sliding, likewise
+
+
 @kernel
 def fill_shear_factors(
     law: Any,
     pressure: np.ndarray,
     film: np.ndarray,
     fluidity: np.ndarray,
-    couette: np.ndarray,
-    sigma_x: np.ndarray,
-    sigma_y: float,
-    cosine: float,
-    sine: float,
-    limit: float,
-    limit_slope: float,
-    along: np.ndarray,
-    across: np.ndarray,
-    steepness: np.ndarray,
-    stiffness: np.ndarray,
+    units: ShearUnits,
+    factors: FactorArrays,
 ) -> None:
     """Fill the flow factors of a shear-thinning film, by rows of other sliding in one direction.
 
@@ -55,19 +69,10 @@ def fill_shear_factors(
         Shear law.
     pressure, film, fluidity : ndarray, shape (ny, nx)
         p, h and 1/eta [-].
-    couette : ndarray, shape (ny,)
-        Shear stress of sliding over tau0, times film and fluidity, of every row [-].
-    sigma_x, sigma_y
-        Stress drop over half the film over tau0, over film and difference of pressure between the
-        nodes on both sides [-]; along x of every column, shape (nx,).
-    cosine, sine
-        Of the angle from x to sliding.
-    limit, limit_slope
-        Limiting shear stress over tau0 at ambient pressure and its slope with p [-]; both 0: none.
-    along, across : ndarray, shape (ny, nx)
-        Flow along and across sliding over its Newtonian value [-]; 1 on the border.
-    steepness, stiffness : ndarray, shape (ny, nx)
-        d ln(flow)/d ln(dp/ds) and -d ln(flow)/d ln(eta) along sliding, as without dp/dr [-].
+    units
+        Stresses and sliding.
+    factors
+        Result; 1 on the border.
 
     Notes
     -----
@@ -76,6 +81,8 @@ def fill_shear_factors(
     film that slips at the limiting stress has the flow of one that is sheared just so far.
     """
     ny, nx = pressure.shape
+    couette, sigma_x, sigma_y, cosine, sine, limit, limit_slope = units
+    along, across, steepness, stiffness = factors
     # of the series G = 1 + g q/6: Eyring's g is 1
     g = 6.0 * rate_ratio(law, 0.0)[1]
     along[:] = 1.0
@@ -225,12 +232,8 @@ class FilmShear:
 
     def factors(self, pressure: Array, film: Array, fluidity: Array) -> AlignedFactors:
         """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
-        along, across, steepness, stiffness = np.empty((4, *pressure.shape))
-        fill_shear_factors(
-            self.law,
-            pressure,
-            film,
-            fluidity,
+        factors = FactorArrays(*np.empty((4, *pressure.shape)))
+        units = ShearUnits(
             self.couette,
             self.sigma_x * (np.ones(pressure.shape[1]) if self.central is None else self.central),
             self.sigma_y,
@@ -238,11 +241,9 @@ class FilmShear:
             self.sine,
             self.limit,
             self.limit_slope,
-            along,
-            across,
-            steepness,
-            stiffness,
         )
+        fill_shear_factors(self.law, pressure, film, fluidity, units, factors)
+        along, across, steepness, stiffness = factors
         c, s = self.cosine, self.sine
         slope = along * steepness
         film_power = 1.0 + steepness + stiffness

@@ -9,7 +9,12 @@ import math
 
 import numpy as np
 
-from gearlube_core.ehl.point.equations.stencil import FlowSlopes, StencilParameters
+from gearlube_core.ehl.point.equations.stencil import (
+    CarriedMass,
+    FlowSlopes,
+    FlowTensor,
+    StencilParameters,
+)
 from gearlube_core.kernels.jit import kernel
 
 # a node and its eight neighbours: row by row from south-west to north-east
@@ -72,9 +77,7 @@ def upwind_shares(
 def _centre_shares(
     parameters: StencilParameters,
     compliance: float,
-    cubic_x: np.ndarray,
-    cubic_y: np.ndarray,
-    fluidity: np.ndarray,
+    flow: FlowTensor,
     density: np.ndarray,
     j: int,
     i: int,
@@ -83,8 +86,8 @@ def _centre_shares(
     sx = sy = rho = 0.0
     for k in range(4):
         jj, ii = j + k // 2, i + k % 2
-        sx += 0.25 * cubic_x[jj, ii] * fluidity[jj, ii]
-        sy += 0.25 * cubic_y[jj, ii] * fluidity[jj, ii]
+        sx += 0.25 * flow.cubic_x[jj, ii] * flow.fluidity[jj, ii]
+        sy += 0.25 * flow.cubic_y[jj, ii] * flow.fluidity[jj, ii]
         rho += 0.25 * density[jj, ii]
     flow_x, flow_y = parameters.poiseuille_x * sx, parameters.poiseuille_y * sy
     return upwind_shares(parameters, compliance, flow_x, flow_y, rho)
@@ -95,10 +98,7 @@ def element_residual(
     parameters: StencilParameters,
     pressure: np.ndarray,
     mass: np.ndarray,
-    cubic_x: np.ndarray,
-    cubic_xy: np.ndarray,
-    cubic_y: np.ndarray,
-    fluidity: np.ndarray,
+    flow: FlowTensor,
     source: np.ndarray,
     compliance: float,
     density: np.ndarray,
@@ -114,9 +114,12 @@ def element_residual(
         Of the grid. `here - downstream` is the share of first-order upwinding, 0 for the central
         weights that Galerkin's method stands for and 1 for the first-order ones; of the weights
         nothing else counts.
-    pressure, mass, cubic_x, cubic_xy, cubic_y, fluidity, source : ndarray, shape (ny, nx)
-        p, rho h, rho h^3 times the components of the flow factor tensor, 1/eta, and what the
-        squeeze term takes from earlier times [-].
+    pressure, mass : ndarray, shape (ny, nx)
+        p and rho h [-].
+    flow
+        What pressure drives oil with.
+    source : ndarray, shape (ny, nx)
+        What the squeeze term takes from earlier times [-].
     compliance, density
         For `upwind_shares`: K, and rho [-], shape (ny, nx).
     residual : ndarray, shape (ny, nx)
@@ -131,14 +134,13 @@ def element_residual(
     """
     ny, nx = pressure.shape
     residual[:] = 0.0
+    cubic_x, cubic_xy, cubic_y, fluidity = flow
     px, py = parameters.poiseuille_x, parameters.poiseuille_y
     pxy = math.sqrt(px * py)
     ux, uy = parameters.wedge_x, parameters.wedge_y
     for j in range(ny - 1):
         for i in range(nx - 1):
-            back_x, back_y = _centre_shares(
-                parameters, compliance, cubic_x, cubic_y, fluidity, density, j, i
-            )
+            back_x, back_y = _centre_shares(parameters, compliance, flow, density, j, i)
             for g in range(4):
                 slope_x = slope_y = sx = sxy = sy = m = m_x = m_y = gather = 0.0
                 for k in range(4):
@@ -169,14 +171,9 @@ def element_residual(
 def element_derivatives(
     parameters: StencilParameters,
     pressure: np.ndarray,
-    cubic_x: np.ndarray,
-    cubic_xy: np.ndarray,
-    cubic_y: np.ndarray,
-    fluidity: np.ndarray,
+    flow: FlowTensor,
     viscosity_slope: np.ndarray,
-    density: np.ndarray,
-    density_slope: np.ndarray,
-    film: np.ndarray,
+    carried: CarriedMass,
     slopes: FlowSlopes,
     compliance: float,
     free: np.ndarray,
@@ -187,10 +184,12 @@ def element_derivatives(
 
     Parameters
     ----------
-    parameters, pressure, cubic_x, cubic_xy, cubic_y, fluidity
+    parameters, pressure, flow
         As in `element_residual`.
-    viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
-        d ln eta/dp, rho, d rho/dp, h [-].
+    viscosity_slope : ndarray, shape (ny, nx)
+        d ln eta/dp [-].
+    carried
+        Density and film.
     slopes
         As in `reynolds_derivatives`.
     compliance
@@ -203,14 +202,14 @@ def element_derivatives(
     ny, nx = pressure.shape
     by_pressure[:] = 0.0
     by_film[:] = 0.0
+    cubic_x, cubic_xy, cubic_y, fluidity = flow
+    density, density_slope, film = carried
     px, py = parameters.poiseuille_x, parameters.poiseuille_y
     pxy = math.sqrt(px * py)
     ux, uy = parameters.wedge_x, parameters.wedge_y
     for j in range(ny - 1):
         for i in range(nx - 1):
-            back_x, back_y = _centre_shares(
-                parameters, compliance, cubic_x, cubic_y, fluidity, density, j, i
-            )
+            back_x, back_y = _centre_shares(parameters, compliance, flow, density, j, i)
             for g in range(4):
                 slope_x = slope_y = sx = sxy = sy = 0.0
                 for k in range(4):

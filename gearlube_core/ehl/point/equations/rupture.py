@@ -16,6 +16,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     NORTH,
     SOUTH,
     WEST,
+    CarriedMass,
     MeshMetric,
     StencilParameters,
     face_weights,
@@ -170,9 +171,7 @@ def add_fill_derivatives(
     ruptured: np.ndarray,
     rate: np.ndarray,
     mass: np.ndarray,
-    density: np.ndarray,
-    density_slope: np.ndarray,
-    film: np.ndarray,
+    full: CarriedMass,
     rows: np.ndarray,
     by_pressure: np.ndarray,
     by_film: np.ndarray,
@@ -183,13 +182,14 @@ def add_fill_derivatives(
     ----------
     parameters, metric, pressure, blend, ruptured, rate, mass
         As in `fill_ruptured_nodes`, after it.
-    density, density_slope, film : ndarray, shape (ny, nx)
-        rho, d rho/dp, h [-].
+    full
+        Density and film of full gaps.
     rows : ndarray of bool, shape (ny, nx)
         Nodes whose derivatives are wanted.
     by_pressure, by_film : ndarray, shape (n, ny, nx)
         Changed.
     """
+    density, density_slope, film = full
     ny, nx = film.shape
     carried = rate.reshape(ny, 1) * density * film
     for j in range(ny - 1):

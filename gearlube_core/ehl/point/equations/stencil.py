@@ -147,6 +147,23 @@ def mean_fluidity(
     return mean, (mean - here) / rise, (there - mean) / rise
 
 
+class FlowTensor(NamedTuple):
+    """The same in finite elements, for flow at any angle; arrays of shape (ny, nx) [-]."""
+
+    cubic_x: np.ndarray  # rho h^3 times the components of the flow factor tensor
+    cubic_xy: np.ndarray
+    cubic_y: np.ndarray
+    fluidity: np.ndarray  # 1/eta
+
+
+class CarriedMass(NamedTuple):
+    """What surfaces carry at every node; arrays of shape (ny, nx) [-]."""
+
+    density: np.ndarray  # rho
+    density_slope: np.ndarray  # d rho/dp
+    film: np.ndarray  # h
+
+
 class FlowSlopes(NamedTuple):
     """Derivatives of the flow by pressure at every node; arrays of shape (ny, nx) [-]."""
 

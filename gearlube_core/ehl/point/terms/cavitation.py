@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.equations.rupture import add_fill_derivatives, fill_ruptured_nodes
-from gearlube_core.ehl.point.equations.stencil import MeshMetric
+from gearlube_core.ehl.point.equations.stencil import CarriedMass, MeshMetric
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.ruptured_transport import RupturedTransport
 from gearlube_core.ehl.point.terms.state import Balance, FilmState
@@ -131,9 +131,7 @@ class MassConservingCavitation:
             ruptured,
             speed,
             state.mass,
-            state.density,
-            state.density_slope,
-            state.film,
+            CarriedMass(state.density, state.density_slope, state.film),
             rows,
             linear.by_pressure,
             linear.by_film,

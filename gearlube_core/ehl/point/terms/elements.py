@@ -15,7 +15,12 @@ from gearlube_core.ehl.point.equations.finite_elements import (
     element_residual,
 )
 from gearlube_core.ehl.point.equations.grid import PointGrid
-from gearlube_core.ehl.point.equations.stencil import FlowSlopes, StencilParameters
+from gearlube_core.ehl.point.equations.stencil import (
+    CarriedMass,
+    FlowSlopes,
+    FlowTensor,
+    StencilParameters,
+)
 from gearlube_core.ehl.point.terms.linearisation import Derivatives
 from gearlube_core.ehl.point.terms.state import FilmState
 
@@ -52,10 +57,7 @@ class Elements:
             stencil,
             state.oil,
             carried,
-            state.cubic_x,
-            state.shear.cubic_xy(state.cubic),
-            state.cubic_y,
-            state.fluidity,
+            _flow(state),
             source,
             self._compliance,
             state.density,
@@ -75,13 +77,9 @@ class Elements:
         element_derivatives(
             stencil,
             state.oil,
-            state.cubic_x,
-            state.shear.cubic_xy(state.cubic),
-            state.cubic_y,
-            state.fluidity,
+            _flow(state),
             state.viscosity_slope,
-            *density,
-            state.film,
+            CarriedMass(*density, state.film),
             slopes,
             self._compliance,
             rows,
@@ -89,3 +87,8 @@ class Elements:
             by_film,
         )
         return ELEMENT_OFFSETS, by_pressure, by_film
+
+
+def _flow(state: FilmState) -> FlowTensor:
+    cubic_xy = state.shear.cubic_xy(state.cubic)
+    return FlowTensor(state.cubic_x, cubic_xy, state.cubic_y, state.fluidity)
