@@ -108,7 +108,8 @@ def test_two_dof_pair_on_mean_radii_swings_at_the_natural_frequency_of_the_one_d
     expected = np.sqrt(k * (R_p**2 / I_P + (R_p * 36 / 13) ** 2 / I_G)) / (2 * np.pi)
     window = frequency > 0.7 * expected
     peak = frequency[window][np.argmax(spectrum[window])]
-    # 6 % variation of the stiffness shifts the mean frequency by its square
+    # 6 % variation of the stiffness shifts the mean frequency by its square. 0.2 % off with
+    # 0.1 s of record, the same for bearings ten times as stiff
     assert peak == pytest.approx(expected, rel=0.01)
 
 

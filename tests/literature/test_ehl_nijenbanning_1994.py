@@ -53,7 +53,7 @@ def test_wide_contact_nears_the_line_in_the_piezoviscous_rigid_film():
     [
         (30.0, 6.0, 2.0),
         pytest.param(120.0, 8.0, 5.0, marks=pytest.mark.slow),
-        pytest.param(400.0, 10.0, 20.0, marks=pytest.mark.slow),
+        (400.0, 10.0, 20.0),
     ],
 )
 def test_solved_elliptical_films_lie_within_the_fit(M, L, ratio):
