@@ -97,10 +97,10 @@ def test_two_dof_pair_on_mean_radii_swings_at_the_natural_frequency_of_the_one_d
     faint = {key: MESH.series[key] * weight for key in ("k_m", "k_t")}
     mesh = replace(MESH, series=MESH.series | faint)
     axle = axle_with(mesh=mesh, steps_per_highest_period=60, radii="mean")
-    parameters = stiff_bearings(conservative(axle), 1e5)
+    parameters = stiff_bearings(conservative(axle), 1e4)
     axle, pinion_torque, wheel_torque = running_axle(20, parameters, efficiency=1.0)
     # a kick: ten per cent more torque than the static deflection balances
-    data = record(axle, (1.1 * pinion_torque, wheel_torque), ["mesh.dte"], 0.2, h=2e-5)[0]
+    data = record(axle, (1.1 * pinion_torque, wheel_torque), ["mesh.dte"], 0.1, h=2e-5)[0]
     spectrum = np.abs(np.fft.rfft((data - data.mean()) * np.hanning(data.size), 16 * data.size))
     frequency = np.fft.rfftfreq(16 * data.size, 2e-5)
     R_p = parameters.mesh.series["R_p"][0, 0, 0]
@@ -108,7 +108,8 @@ def test_two_dof_pair_on_mean_radii_swings_at_the_natural_frequency_of_the_one_d
     expected = np.sqrt(k * (R_p**2 / I_P + (R_p * 36 / 13) ** 2 / I_G)) / (2 * np.pi)
     window = frequency > 0.7 * expected
     peak = frequency[window][np.argmax(spectrum[window])]
-    # 6 % variation of the stiffness shifts the mean frequency by its square
+    # 6 % variation of the stiffness shifts the mean frequency by its square. 0.2 % off with
+    # 0.1 s of record, the same for bearings ten times as stiff
     assert peak == pytest.approx(expected, rel=0.01)
 
 

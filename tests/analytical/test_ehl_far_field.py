@@ -124,8 +124,9 @@ def _widened(problem: PointContactProblem, factor: float) -> PointContactProblem
         (3.0, 5.0, 1.0, 0.0),  # rigid, oil that thickens
         (10.0, 10.0, 6.3, 0.5),  # rigid, wide, at an angle
         (5.0, 0.0, 1.0, 0.0),  # isoviscous, neither rigid nor soft
-        (30.0, 0.0, 1.0, 0.8),
-        (100.0, 10.0, 1.0, 0.0),  # elastic: ambient pressure on the border
+        pytest.param(30.0, 0.0, 1.0, 0.8, marks=pytest.mark.slow),
+        # elastic: ambient pressure on the border
+        pytest.param(100.0, 10.0, 1.0, 0.0, marks=pytest.mark.slow),
     ],
 )
 def test_central_film_does_not_hang_on_the_default_domain(
@@ -163,5 +164,6 @@ def test_oil_goes_on_beyond_a_given_domain_only_if_asked() -> None:
     assert not given.oil_beyond
     assert moes_contact(3.0, 5.0, nodes=(33, 33), domain=domain, oil_beyond=True).oil_beyond
     assert not moes_contact(3.0, 5.0, nodes=(33, 33), oil_beyond=False).oil_beyond
+    assert not moes_contact(50.0, 5.0, nodes=(33, 33)).oil_beyond
     with pytest.raises(ParameterError, match="both sides of 0 m"):
         replace(given, oil_beyond=True, x_limits=(1e-4, 2e-4))

@@ -283,7 +283,7 @@ def element_film(problem, start, compliance=None):
 @pytest.mark.parametrize(
     ("radius_y", "load", "angle", "sliding"),
     [
-        (0.01, 20.0, 0.0, None),
+        pytest.param(0.01, 20.0, 0.0, None, marks=pytest.mark.slow),
         pytest.param(0.1, 100.0, 0.0, None, marks=pytest.mark.slow),
         (0.01, 20.0, 0.5, (0.3, 0.3)),
     ],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from gearlube_core.ehl.transient.solution import FilmSolution
 ROWS = 33
 
 
+@cache
 def _line(step: float, nodes: int, **options: Any) -> FilmSolution:
     film = jamali_2015_film("a", nodes=(nodes, ROWS), **options)
     return solve_helical_line(film, step, PointSolverSettings(wedge="quick"))
@@ -38,8 +40,8 @@ def _film_in_the_middle(solution: FilmSolution) -> float:
     "step",
     [
         pytest.param(75, marks=pytest.mark.slow),
-        pytest.param(300, marks=pytest.mark.slow),
-        500,
+        300,
+        pytest.param(500, marks=pytest.mark.slow),
     ],
 )
 def test_a_graded_mesh_is_as_right_as_a_uniform_one_of_its_finest_spacing(step: int) -> None:

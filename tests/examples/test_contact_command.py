@@ -13,7 +13,7 @@ from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.studies.contact import run as contact_run
 from gearlube.studies.contact.figures import CONTACT_CATALOGUE
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.hypoid_contact import mesh_cycle
+from gearlube_core.hypoid_contact import contact_dataset, mesh_cycle
 from gearlube_core.hypoid_contact.analysis import ContactSettings
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings
 from gearlube_core.hypoid_contact.strips import StripSettings
@@ -26,12 +26,12 @@ from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 COARSE_BODY = ToothBodySettings(
     neighbour_pitches=0.0,
     condensation=CondensationSettings(
-        profile_hats=4,
-        lengthwise_hats=7,
-        density=MeshDensity(profile=6, lengthwise=12, thickness=2, fillet=2, slot=1, rim=1),
+        profile_hats=3,
+        lengthwise_hats=5,
+        density=MeshDensity(profile=4, lengthwise=8, thickness=2, fillet=2, slot=1, rim=1),
     ),
 )
-COARSE_CELLS = LoadedSettings(strips=StripSettings(cells_across=12, cells_along=16))
+COARSE_CELLS = LoadedSettings(strips=StripSettings(cells_across=9, cells_along=12))
 
 
 def run(*arguments):
@@ -42,6 +42,7 @@ def run(*arguments):
 def coarse(monkeypatch, tmp_path):
     """The command with coarse teeth and cells, and a cache of its own."""
     monkeypatch.setenv("GEARLUBE_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(contact_dataset, "ERROR_POSITIONS", 32)
     real = contact_run.run_contact
 
     def run_coarse(file, settings, **options):

@@ -20,6 +20,11 @@ from gearlube_core.helical_geometry.meshing_steps import line_at_position
 OPERATION = {"torque": 1060.0, "pinion_speed": 235.62}
 
 
+@pytest.fixture
+def small_pictures():
+    """Files of full size: they are looked at here."""
+
+
 @pytest.fixture(scope="module")
 def designs():
     return [gear_file_geometry(HelicalGearFile.named(f"jamali_2015_{d}")) for d in "ab"]

@@ -42,6 +42,16 @@ def test_a_restored_state_continues_bit_for_bit(
     host.slave.freeFMUstate(state)
 
 
+# the test above restores each setting in one process; what crosses over is the same record
+@pytest.mark.parametrize(
+    "settings",
+    [
+        pytest.param("default", marks=pytest.mark.slow),
+        "changed",
+        pytest.param("last", marks=pytest.mark.slow),
+    ],
+    indirect=True,
+)
 def test_a_state_saved_in_one_process_continues_in_another(
     host: Host, fmu_folder: Path, tmp_path: Path, settings: dict[str, float]
 ) -> None:

@@ -20,7 +20,7 @@ def fmu(tmp_path_factory):
 
 def sweep(fmu, folder, **changes):
     settings = replace(quick_sweep_settings(SweepSettings(driver="hold")), **changes)
-    return run_sweep(settings, speeds_kmh=SPEEDS, preloads=PRELOADS, fmu=fmu, out=folder)
+    return run_sweep(settings, speeds_kmh=SPEEDS, preloads=PRELOADS, fmu=fmu, out=folder, jobs=1)
 
 
 @pytest.fixture(scope="module")

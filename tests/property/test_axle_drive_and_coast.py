@@ -99,7 +99,9 @@ def energy_out_of_nothing(mesh, backlash):
     return np.max(np.abs(imbalance)), np.count_nonzero(np.diff(states[:, SIDE]))
 
 
-@pytest.mark.parametrize("backlash", [150e-6, 20e-6, 2e-6, 0.0])
+@pytest.mark.parametrize(
+    "backlash", [150e-6, pytest.param(20e-6, marks=pytest.mark.slow), 2e-6, 0.0]
+)
 def test_changing_flanks_puts_no_energy_in(backlash):
     one_sided, _ = energy_out_of_nothing(one_level(SHIPPED), backlash)
     imbalance, changes = energy_out_of_nothing(with_coast_flanks(one_level(SHIPPED)), backlash)

@@ -67,7 +67,7 @@ def test_mass_is_balanced_over_any_set_of_nodes() -> None:
     assert abs(pumped.sum()) < 1e-12 * np.abs(pumped).sum()
 
 
-@pytest.mark.parametrize("turn", [0.0, 0.6, 0.5 * math.pi])
+@pytest.mark.parametrize("turn", [0.0, 0.6, pytest.param(0.5 * math.pi, marks=pytest.mark.slow)])
 def test_the_film_turns_with_its_motion(turn: float) -> None:
     forward = sliding_contact(0.4, turn, radius_ratio=2.0, angle=0.6)
     (u, v), (a, b) = forward.entrainment, forward.sliding

@@ -109,6 +109,7 @@ def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(
         settings,
         fmu=fmu,
         out=tmp_path / "local",
+        jobs=1,
         model=model_of(stand_in.small_point),
         **grid,
     )

@@ -1,5 +1,6 @@
 """Bookkeeping of a sweep: nothing computed twice, nothing lost, failures are rows."""
 
+import shutil
 import signal
 import threading
 
@@ -43,8 +44,24 @@ def computed(seen):
     return [sentence for _, sentence in seen if not sentence.endswith("(stored)")]
 
 
-def test_points_are_laid_out_over_preload_and_speed_with_ragged_spectra_padded(fmu, tmp_path):
-    dataset, seen = sweep(fmu, tmp_path / "out", stand_in.small_point)
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A finished sweep: its folder, FMU, dataset and messages; tests change copies of it."""
+    folder = tmp_path_factory.mktemp("finished")
+    fmu = stand_in.write_fmu(folder / "axle.fmu")
+    out = folder / "out"
+    return out, fmu, *sweep(fmu, out, stand_in.small_point, command_line="gearlube sweep")
+
+
+@pytest.fixture
+def copied(finished, tmp_path):
+    """Folder, FMU and dataset of a finished sweep, to go on from."""
+    out, fmu, dataset, _ = finished
+    return shutil.copytree(out, tmp_path / "out"), fmu, dataset
+
+
+def test_points_are_laid_out_over_preload_and_speed_with_ragged_spectra_padded(finished):
+    _, _, dataset, seen = finished
     assert dataset["dte_pp"].dims == ("preload", "speed")
     assert dataset["dte_pp"].sel(preload=6000.0).values == pytest.approx([26e-9, 46e-9, 66e-9])
     spectrum = dataset["dte_spectrum"]
@@ -53,36 +70,36 @@ def test_points_are_laid_out_over_preload_and_speed_with_ragged_spectra_padded(f
     assert [share for share, _ in seen] == [k / 6 for k in range(1, 7)]
 
 
-def test_file_tells_settings_version_and_fmu_and_can_be_read_by_speed_in_kmh(fmu, tmp_path):
-    sweep(fmu, tmp_path / "out", stand_in.small_point, command_line="gearlube sweep")
-    dataset = load_sweep(tmp_path / "out")
+def test_file_tells_settings_version_and_fmu_and_can_be_read_by_speed_in_kmh(finished):
+    out, *_ = finished
+    dataset = load_sweep(out)
     assert dataset.attrs["fmu_guid"] == "{test}"
     assert dataset.attrs["command_line"] == "gearlube sweep"
     assert dataset.attrs["setting_equations"] == "consistent"
     assert float(dataset["dte_pp"].sel(speed_kmh=40.0, preload=2500.0)) == pytest.approx(42.5e-9)
-    assert (tmp_path / "out" / "summary.csv").read_text().startswith("preload,")
+    assert (out / "summary.csv").read_text().startswith("preload,")
 
 
-def test_second_run_computes_nothing_and_gives_the_same_dataset(fmu, tmp_path):
-    first, _ = sweep(fmu, tmp_path / "out", stand_in.small_point)
-    second, seen = sweep(fmu, tmp_path / "out", stand_in.refusing_point)
+def test_second_run_computes_nothing_and_gives_the_same_dataset(copied):
+    out, fmu, first = copied
+    second, seen = sweep(fmu, out, stand_in.refusing_point)
     assert len(seen) == 6
     assert not computed(seen)
     assert second.attrs["computed_points"] == 0
     xr.testing.assert_identical(first.drop_attrs(), second.drop_attrs())
 
 
-def test_only_new_speeds_are_computed_when_the_grid_grows(fmu, tmp_path):
-    sweep(fmu, tmp_path / "out", stand_in.small_point)
-    _, seen = sweep(fmu, tmp_path / "out", stand_in.small_point, speeds_kmh=(*SPEEDS, 80.0))
+def test_only_new_speeds_are_computed_when_the_grid_grows(copied):
+    out, fmu, _ = copied
+    _, seen = sweep(fmu, out, stand_in.small_point, speeds_kmh=(*SPEEDS, 80.0))
     assert sorted(computed(seen)) == ["80 km/h, 2500 N", "80 km/h, 6000 N"]
 
 
-def test_a_damaged_point_file_is_computed_again(fmu, tmp_path):
-    first, _ = sweep(fmu, tmp_path / "out", stand_in.small_point)
-    victim = min((tmp_path / "out" / "points").iterdir())
+def test_a_damaged_point_file_is_computed_again(copied):
+    out, fmu, first = copied
+    victim = min((out / "points").iterdir())
     victim.write_bytes(victim.read_bytes()[:1000])
-    second, seen = sweep(fmu, tmp_path / "out", stand_in.small_point)
+    second, seen = sweep(fmu, out, stand_in.small_point)
     assert len(computed(seen)) == 1
     xr.testing.assert_identical(first.drop_attrs(), second.drop_attrs())
 
