@@ -1,26 +1,17 @@
-"""What holds for all tests: scripts that pytest must not collect, and workers side by side."""
+"""Names the scripts among the tests that pytest must not collect, and puts tests in order."""
 
 from __future__ import annotations
 
-import os
-
 import pytest
-
-from tests.helpers.session_folder import open_session_folder
 
 # started by tests in processes of their own, in an environment made for them
 collect_ignore = ["fmu/importer_ecos.py", "fmu/importer_libcosim.py"]
 
-_folder = open_session_folder()
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put the tests of film solvers first, all others after them.
 
-def pytest_configure(config: pytest.Config) -> None:
-    """Give each of several workers one thread of linear algebra."""
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
-
-def pytest_unconfigure(config: pytest.Config) -> None:
-    """Remove what the processes of this run have shared."""
-    if _folder is not None:
-        _folder.cleanup()
+    Each of two workers begins with one half of the list. So one compiles the kernels of films, the
+    other those of axles, gears and bearings, and hardly any kernel is compiled twice.
+    """
+    items.sort(key=lambda item: "ehl" not in str(item.path) and "_law_" not in str(item.path))

@@ -6,13 +6,13 @@ import math
 
 import pytest
 
-from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.problem import ContactDomain, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
 from tests.helpers.ehl_point_cases import moes_contact
 
 # at L = 5 the spike is small enough for 49 nodes to lie in the range of the order
-FIXED = {"inlet": 4.0, "outlet": 2.0, "side": 3.0}
+FIXED = ContactDomain(inlet=4.0, outlet=2.0, side=3.0)
 
 
 def _films(problem: PointContactProblem, wedge: str) -> tuple[float, float]:
@@ -24,7 +24,7 @@ def _films(problem: PointContactProblem, wedge: str) -> tuple[float, float]:
 
 @pytest.mark.parametrize(("wedge", "lowest"), [("upwind-2", 1.6), ("central", 1.6)])
 def test_film_and_pressure_converge_at_second_order(wedge: str, lowest: float) -> None:
-    problem = moes_contact(20.0, 5.0, nodes=(49, 49), **FIXED)
+    problem = moes_contact(20.0, 5.0, nodes=(49, 49), domain=FIXED)
     films, pressures = zip(
         *(_films(problem.with_nodes(n, n), wedge) for n in (49, 97, 193)), strict=True
     )
