@@ -1,11 +1,29 @@
-"""Names the scripts among the tests that pytest must not collect, and puts tests in order."""
+"""What holds for all tests: scripts that pytest must not collect, and workers side by side."""
 
 from __future__ import annotations
 
+import os
+
 import pytest
+
+from tests.helpers.session_folder import open_session_folder
 
 # started by tests in processes of their own, in an environment made for them
 collect_ignore = ["fmu/importer_ecos.py", "fmu/importer_libcosim.py"]
+
+_folder = open_session_folder()
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Give each of several workers one thread of linear algebra."""
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Remove what the processes of this run have shared."""
+    if _folder is not None:
+        _folder.cleanup()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
