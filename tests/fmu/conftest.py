@@ -74,3 +74,23 @@ def new_host(host_of: Callable[[Path], Host], fmu_folder: Path) -> Callable[[], 
 @pytest.fixture
 def host(new_host: Callable[[], Host]) -> Host:
     return new_host()
+
+
+# what these look at is plumbing that both FMUs share, in processes of their own that cost seconds
+_ONE_MODEL_BY_DEFAULT = {
+    "test_a_state_saved_in_one_process_continues_in_another",
+    "test_ecos_gives_the_numbers_of_the_model",
+    "test_ecos_runs_the_fmu_and_ends_well",
+    "test_libcosim_gives_the_numbers_of_the_model",
+    "test_the_library_has_nothing_left_to_release_before_its_destructors_run",
+    "test_two_builds_in_different_processes_are_equal_bit_for_bit",
+}
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Leave the second FMU's cases of costly tests to the slow run."""
+    for item in items:
+        name = getattr(item, "originalname", "")
+        if name in _ONE_MODEL_BY_DEFAULT and "HelicalPair" in item.name:
+            item.add_marker(pytest.mark.slow)
