@@ -14,7 +14,7 @@ from docs.helical.verdicts import Claim, Verdict, judge
 from gearlube_core.dynamics.helical_pair.he_2007 import he_2007_pair
 from gearlube_core.dynamics.helical_pair.linear.linear_system import event_phases
 
-_RATIO, _SWING = 2.7426, 0.136  # of the digest's own arithmetic on the printed dimensions
+_RATIO, _SWING = 2.7426, 0.136  # by arithmetic on the printed dimensions
 _JUST = 1e-9  # mesh periods beside an event
 _HELIX = (5.0, 10.0, 15.0, 21.5, 25.0, 30.0)  # deg
 

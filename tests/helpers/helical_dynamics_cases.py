@@ -54,7 +54,7 @@ def spur_pair(mu: float) -> HelicalPairParameters:
 def estimated_pair(mu: float) -> HelicalPairParameters:
     """Return the pair of He et al. 2007 with 1.316e10 N/m2, estimated with a rack of 1.2 modules.
 
-    Numbers of the digest were computed with it.
+    The expected numbers were computed with it, apart from this code.
     """
     pair = he_2007_pair(mu)
     return replace(pair, mesh=constant_density_mesh(pair.pair, 1.316e10, "estimated"))

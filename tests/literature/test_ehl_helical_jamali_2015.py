@@ -57,7 +57,7 @@ def test_coarse_line_carries_its_load_close_to_the_dry_pressure():
         film.contact_modulus,
         load,
     )
-    # the digest: smooth films reach the dry maximum within a few per cent
+    # smooth films reach the dry maximum within a few per cent
     assert line.maximum_pressure == pytest.approx(dry.pressure.max(), rel=0.03)
     assert 0.1e-6 < line.minimum_film < 0.25e-6
 

@@ -71,7 +71,7 @@ def test_motion_off_the_line_of_action_is_proportional_to_friction() -> None:
     """H9: "almost proportionally"; harmonics 4, 8, 12 are of second order in mu."""
     for name in ("u_yp", "u_yg"):
         first_order = np.delete(_growth(name), _at(4, 8, 12))
-        assert np.abs(first_order - 10.0).max() < 0.1  # tolerance of the digest
+        assert np.abs(first_order - 10.0).max() < 0.1  # a tenth of a tenth: "almost"
 
 
 def test_line_of_action_harmonics_one_and_two_grow_and_higher_ones_hardly() -> None:
@@ -175,7 +175,7 @@ def test_composites_grow_most_in_the_second_harmonic(name: str) -> None:
 
 
 def test_transmission_error_exceeds_the_other_composites_by_one_to_two_orders() -> None:
-    """H17: two orders only for delta_x at mu = 0.01; the digest's ratios, read from no figure."""
+    """H17: two orders only for delta_x at mu = 0.01; ratios computed apart from this code."""
     ratios = {}
     for pair_of in (he_2007_pair, estimated_pair):
         for mu in (0.01, 0.1):
@@ -218,7 +218,7 @@ def test_first_harmonic_along_the_line_of_action_is_linear_in_strong_friction() 
 def test_friction_leaves_a_mean_torque_that_turns_the_pair(
     mu: float, torque: float, power: float
 ) -> None:
-    """Not in the paper; printed digits of the digest."""
+    """Not in the paper; digits of a computation apart from this code."""
     response = _response(mu)
     assert response.friction_torque == pytest.approx(torque, rel=2e-3)
     assert response.friction_power == pytest.approx(power, rel=7e-3)

@@ -144,7 +144,7 @@ def test_length_of_a_line_is_a_trapezoid_between_its_landmarks():
 
 
 def test_total_contact_length_varies_by_13_6_percent_about_its_mean():
-    """13.6: the digest's value of fig. 2's ripple under constant density, to its digits."""
+    """13.6: the ripple of fig. 2 under constant density, to its digits."""
     X = positions_at(np.arange(4000) / 4000, PAIR)
     total = shared_load(X, ModifiedPair(pair=PAIR), 100.0).total_length[:, 0]
     ratio = (MARKS["D"] - MARKS["A"]) / PLANE.pitch

@@ -169,7 +169,7 @@ def test_hotter_oil_rubs_less_as_thermal_ehl_says_and_viscosity_power_laws_do_no
     assert ours[0] / ours[-1] < ehl[0] / ehl[-1]
 
 
-# Jamali 2015, design A: 1.06 kN m, 235.62 rad/s, Mobil Jet 2; E' = 227.5 GPa by the digest
+# Jamali 2015, design A: 1.06 kN m, 235.62 rad/s, Mobil Jet 2; E' from E 207 GPa and nu 0.3
 THESIS_E = 227.5e9
 DESIGN_A = named_pair("jamali_2015_a")
 ESTER = (0.00625, 13.3e-9)
