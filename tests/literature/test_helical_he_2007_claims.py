@@ -71,7 +71,7 @@ def test_motion_off_the_line_of_action_is_proportional_to_friction() -> None:
     """H9: "almost proportionally"; harmonics 4, 8, 12 are of second order in mu."""
     for name in ("u_yp", "u_yg"):
         first_order = np.delete(_growth(name), _at(4, 8, 12))
-        assert np.abs(first_order - 10.0).max() < 0.1  # a tenth of a tenth: "almost"
+        assert np.abs(first_order - 10.0).max() < 0.1  # "almost": within 1 %
 
 
 def test_line_of_action_harmonics_one_and_two_grow_and_higher_ones_hardly() -> None:
