@@ -16,6 +16,8 @@ from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.dynamics import flank_force, hypoid_axle, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
+    bearing_outputs,
+    flank_outputs,
     flanks,
     integrate,
     mesh_at_load,
@@ -25,7 +27,7 @@ from gearlube_core.dynamics.hypoid_axle import (
 )
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
-from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS, PINION_BEARINGS
+from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, N_OUTPUTS, PINION_BEARINGS
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     N_ODE,
@@ -59,9 +61,9 @@ TABLE = MeshLevels(MESH.levels, MESH.series, MESH.orders, MESH.windows, MESH.nod
 MESH_DATA = MeshAtLoad(SERIES, MESH.orders, WINDOW, MESH.nodes)
 mesh_at_load.blend_mesh(STATE[LOAD_TORQUE], 1.0, TABLE, MESH_DATA)
 AT_LOAD = (MESH_DATA, STATE_OF_OIL)
-FORCE = mesh_force.mesh_force(STATE, SERIES, MESH.orders, P).force
+FORCE = mesh_force.mesh_force(STATE, SERIES, MESH.orders, P.mesh).force
 CHANNELS, FRICTION = np.zeros(N_CHANNELS), np.zeros(rhs.N_FRICTION)
-kernels.pair_channels(WINDOW, MESH.nodes, P.z_p, STATE[PHI_P], 0, N_CHANNELS, CHANNELS)
+kernels.pair_channels(WINDOW, MESH.nodes, P.mesh.z_p, STATE[PHI_P], 0, N_CHANNELS, CHANNELS)
 CONTROL = AXLE.step_control
 SCRATCH = np.zeros(rhs.SCRATCH)
 SLOPE = np.zeros(N_ODE)
@@ -130,10 +132,10 @@ CASES = [
     (flank_force.backlash_deflection, (-153e-6, 150e-6)),
     (flank_force.gated_force, (900.0, 2278.0, -0.1, 3e-6)),
     (flank_force.gated_force, (-30.0, 2278.0, -0.1, -0.1e-6)),
-    (mesh_force.reference_frequency, (P, 145.0)),
-    (mesh_force.reference_frequency, (P, -1.0)),
+    (mesh_force.reference_frequency, (P.mesh, 145.0)),
+    (mesh_force.reference_frequency, (P.mesh, -1.0)),
     *(
-        (mesh_force.mesh_force, (state, SERIES, MESH.orders, parameters))
+        (mesh_force.mesh_force, (state, SERIES, MESH.orders, parameters.mesh))
         for state in (STATE, SEPARATED, COASTING)
         for parameters in (P, PRINTED)
     ),
@@ -177,14 +179,25 @@ CASES = [
     *(
         (mesh_at_load.follow_flank, (state, BOTH_SIDES, parameters, MESH_DATA))
         for state in (STATE, SEPARATED, COASTING, CROSSED, CROSSED_BACK)
-        for parameters in (P, P._replace(backlash=0.0))
+        for parameters in (P.mesh, P.mesh._replace(backlash=0.0))
     ),
     (outputs.stored_energy, (STATE, 5e8, STATE_OF_OIL, P)),
     (
-        outputs.write_flanks,
-        (STATE, FORCE, WINDOW, MESH.nodes, OIL, STATE_OF_OIL, P, CHANNELS, zeros(N_OUTPUTS)),
+        flank_outputs.write_flanks,
+        (
+            STATE,
+            FORCE,
+            WINDOW,
+            MESH.nodes,
+            OIL,
+            STATE_OF_OIL,
+            P,
+            FLANKS,
+            CHANNELS,
+            zeros(N_OUTPUTS),
+        ),
     ),
-    (outputs.write_shaft, (*WRITE_SHAFT, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
+    (bearing_outputs.write_shaft, (*WRITE_SHAFT, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
     *(
         (mean_power.mean_power, (STATE, SLOPE, PINION_WORK, WORK_MARK, duration))
         for duration in (0.0, 1e-4)
