@@ -4,11 +4,11 @@ A file of kernels may hold two classes for its own numbers: a dataclass of what 
 defaults and limits, and a NamedTuple of what its kernels take. The parameters of the model derive
 from the first, and `constants_of` fills the second:
 
-    class MeshForceScalars:
-        frequency_floor: Annotated[float, Within(1.0, 1e4, "Hz")] = 50.0
+    class AdhesionScalars:
+        adhesion: Annotated[float, Within(0.0, 9.0, "N")] = 0.25
 
-    class MeshForceConstants(NamedTuple):
-        frequency_floor: float  # Hz
+    class AdhesionConstants(NamedTuple):
+        adhesion: float  # N
 """
 
 from __future__ import annotations
@@ -56,9 +56,10 @@ def _limits(kind: type) -> tuple[tuple[str, Within | Positive], ...]:
     )
 
 
-def check_scalars(parameters: Any) -> None:
+def check_scalars(parameters: object) -> None:
     """Raise ParameterError when a field is outside the limits in its annotation."""
-    for name, limits in _limits(type(parameters)):
+    kind: Any = type(parameters)
+    for name, limits in _limits(kind):
         limits.check(name, getattr(parameters, name))
 
 

@@ -36,8 +36,8 @@ REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 class HypoidAxleParameters(AxleScalars):
     """Everything that defines one axle.
 
-    Numbers that kernels read as they are stand with their limits in `AxleScalars` and
-    `MeshForceScalars`: inertias, masses, backlash, hysteretic_loss, frequency_floor.
+    Its other fields are those of `kernel_parameters.AxleScalars`, such as masses and backlash, and
+    of `mesh_force.MeshForceScalars`.
 
     Parameters
     ----------

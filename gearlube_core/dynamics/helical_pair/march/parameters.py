@@ -82,8 +82,8 @@ class Body:
 class HelicalMarchParameters(MarchScalars):
     """Everything that defines one pair in motion.
 
-    Numbers that kernels read as they are stand with their limits in `FlankScalars` and
-    `MarchScalars`: backlash, friction_updates_per_mesh_period.
+    Its other fields are those of `constants.MarchScalars` and of `flank_views.FlankScalars`, such
+    as the backlash.
 
     Parameters
     ----------
