@@ -169,10 +169,6 @@ class SteppedModel(ABC, Generic[Control]):
             raise StepError(f"step of {h:g} s refused: {self._words.refusals[status]}.")
         self._inputs, self._trial_inputs = inputs, self._inputs
 
-    def compile_outputs(self) -> None:
-        """Compile the kernel of the outputs; their values mean nothing before `initialise`."""
-        self._write_outputs()
-
     def output(self, name: str) -> float:
         """Return one output by its name, an entry of `output_names`; units as in docs/fmu.md.
 
