@@ -17,7 +17,7 @@ from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual, n
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
-from gearlube_core.ehl.point.solver import nested_film, point_solution
+from gearlube_core.ehl.point.grid_film import nested_film, point_solution
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
