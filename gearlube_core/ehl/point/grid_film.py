@@ -22,6 +22,8 @@ from gearlube_core.ehl.point.start.starvation import Starvation
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ConvergenceError
 
+_COARSER_TOLERANCE = 1e-5  # of a film that only tells the error of a finer grid
+
 
 def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     """Return an ellipse of pressure with the film expected between, on the coarsest grid.
@@ -101,7 +103,12 @@ def film_on_coarser_grid(
     From the finer film where a full inlet allows it, else from a nest of its own.
     """
     problem = fine.problem.with_nodes(*nodes)
-    settings = replace(settings, wedge=fine.outcome.wedge)
+    settings = replace(
+        settings,
+        wedge=fine.outcome.wedge,
+        tolerance=max(settings.tolerance, _COARSER_TOLERANCE),
+        load_tolerance=max(settings.load_tolerance, _COARSER_TOLERANCE),
+    )
     begin = time.perf_counter()
     if problem.inlet_layer is None:
         hierarchy = build_hierarchy(

@@ -139,6 +139,11 @@ class PointSolution:
         return self.problem.nodes
 
     @property
+    def axes(self) -> tuple[Array, ...]:
+        """Return the places of the nodes along x and y [m]."""
+        return self.problem.x, self.problem.y
+
+    @property
     def numbers(self) -> FilmNumbers:
         """Return films, largest pressure and friction."""
         friction = self.friction_coefficient

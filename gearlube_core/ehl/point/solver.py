@@ -52,7 +52,9 @@ def solve_point_contact(
     Notes
     -----
     The error of the grid is estimated from the same film on two grids of two and four times the
-    spacing, a fifth more time; see `estimated_error`. Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
+    spacing, a third more time; see `FilmError`.
+
+    Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
     flexible GMRES with a multigrid cycle of line solutions; start on nested grids from the dry
     contact. Mass-conserving cavitation keeps these unknowns: the oil in ruptured film follows from
     them, node after node downstream. References: [venner_lubrecht_2000] for the equations and
@@ -96,6 +98,4 @@ def solve_point_contact(
             most_nodes,
             lambda nodes, coarse: replace(on_grid(nodes), coarser=coarse),
         )
-    return solution.with_words(
-        solution.error.sentence + searched, time.perf_counter() - begin
-    )
+    return solution.with_words(solution.error.sentence + searched, time.perf_counter() - begin)
