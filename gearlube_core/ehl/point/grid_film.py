@@ -96,7 +96,7 @@ def point_solution(
 
 
 def film_on_coarser_grid(
-    nodes: tuple[int, int], fine: PointSolution, settings: PointSolverSettings
+    nodes: tuple[int, ...], fine: PointSolution, settings: PointSolverSettings
 ) -> PointSolution | None:
     """Return the film on fewer nodes by the stencil of a finer one; None: it was not found.
 

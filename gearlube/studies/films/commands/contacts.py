@@ -9,6 +9,7 @@ import typer
 
 from gearlube.cli.options import CaseArgument, ExampleOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
+from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
 from gearlube_core.checks import check_finite
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
@@ -52,6 +53,7 @@ def line(
     ] = None,
     cavitation: _Cavitation = None,
     temperature: _Temperature = None,
+    film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
     example: ExampleOption = False,
 ) -> None:
@@ -74,8 +76,12 @@ def line(
             "temperature": temperature,
         }
         file = _changed(LineCase.given(case), changes, entrainment, slide_roll)
+        goal = film_error_of(film_error)
         solve_and_show(
-            lambda progress: run_steady.run_line(file, folder=out, progress=progress), out
+            lambda progress: run_steady.run_line(
+                file, film_error=goal, folder=out, progress=progress
+            ),
+            out,
         )
 
 
@@ -92,6 +98,7 @@ def point(
         typer.Option(help="Stencil of the wedge.", metavar="upwind-2|upwind-1|central|quick"),
     ] = None,
     cavitation: _Cavitation = None,
+    film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
     example: ExampleOption = False,
 ) -> None:
@@ -114,8 +121,12 @@ def point(
             "solver.cavitation": cavitation,
         }
         file = _changed(PointCase.given(case), changes, entrainment, slide_roll)
+        goal = film_error_of(film_error)
         solve_and_show(
-            lambda progress: run_steady.run_point(file, folder=out, progress=progress), out
+            lambda progress: run_steady.run_point(
+                file, film_error=goal, folder=out, progress=progress
+            ),
+            out,
         )
 
 
