@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlube_core.ehl.grid_error import FilmError, FilmNumbers
+from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, formal_order
 from gearlube_core.ehl.line.newton import NewtonRecord
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.system import LineState, LineSystem
@@ -52,6 +52,11 @@ class LineSolution:
     def axes(self) -> tuple[np.ndarray, ...]:
         """Places of the nodes [m]."""
         return (self.x,)
+
+    @property
+    def formal_order(self) -> float:
+        """Return the order of the grid."""
+        return formal_order(self.settings.stencil)
 
     @property
     def numbers(self) -> FilmNumbers:

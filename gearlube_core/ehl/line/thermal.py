@@ -89,6 +89,11 @@ class ThermalLineSolution:
         return self.film.pressure
 
     @property
+    def formal_order(self) -> float:
+        """Return the order of the grid."""
+        return self.film.formal_order
+
+    @property
     def numbers(self) -> FilmNumbers:
         """Films, largest pressure and friction."""
         return self.film.numbers

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.grid_error import FilmError, FilmNumbers
+from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, formal_order
 from gearlube_core.ehl.point.equations.limiter import limited_faces
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
@@ -142,6 +142,11 @@ class PointSolution:
     def axes(self) -> tuple[Array, ...]:
         """Return the places of the nodes along x and y [m]."""
         return self.problem.x, self.problem.y
+
+    @property
+    def formal_order(self) -> float:
+        """Return the order of the grid."""
+        return formal_order(self.outcome.wedge)
 
     @property
     def numbers(self) -> FilmNumbers:

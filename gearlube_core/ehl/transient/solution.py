@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import interpn
 
 from gearlube_core.arrays import Array
-from gearlube_core.ehl.grid_error import FilmError, FilmNumbers
+from gearlube_core.ehl.grid_error import SECOND_ORDER, FilmError, FilmNumbers, formal_order
 from gearlube_core.ehl.point.border_pressure import border_pressure
 from gearlube_core.ehl.point.equations.mesh import cell_faces
 from gearlube_core.ehl.point.newton.newton import flow_residual
@@ -46,6 +46,7 @@ class FilmSolution:
     time_error: float = (
         math.nan
     )  # estimated, of the smallest film by the time steps [-]; at rest: nan
+    formal_order: float = SECOND_ORDER  # of its grid
     coarser: tuple[FilmSolution, ...] = ()  # a film at rest on coarser grids, finest first
 
     @property
@@ -169,6 +170,7 @@ def film_solution(
         seconds=seconds,
         touch=touch,
         time_error=time_error,
+        formal_order=formal_order(settings.wedge),
     )
 
 
@@ -218,5 +220,6 @@ def unpack_solutions(
             newton_steps=newton_steps,
             krylov_steps=int(krylov_steps),
             touch=touch,
+            formal_order=formal_order(settings.wedge),
         )
     return solutions

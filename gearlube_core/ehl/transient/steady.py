@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gearlube_core.ehl.grid_error import check_search, coarser_films, refined_film
+from gearlube_core.ehl.grid_error import FIRST_ORDER, check_search, coarser_films, refined_film
 from gearlube_core.ehl.point.cavitation import refuse_rupture
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
@@ -162,5 +162,6 @@ def _on_grid(
     )
     if solution.converged:
         outcome = solution.outcome + record.fallen_back(settings.wedge)
-        solution = replace(solution, outcome=outcome)
+        order = FIRST_ORDER if record.first_order else solution.formal_order
+        solution = replace(solution, outcome=outcome, formal_order=order)
     return solution, "upwind-1" if record.first_order else settings.wedge

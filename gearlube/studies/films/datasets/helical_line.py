@@ -95,7 +95,12 @@ def helical_dataset(
             "minimum_film_y": film_y,
             "loaded_length": solution.loaded_length,
             "friction_coefficient": frictions[0] / load,
-            **error_attributes(replace(solution.error, friction=estimated_error(frictions))),
+            **error_attributes(
+                replace(
+                    solution.error,
+                    friction=estimated_error(frictions, formal=solution.formal_order),
+                )
+            ),
             "friction_force": float(np.trapezoid(across, y)),
             "sliding_power": float(np.trapezoid(across * (speed_2 - speed_1), y)),
             "residual": float(solution.residual),

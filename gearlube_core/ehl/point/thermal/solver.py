@@ -91,6 +91,11 @@ class ThermalPointSolution:
         return self.film.pressure
 
     @property
+    def formal_order(self) -> float:
+        """Return the order of the grid."""
+        return self.film.formal_order
+
+    @property
     def numbers(self) -> FilmNumbers:
         """Films, largest pressure and friction."""
         return self.film.numbers._replace(friction=self.friction_coefficient)
