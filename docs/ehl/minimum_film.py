@@ -41,7 +41,7 @@ VARIANTS = (
     Variant((97, 81), "quick", 2),
     Variant((97, 81), "quick", 4),
     Variant((97, 161), "quick"),
-    Variant((193, 161), "quick"),
+    *(Variant((193, 161), "quick", n) for n in (1, 2, 4, 8)),
 )
 
 
