@@ -29,8 +29,8 @@ class PrintedRun:
     """A march of a design between two steps; `crown_start` over the face width."""
 
     design: str
-    first: int = 0
-    last: int = 575
+    first: int
+    last: int
     crown_start: float = 0.0
     substeps: int = 1
 
@@ -43,8 +43,9 @@ class PrintedRun:
         )
 
 
-CYCLES = {design: PrintedRun(design) for design in "ab"}
-CROWNED = PrintedRun("a", LOOK - 40, LOOK, CROWN)
+# where the films of the cycle are thinnest, as `quick` finds them over the whole of it
+THIN = {"a": PrintedRun("a", 460, 515), "b": PrintedRun("b", 0, 60)}
+MIDDLE = {crown: PrintedRun("a", LOOK - 40, LOOK, crown) for crown in (0.0, CROWN)}
 SHORT = {n: PrintedRun("a", 470, 490, 0.0, n) for n in SUBSTEPS}
 
 
@@ -72,25 +73,26 @@ def printed_films(store: Store, run: PrintedRun) -> dict[str, Array]:
 
 
 def thinnest_printed(store: Store, design: str) -> float:
-    """Return the smallest film of the whole cycle as the thesis solved it [m]."""
-    return float(printed_films(store, CYCLES[design])["minimum_film"].min())
+    """Return the smallest film of a design as the thesis may have solved it [m]."""
+    return float(printed_films(store, THIN[design])["minimum_film"].min())
 
 
 def printed_film_table(store: Store) -> str:
-    """Return films of the thesis' scheme and spacing beside those it prints."""
-    a, b = (printed_films(store, CYCLES[d])["minimum_film"] for d in "ab")
-    crowned = printed_films(store, CROWNED)["minimum_film"][-1]
-    short = [printed_films(store, SHORT[n])["minimum_film"][-1] for n in SUBSTEPS]
+    """Return films of a first-order wedge on the thesis' spacing beside those it prints."""
     rows = [
-        ["A, smallest of the cycle", f"{UM * a.min():.3f}", "0.16"],
-        ["A, step 300", f"{UM * a[LOOK]:.3f}", "0.21"],
-        [f"A, F_o = {CROWN:g} F, step 300", f"{UM * crowned:.3f}", "0.14"],
-        ["B, smallest of the cycle", f"{UM * b.min():.3f}", "0.16"],
         [
-            f"A, step 490, from rest at 470: {SUBSTEPS[0]} / {SUBSTEPS[1]} time steps for one",
-            " / ".join(f"{UM * one:.3f}" for one in short),
-            "",
-        ],
+            f"{design.upper()}, smallest of steps {run.first} to {run.last}",
+            f"{UM * thinnest_printed(store, design):.3f}",
+            "0.16, of the whole cycle",
+        ]
+        for design, run in THIN.items()
     ]
+    for (crown, run), printed in zip(MIDDLE.items(), ("0.21", "0.14"), strict=True):
+        film = printed_films(store, run)["minimum_film"][-1]
+        rows.append([f"A, F_o = {crown:g} F, step {LOOK}", f"{UM * film:.3f}", printed])
+    for run in SHORT.values():
+        film = printed_films(store, run)["minimum_film"][-1]
+        words = f"A, step {run.last}, from rest at {run.first}, {run.substeps} time steps for one"
+        rows.append([words, f"{UM * film:.3f}", ""])
     heads = ["Film in motion", f"{WEDGE}, {NODES[0]} x {NODES[1]} nodes, um", "Thesis, um"]
     return table(heads, rows)
