@@ -97,7 +97,7 @@ def _in_words(store: Store) -> str:
         f"\nOn {nodes[0]} x {nodes[1]} nodes the steps go to {UM * film:.3f} um, with an error of "
         f"{UM * error:.3f} um; the thesis' own steps leave it {100.0 * (whole / film - 1.0):.0f} % "
         "too thick.\n\n**The printed film is probably thick by numerics.** The thesis names three "
-        "wedges (sec. 3.7.1), one of them\nof first order, and does not say which made these films. "
+        "wedges (sec. 3.7.1),\none of first order, and does not say which made these films. "
         "That of first order on the thesis' own spacing gives\nits films in motion again, and its "
         "finding that more time steps change little: the wedge spreads out what\npasses.\n"
     )
