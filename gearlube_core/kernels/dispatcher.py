@@ -31,6 +31,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
         pipeline_class: type = Compiler,
     ) -> None:
         options = {**(targetoptions or {}), "nopython": True, "no_cfunc_wrapper": True}
+        locals = locals or {}
         super().__init__(py_func, locals, options, pipeline_class)
         self._cache: Any = SourceCache(py_func)
         linked_options = options | {"no_cpython_wrapper": True}
