@@ -17,7 +17,7 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     helical_march_parameters,
 )
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.output_names import OUTPUT_NAMES
+from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh

@@ -22,7 +22,7 @@ from pythonfmu.enums import Fmi2Status
 from fmu_src.compile_ahead import compile_ahead
 from fmu_src.definition import Definition, Model, Value
 from fmu_src.host_thread import HostThread
-from fmu_src.identity import check_identity, guid_of
+from fmu_src.identity import IDENTITY_FILE, check_identity, guid_of
 from fmu_src.model_description import LOG_CATEGORIES
 from fmu_src.registration import register_variables
 from fmu_src.slave_state import SlaveState
@@ -67,10 +67,14 @@ class CoSimulationSlave(Fmi2Slave):
         # Not logged yet: see the third habit in `fmu_src.wrapper`.
         self._warnings = [
             check_identity(self.definition, self.resources or ""),
-            compile_ahead(self.definition),
+            compile_ahead(self.definition) if self._is_in_fmu() else "",
         ]
         if self.resources:
             unload_before_libraries(self.resources)
+
+    def _is_in_fmu(self) -> bool:
+        """Whether this instance can be stepped; pythonfmu's builder only reads the variables."""
+        return (Path(self.resources or "") / IDENTITY_FILE).is_file()
 
     def report(self, status: Fmi2Status, message: str) -> None:
         """Send `message` to the host's logger, and to Python's, which a host cannot switch off."""

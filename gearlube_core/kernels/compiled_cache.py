@@ -9,18 +9,18 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from types import FunctionType
-from typing import Any, TypeVar
+from typing import Any
 
-from numba import njit, types
+from numba import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 from numba.core.dispatcher import Dispatcher
 from numba.core.typing import Signature
 
+from gearlube_core.kernels.linked_code import rebuild_linked_code
 from gearlube_core.kernels.source_files import source_stamp
 
-_Function = TypeVar("_Function", bound=Callable[..., Any])
 _NOT_SOURCES = sys.stdlib_module_names | {"numpy", "scipy", "numba"}
 
 
@@ -28,6 +28,14 @@ class _Files(CompileResultCacheImpl):  # type: ignore[misc]
     def get_filename_base(self, fullname: str, abiflags: str) -> str:
         """Return a name other than that of numba's own cache, whose index may not be readable."""
         return f"{super().get_filename_base(fullname, abiflags)}.sources"
+
+
+class _LinkedFiles(_Files):
+    def get_filename_base(self, fullname: str, abiflags: str) -> str:
+        return f"{super().get_filename_base(fullname, abiflags)}.linked"
+
+    def rebuild(self, target_context: Any, payload: tuple[Any, ...]) -> Any:
+        return rebuild_linked_code(target_context, payload)
 
 
 class SourceCache(FunctionCache):  # type: ignore[misc]
@@ -63,15 +71,10 @@ class SourceCache(FunctionCache):  # type: ignore[misc]
         return (*key, tuple(stamps))
 
 
-def compiled(function: _Function, **options: Any) -> _Function:
-    """Compile `function` with numba on first call and keep the machine code on disk.
+class LinkedCache(SourceCache):
+    """The linked code of one function on disk, see `linked_code`."""
 
-    `options` are those of `numba.njit`.
-    """
-    dispatcher: Any = njit(**options)(function)
-    if isinstance(dispatcher, Dispatcher):  # it is the function itself under NUMBA_DISABLE_JIT
-        dispatcher._cache = SourceCache(function)  # type: ignore[attr-defined]
-    return dispatcher  # type: ignore[return-value, no-any-return]
+    _impl_class = _LinkedFiles
 
 
 def _found(parts: Iterable[Any]) -> Iterator[Any]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from gearlube_core.kernels.compiled_cache import compiled
+from gearlube_core.kernels.dispatcher import compiled
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 

@@ -15,8 +15,11 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
 )
-from gearlube_core.dynamics.helical_pair.march.constants import FlankConstants
-from gearlube_core.dynamics.helical_pair.march.flank_views import coast_view, drive_view
+from gearlube_core.dynamics.helical_pair.march.flank_views import (
+    FlankConstants,
+    coast_view,
+    drive_view,
+)
 from gearlube_core.dynamics.helical_pair.march.flank_wrench import flank_wrench, turned_wrench
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums, line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data

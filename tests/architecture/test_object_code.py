@@ -11,7 +11,7 @@ from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameter
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.outputs import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.friction.flank_laws import MixedFlankFriction

@@ -1,4 +1,4 @@
-"""An FMU parameter and an output are added by a line of the table and what the model has."""
+"""An FMU parameter or an output is added by a line of the table and the file of its kernel."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+import pytest
 
 from fmu_src.definition import Definition, Model
 from fmu_src.hypoid_axle import DEFINITION
@@ -17,9 +18,12 @@ from fmu_src.values import Values
 from fmu_src.variable_kinds import output, parameter
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 
-LOSS = parameter("mesh.hysteretic_loss", "1", "Coefficient of the mesh damping", start=0.009,
-                 minimum=0.0, maximum=0.5, nominal=0.01, argument="hysteretic_loss")  # fmt: skip
+FLOOR = parameter("mesh.frequency_floor", "Hz", "Lowest frequency of the mesh damping", start=50.0,
+                  minimum=1.0, maximum=1e4, nominal=100.0, argument="frequency_floor")  # fmt: skip
 POWER = output("mesh.power", "W", "Power through the mesh", 1e3)
+ROOT = Path(__file__).parents[2]
+AXLE, PAIR = "gearlube_core/dynamics/hypoid_axle", "gearlube_core/dynamics/helical_pair/march"
+TABLES = ("variables", "helical_variables")
 SNAPSHOT = Path(__file__).with_name("value_references.json")
 
 
@@ -42,7 +46,7 @@ class StandIn:
 
 EXTENDED = replace(
     DEFINITION,
-    variables=(*DEFINITION.variables, LOSS, POWER),
+    variables=(*DEFINITION.variables, FLOOR, POWER),
     output_names=(*DEFINITION.output_names, POWER.name),
 )
 
@@ -60,20 +64,20 @@ def test_the_description_has_the_new_variables_behind_the_released_ones() -> Non
     found = {v.get("name"): v for v in root.iter("ScalarVariable")}
     for reference, name, _ in json.loads(SNAPSHOT.read_text()):
         assert found[name].get("valueReference") == str(reference)
-    loss, power = found[LOSS.name], found[POWER.name]
-    assert (loss.get("causality"), power.get("causality")) == ("parameter", "output")
-    assert (loss[0].get("start"), power[0].get("unit")) == ("0.009", "W")
+    floor, power = found[FLOOR.name], found[POWER.name]
+    assert (floor.get("causality"), power.get("causality")) == ("parameter", "output")
+    assert (floor[0].get("start"), power[0].get("unit")) == ("50", "W")
     listed = [int(u.get("index", 0)) for u in root.find("ModelStructure/Outputs") or []]
     assert len(EXTENDED.variables) in listed  # counted from 1
 
 
 def test_a_parameter_reaches_the_axle_by_the_name_of_its_field() -> None:
-    assert LOSS.argument in {field.name for field in fields(HypoidAxleParameters)}
-    given = defaults(EXTENDED) | {LOSS.name: 0.02}
+    assert FLOOR.argument in {field.name for field in fields(HypoidAxleParameters)}
+    given = defaults(EXTENDED) | {FLOOR.name: 80.0}
     axle = EXTENDED.start_model(given, [60.0, 160.0, 313.15])
-    assert axle.kernel_parameters.loss == 0.02  # type: ignore[attr-defined]
+    assert axle.kernel_parameters.mesh.frequency_floor == 80.0  # type: ignore[attr-defined]
     plain = DEFINITION.start_model(defaults(DEFINITION), [60.0, 160.0, 313.15])
-    assert plain.kernel_parameters.loss == 0.009  # type: ignore[attr-defined]
+    assert plain.kernel_parameters.mesh.frequency_floor == 50.0  # type: ignore[attr-defined]
 
 
 def test_an_output_of_the_model_lands_on_its_value_reference() -> None:
@@ -82,3 +86,32 @@ def test_an_output_of_the_model_lands_on_its_value_reference() -> None:
     values = Values(definition, lambda problem: None)
     values.store_outputs(model.outputs)
     assert values.array[definition.references[POWER.name]] == model.outputs[-1]
+
+
+def naming(text: str, *folders: str) -> set[str]:
+    """Return the source files that hold a text."""
+    files = (path for folder in folders for path in (ROOT / folder).rglob("*.py"))
+    return {path.relative_to(ROOT).as_posix() for path in files if text in path.read_text()}
+
+
+@pytest.mark.parametrize(
+    ("folder", "table", "name", "kernel"),
+    [
+        (AXLE, "variables", '"mesh.stiffness"', "outputs"),
+        (AXLE, "variables", '"axle.efficiency"', "outputs"),
+        (AXLE, "variables", "roller_load_min", "bearing_outputs"),
+        (PAIR, "helical_variables", '"mesh.coast_contact"', "outputs"),
+        (PAIR, "helical_variables", '"pair.efficiency"', "outputs"),
+        (PAIR, "helical_variables", "film_thickness_mean", "line_outputs"),
+    ],
+)
+def test_an_output_is_named_in_the_table_and_beside_its_kernel_only(
+    folder: str, table: str, name: str, kernel: str
+) -> None:
+    in_tables = naming(name, "fmu_src")  # both FMUs may have an output of one name
+    assert f"fmu_src/{table}.py" in in_tables <= {f"fmu_src/{t}.py" for t in TABLES}
+    assert naming(name, folder) == {f"{folder}/{kernel}.py"}
+
+
+def test_a_number_of_the_mesh_force_is_declared_in_the_file_of_its_kernel_only() -> None:
+    assert naming(str(FLOOR.argument), "fmu_src", "gearlube_core") == {f"{AXLE}/mesh_force.py"}

@@ -13,7 +13,7 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     helical_march_parameters,
 )
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.output_names import ENERGIES, OUTPUT_INDEX
+from gearlube_core.dynamics.helical_pair.march.outputs import ENERGIES, OUTPUT_INDEX
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh

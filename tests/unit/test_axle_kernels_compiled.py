@@ -18,6 +18,8 @@ from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameter
 from gearlube_core.dynamics import flank_force, hypoid_axle, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
+    bearing_outputs,
+    flank_outputs,
     flanks,
     integrate,
     mesh_at_load,
@@ -27,7 +29,7 @@ from gearlube_core.dynamics.hypoid_axle import (
 )
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
-from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS, PINION_BEARINGS
+from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, N_OUTPUTS, PINION_BEARINGS
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     N_ODE,
@@ -88,9 +90,9 @@ def all_cases():
     mesh_data = MeshAtLoad(series, mesh.orders, window, mesh.nodes)
     mesh_at_load.blend_mesh(state[LOAD_TORQUE], 1.0, table, mesh_data)
     at_load = (mesh_data, state_of_oil)
-    force = mesh_force.mesh_force(state, series, mesh.orders, p).force
+    force = mesh_force.mesh_force(state, series, mesh.orders, p.mesh).force
     channels, friction = np.zeros(N_CHANNELS), np.zeros(rhs.N_FRICTION)
-    kernels.pair_channels(window, mesh.nodes, p.z_p, state[PHI_P], 0, N_CHANNELS, channels)
+    kernels.pair_channels(window, mesh.nodes, p.mesh.z_p, state[PHI_P], 0, N_CHANNELS, channels)
     control = axle.step_control
     scratch = np.zeros(rhs.SCRATCH)
     slope = np.zeros(N_ODE)
@@ -153,10 +155,10 @@ def all_cases():
         (flank_force.backlash_deflection, (-153e-6, 150e-6)),
         (flank_force.gated_force, (900.0, 2278.0, -0.1, 3e-6)),
         (flank_force.gated_force, (-30.0, 2278.0, -0.1, -0.1e-6)),
-        (mesh_force.reference_frequency, (p, 145.0)),
-        (mesh_force.reference_frequency, (p, -1.0)),
+        (mesh_force.reference_frequency, (p.mesh, 145.0)),
+        (mesh_force.reference_frequency, (p.mesh, -1.0)),
         *(
-            (mesh_force.mesh_force, (state, series, mesh.orders, parameters))
+            (mesh_force.mesh_force, (state, series, mesh.orders, parameters.mesh))
             for state in (state, separated, coasting)
             for parameters in (p, printed)
         ),
@@ -210,14 +212,25 @@ def all_cases():
         *(
             (mesh_at_load.follow_flank, (state, both_sides, parameters, mesh_data))
             for state in (state, separated, coasting, crossed, crossed_back)
-            for parameters in (p, p._replace(backlash=0.0))
+            for parameters in (p.mesh, p.mesh._replace(backlash=0.0))
         ),
         (outputs.stored_energy, (state, 5e8, state_of_oil, p)),
         (
-            outputs.write_flanks,
-            (state, force, window, mesh.nodes, OIL, state_of_oil, p, channels, zeros(N_OUTPUTS)),
+            flank_outputs.write_flanks,
+            (
+                state,
+                force,
+                window,
+                mesh.nodes,
+                OIL,
+                state_of_oil,
+                p,
+                FLANKS,
+                channels,
+                zeros(N_OUTPUTS),
+            ),
         ),
-        (outputs.write_shaft, (*write_shaft, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
+        (bearing_outputs.write_shaft, (*write_shaft, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
         *(
             (mean_power.mean_power, (state, slope, PINION_WORK, WORK_MARK, duration))
             for duration in (0.0, 1e-4)

@@ -12,11 +12,8 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     helical_march_parameters,
 )
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
-from gearlube_core.dynamics.helical_pair.march.output_names import (
-    LINES_MAX,
-    OUTPUT_INDEX,
-    OUTPUT_NAMES,
-)
+from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_INDEX, OUTPUT_NAMES
+from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh

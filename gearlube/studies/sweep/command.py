@@ -110,7 +110,7 @@ def sweep(
         speeds_kmh = numbers_from(
             "--speeds", ranges, "km/h", 1.0, 300.0, example="20:100:5", most=500
         )
-        logger.info("Preparing the axle; the first time this compiles it, about 20 s.")
+        logger.info("Preparing the axle; the first time this compiles it, about 15 s.")
         with progress_on(console, "sweep") as progress:
             dataset = run.run_sweep(
                 quick_sweep_settings(settings) if quick else settings,

@@ -2,7 +2,7 @@
 
 from gearlube_core.dynamics.hypoid_axle.linearise import linearise, modes
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
-from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_INDEX, OUTPUT_NAMES
+from gearlube_core.dynamics.hypoid_axle.outputs import OUTPUT_INDEX, OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     HypoidAxleParameters,
     mohammadpour_2015_axle,

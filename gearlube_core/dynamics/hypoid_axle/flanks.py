@@ -126,7 +126,7 @@ def flank_sum(
     boundary = 0.0
     if p.friction != 0.0 and force != 0.0:
         for pair in range(_PAIRS):
-            pair_channels(window, n_nodes, p.z_p, s[PHI_P], pair, N_CHANNELS, channels)
+            pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
             load = abs(force) * channels[SHARE]
             if load > 0.0:
                 sliding = sliding_speed(s, channels)

@@ -64,13 +64,13 @@ def step_limit(
     A share of the mesh period, a share of the period of the highest mode (which rises at most with
     the root of the mesh stiffness), and the stability limit of the mesh damping.
     """
-    mesh = p.z_p * abs(pinion_speed) / (2.0 * math.pi)
+    mesh = p.mesh.z_p * abs(pinion_speed) / (2.0 * math.pi)
     stiffening = math.sqrt(max(1.0, mean_stiffness / control.reference_stiffness))
     mode = control.highest_frequency * stiffening
     rate = max(mesh * control.steps_per_mesh_period, mode * control.steps_per_highest_period)
-    c = p.modal_damping
+    c = p.mesh.modal_damping
     if c == 0.0:
-        c = p.loss * mean_stiffness / reference_frequency(p, pinion_speed)
+        c = p.mesh.hysteretic_loss * mean_stiffness / reference_frequency(p.mesh, pinion_speed)
     rate = max(rate, c * control.compliance_rate / REAL_AXIS_LIMIT)
     return 1.0 / rate
 
@@ -219,7 +219,7 @@ def advance(
             stages,
         )
         if table.levels[0] < 0.0:
-            follow_flank(s, table, p, mesh)
+            follow_flank(s, table, p.mesh, mesh)
     total = 0.0
     for i in range(N_ODE):
         total += abs(s[i])

@@ -1,12 +1,36 @@
-"""Parameters of the axle for its kernels, as nested tuples of floats."""
+"""Numbers of the axle that any of its kernels may read; as a user gives them, and for kernels."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
+from gearlube_core.dynamics.scalars import Positive, Within
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.oil.lubricant import LubricantParameters
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AxleScalars(MeshForceScalars):
+    """Numbers of the axle that a user may give, besides those of `MeshForceScalars`.
+
+    Parameters
+    ----------
+    pinion_inertia, gear_inertia : float
+        About the members' axes [kg m2].
+    pinion_mass, gear_mass : float
+        [kg]
+    backlash : float
+        Total backlash 2b along the line of action [m], 0 to 2e-3.
+    """
+
+    pinion_inertia: Annotated[float, Positive("kg m2")]
+    gear_inertia: Annotated[float, Positive("kg m2")]
+    pinion_mass: Annotated[float, Positive("kg")]
+    gear_mass: Annotated[float, Positive("kg")]
+    backlash: Annotated[float, Within(0.0, 2e-3, "m", "150 um is 1.5e-4 m.")]
 
 
 class AxleParameters(NamedTuple):
@@ -19,13 +43,8 @@ class AxleParameters(NamedTuple):
     I_g: float  # kg m2
     m_p: float  # kg
     m_g: float  # kg
-    z_p: float  # pinion teeth [-]
-    backlash: float  # 2b along the line of action [m]
-    loss: float  # hysteretic loss coefficient of [mohammadpour_2015 (4)] [-]
-    frequency_floor: float  # lower clamp of f_m in [mohammadpour_2015 (4)], (25) [Hz]
-    modal_damping: float  # N s/m; zero selects [mohammadpour_2015 (4)]
+    mesh: MeshForceConstants
     lateral_sign: float  # +1 consistent, -1 as printed in [mohammadpour_2015 (1)] c-h
-    consistent: float  # 1 with the terms that make the mesh conserve energy, 0 as printed
     friction: float  # 1 with flank friction, 0 without
     drag: float  # 1 with bearing drag torque, 0 without
     preload: float  # axial preload of a bearing, for its drag [N]

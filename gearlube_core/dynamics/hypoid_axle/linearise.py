@@ -90,7 +90,7 @@ def linearise(axle: AxleInState, oil_temperature: float, torque: float) -> Linea
     """
     p = axle.kernel_parameters._replace(friction=0.0)
     elastic = p._replace(
-        loss=0.0,
+        mesh=p.mesh._replace(hysteretic_loss=0.0),
         bearing_p=p.bearing_p.without_loss(),
         bearing_g=p.bearing_g.without_loss(),
     )

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     MICRO,
@@ -77,7 +77,7 @@ def lateral_and_unloaded(
 def follow_flank(
     s: Array,
     table: MeshLevels,
-    p: AxleParameters,
+    p: MeshForceConstants,
     mesh: MeshAtLoad,
 ) -> None:
     """Take the mesh data of the other side when the teeth have crossed the middle of the gap.
@@ -96,7 +96,7 @@ def follow_flank(
         Changed at X and SIDE.
     table : MeshLevels
         With coast levels.
-    p : AxleParameters
+    p : MeshForceConstants
     mesh : MeshAtLoad
         The table at the present load; rewritten at a change of side.
     """

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import (
     PHI_P,
     U_G,
@@ -19,8 +19,37 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     W_P,
     X,
 )
+from gearlube_core.dynamics.scalars import Within
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshForceScalars:
+    """Numbers of the mesh force that a user may give.
+
+    Parameters
+    ----------
+    frequency_floor : float
+        Lower clamp of the frequency in [mohammadpour_2015 (4)] and [mohammadpour_2015 (25)] [Hz],
+        1 to 1e4; (4) diverges at rest, the paper's sweep starts at 100 Hz.
+    hysteretic_loss : float
+        Coefficient of [mohammadpour_2015 (4)] [-], 0 to 0.5.
+    """
+
+    frequency_floor: Annotated[float, Within(1.0, 1e4, "Hz")] = 50.0
+    hysteretic_loss: Annotated[float, Within(0.0, 0.5, cure="Default 0.009.")] = 0.009
+
+
+class MeshForceConstants(NamedTuple):
+    """Constants of the mesh for the kernels."""
+
+    z_p: float  # pinion teeth [-]
+    backlash: float  # 2b along the line of action [m]
+    frequency_floor: float  # Hz
+    hysteretic_loss: float  # [-]
+    modal_damping: float  # N s/m; zero selects [mohammadpour_2015 (4)]
+    consistent: float  # 1 with the terms that make the mesh conserve energy, 0 as printed
 
 
 class MeshForce(NamedTuple):
@@ -38,13 +67,13 @@ class MeshForce(NamedTuple):
 
 
 @kernel
-def reference_frequency(p: AxleParameters, pinion_speed: float) -> float:
+def reference_frequency(p: MeshForceConstants, pinion_speed: float) -> float:
     """Return the mesh frequency [Hz], clamped from below by p.frequency_floor."""
     return max(p.z_p * abs(pinion_speed) / (2.0 * math.pi), p.frequency_floor)
 
 
 @kernel
-def mesh_force(s: Array, series: Array, n_orders: int, p: AxleParameters) -> MeshForce:
+def mesh_force(s: Array, series: Array, n_orders: int, p: MeshForceConstants) -> MeshForce:
     """Return the mesh force in state `s`.
 
     x' = R_p w_p - R_g w_g + n.(v_p - v_g) + n'.(u_p - u_g) w_p - e' w_p
@@ -56,7 +85,7 @@ def mesh_force(s: Array, series: Array, n_orders: int, p: AxleParameters) -> Mes
     series : ndarray of shape (N_SERIES * (2 n_orders + 1),)
         Coefficients at the present load.
     n_orders : int
-    p : AxleParameters
+    p : MeshForceConstants
 
     Notes
     -----
@@ -87,7 +116,7 @@ def mesh_force(s: Array, series: Array, n_orders: int, p: AxleParameters) -> Mes
     elastic = m.k_m * f
     c = p.modal_damping
     if c == 0.0:
-        c = p.loss * m.k_m / reference_frequency(p, w_p)
+        c = p.hysteretic_loss * m.k_m / reference_frequency(p, w_p)
     force = elastic + c * x_rate
     torque_p = -m.R_p * force
     if p.consistent != 0.0:

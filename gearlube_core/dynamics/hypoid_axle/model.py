@@ -24,7 +24,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshLevels,
     blend_mesh,
 )
-from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
+from gearlube_core.dynamics.hypoid_axle.outputs import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -177,7 +177,7 @@ class HypoidAxle(SteppedModel[StepControl]):
         inputs = StepInputs(pinion_torque, 0.0, 0.0, 0.0)
         at_load = MeshAtLoad(series, mesh.orders, mesh.windows, mesh.nodes)
         deflection = pinion_torque / series[1] / series[0]
-        s[X] = MICRO * (deflection if deflection >= 0.0 else deflection - p.backlash)
+        s[X] = MICRO * (deflection if deflection >= 0.0 else deflection - p.mesh.backlash)
         # at rest: hysteresis and the ratio error's speed play no part in a static state
         speeds = s[W_P], s[W_G]
         free = np.r_[U_P : U_P + 3, U_G : U_G + 3]

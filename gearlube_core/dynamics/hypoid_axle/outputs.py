@@ -1,19 +1,17 @@
-"""Outputs of the axle from its state."""
+"""Outputs of the axle: their names, which are the FMU's public contract, and their kernels."""
 
 from __future__ import annotations
 
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import (
-    ShaftBearings,
-    ShaftMotion,
-    roller_load_range,
-    shaft_energy,
-    shaft_forces,
+from gearlube_core.bearings.bearing_type import shaft_energy
+from gearlube_core.dynamics.hypoid_axle.bearing_outputs import (
+    BEARING_OUTPUTS,
+    N_BEARING_QUANTITIES,
+    write_shaft,
 )
-from gearlube_core.dynamics.hypoid_axle import output_names as at
-from gearlube_core.dynamics.hypoid_axle.flanks import pair_friction, sliding_speed
+from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_OUTPUTS, write_flanks
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
@@ -58,10 +56,76 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.mean_power import mean_power
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS, SHARE
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import N_SERIES, pair_channels
+from gearlube_core.mesh_table.kernels import N_SERIES
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+
+OUTPUT_NAMES: tuple[str, ...] = (
+    "pinion.angle",
+    "wheel.angle",
+    "pinion.speed",
+    "wheel.speed",
+    "pinion.acceleration",
+    "wheel.acceleration",
+    "mesh.dte",
+    "mesh.force",
+    "mesh.separated",
+    "mesh.stiffness",
+    "mesh.frequency",
+    *FLANK_OUTPUTS,
+    "friction.power_loss",
+    "friction.power_loss_boundary",
+    "bearing.power_loss",
+    "damping.power_loss",
+    "efficiency",
+    "axle.efficiency",
+    *(f"{member}.displacement.{c}" for member in ("pinion", "wheel") for c in "xyz"),
+    *BEARING_OUTPUTS,
+    "bearing[1].roller[1].load",
+    "bearing[1].cage.angle",
+    "bearing[3].cage.angle",
+    "energy.pinion_work",
+    "energy.wheel_work",
+    "energy.friction_viscous",
+    "energy.friction_boundary",
+    "energy.mesh_damping",
+    "energy.bearing_damping",
+    "energy.bearing_torque",
+    "energy.stored",
+)
+OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
+N_OUTPUTS = len(OUTPUT_NAMES)
+
+# places of the outputs that the kernel writes by name
+PINION_ANGLE = OUTPUT_INDEX["pinion.angle"]
+WHEEL_ANGLE = OUTPUT_INDEX["wheel.angle"]
+PINION_SPEED = OUTPUT_INDEX["pinion.speed"]
+WHEEL_SPEED = OUTPUT_INDEX["wheel.speed"]
+PINION_ACCELERATION = OUTPUT_INDEX["pinion.acceleration"]
+WHEEL_ACCELERATION = OUTPUT_INDEX["wheel.acceleration"]
+DTE = OUTPUT_INDEX["mesh.dte"]
+MESH_FORCE = OUTPUT_INDEX["mesh.force"]
+SEPARATED = OUTPUT_INDEX["mesh.separated"]
+MESH_STIFFNESS = OUTPUT_INDEX["mesh.stiffness"]
+MESH_FREQUENCY = OUTPUT_INDEX["mesh.frequency"]
+FRICTION_LOSS = OUTPUT_INDEX["friction.power_loss"]
+BOUNDARY_LOSS = OUTPUT_INDEX["friction.power_loss_boundary"]
+BEARING_LOSS = OUTPUT_INDEX["bearing.power_loss"]
+DAMPING_LOSS = OUTPUT_INDEX["damping.power_loss"]
+EFFICIENCY = OUTPUT_INDEX["efficiency"]
+AXLE_EFFICIENCY = OUTPUT_INDEX["axle.efficiency"]
+FIRST_ROLLER = OUTPUT_INDEX["bearing[1].roller[1].load"]
+PINION_CAGE = OUTPUT_INDEX["bearing[1].cage.angle"]
+GEAR_CAGE = OUTPUT_INDEX["bearing[3].cage.angle"]
+STORED_ENERGY = OUTPUT_INDEX["energy.stored"]
+
+# first place of a group of outputs of one kind
+FLANKS = OUTPUT_INDEX[FLANK_OUTPUTS[0]]
+PINION_DISPLACEMENT = OUTPUT_INDEX["pinion.displacement.x"]
+WHEEL_DISPLACEMENT = OUTPUT_INDEX["wheel.displacement.x"]
+PINION_BEARINGS = OUTPUT_INDEX[BEARING_OUTPUTS[0]]
+GEAR_BEARINGS = PINION_BEARINGS + 2 * N_BEARING_QUANTITIES
+ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
 
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
@@ -77,82 +141,11 @@ def stored_energy(
     kinetic = p.I_p * s[W_P] * s[W_P] + p.I_g * s[W_G] * s[W_G]
     for i in range(3):
         kinetic += p.m_p * s[V_P + i] * s[V_P + i] + p.m_g * s[V_G + i] * s[V_G + i]
-    f = backlash_deflection(s[X] * UM, p.backlash)
+    f = backlash_deflection(s[X] * UM, p.mesh.backlash)
     elastic = 0.5 * mesh_stiffness * f * f
     elastic += shaft_energy(p.bearing_p, pinion_motion(s), oil)
     elastic += shaft_energy(p.bearing_g, gear_motion(s), oil)
     return 0.5 * kinetic + elastic
-
-
-@kernel
-def write_flanks(
-    s: Array,
-    force: float,
-    window: Array,
-    n_nodes: int,
-    oil_temperature: float,
-    oil: LubricantState,
-    p: AxleParameters,
-    channels: Array,
-    out: Array,
-) -> None:
-    """Write load, film, film ratio, friction coefficient and temperature of every flank.
-
-    A flank without load has no film: zeros, and the temperature of the oil.
-    """
-    for pair in range(at.N_FLANKS):
-        first = at.FLANKS + pair * at.N_FLANK_QUANTITIES
-        pair_channels(window, n_nodes, p.z_p, s[PHI_P], pair, N_CHANNELS, channels)
-        load = abs(force) * channels[SHARE]
-        out[first + at.FLANK_LOAD] = load
-        out[first + at.FILM_THICKNESS] = 0.0
-        out[first + at.FILM_RATIO] = 0.0
-        out[first + at.FRICTION_COEFFICIENT] = 0.0
-        out[first + at.TEMPERATURE] = oil_temperature
-        if load > 0.0:
-            flank = pair_friction(s, load, sliding_speed(s, channels), channels, oil, p)
-            out[first + at.FILM_THICKNESS] = flank.film_thickness
-            out[first + at.FILM_RATIO] = flank.film_ratio
-            if p.friction != 0.0:
-                out[first + at.FRICTION_COEFFICIENT] = flank.friction_coefficient
-                out[first + at.TEMPERATURE] = oil_temperature + flank.temperature_rise
-
-
-@kernel
-def write_shaft(
-    motion: ShaftMotion,
-    f_ref: float,
-    oil: LubricantState,
-    bearings: ShaftBearings,
-    first: int,
-    axes: tuple[int, int, int],
-    rollers: Array,
-    out: Array,
-) -> float:
-    """Write forces and extreme roller loads of two bearings; return roller 1 of the first [N].
-
-    Their outputs begin at `first`. `axes` are the places (0, 1, 2) of r1, r2 and the shaft in
-    x, y, z; `rollers` is work space of shape (ROLLERS_MAX,).
-    """
-    F = shaft_forces(bearings, motion, f_ref, oil)
-    one = first + at.BEARING_FORCE
-    out[one + axes[0]] = F[0]
-    out[one + axes[1]] = F[1]
-    out[one + axes[2]] = F[2]
-    two = one + at.N_BEARING_QUANTITIES
-    out[two + axes[0]] = F[3]
-    out[two + axes[1]] = F[4]
-    out[two + axes[2]] = F[5]
-    first_roller = 0.0
-    for k in range(2):
-        side = 1.0 - 2.0 * k
-        load, largest, smallest = roller_load_range(bearings, motion, f_ref, oil, side, rollers)
-        base = first + k * at.N_BEARING_QUANTITIES
-        out[base + at.ROLLER_LOAD_MAX] = largest
-        out[base + at.ROLLER_LOAD_MIN] = smallest
-        if k == 0:
-            first_roller = load
-    return first_roller
 
 
 @kernel
@@ -175,17 +168,17 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
     rollers = mean_power(s, rates, BEARING_DAMPING, WORK_MARK + 5, duration)
     drag = mean_power(s, rates, BEARING_TORQUE, WORK_MARK + 6, duration)
     friction = viscous + boundary
-    out[at.FRICTION_LOSS] = friction
-    out[at.BOUNDARY_LOSS] = boundary
-    out[at.BEARING_LOSS] = drag
-    out[at.DAMPING_LOSS] = mesh + rollers
-    out[at.EFFICIENCY] = 0.0
-    out[at.AXLE_EFFICIENCY] = 0.0
+    out[FRICTION_LOSS] = friction
+    out[BOUNDARY_LOSS] = boundary
+    out[BEARING_LOSS] = drag
+    out[DAMPING_LOSS] = mesh + rollers
+    out[EFFICIENCY] = 0.0
+    out[AXLE_EFFICIENCY] = 0.0
     idle_power = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
     put_in = pinion if pinion > 0.0 else -wheel
     if put_in > idle_power:
-        out[at.EFFICIENCY] = 1.0 - friction / put_in
-        out[at.AXLE_EFFICIENCY] = 1.0 - (friction + mesh + rollers + drag) / put_in
+        out[EFFICIENCY] = 1.0 - friction / put_in
+        out[AXLE_EFFICIENCY] = 1.0 - (friction + mesh + rollers + drag) / put_in
 
 
 @kernel
@@ -212,32 +205,34 @@ def write_outputs(
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     inputs = step_inputs(s, torques[0], torques[1], oil, p)
     axle_rhs(s, inputs, data, oil, p, 1.0, 1.0, scratch, rates)
-    mesh = mesh_force(s, data.series, data.n_orders, p)
+    mesh = mesh_force(s, data.series, data.n_orders, p.mesh)
     x = s[X] * UM
-    out[at.PINION_ANGLE] = s[PHI_P]
-    out[at.WHEEL_ANGLE] = s[PHI_G]
-    out[at.PINION_SPEED] = s[W_P]
-    out[at.WHEEL_SPEED] = s[W_G]
-    out[at.PINION_ACCELERATION] = rates[W_P]
-    out[at.WHEEL_ACCELERATION] = rates[W_G]
-    out[at.DTE] = x
-    out[at.MESH_FORCE] = mesh.force
-    out[at.SEPARATED] = 1.0 if -p.backlash < x < 0.0 else 0.0
-    out[at.MESH_STIFFNESS] = mesh.stiffness
-    out[at.MESH_FREQUENCY] = p.z_p * s[W_P] / (2.0 * math.pi)
+    out[PINION_ANGLE] = s[PHI_P]
+    out[WHEEL_ANGLE] = s[PHI_G]
+    out[PINION_SPEED] = s[W_P]
+    out[WHEEL_SPEED] = s[W_G]
+    out[PINION_ACCELERATION] = rates[W_P]
+    out[WHEEL_ACCELERATION] = rates[W_G]
+    out[DTE] = x
+    out[MESH_FORCE] = mesh.force
+    out[SEPARATED] = 1.0 if -p.mesh.backlash < x < 0.0 else 0.0
+    out[MESH_STIFFNESS] = mesh.stiffness
+    out[MESH_FREQUENCY] = p.mesh.z_p * s[W_P] / (2.0 * math.pi)
     channels = scratch[N_FRICTION:AT_EXPANSION]
-    write_flanks(s, mesh.force, data.window, data.n_nodes, oil_temperature, oil, p, channels, out)
+    write_flanks(
+        s, mesh.force, data.window, data.n_nodes, oil_temperature, oil, p, FLANKS, channels, out
+    )
     write_losses(s, rates, out)
     for i in range(3):
-        out[at.PINION_DISPLACEMENT + i] = s[U_P + i] * UM
-        out[at.WHEEL_DISPLACEMENT + i] = s[U_G + i] * UM
-    f_ref = reference_frequency(p, s[W_P])
-    out[at.FIRST_ROLLER] = write_shaft(
-        pinion_motion(s), f_ref, oil, p.bearing_p, at.PINION_BEARINGS, (2, 1, 0), rollers, out
+        out[PINION_DISPLACEMENT + i] = s[U_P + i] * UM
+        out[WHEEL_DISPLACEMENT + i] = s[U_G + i] * UM
+    f_ref = reference_frequency(p.mesh, s[W_P])
+    out[FIRST_ROLLER] = write_shaft(
+        pinion_motion(s), f_ref, oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0), rollers, out
     )
-    write_shaft(gear_motion(s), f_ref, oil, p.bearing_g, at.GEAR_BEARINGS, (0, 1, 2), rollers, out)
-    out[at.PINION_CAGE] = s[CAGE_P]
-    out[at.GEAR_CAGE] = s[CAGE_G]
+    write_shaft(gear_motion(s), f_ref, oil, p.bearing_g, GEAR_BEARINGS, (0, 1, 2), rollers, out)
+    out[PINION_CAGE] = s[CAGE_P]
+    out[GEAR_CAGE] = s[CAGE_G]
     for i in range(N_ENERGIES):
-        out[at.ENERGIES + i] = s[PINION_WORK + i]
-    out[at.STORED_ENERGY] = stored_energy(s, mesh.stiffness, oil, p)
+        out[ENERGIES + i] = s[PINION_WORK + i]
+    out[STORED_ENERGY] = stored_energy(s, mesh.stiffness, oil, p)

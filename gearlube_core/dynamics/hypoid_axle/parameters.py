@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Annotated, Literal, get_args
 
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
-from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
+from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
 from gearlube_core.friction.flank_laws import FLANK_LAWS
@@ -27,14 +29,15 @@ Friction = Literal["consistent", "as_printed", "off"]
 Approach = Literal["full", "as_printed"]
 TorqueLoss = Literal["none", "palmgren"]
 
-HYSTERETIC_LOSS = 0.009  # [-], [mohammadpour_2015 (4)], [mohammadpour_2015 (25)]
-FREQUENCY_FLOOR = 50.0  # Hz; [mohammadpour_2015 (4)] diverges at rest; the sweep starts at 100 Hz
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HypoidAxleParameters:
+class HypoidAxleParameters(AxleScalars):
     """Everything that defines one axle.
+
+    Its other fields are those of `kernel_parameters.AxleScalars`, such as masses and backlash, and
+    of `mesh_force.MeshForceScalars`.
 
     Parameters
     ----------
@@ -45,14 +48,8 @@ class HypoidAxleParameters:
     oil : Lubricant
     solid : Solid
         Both flanks.
-    pinion_inertia, gear_inertia : float
-        About the members' axes [kg m2].
-    pinion_mass, gear_mass : float
-        [kg]
     roughness_rms : float
         Composite root-mean-square roughness of the flanks [m].
-    backlash : float
-        Total backlash 2b along the line of action [m].
     equations : {"consistent", "as_printed"}
         Sign of the mesh force in the lateral equations, flank friction in them, and the terms with
         which the mesh conserves energy.
@@ -70,10 +67,6 @@ class HypoidAxleParameters:
     bearing_torque_loss : {"none", "palmgren"}
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
-    frequency_floor : float
-        Lower clamp of the frequency in [mohammadpour_2015 (4)] and [mohammadpour_2015 (25)] [Hz].
-    hysteretic_loss : float
-        Coefficient of [mohammadpour_2015 (4)] [-].
 
     References
     ----------
@@ -91,23 +84,16 @@ class HypoidAxleParameters:
     bearing: Bearing
     oil: Lubricant
     solid: Solid
-    pinion_inertia: float
-    gear_inertia: float
-    pinion_mass: float
-    gear_mass: float
-    roughness_rms: float
-    backlash: float
+    roughness_rms: Annotated[float, Within(1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")]
     equations: Equations = "consistent"
     radii: Radii = "consistent"
     mesh_stiffness: MeshStiffness = "tangent"
     mesh_damping: MeshDamping = "hysteretic"
-    modal_loss_factor: float = 0.06
+    modal_loss_factor: Annotated[float, Within(0.0, 1.0)] = 0.06
     friction: Friction | FlankLawMaker = "consistent"
     bearing_torque_loss: TorqueLoss = "palmgren"
-    steps_per_mesh_period: int = 64
-    steps_per_highest_period: int = 22
-    frequency_floor: float = FREQUENCY_FLOOR
-    hysteretic_loss: float = HYSTERETIC_LOSS
+    steps_per_mesh_period: Annotated[int, Within(16, 4096, cure="Default 64.")] = 64
+    steps_per_highest_period: Annotated[int, Within(8, 4096, cure="Default 22.")] = 22
 
     def __post_init__(self) -> None:
         check_option("equations", self.equations, get_args(Equations))
@@ -117,24 +103,7 @@ class HypoidAxleParameters:
         if isinstance(self.friction, str):
             check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
-        for name, unit in (
-            ("pinion_inertia", "kg m2"),
-            ("gear_inertia", "kg m2"),
-            ("pinion_mass", "kg"),
-            ("gear_mass", "kg"),
-        ):
-            check_positive(name, getattr(self, name), unit)
-        check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
-        check_within("backlash", self.backlash, 0.0, 2e-3, "m", "150 um is 1.5e-4 m.")
-        check_within("modal_loss_factor", self.modal_loss_factor, 0.0, 1.0)
-        check_within(
-            "steps_per_mesh_period", self.steps_per_mesh_period, 16, 4096, "", "Default 64."
-        )
-        check_within(
-            "steps_per_highest_period", self.steps_per_highest_period, 8, 4096, "", "Default 22."
-        )
-        check_within("hysteretic_loss", self.hysteretic_loss, 0.0, 0.5, "", "Default 0.009.")
-        check_within("frequency_floor", self.frequency_floor, 1.0, 1e4, "Hz")
+        check_scalars(self)
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
             raise ParameterError(
                 "modal_loss_factor must be above 0 with mesh_damping 'modal', got 0. "
@@ -168,18 +137,20 @@ class HypoidAxleParameters:
         """Return the floats for the kernels."""
         bearing = self.bearing.parameters()
         as_printed = self.equations == "as_printed"
-        return AxleParameters(
+        return constants_of(
+            AxleParameters,
+            self,
             I_p=self.pinion_inertia,
             I_g=self.gear_inertia,
             m_p=self.pinion_mass,
             m_g=self.gear_mass,
-            z_p=float(self.mesh.pinion_teeth),
-            backlash=self.backlash,
-            loss=self.hysteretic_loss,
-            frequency_floor=self.frequency_floor,
-            modal_damping=self.modal_damping,
+            mesh=constants_of(
+                MeshForceConstants,
+                self,
+                z_p=float(self.mesh.pinion_teeth),
+                consistent=0.0 if as_printed else 1.0,
+            ),
             lateral_sign=-1.0 if as_printed else 1.0,
-            consistent=0.0 if as_printed else 1.0,
             friction=0.0 if self.friction == "off" else 1.0,
             drag=1.0 if self.bearing_torque_loss == "palmgren" else 0.0,
             preload=self.bearing.preload_force(),

@@ -126,15 +126,15 @@ def axle_rhs(
     -----
     The printed [mohammadpour_2015 (1)] c-h has the opposite sign of n F to the one that
     [mohammadpour_2015 (2)] implies, and no flank friction in the lateral equations: p.lateral_sign
-    = -1, p.consistent = 0. The moment that the loaded rollers exert on the orbiting cage is carried
-    by its shaft in the consistent form; the paper has none, and its rollers then do work on
-    nothing.
+    = -1, p.mesh.consistent = 0. The moment that the loaded rollers exert on the orbiting cage is
+    carried by its shaft in the consistent form; the paper has none, and its rollers then do work
+    on nothing.
 
     References
     ----------
     [mohammadpour_2015 (1)] [mohammadpour_2015 (6)]
     """
-    mesh = mesh_force(s, mesh_data.series, mesh_data.n_orders, p)
+    mesh = mesh_force(s, mesh_data.series, mesh_data.n_orders, p.mesh)
     friction = flank_sum(
         s,
         mesh.force,
@@ -148,7 +148,7 @@ def axle_rhs(
     )
     w_p = s[W_P]
     w_g = s[W_G]
-    f_ref = reference_frequency(p, w_p)
+    f_ref = reference_frequency(p.mesh, w_p)
 
     expansion_p = scratch[AT_EXPANSION : AT_EXPANSION + N_EXPANSION]
     expansion_g = scratch[AT_EXPANSION + N_EXPANSION : SCRATCH]
@@ -159,7 +159,7 @@ def axle_rhs(
         expand_forces(p.bearing_g, gear, f_ref, oil, expansion_g)
     p_z, p_y, p_x, lost_p = expanded_forces(p.bearing_p, pinion, expansion_p)
     g_x, g_y, g_z, lost_g = expanded_forces(p.bearing_g, gear, expansion_g)
-    shared = p.consistent
+    shared = p.mesh.consistent
     cage_p = cage_torque(pinion.r1, pinion.r2, p_z, p_y)
     cage_g = cage_torque(gear.r1, gear.r2, g_x, g_y)
     on_shaft_p = shared * p.bearing_p.cage_ratio * cage_p - inputs.drag_p

@@ -1,12 +1,14 @@
-"""Constants of a pair for the time integration kernels: floats only."""
+"""Numbers of a pair that any kernel of the march may read; as a user gives them, and as floats."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, NamedTuple
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants, FlankScalars
+from gearlube_core.dynamics.scalars import Within
 from gearlube_core.oil.lubricant import LubricantParameters
 
 
@@ -31,19 +33,18 @@ class SupportConstants(NamedTuple):
     mobility_r: float  # 1/J_z of rotation [1/(kg m2)]
 
 
-class FlankConstants(NamedTuple):
-    """Geometry of the flanks, of which the back ones are the drive ones turned about."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MarchScalars(FlankScalars):
+    """Numbers of the pair that a user may give, besides those of `FlankScalars`.
 
-    plane: ContactPlane
-    damping: float  # `mesh_damping.damping_factor` [sqrt(kg)]
-    backlash: float  # normal [m]
-    coast_phase: float  # phase of drive flank plus phase of coast flank [mesh periods]
-    turn_cos: float  # cosine and sine of twice the angle of the line of centres against y
-    turn_sin: float
-    line_work: float  # 1: lines that move under load exchange work with the pinion; 0: none
-    lines: float  # contact lines in the line mesh
-    phases: float  # mesh phases in it
-    stations: float  # places along a line in it
+    Parameters
+    ----------
+    friction_updates_per_mesh_period : int
+        How often friction "film" is computed anew at each contact point, 4 to 4096; frozen in
+        between.
+    """
+
+    friction_updates_per_mesh_period: Annotated[int, Within(4, 4096)] = 16
 
 
 class MotionConstants(NamedTuple):

@@ -5,12 +5,9 @@ from __future__ import annotations
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import (
-    FlankConstants,
-    MarchConstants,
-    MotionConstants,
-)
+from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, MotionConstants
 from gearlube_core.dynamics.helical_pair.march.flank_views import (
+    FlankConstants,
     FlankView,
     coast_near,
     coast_view,

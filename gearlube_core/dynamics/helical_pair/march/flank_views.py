@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import FlankConstants
 from gearlube_core.dynamics.helical_pair.march.state import (
     PHI_P,
     PSI,
@@ -15,9 +15,39 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     U_P,
 )
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import plane_strain
+from gearlube_core.dynamics.scalars import Within
+from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.kernels.jit import kernel
 
 SPEED_OF_FULL_FRICTION = 0.01  # rad/s; below, friction fades so that it has no jump at rest
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlankScalars:
+    """Numbers of the flanks that a user may give.
+
+    Parameters
+    ----------
+    backlash : float
+        Normal backlash [m], 0 to 2e-3.
+    """
+
+    backlash: Annotated[float, Within(0.0, 2e-3, "m", "100 um is 1e-4 m.")]
+
+
+class FlankConstants(NamedTuple):
+    """Geometry of the flanks, of which the back ones are the drive ones turned about."""
+
+    plane: ContactPlane
+    damping: float  # `mesh_damping.damping_factor` [sqrt(kg)]
+    backlash: float  # normal [m]
+    coast_phase: float  # phase of drive flank plus phase of coast flank [mesh periods]
+    turn_cos: float  # cosine and sine of twice the angle of the line of centres against y
+    turn_sin: float
+    line_work: float  # 1: lines that move under load exchange work with the pinion; 0: none
+    lines: float  # contact lines in the line mesh
+    phases: float  # mesh phases in it
+    stations: float  # places along a line in it
 
 
 class FlankView(NamedTuple):

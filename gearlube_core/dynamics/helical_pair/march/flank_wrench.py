@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import FlankConstants
-from gearlube_core.dynamics.helical_pair.march.flank_views import turned
+from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants, turned
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums
 from gearlube_core.dynamics.helical_pair.march.state import (
     OM_G,

@@ -1,18 +1,40 @@
-"""Outputs of the single contact lines: kernel."""
+"""Outputs of the single contact lines: their names and the kernel that writes them."""
 
 from __future__ import annotations
 
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march import output_names as at
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import line_point
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
-from gearlube_core.dynamics.helical_pair.march.state import POINTS_PER_LINE, W_P
+from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, POINTS_PER_LINE, W_P
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
+
+LINE_QUANTITIES = (
+    "load",
+    "length",
+    "film_thickness_min",
+    "film_thickness_mean",
+    "film_ratio",
+    "friction_coefficient",
+    "sliding_speed",
+    "temperature",
+)
+LINE_OUTPUTS = tuple(f"line[{i}].{q}" for i in range(1, LINES_MAX + 1) for q in LINE_QUANTITIES)
+
+# places within the outputs of one contact line
+LOAD = LINE_QUANTITIES.index("load")
+LENGTH = LINE_QUANTITIES.index("length")
+FILM_THICKNESS_MIN = LINE_QUANTITIES.index("film_thickness_min")
+FILM_THICKNESS_MEAN = LINE_QUANTITIES.index("film_thickness_mean")
+FILM_RATIO = LINE_QUANTITIES.index("film_ratio")
+FRICTION_COEFFICIENT = LINE_QUANTITIES.index("friction_coefficient")
+SLIDING_SPEED = LINE_QUANTITIES.index("sliding_speed")
+TEMPERATURE = LINE_QUANTITIES.index("temperature")
+N_LINE_QUANTITIES = len(LINE_QUANTITIES)
 
 
 @kernel
@@ -24,23 +46,25 @@ def write_lines(
     data: Array,
     lubricant: LubricantState,
     p: MarchConstants,
+    first: int,
     out: Array,
 ) -> float:
     """Write the quantities of every line of the flank in `view`; return the thinnest film [m].
 
-    Means are weighted with the load. A line without load has no film: zeros, and the temperature of
-    the oil. `mu_at` is the place of the flank's friction coefficients in `s`.
+    Their outputs begin at `first`. Means are weighted with the load. A line without load has no
+    film: zeros, and the temperature of the oil. `mu_at` is the place of the flank's friction
+    coefficients in `s`.
     """
     lines = int(p.motion.flanks.lines)
-    for i in range(at.LINES_MAX):
-        first = at.LINES + i * at.N_LINE_QUANTITIES
-        for j in range(at.N_LINE_QUANTITIES):
-            out[first + j] = 0.0
-        out[first + at.TEMPERATURE] = oil_temperature
+    for i in range(LINES_MAX):
+        here = first + i * N_LINE_QUANTITIES
+        for j in range(N_LINE_QUANTITIES):
+            out[here + j] = 0.0
+        out[here + TEMPERATURE] = oil_temperature
     thinnest = math.inf
     for line in range(lines):
         slot = pair_slot(view.phase, line, lines)
-        first = at.LINES + slot * at.N_LINE_QUANTITIES
+        here = first + slot * N_LINE_QUANTITIES
         total = film_sum = mu_sum = slide_sum = rise_sum = length_sum = 0.0
         thin = math.inf
         for place in range(POINTS_PER_LINE):
@@ -57,14 +81,14 @@ def write_lines(
                 if p.friction_form > 0.0:
                     rise_sum += part * state.temperature_rise
                 thin = min(thin, state.film_thickness)
-        out[first + at.LINE_LENGTH] = length_sum
+        out[here + LENGTH] = length_sum
         if total > 0.0:
-            out[first + at.LINE_LOAD] = total
-            out[first + at.FILM_THICKNESS_MIN] = thin
-            out[first + at.FILM_THICKNESS_MEAN] = film_sum / total
-            out[first + at.FILM_RATIO] = thin / p.surface.sigma
-            out[first + at.FRICTION_COEFFICIENT] = mu_sum / total
-            out[first + at.SLIDING_SPEED] = slide_sum / total
-            out[first + at.TEMPERATURE] = oil_temperature + rise_sum / total
+            out[here + LOAD] = total
+            out[here + FILM_THICKNESS_MIN] = thin
+            out[here + FILM_THICKNESS_MEAN] = film_sum / total
+            out[here + FILM_RATIO] = thin / p.surface.sigma
+            out[here + FRICTION_COEFFICIENT] = mu_sum / total
+            out[here + SLIDING_SPEED] = slide_sum / total
+            out[here + TEMPERATURE] = oil_temperature + rise_sum / total
             thinnest = min(thinnest, thin)
     return thinnest if thinnest < math.inf else 0.0

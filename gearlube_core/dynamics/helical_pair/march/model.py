@@ -20,8 +20,7 @@ from gearlube_core.dynamics.helical_pair.march.integrate import (
     StepControl,
 )
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pack_march_mesh, pair_data
-from gearlube_core.dynamics.helical_pair.march.output_names import OUTPUT_NAMES
-from gearlube_core.dynamics.helical_pair.march.outputs import write_outputs
+from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES, write_outputs
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,

@@ -1,11 +1,10 @@
-"""Outputs of the marching model from its state: kernels."""
+"""Outputs of the marching model: their names, which are the FMU's contract, and their kernels."""
 
 from __future__ import annotations
 
 import math
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march import output_names as at
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, SupportConstants
 from gearlube_core.dynamics.helical_pair.march.flank_views import (
     coast_view,
@@ -13,7 +12,7 @@ from gearlube_core.dynamics.helical_pair.march.flank_views import (
     friction_direction,
 )
 from gearlube_core.dynamics.helical_pair.march.flank_wrench import flank_wrench, turned_wrench
-from gearlube_core.dynamics.helical_pair.march.line_outputs import write_lines
+from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_OUTPUTS, write_lines
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
@@ -42,6 +41,78 @@ from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import lubricant_state
 
+BEARING_QUANTITIES = ("force.x", "force.y", "force.z")
+N_BEARINGS = 4
+
+OUTPUT_NAMES: tuple[str, ...] = (
+    "pinion.angle",
+    "wheel.angle",
+    "pinion.speed",
+    "wheel.speed",
+    "pinion.acceleration",
+    "wheel.acceleration",
+    "mesh.dte",
+    "mesh.load",
+    "mesh.force.x",
+    "mesh.force.y",
+    "mesh.force.z",
+    "mesh.separated",
+    "mesh.coast_contact",
+    "mesh.stiffness",
+    "mesh.frequency",
+    "mesh.film_thickness_min",
+    *LINE_OUTPUTS,
+    "friction.power_loss",
+    "damping.power_loss",
+    "bearing.power_loss",
+    "efficiency",
+    "pair.efficiency",
+    *(
+        f"{member}.{quantity}.{c}"
+        for member in ("pinion", "wheel")
+        for quantity, axes in (("displacement", "xyz"), ("tilt", "xy"))
+        for c in axes
+    ),
+    *(f"bearing[{j}].{q}" for j in range(1, N_BEARINGS + 1) for q in BEARING_QUANTITIES),
+    "energy.pinion_work",
+    "energy.wheel_work",
+    "energy.friction",
+    "energy.mesh_damping",
+    "energy.bearing_damping",
+    "energy.stored",
+)
+OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
+N_OUTPUTS = len(OUTPUT_NAMES)
+
+# places of the outputs that the kernels write by name
+PINION_ANGLE = OUTPUT_INDEX["pinion.angle"]
+WHEEL_ANGLE = OUTPUT_INDEX["wheel.angle"]
+PINION_SPEED = OUTPUT_INDEX["pinion.speed"]
+WHEEL_SPEED = OUTPUT_INDEX["wheel.speed"]
+PINION_ACCELERATION = OUTPUT_INDEX["pinion.acceleration"]
+WHEEL_ACCELERATION = OUTPUT_INDEX["wheel.acceleration"]
+DTE = OUTPUT_INDEX["mesh.dte"]
+MESH_LOAD = OUTPUT_INDEX["mesh.load"]
+SEPARATED = OUTPUT_INDEX["mesh.separated"]
+COAST_CONTACT = OUTPUT_INDEX["mesh.coast_contact"]
+MESH_STIFFNESS = OUTPUT_INDEX["mesh.stiffness"]
+MESH_FREQUENCY = OUTPUT_INDEX["mesh.frequency"]
+THINNEST_FILM = OUTPUT_INDEX["mesh.film_thickness_min"]
+FRICTION_LOSS = OUTPUT_INDEX["friction.power_loss"]
+DAMPING_LOSS = OUTPUT_INDEX["damping.power_loss"]
+BEARING_LOSS = OUTPUT_INDEX["bearing.power_loss"]
+EFFICIENCY = OUTPUT_INDEX["efficiency"]
+PAIR_EFFICIENCY = OUTPUT_INDEX["pair.efficiency"]
+STORED_ENERGY = OUTPUT_INDEX["energy.stored"]
+
+# first place of a group of outputs of one kind
+MESH_FORCE = OUTPUT_INDEX["mesh.force.x"]
+LINES = OUTPUT_INDEX[LINE_OUTPUTS[0]]
+DISPLACEMENTS = OUTPUT_INDEX["pinion.displacement.x"]  # in the order of the state
+BEARINGS = OUTPUT_INDEX["bearing[1].force.x"]
+ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
+N_BEARING_QUANTITIES = len(BEARING_QUANTITIES)
+
 BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c_z
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
@@ -62,11 +133,11 @@ def member_energy(s: Array, u: int, v: int, k: SupportConstants) -> float:
 @kernel
 def write_bearings(s: Array, bearings: Array, out: Array) -> None:
     """Write the forces of the four bearings on their shafts."""
-    for j in range(at.N_BEARINGS):
+    for j in range(N_BEARINGS):
         u = U_P if j < 2 else U_G
         v = V_P if j < 2 else V_G
         b = bearings[j * BEARING_FIELDS : (j + 1) * BEARING_FIELDS]
-        first = at.BEARINGS + j * at.N_BEARING_QUANTITIES
+        first = BEARINGS + j * N_BEARING_QUANTITIES
         out[first] = -(b[0] * s[u] + b[1] * s[u + 4] + b[5] * s[v])
         out[first + 1] = -(b[2] * s[u + 1] + b[3] * s[u + 3] + b[6] * s[v + 1])
         out[first + 2] = -(b[4] * s[u + 2] + b[7] * s[v + 2])
@@ -85,16 +156,16 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
     friction = mean_power(s, rates, PINION_WORK + 2, WORK_MARK + 2, duration)
     mesh = mean_power(s, rates, PINION_WORK + 3, WORK_MARK + 3, duration)
     bearings = mean_power(s, rates, PINION_WORK + 4, WORK_MARK + 4, duration)
-    out[at.FRICTION_LOSS] = friction
-    out[at.DAMPING_LOSS] = mesh
-    out[at.BEARING_LOSS] = bearings
-    out[at.EFFICIENCY] = 0.0
-    out[at.PAIR_EFFICIENCY] = 0.0
+    out[FRICTION_LOSS] = friction
+    out[DAMPING_LOSS] = mesh
+    out[BEARING_LOSS] = bearings
+    out[EFFICIENCY] = 0.0
+    out[PAIR_EFFICIENCY] = 0.0
     idle_power = _IDLE_WORK * (1.0 / duration) if duration > 0.0 else _IDLE_WORK
     put_in = pinion if pinion > 0.0 else -wheel
     if put_in > idle_power:
-        out[at.EFFICIENCY] = 1.0 - friction / put_in
-        out[at.PAIR_EFFICIENCY] = 1.0 - (friction + mesh + bearings) / put_in
+        out[EFFICIENCY] = 1.0 - friction / put_in
+        out[PAIR_EFFICIENCY] = 1.0 - (friction + mesh + bearings) / put_in
 
 
 @kernel
@@ -126,35 +197,35 @@ def write_outputs(
     direction = friction_direction(s[W_P])
     force = flank_wrench(on_drive, direction, plane)
     back = turned_wrench(flank_wrench(on_coast, -direction, plane), flanks)
-    out[at.PINION_ANGLE] = s[PHI_P]
-    out[at.WHEEL_ANGLE] = s[PHI_G]
-    out[at.PINION_SPEED] = s[W_P]
-    out[at.WHEEL_SPEED] = s[W_G]
-    out[at.PINION_ACCELERATION] = rates[W_P]
-    out[at.WHEEL_ACCELERATION] = rates[W_G]
-    out[at.DTE] = s[PSI] + s[U_P] - s[U_G]
-    out[at.MESH_LOAD] = on_drive.N - on_coast.N
-    out[at.MESH_FORCE] = force.F_x + back.F_x
-    out[at.MESH_FORCE + 1] = force.F_y + back.F_y
-    out[at.MESH_FORCE + 2] = force.F_z + back.F_z
-    out[at.SEPARATED] = 1.0 if on_drive.N == 0.0 and on_coast.N == 0.0 else 0.0
-    out[at.COAST_CONTACT] = 1.0 if on_coast.N > 0.0 else 0.0
+    out[PINION_ANGLE] = s[PHI_P]
+    out[WHEEL_ANGLE] = s[PHI_G]
+    out[PINION_SPEED] = s[W_P]
+    out[WHEEL_SPEED] = s[W_G]
+    out[PINION_ACCELERATION] = rates[W_P]
+    out[WHEEL_ACCELERATION] = rates[W_G]
+    out[DTE] = s[PSI] + s[U_P] - s[U_G]
+    out[MESH_LOAD] = on_drive.N - on_coast.N
+    out[MESH_FORCE] = force.F_x + back.F_x
+    out[MESH_FORCE + 1] = force.F_y + back.F_y
+    out[MESH_FORCE + 2] = force.F_z + back.F_z
+    out[SEPARATED] = 1.0 if on_drive.N == 0.0 and on_coast.N == 0.0 else 0.0
+    out[COAST_CONTACT] = 1.0 if on_coast.N > 0.0 else 0.0
     touching = on_drive.stiffness + on_coast.stiffness
-    out[at.MESH_STIFFNESS] = plane.cos_b * plane.cos_b * touching
-    out[at.MESH_FREQUENCY] = p.teeth * s[W_P] / (2.0 * math.pi)
+    out[MESH_STIFFNESS] = plane.cos_b * plane.cos_b * touching
+    out[MESH_FREQUENCY] = p.teeth * s[W_P] / (2.0 * math.pi)
     oil = lubricant_state(p.oil, oil_temperature)
     view = drive if on_drive.N >= on_coast.N else coast
     mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
-    out[at.THINNEST_FILM] = write_lines(view, mu_at, s, oil_temperature, data, oil, p, out)
+    out[THINNEST_FILM] = write_lines(view, mu_at, s, oil_temperature, data, oil, p, LINES, out)
     write_losses(s, rates, out)
     for i in range(N_LATERAL):
-        out[at.DISPLACEMENTS + i] = s[U_P + i]
+        out[DISPLACEMENTS + i] = s[U_P + i]
     write_bearings(s, bearings, out)
     for i in range(N_ENERGIES):
-        out[at.ENERGIES + i] = s[PINION_WORK + i]
+        out[ENERGIES + i] = s[PINION_WORK + i]
     stored = 0.5 * s[W_P] * s[W_P] / p.motion.pinion.mobility_r
     stored += 0.5 * s[W_G] * s[W_G] / p.motion.gear.mobility_r
     stored += member_energy(s, U_P, V_P, p.motion.pinion) + member_energy(
         s, U_G, V_G, p.motion.gear
     )
-    out[at.STORED_ENERGY] = stored + on_drive.energy + on_coast.energy
+    out[STORED_ENERGY] = stored + on_drive.energy + on_coast.energy

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Annotated, Literal, get_args
 
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.constants import (
-    FlankConstants,
     MarchConstants,
+    MarchScalars,
     MotionConstants,
     SupportConstants,
 )
+from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants
 from gearlube_core.dynamics.helical_pair.march.mesh_data import all_stations
-from gearlube_core.dynamics.helical_pair.march.output_names import LINES_MAX
+from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
 from gearlube_core.dynamics.helical_pair.mesh_match import check_line_mesh, effective_mass
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupport
@@ -24,6 +25,7 @@ from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     support_damping,
     support_stiffness,
 )
+from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
@@ -31,6 +33,8 @@ from gearlube_core.oil.lubricant import Lubricant
 Form = Literal["twelve_dof", "six_dof"]
 Friction = Literal["film", "constant", "off"]
 Equations = Literal["consistent", "he_2007"]
+
+_DAMPING = Within(0.0, 1.0, cure="Five percent is usual.")
 
 FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
 
@@ -75,8 +79,11 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HelicalMarchParameters:
+class HelicalMarchParameters(MarchScalars):
     """Everything that defines one pair in motion.
+
+    Its other fields are those of `constants.MarchScalars` and of `flank_views.FlankScalars`, such
+    as the backlash.
 
     Parameters
     ----------
@@ -85,8 +92,6 @@ class HelicalMarchParameters:
     mesh : LineMesh
         Stiffness density and offset; both flanks have the same.
     pinion, gear : Body
-    backlash : float
-        Normal backlash [m].
     friction : {"film", "constant", "off"}
         Mixed friction of the film at every contact point; Coulomb with one coefficient; none.
     friction_coefficient : float
@@ -108,8 +113,6 @@ class HelicalMarchParameters:
         transmission error differs by 0.01 percent.
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
-    friction_updates_per_mesh_period : int
-        How often "film" is computed anew at each contact point; frozen in between.
 
     References
     ----------
@@ -120,35 +123,23 @@ class HelicalMarchParameters:
     mesh: LineMesh
     pinion: Body
     gear: Body
-    backlash: float
     oil: Lubricant
     friction: Friction = "film"
-    friction_coefficient: float = 0.05
-    roughness_rms: float = 0.5e-6
+    friction_coefficient: Annotated[float, Within(0.0, 1.0)] = 0.05
+    roughness_rms: Annotated[float, Within(1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")] = 0.5e-6
     solid: Solid = STEEL_MOHAMMADPOUR_2015
-    mesh_damping_ratio: float = 0.05
-    support_damping_ratio: float = 0.05
+    mesh_damping_ratio: Annotated[float, _DAMPING] = 0.05
+    support_damping_ratio: Annotated[float, _DAMPING] = 0.05
     form: Form = "twelve_dof"
     equations: Equations = "consistent"
-    steps_per_mesh_period: int = 64
-    steps_per_highest_period: int = 8
-    friction_updates_per_mesh_period: int = 16
+    steps_per_mesh_period: Annotated[int, Within(16, 4096)] = 64
+    steps_per_highest_period: Annotated[int, Within(6, 4096)] = 8
 
     def __post_init__(self) -> None:
         check_option("friction", self.friction, get_args(Friction))
         check_option("form", self.form, get_args(Form))
         check_option("equations", self.equations, get_args(Equations))
-        check_within("backlash", self.backlash, 0.0, 2e-3, "m", "100 um is 1e-4 m.")
-        check_within("friction_coefficient", self.friction_coefficient, 0.0, 1.0)
-        check_within("roughness_rms", self.roughness_rms, 1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")
-        for name in ("mesh_damping_ratio", "support_damping_ratio"):
-            check_within(name, getattr(self, name), 0.0, 1.0, "", "Five percent is usual.")
-        for name, low in (
-            ("steps_per_mesh_period", 16),
-            ("steps_per_highest_period", 6),
-            ("friction_updates_per_mesh_period", 4),
-        ):
-            check_within(name, getattr(self, name), low, 4096)
+        check_scalars(self)
         check_line_mesh(self.mesh, self.pair, LINES_MAX)
 
     @property
@@ -175,11 +166,11 @@ class HelicalMarchParameters:
         plane = self.pair.plane
         height = plane.r_bp + plane.r_bg
         square = plane.x_g**2 + height**2
-        flanks = FlankConstants(
+        flanks = constants_of(
+            FlankConstants,
+            self,
             plane=plane,
             damping=damping_factor(self.mesh_damping_ratio, self.effective_mass, plane.cos_b),
-            backlash=self.backlash,
-            coast_phase=self.coast_phase,
             turn_cos=(height**2 - plane.x_g**2) / square,
             turn_sin=2.0 * plane.x_g * height / square,
             line_work=1.0 if self.equations == "consistent" else 0.0,
@@ -187,7 +178,9 @@ class HelicalMarchParameters:
             phases=float(self.mesh.phase.size),
             stations=float(all_stations(self.mesh).size),
         )
-        return MarchConstants(
+        return constants_of(
+            MarchConstants,
+            self,
             motion=MotionConstants(
                 flanks=flanks,
                 pinion=self.pinion.constants(self.support_damping_ratio, held),

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.constants import (
-    FlankConstants,
-    MotionConstants,
-    SupportConstants,
-)
+from gearlube_core.dynamics.helical_pair.march.constants import MotionConstants, SupportConstants
 from gearlube_core.dynamics.helical_pair.march.flank_views import (
+    FlankConstants,
     coast_near,
     coast_view,
     drive_view,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from gearlube_core.dynamics.helical_pair.march.output_names import LINES_MAX
-
 PSI = 0  # r_bp phi_p - r_bg phi_g: relative rotation along the line of action [m]
 W_P, W_G = 1, 2  # speeds of pinion and gear, forward positive [rad/s]
 PHI_P, PHI_G = 3, 4  # angles, forward positive [rad]; the contact lines follow the pinion's
@@ -21,6 +19,7 @@ LOAD_TORQUE = 30  # filtered abs(pinion torque) that selects the level of the li
 TIME_IN_STEP = 31  # length of the last communication step [s]
 WORK_MARK = 32  # the energies at the start of the last communication step [J]
 REFRESHED = WORK_MARK + N_ENERGIES  # when friction was last computed [refreshes since phase 0]
+LINES_MAX = 6  # contact lines at once; a total contact ratio above 6 is refused
 POINTS_PER_LINE = 4  # two Gauss points on either side of the pitch line
 FLANK_POINTS = LINES_MAX * POINTS_PER_LINE
 MU = REFRESHED + 1  # coefficients of friction: drive flank, then coast flank [-]

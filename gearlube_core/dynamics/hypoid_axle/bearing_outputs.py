@@ -1,0 +1,62 @@
+"""Outputs of the bearings: their names and the kernel that writes them."""
+
+from __future__ import annotations
+
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.bearing_type import (
+    ShaftBearings,
+    ShaftMotion,
+    roller_load_range,
+    shaft_forces,
+)
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
+
+BEARING_QUANTITIES = ("force.x", "force.y", "force.z", "roller_load_max", "roller_load_min")
+N_BEARINGS = 4  # two of the pinion, then two of the gear
+BEARING_OUTPUTS = tuple(
+    f"bearing[{j}].{q}" for j in range(1, N_BEARINGS + 1) for q in BEARING_QUANTITIES
+)
+
+# places within the outputs of one bearing
+FORCE = BEARING_QUANTITIES.index("force.x")
+ROLLER_LOAD_MAX = BEARING_QUANTITIES.index("roller_load_max")
+ROLLER_LOAD_MIN = BEARING_QUANTITIES.index("roller_load_min")
+N_BEARING_QUANTITIES = len(BEARING_QUANTITIES)
+
+
+@kernel
+def write_shaft(
+    motion: ShaftMotion,
+    f_ref: float,
+    oil: LubricantState,
+    bearings: ShaftBearings,
+    first: int,
+    axes: tuple[int, int, int],
+    rollers: Array,
+    out: Array,
+) -> float:
+    """Write forces and extreme roller loads of two bearings; return roller 1 of the first [N].
+
+    Their outputs begin at `first`. `axes` are the places (0, 1, 2) of r1, r2 and the shaft in
+    x, y, z; `rollers` is work space of shape (ROLLERS_MAX,).
+    """
+    F = shaft_forces(bearings, motion, f_ref, oil)
+    one = first + FORCE
+    out[one + axes[0]] = F[0]
+    out[one + axes[1]] = F[1]
+    out[one + axes[2]] = F[2]
+    two = one + N_BEARING_QUANTITIES
+    out[two + axes[0]] = F[3]
+    out[two + axes[1]] = F[4]
+    out[two + axes[2]] = F[5]
+    first_roller = 0.0
+    for k in range(2):
+        side = 1.0 - 2.0 * k
+        load, largest, smallest = roller_load_range(bearings, motion, f_ref, oil, side, rollers)
+        base = first + k * N_BEARING_QUANTITIES
+        out[base + ROLLER_LOAD_MAX] = largest
+        out[base + ROLLER_LOAD_MIN] = smallest
+        if k == 0:
+            first_roller = load
+    return first_roller

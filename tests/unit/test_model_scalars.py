@@ -1,0 +1,54 @@
+"""Numbers that a kernel declares in its own file: added from outside the package."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Annotated, NamedTuple
+
+import pytest
+
+from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters, mohammadpour_2015_axle
+from gearlube_core.dynamics.scalars import Within, constants_of
+from gearlube_core.errors import ParameterError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AdhesionScalars(HypoidAxleParameters):
+    adhesion: Annotated[float, Within(0.0, 9.0, "N", "Oil pulls with less than 1 N.")] = 0.25
+
+
+class AdhesionConstants(NamedTuple):
+    adhesion: float
+    backlash: float
+
+
+def sticky_axle() -> AdhesionScalars:
+    axle = mohammadpour_2015_axle()
+    return AdhesionScalars(**{field.name: getattr(axle, field.name) for field in fields(axle)})
+
+
+def test_a_new_number_is_a_keyword_with_a_default_and_reaches_its_kernel() -> None:
+    axle = sticky_axle()
+    assert constants_of(AdhesionConstants, axle) == (0.25, 150e-6)
+    assert constants_of(AdhesionConstants, replace(axle, adhesion=2), backlash=0.0) == (2.0, 0.0)
+
+
+def test_a_new_number_is_checked_as_its_annotation_says() -> None:
+    with pytest.raises(ParameterError) as caught:
+        replace(sticky_axle(), adhesion=9.5)
+    assert str(caught.value) == (
+        "adhesion must be within 0 to 9 N, got 9.5 N. Oil pulls with less than 1 N."
+    )
+
+
+def test_the_numbers_of_the_model_stay_checked() -> None:
+    for change in ({"hysteretic_loss": 0.6}, {"gear_mass": 0.0}, {"steps_per_mesh_period": 8}):
+        with pytest.raises(ParameterError, match=next(iter(change))):
+            replace(sticky_axle(), **change)  # type: ignore[arg-type]
+
+
+def test_constants_that_nobody_gives_or_takes_are_errors() -> None:
+    with pytest.raises(AttributeError, match="adhesion"):
+        constants_of(AdhesionConstants, mohammadpour_2015_axle())
+    with pytest.raises(TypeError, match="lateral"):
+        constants_of(AdhesionConstants, sticky_axle(), lateral=1.0)
