@@ -6,11 +6,16 @@ import os
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from tests.helpers.session_folder import open_session_folder
 
 # started by tests in processes of their own, in an environment made for them
 collect_ignore = ["fmu/importer_ecos.py", "fmu/importer_libcosim.py"]
+
+# the first call of a kernel compiles it, however fast it is afterwards
+settings.register_profile("compiled kernels", deadline=None)
+settings.load_profile("compiled kernels")
 
 _folder = open_session_folder()
 
