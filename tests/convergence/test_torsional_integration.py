@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from gearlube_core.dynamics.hypoid_torsional.angle_march import OK, march
+from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, OK, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from tests.helpers.torsional_cases import periodic_orbit, reconstructed, time_rates
@@ -16,7 +16,7 @@ def marched(model, speed, steps, periods):
     y = model.initial_state(speed)
     status = march(
         y, 0, periods, model.mean_load_torque, speed, model.rows(steps), model.kernel_parameters,
-        np.zeros((0, 5)),
+        np.zeros((0, 5)), np.zeros(MARCH_WORK),
     )  # fmt: skip
     assert status == OK
     return y

@@ -73,7 +73,5 @@ def mode_margin(mode: int, x: float, x_rate: float, k: float, p: TorsionalParame
         push = depth + min(1.0, depth / DAMPING_BUILD_UP) * p.c * rate / k
         return min(depth, -push)
     if kind == LAYER:
-        return min(
-            min(depth, DAMPING_BUILD_UP - depth), DAMPING_BUILD_UP + p.c * rate / k
-        )
+        return min(min(depth, DAMPING_BUILD_UP - depth), DAMPING_BUILD_UP + p.c * rate / k)
     return min(depth - DAMPING_BUILD_UP, depth + p.c * rate / k)

@@ -192,7 +192,14 @@ class PeriodProblem:
         y, load_torque = self.state(np.asarray(z, dtype=np.float64), speed)
         record = np.zeros((self.periods * self.steps_per_mesh_period, N_RECORD))
         march(
-            y, 0, self.periods, load_torque, float(speed), self._rows, self._p, record,
+            y,
+            0,
+            self.periods,
+            load_torque,
+            float(speed),
+            self._rows,
+            self._p,
+            record,
             np.zeros(MARCH_WORK),
         )
         x = record[:, 1] * UM

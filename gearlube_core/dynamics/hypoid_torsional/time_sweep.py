@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
+from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.rates import UM
