@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
 from gearlube_core.periodic.problem import PeriodicProblem
 
+_LEAST, _MOST = 0.11, 9.9e3  # N.m, inside the range of the parameters
 _STEP = 1e-5  # of the torque, in the central difference by it
 
 
@@ -43,8 +46,10 @@ class LoadProblem:
     ) -> None:
         self.speed = check_positive("speed", speed, "rad/s")
         self.parameters = parameters
+        self.periods = periods
         self._options = {"periods": periods, "steps_per_mesh_period": steps_per_mesh_period}
         self._start = self.at(parameters.pinion_torque)
+        self._states = 3 if parameters.form == "two_dof" else 2
 
     def at(self, torque: float) -> PeriodProblem:
         """Return the problem over the speed at pinion torque `torque` [N.m]."""
@@ -56,6 +61,10 @@ class LoadProblem:
 
     def residual(self, z: Array, torque: float) -> tuple[Array, Array, Array, Array]:
         """Return the residual, its derivatives by z and by the torque, and the monodromy."""
+        if not _LEAST <= torque <= _MOST:  # a trial step that leaves the range finds no motion
+            n, m = z.size, self._states
+            nothing = np.full((n, n), np.nan)
+            return nothing[0], nothing, nothing[0], np.full((m, m), np.nan)
         residual, jacobian, _, monodromy = self.at(torque).residual(z, self.speed)
         step = _STEP * torque
         above, below = (
