@@ -12,8 +12,8 @@ from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE, EDGE_WORDS
 
 def mark_edge_pressure(axes: Any) -> None:
     """Shade what lies above `EDGE_PRESSURE` in axes of GPa, and say what such a pressure is."""
-    drawn = np.concatenate([np.ravel(line.get_ydata()) for line in axes.lines] or [[0.0]])
-    top = np.nanmax(np.append(drawn.astype(float), 0.0))
+    drawn = [np.ravel(line.get_ydata()).astype(float) for line in axes.lines]
+    top = float(np.nanmax(np.concatenate([np.zeros(1), *drawn])))
     limit = 1e-9 * EDGE_PRESSURE
     if top <= limit:
         return

@@ -56,20 +56,21 @@ def test_figure_shows_both_forms(response):
 def test_a_closed_branch_with_teeth_apart_is_found():
     """At 0.9 the branch that comes down from the highest torque never reaches it."""
     settings = ResonanceSettings(
-        first=0.85, last=1.0, frequencies=2, load_at=0.9, steps_per_mesh_period=128
+        first=0.85, last=1.0, frequencies=2, load_at=0.9, steps_per_mesh_period=64
     )
     response = Response(model="two_dof")
     follow_response(response, settings, doubled=False)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(load_response, "_STEPS", 128)
+        patch.setattr(load_response, "_STEPS", 64)
         patch.setattr(load_response, "FORMS", ("two_dof",))
         load = load_response.load_response(settings, 0.9, {"two_dof": response})
     speed = sorted(np.ptp(segment.orbit(row).x) for segment, row in response.motions(0.9))
     at = np.abs(load["torque"].values - 50.0) < 1e-4
-    found = np.sort(load["peak_to_peak"].values[at])
+    found = load["peak_to_peak"].values[at]
     # three motions at 50 N.m: in contact, unstable, and 23.0 um with teeth apart
-    assert found == pytest.approx(speed, rel=1e-4)
-    assert found == pytest.approx([6.00e-6, 21.56e-6, 23.03e-6], rel=5e-3)
+    assert speed == pytest.approx([6.00e-6, 21.56e-6, 23.03e-6], rel=5e-3)
+    for swing in speed:
+        assert np.min(np.abs(found - swing)) < 1e-4 * swing
     closed = load.sel(form="two_dof", branch=1).dropna("row", subset=["torque"])
     assert closed["torque"].values[0] == pytest.approx(closed["torque"].values[-1])
     assert closed["special_torque"].dropna("row").size == 2

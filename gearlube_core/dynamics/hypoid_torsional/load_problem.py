@@ -10,6 +10,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
+from gearlube_core.dynamics.packed_mesh import PackedMesh
 from gearlube_core.periodic.problem import PeriodicProblem
 
 _LEAST, _MOST = 0.11, 9.9e3  # N.m, inside the range of the parameters
@@ -48,12 +49,15 @@ class LoadProblem:
         self.parameters = parameters
         self.periods = periods
         self._options = {"periods": periods, "steps_per_mesh_period": steps_per_mesh_period}
+        self._packed: PackedMesh | None = None
         self._start = self.at(parameters.pinion_torque)
+        self._packed = self._start.model.packed
         self._states = 3 if parameters.form == "two_dof" else 2
 
     def at(self, torque: float) -> PeriodProblem:
         """Return the problem over the speed at pinion torque `torque` [N.m]."""
-        return PeriodProblem(replace(self.parameters, pinion_torque=float(torque)), **self._options)
+        parameters = replace(self.parameters, pinion_torque=float(torque))
+        return PeriodProblem(parameters, packed=self._packed, **self._options)
 
     def initial_guess(self, torque: float) -> Array:
         """Return z of the static deflection at pinion torque `torque` [N.m], shape (size,)."""

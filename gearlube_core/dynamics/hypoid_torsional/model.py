@@ -63,9 +63,13 @@ class HypoidTorsional:
     Parameters
     ----------
     parameters : HypoidTorsionalParameters
+    packed : PackedMesh, optional
+        Of a model that differs in the torque alone; packing takes most of the time.
 
     Attributes
     ----------
+    packed : PackedMesh
+        Mesh data of all load levels.
     stiffness : float
         Mean mesh stiffness k0 at the load [N/m].
     kernel_parameters : TorsionalParameters
@@ -76,17 +80,11 @@ class HypoidTorsional:
     [karagiannis_2012]
     """
 
-    def __init__(self, parameters: HypoidTorsionalParameters) -> None:
+    def __init__(
+        self, parameters: HypoidTorsionalParameters, *, packed: PackedMesh | None = None
+    ) -> None:
         self.parameters = parameters
-        solid = parameters.solid
-        packed = pack_mesh(
-            parameters.mesh,
-            contact_modulus(solid, solid),
-            parameters.radii,
-            parameters.mesh_stiffness,
-        )
-        if parameters.friction == "thermal_eyring":
-            _use_grubin_geometry(packed, parameters)
+        self.packed = packed = _packed(parameters) if packed is None else packed
         bracket = load_bracket(parameters.pinion_torque, 1.0, packed.levels, packed.levels.size)
         self._orders, self._nodes = packed.orders, packed.nodes
         self._series = np.zeros(packed.series_size)
@@ -203,6 +201,19 @@ class HypoidTorsional:
             return np.array([x, float(row[DE]) * speed, 0.0, 0.0])
         w_g = (row[R_P] - row[DE]) * speed / row[R_G]
         return np.array([x, speed, w_g, 0.0])
+
+
+def _packed(parameters: HypoidTorsionalParameters) -> PackedMesh:
+    solid = parameters.solid
+    packed = pack_mesh(
+        parameters.mesh,
+        contact_modulus(solid, solid),
+        parameters.radii,
+        parameters.mesh_stiffness,
+    )
+    if parameters.friction == "thermal_eyring":
+        _use_grubin_geometry(packed, parameters)
+    return packed
 
 
 def _use_grubin_geometry(packed: PackedMesh, parameters: HypoidTorsionalParameters) -> None:

@@ -15,6 +15,7 @@ from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.period_map import N_COLUMNS, WORK, period_map
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
+from gearlube_core.dynamics.packed_mesh import PackedMesh
 from gearlube_core.periodic.problem import PeriodicProblem
 
 
@@ -58,6 +59,8 @@ class PeriodProblem:
         Mesh periods in one period of the motion.
     steps_per_mesh_period : int
         Of the integrator.
+    packed : PackedMesh, optional
+        See `HypoidTorsional`.
     """
 
     def __init__(
@@ -66,8 +69,9 @@ class PeriodProblem:
         *,
         periods: int = 1,
         steps_per_mesh_period: int = 256,
+        packed: PackedMesh | None = None,
     ) -> None:
-        self.model = HypoidTorsional(parameters)
+        self.model = HypoidTorsional(parameters, packed=packed)
         p = self.model.kernel_parameters
         check_within("periods", periods, 1, 1024)
         teeth = parameters.mesh.pinion_teeth
