@@ -19,7 +19,7 @@ from gearlube_core.periodic import Branch, follow, solve_periodic
 FORMS = ("two_dof", "one_dof")
 SPAN = (0.3, 2.0)  # of the pinion torque asked for
 _STEPS = 256  # a mesh period
-_BESIDE = 1.001  # start over the torque asked for, which may be a corner: a level of the mesh table
+_BESIDE = 1.01  # start over the torque asked for, which may be a corner: a level of the mesh table
 _SAME = 1e-5  # scaled distance of two solutions that are one [-]
 
 _UNITS = {
@@ -138,9 +138,13 @@ def load_branches(
         known = (b for b in branches if b.problem.periods == periods)
         if not motion.converged or any(b.holds(motion.unknowns, torque) for b in known):
             continue
-        ways = [way(problem, motion.unknowns, _BESIDE * torque, -1.0)]
+        start, begin = motion.unknowns, torque
+        beside = solve_periodic(problem.equations(), start, _BESIDE * torque, throw=False)
+        if beside.converged:
+            start, begin = beside.unknowns, _BESIDE * torque
+        ways = [way(problem, start, begin, -1.0)]
         if ways[0].ending != "closed":
-            ways.append(way(problem, motion.unknowns, _BESIDE * torque, 1.0))
+            ways.append(way(problem, start, begin, 1.0))
         branches.append(_joined(problem, ways))
     return branches
 
