@@ -9,6 +9,8 @@ import numpy as np
 
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE, EDGE_WORDS
 
+_ROOM = 1.45  # height over the highest value, for the words
+
 
 def mark_edge_pressure(axes: Any) -> None:
     """Shade what lies above `EDGE_PRESSURE` in axes of GPa, and say what such a pressure is."""
@@ -17,13 +19,15 @@ def mark_edge_pressure(axes: Any) -> None:
     limit = 1e-9 * EDGE_PRESSURE
     if top <= limit:
         return
-    axes.axhspan(limit, 1.05 * top, color="0.9", zorder=0)
+    above = max(axes.get_ylim()[1], _ROOM * top)
+    axes.axhspan(limit, above, color="0.92", zorder=0)
+    axes.set_ylim(0.0, above)
     axes.text(
-        0.03,
+        0.5,
         0.97,
-        textwrap.fill(EDGE_WORDS, 58),
+        textwrap.fill(EDGE_WORDS, 56),
         transform=axes.transAxes,
+        ha="center",
         va="top",
         fontsize=7.0,
-        bbox={"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 1.5},
     )
