@@ -22,7 +22,9 @@ _TRIED = 6  # changes whose unloaded contact is tried
 _ITERATIONS = 12
 _CLOSED = 0.02  # of a limit: a solved misfit
 _STEP = 1e-3  # mm or deg, of a derivative
-_LONGEST = {"_mm": 10.0, "_deg": 10.0}  # step of the search for a value
+_LONGEST = 10.0  # mm or deg, step of the search for a value
+_STARTS = 16  # steps to both sides in which a cutter is looked for that reaches the tooth
+_SEARCHED = ("_mm", "_deg", "ratio_of_roll")
 
 
 class _Cure(NamedTuple):
@@ -57,9 +59,8 @@ def likely_changes(
             key=lambda one: one.share,
             default=None,
         )
-        if worst is not None:
-            solved = (_solved(file, field, worst, known) for field in tried)
-            found = _touching(_sound(file, (one for one in solved if one), known))
+        solved = (_solved(file, field, worst, known) for field in tried)
+        found = _touching(_sound(file, (one for one in solved if one), known))
     return found
 
 
@@ -100,32 +101,55 @@ def _score(file: HypoidGearFile, known: Cuts) -> float | None:
     return total
 
 
-def _solved(file: HypoidGearFile, field: str, worst: Misfit, known: Cuts) -> Change | None:
-    """Return the value of `field` at which the misfit vanishes, by Newton's method, or None."""
+def _solved(file: HypoidGearFile, field: str, worst: Misfit | None, known: Cuts) -> Change | None:
+    """Return the value of `field` that makes a file sound, by Newton's method, or None.
+
+    The first misfit that is not sound is brought to zero, the worst of the file first.
+    """
     now = setting(file, field)
-    if now is None or not field.endswith(tuple(_LONGEST)):
+    if now is None or not field.endswith(_SEARCHED):
         return None
-    longest = next(step for end, step in _LONGEST.items() if field.endswith(end))
     kept = _kept(known, (field,))
-
-    def at(value: float) -> float:
-        changed = file.varied({field: value})
-        for group in misfits_by_cost(changed, kept):
-            for one in group:
-                if one.what == worst.what:
-                    return one.value
-        return math.nan
-
-    value = now
+    value = _start(file, field, now, kept)
+    target = None if worst is None else worst.what
     try:
         for _ in range(_ITERATIONS):
-            misfit = at(value)
-            if abs(misfit) <= _CLOSED * worst.limit:
-                return Change({field: value}, {field: now})
-            slope = (at(value + _STEP) - misfit) / _STEP
+            reached = _reached(file.varied({field: value}), kept)
+            unsound = [one for one in reached.values() if not one.is_sound]
+            if target is None or target not in reached or reached[target].share <= _CLOSED:
+                if not unsound:
+                    return Change({field: value}, {field: now})
+                target = max(unsound, key=lambda one: one.share).what
+            misfit = reached[target].value
+            beside = _reached(file.varied({field: value + _STEP}), kept)
+            slope = (beside[target].value - misfit) / _STEP if target in beside else math.nan
             if not abs(slope) > 0.0:
                 return None
-            value -= max(-longest, min(longest, misfit / slope))
+            value -= max(-_LONGEST, min(_LONGEST, misfit / slope))
     except ParameterError:
         return None
     return None
+
+
+def _start(file: HypoidGearFile, field: str, now: float, known: Cuts) -> float:
+    """Return the value of `field` nearest to that of the file at which the cutter cuts a tooth."""
+    for k in range(_STARTS):
+        for sign in (1.0, -1.0):
+            value = now + sign * k * _LONGEST
+            try:
+                reached = _reached(file.varied({field: value}), known)
+            except ParameterError:
+                continue
+            if all(math.isfinite(one.value) for one in reached.values()):
+                return value
+    return now
+
+
+def _reached(file: HypoidGearFile, known: Cuts) -> dict[str, Misfit]:
+    """Return the misfits, by what they are, up to the first group that is not sound."""
+    found = {}
+    for group in misfits_by_cost(file, known):
+        found.update({one.what: one for one in group})
+        if not all(one.is_sound for one in group):
+            break
+    return found

@@ -10,11 +10,14 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 _INCH = 25.4  # mm
 _RADIAN = math.degrees(1.0)  # deg
+_MISCOUNT = 10  # teeth or blade groups, to both sides
 _SWAPS = (
     ("concave_flank_blade_angle_deg", "convex_flank_blade_angle_deg"),
     ("horizontal_setting_mm", "vertical_setting_mm"),
     ("sliding_base_mm", "machine_center_to_back_mm"),
 )
+_GROUPS = ("pinion.cutter.blade_groups", "gear.cutter.blade_groups")
+_MOST_GROUPS = 30
 _MEMBER_SWAPS = ("teeth", "cutter.blade_groups", "spiral_angle_deg", "pitch_angle_deg")
 
 
@@ -71,9 +74,10 @@ def slips(file: HypoidGearFile, fields: tuple[str, ...]) -> Iterator[Change]:
 
 
 def _whole(file: HypoidGearFile, field: str, now: int) -> Iterator[tuple[int, str]]:
-    for step in (1, -1, 2, -2):
-        if now + step > 0:
-            yield now + step, "a miscount"
+    for step in range(1, _MISCOUNT + 1):
+        yield now + step, "a miscount"
+        if now > step:
+            yield now - step, "a miscount"
     yield now * 10, "a digit is missing"
     if now >= 10:
         yield now // 10, "a digit too many"
@@ -111,6 +115,12 @@ def _exchanges(file: HypoidGearFile, fields: tuple[str, ...]) -> Iterator[Change
                 continue
             kept = {first: a, second: b}
             yield Change({first: b, second: a}, kept, "exchanged")
+    groups = [(field, setting(file, field)) for field in _GROUPS]
+    if any(field in fields for field, _ in groups) and all(now for _, now in groups):
+        unlike = {now for _, now in groups}
+        for count in (k for k in range(_MOST_GROUPS) if k not in unlike):
+            both = dict.fromkeys(_GROUPS, count)
+            yield Change(dict(both), {field: int(now or 0) for field, now in groups}, "both heads")
 
 
 def _text(value: float) -> str:
