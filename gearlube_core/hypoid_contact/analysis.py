@@ -18,6 +18,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactSettings:
     """Loads and positions of an analysis, and the elastic bodies.

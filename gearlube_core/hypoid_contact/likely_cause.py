@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from itertools import islice
 from typing import NamedTuple
 
 from gearlube_core.errors import ParameterError
@@ -19,7 +20,7 @@ from gearlube_core.hypoid_geometry.misfit import Misfit
 
 _OFFERED = 3
 _TRIED = 6  # changes whose unloaded contact is tried
-_ITERATIONS = 12
+_ITERATIONS = 8
 _CLOSED = 0.02  # of a limit: a solved misfit
 _STEP = 1e-3  # mm or deg, of a derivative
 _LONGEST = 10.0  # mm or deg, step of the search for a value
@@ -79,8 +80,8 @@ def _sound(file: HypoidGearFile, changes: Iterable[Change], known: Cuts) -> list
 
 
 def _touching(cures: list[_Cure]) -> list[Change]:
-    found = [cure.change for cure in cures[:_TRIED] if unloaded_refusal(cure.file) is None]
-    return found[:_OFFERED]
+    touching = (cure.change for cure in cures[:_TRIED] if unloaded_refusal(cure.file) is None)
+    return list(islice(touching, _OFFERED))
 
 
 def _kept(known: Cuts, fields: tuple[str, ...]) -> Cuts:
@@ -102,7 +103,7 @@ def _score(file: HypoidGearFile, known: Cuts) -> float | None:
 
 
 def _solved(file: HypoidGearFile, field: str, worst: Misfit | None, known: Cuts) -> Change | None:
-    """Return the value of `field` that makes a file sound, by Newton's method, or None.
+    """Return the value of `field` that makes a file sound, by the secant method, or None.
 
     The first misfit that is not sound is brought to zero, the worst of the file first.
     """
@@ -110,8 +111,9 @@ def _solved(file: HypoidGearFile, field: str, worst: Misfit | None, known: Cuts)
     if now is None or not field.endswith(_SEARCHED):
         return None
     kept = _kept(known, (field,))
-    value = _start(file, field, now, kept)
+    value = _start(file, field, now, kept) if worst is None else now
     target = None if worst is None else worst.what
+    before: tuple[str, float, float] | None = None  # target, value and misfit of the last step
     try:
         for _ in range(_ITERATIONS):
             reached = _reached(file.varied({field: value}), kept)
@@ -121,14 +123,26 @@ def _solved(file: HypoidGearFile, field: str, worst: Misfit | None, known: Cuts)
                     return Change({field: value}, {field: now})
                 target = max(unsound, key=lambda one: one.share).what
             misfit = reached[target].value
-            beside = _reached(file.varied({field: value + _STEP}), kept)
-            slope = (beside[target].value - misfit) / _STEP if target in beside else math.nan
+            if before is None or before[0] != target or before[1] == value:
+                beside = value + _STEP
+                before = target, beside, _value(file.varied({field: beside}), target, kept)
+            slope = (before[2] - misfit) / (before[1] - value)
             if not abs(slope) > 0.0:
                 return None
+            before = target, value, misfit
             value -= max(-_LONGEST, min(_LONGEST, misfit / slope))
     except ParameterError:
         return None
     return None
+
+
+def _value(file: HypoidGearFile, what: str, known: Cuts) -> float:
+    """Return the value of one misfit; NaN where the checks do not reach it."""
+    for group in misfits_by_cost(file, known):
+        for one in group:
+            if one.what == what:
+                return one.value
+    return math.nan
 
 
 def _start(file: HypoidGearFile, field: str, now: float, known: Cuts) -> float:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_rotation
 from gearlube_core.hypoid_contact.placement import ALIGNED, pinion_placement
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
@@ -15,15 +16,21 @@ from gearlube_core.hypoid_geometry.flank.machine_check import turn_to
 from gearlube_core.hypoid_geometry.flank.machine_frames import ReferenceCut
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 
+_ITERATIONS = 12
+_STEP = 1e-3  # rad of the gear
+_LONGEST = 0.1
+_CLOSED = 1e-5  # changes the slopes by less than a hundredth of a milliradian
+
 
 def mean_point_slopes(
     gear: ReferenceCut, pinion: ReferenceCut, blank: HypoidBlank
 ) -> tuple[float, float]:
     """Return the slopes of the gap to the conjugate flank at the mean point, (2,) [rad].
 
-    The gear's point is turned to where it would touch a conjugate pinion: there the velocities of
-    both members along the normal are equal. The pinion is turned until its flank passes through
-    the point; the slopes are the components of the difference of both normals.
+    The gear's mean point turns through the mesh, and the pinion with it so that its flank passes
+    through the point. Where the velocities of both members along the pinion's normal are equal,
+    the point comes nearest to the conjugate flank; the slopes are the components of the
+    difference of both normals there.
 
     Parameters
     ----------
@@ -34,57 +41,45 @@ def mean_point_slopes(
     Returns
     -------
     along, across : float
-        Slope along the tooth and over its height [rad]; NaN where a conjugate pinion would not
-        touch the point, or the pinion's flank does not reach it.
+        Slope along the tooth and over its height [rad]; NaN where there is no such position.
 
     References
     ----------
     [litvin_fuentes_2004 ch. 6] (equation of meshing).
     """
     state = cut_state(gear.motion, 0.0, gear.cutter_angle, gear.cradle_angle)
-    axis, origin = blank.gear_axis, np.zeros(3)
-    start = turn_to(axis, np.array(state.r), blank, origin)
-    turn = Rotation.from_rotvec(start * axis)
-    r, n = turn.apply(np.array(state.r)), turn.apply(np.array(unit_normal(state)))
-    lengthwise = turn.apply(np.array(state.r_th))
-
-    # normal velocity per gear rotation less the pinion's: C - A cos(phi) - B sin(phi)
-    axis_p = blank.ratio * blank.pinion_axis
-    arm = np.array([0.0, blank.offset, 0.0])
-    own = float(n @ np.cross(axis, r))
-
-    def pinion_part(angle: float) -> float:
-        turned = Rotation.from_rotvec(angle * axis)
-        return float(turned.apply(n) @ np.cross(axis_p, turned.apply(r) - arm))
-
-    # the part without rotation is the mean of two opposite angles
-    at = [pinion_part(k * 0.5 * math.pi) for k in range(4)]
-    mean, a, b = 0.5 * (at[0] + at[2]), 0.5 * (at[0] - at[2]), 0.5 * (at[1] - at[3])
-    size = math.hypot(a, b)
-    if not abs(own - mean) <= size:
-        return math.nan, math.nan
-    direction, reach = math.atan2(b, a), math.acos((own - mean) / size)
-    angles = [math.remainder(direction + s * reach, 2.0 * math.pi) for s in (1.0, -1.0)]
-    turn = Rotation.from_rotvec(min(angles, key=abs) * axis)
-    r, n, lengthwise = turn.apply(r), turn.apply(n), turn.apply(lengthwise)
-
-    work = np.array(pinion.motion.work_axis)
-    point = np.array(pinion.motion.work_point)
-    cut = cut_state(pinion.motion, 0.0, pinion.cutter_angle, pinion.cradle_angle)
-    unknowns = np.array(
-        [
-            0.0,
-            pinion.cutter_angle,
-            pinion.cradle_angle,
-            turn_to(work, np.array(cut.r) - point, blank, point),
-        ]
-    )
-    target = Vector(float(r[0]), float(r[1]), float(r[2]))
+    axis = blank.gear_axis
+    start = turn_to(axis, np.array(state.r), blank, np.zeros(3))
+    own = np.array([state.r, unit_normal(state), state.r_th])
+    work, point = np.array(pinion.motion.work_axis), np.array(pinion.motion.work_point)
     base = pinion_placement(pinion.motion, ALIGNED)
-    if intersect_rotation(pinion.motion, base, target, unknowns) != HIT:
-        return math.nan, math.nan
-    mate = unit_normal(cut_state(pinion.motion, *unknowns[:3]))
-    facing = Rotation.from_rotvec(unknowns[3] * work).apply(np.array(mate))
-    difference = math.copysign(1.0, float(facing @ n)) * facing - n
-    lengthwise /= np.linalg.norm(lengthwise)
-    return float(difference @ lengthwise), float(difference @ np.cross(n, lengthwise))
+    cut = cut_state(pinion.motion, 0.0, pinion.cutter_angle, pinion.cradle_angle)
+    turn = turn_to(work, np.array(cut.r) - point, blank, point)
+    unknowns = np.array([0.0, pinion.cutter_angle, pinion.cradle_angle, turn])
+
+    def meet(angle: float) -> tuple[float, Array, Array]:
+        """Return the difference of the normal velocities, the pinion's normal, the gear's data."""
+        placed = Rotation.from_rotvec((start + angle) * axis).apply(own)
+        r, n = placed[0], placed[1]
+        if intersect_rotation(pinion.motion, base, Vector(*r.tolist()), unknowns) != HIT:
+            return math.nan, n, placed
+        mate = np.array(unit_normal(cut_state(pinion.motion, *unknowns[:3])))
+        facing = Rotation.from_rotvec(unknowns[3] * work).apply(mate)
+        facing *= math.copysign(1.0, float(facing @ n))
+        velocity = np.cross(axis, r) - np.cross(blank.ratio * blank.pinion_axis, r - point)
+        return float(facing @ velocity), facing, placed
+
+    angles = [0.0, _STEP]
+    speeds = [meet(angle)[0] for angle in angles]
+    for _ in range(_ITERATIONS):
+        if not (math.isfinite(speeds[1]) and speeds[1] != speeds[0]):
+            return math.nan, math.nan
+        step = speeds[1] * (angles[1] - angles[0]) / (speeds[0] - speeds[1])
+        angles = [angles[1], angles[1] + max(-_LONGEST, min(_LONGEST, step))]
+        speed, facing, (_, n, lengthwise) = meet(angles[1])
+        speeds = [speeds[1], speed]
+        if abs(step) < _CLOSED:
+            lengthwise /= np.linalg.norm(lengthwise)
+            across = np.cross(n, lengthwise)
+            return float((facing - n) @ lengthwise), float((facing - n) @ across)
+    return math.nan, math.nan

@@ -1,4 +1,4 @@
-"""Slips of the pen that a gear file may hold: a sign, a unit, a decimal point, one tooth, a swap."""
+"""Slips of the pen in a gear file: a sign, a unit, a decimal point, one tooth, an exchange."""
 
 from __future__ import annotations
 

@@ -4,21 +4,26 @@ import math
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.ease_off import ease_off
+from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.pair_check import misfits_by_cost
 from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_contact.setting_slips import setting
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.machine_check import reference_misfit
 from gearlube_core.hypoid_geometry.flank.machine_frames import pinion_cut
+from gearlube_core.hypoid_geometry.flank.pressure_angle import pressure_angle
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
 
 GEARS = Path(__file__).parents[2] / "examples" / "gears"
 SHIPPED = HypoidGearFile.named("mohammadpour_2015")
 MILLED = HypoidGearFile.from_toml(GEARS / "face_milled.toml")
+ANGLES = np.arange(-12, 13) / 6.0 * 2.0 * math.pi / 36.0
 SOUND = [SHIPPED, MILLED]
 
 GEAR_CONVEX = "gear.cutter.convex_flank_blade_angle_deg"
@@ -71,28 +76,34 @@ def test_gears_centre_to_back_moves_the_plane_by_the_sine_of_its_root_angle():
 
 
 @pytest.mark.parametrize(
-    ("field", "side", "sign"),
+    ("field", "side"),
     [
-        ("gear.cutter.convex_flank_angle_correction_deg", "drive", 1.0),
-        ("pinion.cutter.convex_flank_angle_correction_deg", "coast", 1.0),
+        ("gear.cutter.convex_flank_angle_correction_deg", "drive"),
+        ("pinion.cutter.convex_flank_angle_correction_deg", "coast"),
     ],
 )
-def test_a_blade_angle_turns_its_flank_and_no_other(field, side, sign):
-    """One degree more of a blade is a degree between the flanks, along the tooth none."""
+def test_slope_over_the_height_is_that_of_the_ease_off(field, side):
+    """The ease-off comes from a search over the flank, without any equation of tangency."""
     turned = SHIPPED.varied({field: setting(SHIPPED, field) + 1.0})
-    other = "coast" if side == "drive" else "drive"
     words = "flanks at the mean point, over"
     change = misfit(turned, f"{side} {words}") - misfit(SHIPPED, f"{side} {words}")
-    # the blade offset angle foreshortens the blade angle by 4 % at most
-    assert abs(change) == pytest.approx(math.radians(1.0), rel=0.05)
+    before, after = (
+        ease_off(FlankPair.from_file(file, side), s_count=6, t_count=3, gear_angles=ANGLES)
+        for file in (SHIPPED, turned)
+    )
+    gap = (after.normal_gap() - before.normal_gap())[:, 1]
+    up = 0.4 * SHIPPED.blank().whole_depth / math.cos(pressure_angle(SHIPPED, "gear", side))
+    # 5 %: the slope is not the same over the height, from s = 0.4 to 0.8
+    assert abs(change) == pytest.approx(abs(gap[4] - gap[2]) / up, rel=0.05)
+    other = "coast" if side == "drive" else "drive"
     assert misfit(turned, f"{other} {words}") == misfit(SHIPPED, f"{other} {words}")
 
 
-def test_a_spiral_angle_of_the_other_hand_is_said():
-    mirrored = SHIPPED.varied({"gear.machine.vertical_setting_mm": -62.642})
+def test_teeth_of_the_other_hand_are_said():
+    mirrored = SHIPPED.varied({"pinion.machine.basic_cradle_angle_deg": -64.433})
     said = refusal(mirrored)
     assert "the other hand" in said
-    assert "gear.machine.vertical_setting_mm from -62.642 to 62.642 mm (the sign)" in said
+    assert "basic_cradle_angle_deg from -64.433 to 64.433 deg (the sign)" in said
 
 
 @pytest.mark.parametrize(

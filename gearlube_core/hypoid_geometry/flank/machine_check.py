@@ -119,7 +119,7 @@ def edge_misfits(file: HypoidGearFile) -> list[Misfit]:
         if radius is not None:
             found.append(
                 Misfit(
-                    what=f"The profile crowning by the {role}'s blade edge radius, at tip and root,",
+                    what=f"The crowning by the {role}'s blade edge radius, at tip and root,",
                     value=depth**2 / (8.0 * radius * MILLIMETRE),
                     limit=EDGE_LIMIT,
                     refused=math.inf,

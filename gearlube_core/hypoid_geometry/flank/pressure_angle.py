@@ -1,4 +1,4 @@
-"""Pressure angles of the surfaces that the blades sweep, of the gear and of what stands in for it."""
+"""Pressure angles of the surfaces that the blades sweep, of gear and pinion."""
 
 from __future__ import annotations
 
