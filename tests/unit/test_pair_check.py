@@ -25,6 +25,9 @@ SHIPPED = HypoidGearFile.named("mohammadpour_2015")
 MILLED = HypoidGearFile.from_toml(GEARS / "face_milled.toml")
 ANGLES = np.arange(-12, 13) / 6.0 * 2.0 * math.pi / 36.0
 SOUND = [SHIPPED, MILLED]
+# other blanks, machine settings far from the image of the gear; coast flanks touch at edges
+REFERENCES = Path(__file__).parents[1] / "references" / "gears"
+SYNTHESISED = [HypoidGearFile.from_toml(path) for path in sorted(REFERENCES.glob("*.toml"))]
 
 GEAR_CONVEX = "gear.cutter.convex_flank_blade_angle_deg"
 GEAR_CONCAVE = "gear.cutter.concave_flank_blade_angle_deg"
@@ -45,6 +48,12 @@ def refusal(file):
 def test_sound_pairs_pass_without_a_warning(file):
     check_pair(file)
     assert pair_warnings(file) == []
+
+
+@pytest.mark.parametrize("file", SYNTHESISED, ids=lambda file: file.name)
+def test_other_blanks_and_cutters_pass_every_check(file):
+    check_pair(file)
+    assert all(m.is_sound for group in misfits_by_cost(file) for m in group)
 
 
 def test_teeth_change_the_pitch_by_their_ratio():
@@ -168,25 +177,31 @@ def test_cutter_far_from_the_tooth_is_refused_with_its_distance_and_cure():
 
 
 def slipped(file):
-    """Every number of a file with one slip of the pen: sign, decimal point, unit, one tooth."""
+    """Every number of a file with one slip of the pen: sign, decimal point, unit, one tooth.
+
+    Without the cradle angle, which is only a phase, and changes that workshops make to shift the
+    contact: below 0.15 mm and 0.2 deg.
+    """
     for field, note in field_notes(HypoidGearFile).items():
         now = setting(file, field) if note.limits else None
-        if now is None or now == 0.0 or field == "pinion.machine.basic_cradle_angle_deg":
-            continue  # the cradle angle is only a phase
+        if now is None or field == "pinion.machine.basic_cradle_angle_deg":
+            continue
         if field.endswith(("teeth", "blade_groups")):
             values = [int(now) + 1, int(now) - 1, -int(now), 10 * int(now)]
+            smallest = 1.0
         else:
             values = [-now, 10.0 * now, now / 10.0]
             values += [now / 25.4] if field.endswith("_mm") else []
             values += [math.radians(now)] if field.endswith("_deg") else []
-        yield from ((field, value) for value in values)
+            smallest = 0.15 if field.endswith("_mm") else 0.2
+        yield from ((field, value) for value in values if abs(value - now) >= smallest)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("file", SOUND, ids=lambda file: file.name)
+@pytest.mark.parametrize("file", [*SOUND, *SYNTHESISED[::3]], ids=lambda file: file.name)
 def test_every_single_slip_is_refused_or_warned_of_and_its_setting_is_named(file):
-    """Two of three are refused; the rest only shift the contact, and are warned of."""
-    refused = named = count = 0
+    """Nine of ten are refused; the rest only shift the contact, and are warned of."""
+    missed, refused, count = [], 0, 0
     for field, value in slipped(file):
         count += 1
         began = time.process_time()
@@ -197,8 +212,9 @@ def test_every_single_slip_is_refused_or_warned_of_and_its_setting_is_named(file
         except ParameterError as reason:
             said = str(reason)
             refused += 1
-        named += field in said
+        if field not in said:
+            missed.append((field, value))
         assert time.process_time() - began < 5.0, field
-    assert count > 140
-    assert named == count
+    assert count > 125
+    assert missed == []
     assert refused > 0.85 * count

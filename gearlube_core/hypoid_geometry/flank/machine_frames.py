@@ -134,7 +134,7 @@ def other_flank(cut: ReferenceCut, member: Gear | Pinion, curve: Curve) -> Refer
 
     The blades of both flanks pass the mean reference point at the same angles.
     """
-    motion = cut.motion._replace(**_blade(member, curve))
+    motion = cut.motion._replace(**_blade(member, curve))  # type: ignore[arg-type]
     motion = _with_offset(motion, member.cutter, cut.cutter_angle, cut.cradle_angle)
     return cut._replace(motion=motion)
 
