@@ -6,10 +6,9 @@ from typing import NamedTuple
 
 import xarray as xr
 
-from gearlube_core.hypoid_contact.analysis import check_settings_meet
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
+from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_geometry.flank.flank import Role
-from gearlube_core.hypoid_geometry.flank.setting_check import setting_report
 from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.tooth_contact.sharp_edge import sharp_edge_remark
@@ -62,9 +61,9 @@ def gear_file_warnings(file: HypoidGearFile) -> list[str]:
     Raises
     ------
     ParameterError
-        The cutters miss the teeth.
+        The flanks do not meet.
     """
-    check_settings_meet(file)
-    return setting_report(file) + [
+    check_pair(file)
+    return pair_warnings(file) + [
         line for role in _ROLES for line in tooth_form(file, role).report()
     ]
