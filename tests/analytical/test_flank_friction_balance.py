@@ -121,8 +121,6 @@ def test_printed_traction_at_circular_pressure_agrees_with_the_equations_by_hand
     assert state.viscous_friction == pytest.approx(expected.f_v, rel=1e-8)  # as W_a
     # interpolated asperity integrals, 1e-8
     assert state.boundary_friction == pytest.approx(expected.f_b, rel=1e-8)
-    # the printed traction is what makes it lose half of the consistent law
-    assert 0.3 < state.viscous_friction / flank(LOAD, ROLLING, SLIDING).viscous_friction < 0.6
 
 
 @pytest.mark.parametrize("friction", ["printed_traction_circular", "as_printed"])
