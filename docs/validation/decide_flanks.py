@@ -108,8 +108,8 @@ def flank_section() -> str:
             f"both by the same number: {page.over_cold('effective_viscosity'):.3f}",
             f"each by the viscosity of its inlet: {page.over_inlet:.2f} (0.2 to 0.5)",
             "open: fig. 21a has no units, and the text says that it is divided as fig. 18. With "
-            "one divisor no Eyring stress does it: viscosity is stress over shear rate, the film of "
-            "a fifth (claim 26) sets the rate, and the stress would have to rise with temperature",
+            "one divisor no Eyring stress does it: viscosity is stress over shear rate, the film "
+            "of a fifth (claim 26) sets the rate, and the stress would have to be higher hot",
         ),
     ]
     heads = ["Reading", "28: F_b/F_v, %", "30: viscosity, hot over cold", "each over its inlet"]
