@@ -110,7 +110,7 @@ def decisions() -> list[Decision]:
         Decision(
             "37",
             "what the record holds",
-            "the steady motion: lines off the mesh orders 0.15 % of the mesh orders' rms at most",
+            "the steady motion: shares of the other lines as under claim 38 above",
             f"the first {RECORD:g} s from shafts not yet displaced by the load: "
             + " / ".join(f"{100.0 * r:.0f}" for r in from_start)
             + f" % at {words} km/h (asked: 10)",
@@ -136,7 +136,7 @@ def decisions() -> list[Decision]:
             "42, as printed",
             "preload, damping of the bearings",
             f"2500 N: all rollers loaded up to {max(speeds):g} km/h, not above",
-            f"{preload_needed(SPEEDS[-1]):.0f} N at {SPEEDS[-1]:g} km/h; damping, times "
+            f"{round(preload_needed(SPEEDS[-1]), -2):.0f} N at {SPEEDS[-1]:g} km/h; damping, times "
             + " / ".join(f"{f:g}" for f in _DAMPINGS)
             + f": {damping}",
             "no: preloads are printed; it is the printed sign that feeds the lateral motion, and "

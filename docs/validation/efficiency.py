@@ -13,7 +13,7 @@ from docs.validation.decision import Decision, table
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.dynamics.packed_mesh import pack_mesh
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PRESSURE, SHARE, pack_mesh
 from gearlube_core.friction.flank_laws import printed_traction
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -200,6 +200,16 @@ def sensitivity_table() -> str:
                 _row(f"corrected formula, {words}: {factor:g} times", Reading().times(name, factor))
             )
     return table(["Reading or input", *(f"{v:.0f} km/h" for v in SPEEDS)], rows)
+
+
+def circle_share() -> float:
+    """Return the circle's mean pressure over the ellipse's, at 50 N.m, weighted by load share."""
+    packed = Reading().axle().packed, CIRCULAR.axle().packed
+    level = int(np.argmin(np.abs(packed[0].levels - 50.0)))
+    shape = packed[0].levels.size, packed[0].nodes + 1, N_CHANNELS
+    ellipse, circle = (p.windows.reshape(shape)[level] for p in packed)
+    ratio = circle[:, PRESSURE] / ellipse[:, PRESSURE]
+    return float(np.average(ratio, weights=ellipse[:, SHARE]))
 
 
 def _row(words: str, reading: Reading) -> list[str]:

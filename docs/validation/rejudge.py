@@ -21,6 +21,7 @@ def axle_section() -> str:
     text = (_TEXT / "axle.md").read_text(encoding="utf-8")
     return text.format(
         sensitivities=efficiency.sensitivity_table(),
+        circle=100.0 * efficiency.circle_share(),
         speed=efficiency.JUDGED_AT,
         decisions=decision_table(rows),
     )
