@@ -39,11 +39,11 @@ def starts() -> list[Start]:
                 ("first contact", 0.0),
                 ("middle of the backlash", -0.5 * model.kernel_parameters.backlash),
             ):
-                found.append(Start(relative, mismatch, name, *_settled(model, relative, x)))
+                found.append(Start(relative, mismatch, name, *settled_from(model, relative, x)))
     return found
 
 
-def _settled(model: HypoidTorsional, relative: float, x: float) -> tuple[float, int]:
+def settled_from(model: HypoidTorsional, relative: float, x: float) -> tuple[float, int]:
     """Return the peak-to-peak motion [m] and its mesh periods, 0 if it does not repeat in 12."""
     rows, p = model.rows(STEPS), model.kernel_parameters
     speed = model.pinion_speed(relative * model.natural_frequency)
