@@ -48,6 +48,7 @@ def test_quick_run_writes_datasets_and_all_figures(tmp_path):
     assert not list(tmp_path.glob("*.part"))
 
 
+@pytest.mark.slow  # the library call without friction is in the default run
 @pytest.mark.usefixtures("small_pictures")
 def test_run_without_friction_leaves_out_the_lubricated_model_and_its_figures(tmp_path):
     options = ("--mesh", "synthetic", "--friction", "off", "--frequencies", 5)
