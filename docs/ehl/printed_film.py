@@ -92,7 +92,7 @@ def printed_film_table(store: Store) -> str:
         rows.append([f"A, F_o = {crown:g} F, step {LOOK}", f"{UM * film:.3f}", printed])
     for run in SHORT.values():
         film = printed_films(store, run)["minimum_film"][-1]
-        words = f"A, step {run.last}, from rest at {run.first}, {run.substeps} time steps for one"
+        words = f"A, step {run.last}, from rest at {run.first}, time steps for one: {run.substeps}"
         rows.append([words, f"{UM * film:.3f}", ""])
     heads = ["Film in motion", f"{WEDGE}, {NODES[0]} x {NODES[1]} nodes, um", "Thesis, um"]
     return table(heads, rows)
