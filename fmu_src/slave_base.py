@@ -24,6 +24,7 @@ from fmu_src.definition import Definition, Model, Value
 from fmu_src.host_thread import HostThread
 from fmu_src.identity import IDENTITY_FILE, check_identity, guid_of
 from fmu_src.model_description import LOG_CATEGORIES
+from fmu_src.range_watch import RangeWatch
 from fmu_src.registration import register_variables
 from fmu_src.slave_state import SlaveState
 from fmu_src.state_bytes import Snapshot
@@ -61,6 +62,7 @@ class CoSimulationSlave(Fmi2Slave):
         self._stale = True
         self._broken = ""
         self._time = 0.0
+        self._range_watch = RangeWatch(self.definition.output_names)
         self._slave_state = SlaveState.INSTANTIATED
         self._thread = HostThread()
         register_variables(self, self.definition.variables)
@@ -111,6 +113,7 @@ class CoSimulationSlave(Fmi2Slave):
         self._expect(SlaveState.INITIALISING)
         self._initialise_model()
         self._enter(SlaveState.STEPPING)
+        self._watch_ranges(self._time)
         settings = ", ".join(f"{name} = {value}" for name, value in self._model_parameters.items())
         self.report(Fmi2Status.ok, f"initialised at t = {self._time:g} s with {settings}")
 
@@ -118,6 +121,8 @@ class CoSimulationSlave(Fmi2Slave):
     def terminate(self) -> None:
         """Take no further step; outputs can still be read."""
         self._enter(SlaveState.TERMINATED)
+        for count in self._range_watch.counts():
+            self.report(Fmi2Status.ok, count)
         self._thread.release()
 
     def do_step(self, current_time: float, step_size: float) -> bool:
@@ -126,12 +131,17 @@ class CoSimulationSlave(Fmi2Slave):
             self._check_step(current_time, step_size)
             self._model.step(step_size, *self._values.inputs())  # type: ignore[union-attr]
             self._collect_outputs()
+            self._watch_ranges(current_time + step_size)
         except BaseException as error:
             refusal = f"step at t = {current_time} s refused. {_explained(error)}"
             self.report(Fmi2Status.discard, refusal)
             return False
         self._time = current_time + step_size
         return True
+
+    def _watch_ranges(self, time: float) -> None:
+        for warning in self._range_watch.warnings(self._model, time):
+            self.report(Fmi2Status.warning, warning)
 
     def _log_warnings(self) -> None:
         while self._warnings:
