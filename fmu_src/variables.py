@@ -11,7 +11,8 @@ from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, output, parameter
 
 _INPUTS = (
-    input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives; at most 1.5 times the mesh table's",
+    input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives; refused "
+           "beyond 1.5 times the end of the mesh table",
            start=60.0, minimum=-1e4, maximum=1e4, nominal=100.0),
     input_("wheel.torque", "N.m", "Load torque on the gear shaft; positive resists forward motion",
            start=160.0, minimum=-3e4, maximum=3e4, nominal=300.0),

@@ -38,7 +38,7 @@ def model_ranges(
             "Moes load M of the most loaded contact",
             film_load,
             "1",
-            "The film formula is extrapolated. Below its range the film of rigid solids is thicker.",
+            "The film formula is extrapolated; below its range films of rigid solids are thicker.",
         ),
         (
             "Moes material number L of the most loaded contact",

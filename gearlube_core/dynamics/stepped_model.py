@@ -81,9 +81,7 @@ class TorqueLimits(NamedTuple):
                 f"beyond {TORQUE_MARGIN:g} times that results have no meaning. Check the unit, or "
                 "analyse the contact at higher torques."
             )
-        return cls(
-            max(low, -pinion), min(high, pinion), min(max(-low, high) * ratio, wheel), cure
-        )
+        return cls(max(low, -pinion), min(high, pinion), min(max(-low, high) * ratio, wheel), cure)
 
 
 class SteppedModel(ABC, Generic[Control]):

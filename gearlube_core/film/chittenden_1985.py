@@ -6,9 +6,9 @@ import math
 
 from gearlube_core.kernels.jit import kernel
 
-# Groups of Moes with R_e. Central films lie within 23 % of solved ones for M 10 to 1000 and L 2.5 to
-# 15 (docs/ehl.md). Below M 10 the solids are rigid, below L 2.5 the viscosity is constant; the upper
-# ends are those of the contacts that have been solved.
+# Groups of Moes with R_e. Central films lie within 23 % of solved ones for M 10 to 1000 and L 2.5
+# to 15 (docs/ehl.md). Below M 10 the solids are rigid, below L 2.5 the viscosity is constant. The
+# upper ends are those of the contacts that have been solved.
 LOAD_RANGE, MATERIAL_RANGE = (10.0, 5000.0), (2.5, 25.0)
 
 # [chittenden_1985]; [mohammadpour_2015 (22)]

@@ -6,8 +6,9 @@ from gearlube_core.checks import check_positive
 from gearlube_core.film.line_film_law import LineFilmLaw, power_law_line_film
 from gearlube_core.kernels.jit import kernel
 
-# Groups of Moes over the range of U, G and W' in `line_film_thickness`
-LOAD_RANGE, MATERIAL_RANGE = (2.0, 700.0), (1.7, 19.0)
+# Groups of Moes. Over this range, which is wider than that of the fit, the formula is between 18 %
+# thinner and 34 % thicker than solved isothermal films of a Newtonian oil.
+LOAD_RANGE, MATERIAL_RANGE = (0.3, 500.0), (2.5, 30.0)
 
 _LAW = LineFilmLaw(coefficient=3.06, speed=0.69, material=0.56, load=-0.10)
 

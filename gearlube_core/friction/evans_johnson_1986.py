@@ -143,8 +143,8 @@ def plateau_stress_ratio(
     -----
     A straight line through the exact maximum of [johnson_greenwood_1980]. With the argument
     L = alpha p + ln{2 K eta0/[beta (tau0 h)^2]} and zeta = 0 it is within 1 % for L from 5 to
-    11.8, 3.4 % low at 20, 5.4 % low at 30 and 14 % low at 2; below L = 0 it is negative, while the true traction
-    is only small. [mohammadpour_2015 (13)] omits beta, without which the argument of
+    11.8, 3.4 % low at 20, 5.4 % low at 30 and 14 % low at 2; below L = 0 it is negative, while the
+    true traction is only small. [mohammadpour_2015 (13)] omits beta, without which the argument of
     the logarithm is not dimensionless; beta = 1 1/K gives the printed form.
     Source: [evans_johnson_1986].
     """

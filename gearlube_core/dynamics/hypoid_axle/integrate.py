@@ -221,7 +221,7 @@ def advance(
             stages,
         )
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
-            return TOO_FAST
+            return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
         if table.levels[0] < 0.0:
             follow_flank(s, table, p.mesh, mesh)
     total = 0.0

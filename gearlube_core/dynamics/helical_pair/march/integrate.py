@@ -153,7 +153,7 @@ def advance(
                 stages[i] = s[i]
         rk4_step(s, h, pinion_torque, wheel_torque, data, stages)
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
-            return TOO_FAST
+            return NOT_FINITE if abs(s[PSI]) > DIVERGED else TOO_FAST
     s[LOAD_TORQUE] += -math.expm1(-duration / LOAD_FILTER_TIME) * (
         abs(pinion_torque) - s[LOAD_TORQUE]
     )
