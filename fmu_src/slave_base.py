@@ -29,7 +29,7 @@ from fmu_src.registration import register_variables
 from fmu_src.slave_state import SlaveState
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
-from fmu_src.wrapper import guarded, unload_before_libraries
+from fmu_src.wrapper import guarded, told_on_stderr, unload_before_libraries
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 
 LONGEST_STEP = 0.1  # s
@@ -54,6 +54,10 @@ class CoSimulationSlave(Fmi2Slave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        with told_on_stderr(self.instance_name):
+            self._make()
+
+    def _make(self) -> None:
         self.definition = self.definition_of(Path(self.resources or ""))
         self.modelName = self.definition.name
         self._values = Values(self.definition, lambda text: self.report(Fmi2Status.error, text))
@@ -95,6 +99,7 @@ class CoSimulationSlave(Fmi2Slave):
     ) -> None:
         """Note the start time [s]; the step size of the model follows from its frequencies."""
         self._log_warnings()
+        self._expect(SlaveState.INSTANTIATED)
         if not math.isfinite(start_time):
             raise ParameterError(f"The start time must be finite, got {start_time} s.")
         self._time = start_time
@@ -120,6 +125,7 @@ class CoSimulationSlave(Fmi2Slave):
     @guarded
     def terminate(self) -> None:
         """Take no further step; outputs can still be read."""
+        self._expect(SlaveState.STEPPING)
         self._enter(SlaveState.TERMINATED)
         for count in self._range_watch.counts():
             self.report(Fmi2Status.ok, count)
@@ -225,6 +231,16 @@ class CoSimulationSlave(Fmi2Slave):
     def get_boolean(self, vrs: Sequence[int]) -> list[bool]:
         """Return the values of Boolean variables."""
         return [value != 0.0 for value in self._read("Boolean", vrs).tolist()]
+
+    @guarded
+    def get_string(self, vrs: Sequence[int]) -> list[str]:
+        """Return nothing: no variable is a String."""
+        return [str(value) for value in self._read("String", vrs)]
+
+    @guarded
+    def set_string(self, vrs: Sequence[int], values: Sequence[str]) -> None:
+        """Refuse any reference: no variable is a String."""
+        self._values.index("String", vrs)
 
     @guarded
     def set_real(self, vrs: Sequence[int], values: Sequence[float]) -> None:

@@ -171,6 +171,12 @@ class MeshPosition:
 
         def solve(closing: float, width: float) -> tuple[_Strips, CoupledSolution]:
             strips = self._strips(torque / arm, closing, width, stiffness, settings)
+            if not strips:
+                raise ConvergenceError(
+                    f"the teeth must meet at mesh phase {self.phase:.3f}, no flank is within "
+                    f"{1e6 * closing:.3g} um of another, got a torque of {torque:g} N.m. Check "
+                    "blank and machine settings: the flanks may pass each other there."
+                )
             coupled = [_coupled(self.pair, strip, stiffness) for _, strip in strips]
             return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
 

@@ -7,7 +7,12 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.options import HelicalGearArgument, SpeedOfFileOption, TorqueOfFileOption
+from gearlube.cli.options import (
+    HelicalGearArgument,
+    OverwriteOption,
+    SpeedOfFileOption,
+    TorqueOfFileOption,
+)
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
@@ -94,6 +99,7 @@ def helical(
         ),
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Solve the film on a helical pair's contact line, steady at one position or in time.
 
@@ -130,6 +136,8 @@ def helical(
             solve_and_show(
                 lambda progress: run_steady.run_helical_line(case, folder=out, progress=progress),
                 out,
+                "ehl helical",
+                overwrite=overwrite,
             )
             return
         first, last = _steps(march)
@@ -139,6 +147,8 @@ def helical(
                 case, steps, folder=out, progress=progress
             ),
             out,
+            "ehl helical",
+            overwrite=overwrite,
         )
 
 
