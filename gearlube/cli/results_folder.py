@@ -1,4 +1,4 @@
-"""Folder of results of a command: checked before anything is computed, and marked with its owner."""
+"""Folder of results of a command: checked before anything is computed, marked with its owner."""
 
 from __future__ import annotations
 
@@ -15,8 +15,22 @@ MARK = "gearlube_results.json"  # says which study wrote a folder, and which ver
 _CURE = "Give another --out, or --overwrite to write there all the same."
 # what studies write: a folder with one of these and no mark holds results of an older version
 _RESULTS = frozenset(
-    ["sweep.nc", "summary.csv", "report.html", "contact.nc", "resonance.nc", "cycle.nc", "load.nc", "line.nc", "point.nc", "helical.nc", "hypoid.nc", "compare.png", "response.nc", "line_mesh.nc", "stability.nc", "separation.nc", "film.nc", "geometry.nc", "friction_sweep.nc"]
-)  # fmt: skip
+    {
+        "sweep.nc",
+        "summary.csv",
+        "report.html",
+        "contact.nc",
+        "resonance.nc",
+        "cycle.nc",
+        "line.nc",
+        "point.nc",
+        "helical.nc",
+        "hypoid.nc",
+        "compare.png",
+        "line_mesh.nc",
+        "geometry.nc",
+    }
+)
 
 
 @contextmanager

@@ -78,7 +78,7 @@ def _power_product(
     """Return R_e U^0.68 G^0.49 W^-0.073 with one exponential."""
     stiffness = reduced_modulus * R_e
     return R_e * math.exp(
-        _SPEED_EXPONENT * math.log(eta0 * speed / stiffness)
+        _SPEED_EXPONENT * math.log(eta0 * abs(speed) / stiffness)
         + _MATERIAL_EXPONENT * math.log(alpha * reduced_modulus)
         + _LOAD_EXPONENT * math.log(load / (stiffness * R_e))
     )
@@ -108,7 +108,7 @@ def central_film_thickness(
     alpha
         Pressure-viscosity coefficient [1/Pa].
     entrainment_speed
-        Mean surface speed u [m/s], positive.
+        Mean surface speed u [m/s], not zero; its direction does not count.
     load
         F [N], positive.
     reduced_modulus

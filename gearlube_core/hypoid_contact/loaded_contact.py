@@ -10,6 +10,7 @@ from scipy.sparse import csr_array, hstack
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
+from gearlube_core.errors import ConvergenceError
 from gearlube_core.hypoid_contact.gap_map import GapMap, gap_map
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position

@@ -121,10 +121,14 @@ def test_a_shaft_that_runs_away_is_refused_and_the_model_stays(which):
         model.initialise(
             pinion_speed=100.0, pinion_torque=50.0, wheel_torque=0.0, oil_temperature=HOT
         )
-    with pytest.raises(StepError, match=r"a shaft turns faster than 5000 rad/s"):
-        for _ in range(100):
-            before = model.get_state()
+    reason = ""
+    while not reason:
+        before = model.get_state()
+        try:
             model.step(1e-2, *torques, HOT)
+        except StepError as error:
+            reason = str(error)
+    assert "a shaft turns faster than 5000 rad/s" in reason
     np.testing.assert_array_equal(model.get_state(), before)
     assert abs(model.output("pinion.speed")) <= MAX_SPEED
 

@@ -96,6 +96,7 @@ def resonance(
     from gearlube.studies.resonance import run
     from gearlube.studies.resonance.settings import MODELS, ResonanceSettings, quick_settings
     from gearlube.studies.resonance.summary import summaries
+    from gearlube_core.dynamics.hypoid_torsional.parameters import KARAGIANNIS_OIL
 
     began = time.monotonic()
     with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
@@ -106,7 +107,7 @@ def resonance(
             mesh=_mesh(mesh, mismatch, radii, torque),
             radii=radii,  # type: ignore[arg-type]
             pinion_torque=torque,
-            oil_temperature=oil_kelvin(oil_temperature, OIL),
+            oil_temperature=oil_kelvin(oil_temperature, KARAGIANNIS_OIL),
             roughness_rms=1e-6 * roughness_um,
             friction=friction,
             first=first,

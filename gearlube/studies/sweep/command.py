@@ -37,7 +37,8 @@ def sweep(
     speeds: Annotated[
         list[str] | None,
         typer.Option(
-            help="Vehicle speeds [km/h]: first:last:step and single values. Default 20 to 100 in steps of 5.",
+            help="Vehicle speeds [km/h]: first:last:step and single values. "
+            "Default: 20 to 100 in steps of 5.",
             metavar="RANGE...",
         ),
     ] = None,

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import (
     HelicalGearArgument,
     OverwriteOption,
@@ -116,7 +117,8 @@ def helical(
         file = with_flanks(
             HelicalGearFile.given(gear), facets, crown_start, relief_parabola, relief_exponent
         )
-        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        if oil is None:
+            check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
         if speed_rpm is not None:
             check_within("--speed-rpm", speed_rpm, 0.1, 1e6, "rpm", "Give its magnitude.")
         case = HelicalLineCase(
@@ -126,7 +128,9 @@ def helical(
             step=step,
             position=None if position is None else 1e-3 * position,
             oil=oil,
-            oil_temperature=celsius_to_kelvin(oil_temperature),
+            oil_temperature=celsius_to_kelvin(oil_temperature)
+            if oil is None
+            else oil_kelvin(oil_temperature, oil),
             newtonian=newtonian,
             convention=load_sharing,
             nodes=(nodes_across, nodes_along),
