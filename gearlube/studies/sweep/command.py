@@ -124,7 +124,7 @@ def sweep(
         speeds_kmh = numbers_from(
             "--speeds", ranges, "km/h", *SPEED_RANGE, example="20:100:5", most=500
         )
-        preloads = tuple(check_within("--preload", p, *PRELOAD_RANGE, "N") for p in preload or ())
+        preloads = [check_within("--preload", p, *PRELOAD_RANGE, "N") for p in preload or ()]
         if jobs is not None:
             check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")
         logger.info("Preparing the axle; the first time this compiles it, about 15 s.")

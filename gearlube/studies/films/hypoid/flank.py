@@ -9,6 +9,7 @@ import numpy as np
 from gearlube.studies.films.hypoid.contact_motion import contact_motion
 from gearlube.studies.films.hypoid.drive import PairDrive, dynamic_drive, static_drive
 from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters, mohammadpour_2015_axle
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
@@ -18,6 +19,7 @@ from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil_of
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.units import kelvin_to_celsius
 
 _FEWEST = 8  # samples of a cycle
 
@@ -63,7 +65,15 @@ def hypoid_flank(case: HypoidCase) -> HypoidFlank:
     parameters = mohammadpour_2015_axle(
         mesh=case.table(), oil=case.oil, roughness_rms=1e-6 * case.roughness_um
     )
-    parameters.oil.check_temperature(case.oil_temperature, "oil temperature")
+    low, high = parameters.oil.temperature_low, parameters.oil.temperature_high
+    check_within(
+        "oil_temperature_degc",
+        kelvin_to_celsius(case.oil_temperature),
+        round(kelvin_to_celsius(low), 9),
+        round(kelvin_to_celsius(high), 9),
+        "degC",
+        f"The data of {case.oil} are meant for this range.",
+    )
     drive = (
         dynamic_drive(parameters, speed, torque, case.oil_temperature)
         if case.load == "dynamic"
