@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from gearlube_core.checks import check_within
-from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin, kelvin_to_celsius
 
 
@@ -15,6 +14,8 @@ def oil_kelvin(oil_temperature: float, oil: str, option: str = "--oil-temperatur
     >>> round(oil_kelvin(95.0, "mohammadpour_2015"), 2)
     368.15
     """
+    from gearlube_core.oil.lubricant import Lubricant  # help does without NumPy
+
     data = Lubricant.named(oil)
     low, high = kelvin_to_celsius(data.temperature_low), kelvin_to_celsius(data.temperature_high)
     cure = f"The data of {oil} are meant for this range."

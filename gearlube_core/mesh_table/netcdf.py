@@ -100,7 +100,7 @@ def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:
     missing = [key for key in ("torque", *SERIES_UNITS, *WINDOW_UNITS) if key not in dataset]
     missing += [key for key in _ATTRIBUTES if key not in dataset.attrs]
     if missing:
-        raise TableError(f"{name} lacks {', '.join(missing)}.")
+        raise TableError(f"{name} lacks {', '.join(missing)}. Write it with write_mesh_table.")
     return MeshTable(
         name=str(dataset.attrs["name"]),
         pinion_teeth=int(dataset.attrs["pinion_teeth"]),

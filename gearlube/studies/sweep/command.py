@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 import shlex
 import sys
 from pathlib import Path
@@ -110,6 +111,11 @@ def sweep(
             raise ParameterError(
                 "--mesh-table must not be given with --fmu, which has its own table, got both. "
                 "Build the FMU with `gearlube build-fmu --mesh-table`, or leave out --fmu."
+            )
+        if scheduler is not None and not re.fullmatch(r"[a-z]+://[^\s/]+", scheduler):
+            raise ParameterError(
+                f"--scheduler must be an address such as tcp://host:8786, got {scheduler!r}. "
+                "Take the one that the Dask scheduler prints when it starts."
             )
         settings = SweepSettings(
             oil_temperature=oil_kelvin(oil_temperature, oil),

@@ -95,6 +95,8 @@ class SweepSettings:
 
     def __post_init__(self) -> None:
         check_option("driver", self.driver, DRIVERS)
+        check_within("roughness_rms", self.roughness_rms, 1e-9, 1e-5, "m", "0.5 um is 0.5e-6 m.")
+        check_within("backlash", self.backlash, 1e-9, 2e-3, "m", "150 um is 150e-6 m.")
         for name, variable in _FMU_VARIABLES.items():
             value = getattr(self, name)
             if variable.literals:
@@ -102,8 +104,6 @@ class SweepSettings:
             else:
                 check_within(name, value, *variable.range, variable.unit)
         Lubricant.named(self.oil).check_temperature(self.oil_temperature, "oil_temperature")
-        check_within("roughness_rms", self.roughness_rms, 1e-9, 1e-5, "m", "0.5 um is 0.5e-6 m.")
-        check_within("backlash", self.backlash, 1e-9, 2e-3, "m", "150 um is 150e-6 m.")
         check_within(
             "communication_step",
             self.communication_step,
