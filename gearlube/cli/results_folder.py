@@ -9,7 +9,6 @@ from pathlib import Path
 
 from gearlube_core import __version__
 from gearlube_core.errors import ParameterError
-from gearlube_core.storage.atomic_file import write_text
 
 MARK = "gearlube_results.json"  # says which study wrote a folder, and which version
 _CURE = "Give another --out, or --overwrite to write there all the same."
@@ -82,6 +81,8 @@ def results_folder(out: Path, study: str, *, overwrite: bool = False) -> Iterato
     ParameterError
         The folder holds results of another study or version, or cannot be written.
     """
+    from gearlube_core.storage.atomic_file import write_text  # help does without NumPy
+
     with written_folder(out):
         mark, mine = out / MARK, {"study": study, "gearlube_version": __version__}
         marked = mark.is_file()

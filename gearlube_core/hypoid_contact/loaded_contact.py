@@ -164,20 +164,19 @@ class MeshPosition:
         Raises
         ------
         ConvergenceError
-            When contact keeps running out of the strips.
+            When the teeth meet nowhere, or contact keeps running out of the strips.
         """
         check_positive("torque", torque, "N.m", "Coast flanks carry positive torque too.")
+        if not math.isfinite(self.unloaded_rotation):
+            raise ConvergenceError(
+                f"the teeth must meet at mesh phase {self.phase:.3f}, turning the pinion closes no "
+                "gap there. Check blank and machine settings: the flanks pass each other."
+            )
         arm = float(np.nanmedian(np.abs(self.maps[len(self.maps) // 2].arm)))
         closing = closing or torque / arm / _FIRST_STIFFNESS
 
         def solve(closing: float, width: float) -> tuple[_Strips, CoupledSolution]:
             strips = self._strips(torque / arm, closing, width, stiffness, settings)
-            if not strips:
-                raise ConvergenceError(
-                    f"the teeth must meet at mesh phase {self.phase:.3f}, no flank is within "
-                    f"{1e6 * closing:.3g} um of another, got a torque of {torque:g} N.m. Check "
-                    "blank and machine settings: the flanks may pass each other there."
-                )
             coupled = [_coupled(self.pair, strip, stiffness) for _, strip in strips]
             return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
 
