@@ -98,7 +98,9 @@ def test_time_sweeps_lie_on_the_branches():
 
 
 def test_datasets_state_units_and_survive_netcdf(tmp_path):
-    study = study_resonance(dry(frequencies=6, sweep_frequencies=4, section_starts=3))
+    study = study_resonance(
+        dry(first=0.7, last=1.1, frequencies=5, sweep_frequencies=4, section_starts=3)
+    )
     for name, dataset in (("a", resonance_dataset(study)), ("b", cycle_dataset(study))):
         for variable in dataset.data_vars.values():
             assert variable.attrs["long_name"]
@@ -120,7 +122,7 @@ def test_datasets_state_units_and_survive_netcdf(tmp_path):
 
 
 def test_summary_of_a_softening_resonance():
-    dataset = resonance_dataset(study_resonance(dry(frequencies=40)))
+    dataset = resonance_dataset(study_resonance(dry(first=0.7, last=1.1, frequencies=12)))
     for summary in summaries(dataset):
         if summary.model == "two_dof_mean_radii":
             continue

@@ -9,7 +9,6 @@ import pytest
 import xarray as xr
 
 from gearlube.plotting.style import cell_edges
-from gearlube.studies.sweep import report
 from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.figures import CATALOGUE, spectrum_map
 from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
@@ -47,8 +46,8 @@ def test_figure_is_drawn_with_labelled_axes_although_a_point_failed(sweep, entry
 
 
 @pytest.mark.parametrize("entry", CATALOGUE, ids=lambda entry: entry.name)
-def test_figure_is_drawn_for_a_single_point(sweep, entry, tmp_path):
-    entry.draw(sweep.isel(preload=[0], speed=[0])).savefig(tmp_path / "figure.png", dpi=50)
+def test_figure_is_drawn_for_a_single_point(sweep, entry, tmp_path, small_pictures):
+    entry.draw(sweep.isel(preload=[0], speed=[0])).savefig(tmp_path / "figure.png")
 
 
 def test_figures_leave_pyplot_alone(sweep):
@@ -86,8 +85,8 @@ def test_cells_touch_half_way_between_speeds():
     np.testing.assert_allclose(cell_edges(np.array([20.0, 30.0, 50.0])), [15.0, 25.0, 40.0, 60.0])
 
 
-def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "_DPI", 30)  # what is drawn is held above
+@pytest.mark.usefixtures("small_pictures")  # what is drawn is held above
+def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_path):
     path = write_sweep_report(sweep, tmp_path)
     html = path.read_text(encoding="utf-8")
     assert html.count("data:image/png;base64,") == len(CATALOGUE)
