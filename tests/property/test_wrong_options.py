@@ -212,6 +212,21 @@ def test_the_reason_names_value_and_limit_in_the_unit_of_the_option(run, argumen
     assert reason in said
 
 
+@pytest.mark.parametrize(
+    "words", [("resonance", "--torque"), ("ehl", "hypoid", "--torque")], ids=" ".join
+)
+def test_a_torque_beyond_the_mesh_table_is_named_and_far_beyond_refused(run, words):
+    code, said = run(*words, "390")
+    assert (code, "N.m" in said) == (REACHED, False)
+    code, said = run(*words, "450")
+    assert code == REACHED
+    assert "450 N.m" in said
+    assert "400 N.m" in said
+    code, said = run(*words, "601")
+    assert code == 2
+    assert "got 601 N.m" in said
+
+
 def test_speed_limits_are_those_of_the_library(run):
     from gearlube.studies.sweep.settings import SPEED_RANGE
 

@@ -115,6 +115,8 @@ def resonance(
             frequencies=frequencies,
             load_at=load_at,
         )
+        for sentence in settings.warnings:
+            logger.warning("%s", sentence)
         with (
             results_folder(out, "resonance", overwrite=overwrite),
             progress_on(console, "resonance") as progress,
