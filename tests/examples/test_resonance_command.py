@@ -48,6 +48,7 @@ def test_quick_run_writes_datasets_and_all_figures(tmp_path):
     assert not list(tmp_path.glob("*.part"))
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_run_without_friction_leaves_out_the_lubricated_model_and_its_figures(tmp_path):
     options = ("--mesh", "synthetic", "--friction", "off", "--frequencies", 5)
     options += ("--range", "0.7:1.1")  # with the folds of the resonance
@@ -60,6 +61,7 @@ def test_run_without_friction_leaves_out_the_lubricated_model_and_its_figures(tm
     assert figures == set(RESONANCE_CATALOGUE) - lubricated
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_a_stopped_run_writes_what_was_found_and_says_so(tmp_path, monkeypatch, caplog):
     def stop(*_):
         raise KeyboardInterrupt

@@ -11,8 +11,8 @@ from gearlube.studies.resonance.response import Response, follow_response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube.studies.resonance.study import study_resonance
 from gearlube.studies.resonance.summary import main_special, summaries
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
+from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.errors import ParameterError
 
@@ -37,9 +37,9 @@ def marched(segment, row, periods=300):
     model, steps = problem.model, problem.steps_per_mesh_period
     rows, p = model.rows(steps), model.kernel_parameters
     speed = branch.parameter[row]
-    march(y, 0, periods, load_torque, speed, rows, p, np.zeros((0, N_RECORD)))
+    march(y, 0, periods, load_torque, speed, rows, p, np.zeros((0, N_RECORD)), np.zeros(MARCH_WORK))
     record = np.zeros((2 * steps, N_RECORD))
-    march(y, periods, 2, load_torque, speed, rows, p, record)
+    march(y, periods, 2, load_torque, speed, rows, p, record, np.zeros(MARCH_WORK))
     return 1e-6 * np.ptp(record[:, 1])
 
 

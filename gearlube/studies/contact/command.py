@@ -44,7 +44,12 @@ def contact(
         ),
     ] = None,
     positions: Annotated[
-        int | None, typer.Option(help="Positions over a mesh period. Default 20.", metavar="N")
+        int | None,
+        typer.Option(
+            help="Positions over a mesh period. Default 20. The mesh table keeps one mesh order "
+            "for every four positions, five at least.",
+            metavar="N",
+        ),
     ] = None,
     offset_error_um: Annotated[
         float,
@@ -85,7 +90,11 @@ def contact(
     from gearlube.studies.contact import run
     from gearlube.studies.contact.gear_solids import write_gears
     from gearlube.studies.contact.settings import QUICK, ContactSettings, Misalignment
-    from gearlube.studies.contact.summary import contact_summary, gear_file_warnings
+    from gearlube.studies.contact.summary import (
+        contact_summary,
+        contact_warnings,
+        gear_file_warnings,
+    )
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
     began = time.monotonic()
@@ -115,7 +124,10 @@ def contact(
             if export:
                 progress(1.0, "gears")
                 write_gears(file, out / "gears")
-        console.print(_table(file.name, contact_summary(results.contact)))
+        rows = contact_summary(results.contact)
+        console.print(_table(file.name, rows))
+        for sentence in contact_warnings(rows):
+            logger.warning("%s", sentence)
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")

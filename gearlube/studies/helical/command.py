@@ -71,13 +71,14 @@ def helical(
         ),
     ] = "film",
     mesh: Annotated[
-        str,
+        str | None,
         typer.Option(
-            help="density: one stiffness along all contact lines; contact: that of the loaded "
-            "contact.",
-            metavar="density|contact",
+            help="Stiffness of the vibrating pair. contact: that of the loaded contact; density: "
+            "one density along all contact lines, of ISO 6336-1 or as given. Default: contact, "
+            "or density where --density is given.",
+            metavar="contact|density",
         ),
-    ] = "density",
+    ] = None,
     density: Annotated[
         float | None,
         typer.Option(
@@ -150,7 +151,7 @@ def helical(
             mu=numbers_from("--mu", mu or ("0:0.3:0.01",), "", 0.0, 1.0, example="0:0.3:0.01"),
             speeds=tuple(rpm_to_rads(speed) for speed in speeds),
             friction=friction,
-            mesh=mesh,
+            mesh=mesh or ("contact" if density is None else "density"),
             density=None if density is None else 1e9 * density,
             torques=tuple(sorted(set(torques or ()))),
             positions=positions,

@@ -58,7 +58,11 @@ def sweep(
         str, typer.Option(help="consistent, or as_printed in the paper.")
     ] = "consistent",
     friction: Annotated[
-        str, typer.Option(help="Flank friction: consistent, as_printed or off.")
+        str,
+        typer.Option(
+            help="Flank friction: consistent, as_printed, off, or printed_traction_circular "
+            "(the reading that gives the paper's efficiency)."
+        ),
     ] = "consistent",
     bearing_torque_loss: Annotated[
         str, typer.Option(help="Drag torque of the bearings: palmgren or none.")

@@ -108,6 +108,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             contact_modulus(parameters.solid, parameters.solid),
             parameters.radii,
             parameters.mesh_stiffness,
+            parameters.contact_pressure,
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         super().__init__(

@@ -24,7 +24,7 @@ from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import chittenden_1985
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
-from gearlube_core.friction.flank_laws import FLANK_LAWS
+from gearlube_core.friction.flank_laws import CONTACT_PRESSURES, FLANK_LAWS
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
@@ -33,7 +33,7 @@ Equations = Literal["consistent", "as_printed"]
 Radii = Literal["consistent", "paper", "mean"]
 MeshStiffness = Literal["tangent", "secant"]
 MeshDamping = Literal["hysteretic", "modal"]
-Friction = Literal["consistent", "as_printed", "off"]
+Friction = Literal["consistent", "as_printed", "off", "printed_traction_circular"]
 Approach = Literal["full", "as_printed"]
 TorqueLoss = Literal["none", "palmgren"]
 
@@ -70,8 +70,10 @@ class HypoidAxleParameters(AxleScalars):
         [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
-    friction : {"consistent", "as_printed", "off"} or callable
-        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`.
+    friction : {"consistent", "as_printed", "off", "printed_traction_circular"} or callable
+        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`. The last name
+        reads the paper so that its efficiency comes out: (13) without beta, as printed, at the mean
+        pressure of a circle, `circular_pressure_coefficient`; asperities are consistent.
     bearing_torque_loss : {"none", "palmgren"}
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
@@ -152,6 +154,13 @@ class HypoidAxleParameters(AxleScalars):
             chittenden_1985.LOAD_RANGE,
             chittenden_1985.MATERIAL_RANGE,
         )
+
+    @property
+    def contact_pressure(self) -> str:
+        """Mean pressure of the flanks: "elliptical", or "circular" where `friction` asks for it."""
+        if isinstance(self.friction, str):
+            return CONTACT_PRESSURES.get(self.friction, "elliptical")
+        return "elliptical"
 
     def _flank_law(self) -> FlankLaw:
         """Return the law of friction; without friction it still gives the film."""
