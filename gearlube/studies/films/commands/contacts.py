@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from gearlube.cli.options import CaseArgument, ExampleOption
+from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.checks import check_finite
 
@@ -53,6 +53,7 @@ def line(
     cavitation: _Cavitation = None,
     temperature: _Temperature = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
+    overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Solve a lubricated line contact; write line.nc, summary.csv and figures.
@@ -75,7 +76,10 @@ def line(
         }
         file = _changed(LineCase.given(case), changes, entrainment, slide_roll)
         solve_and_show(
-            lambda progress: run_steady.run_line(file, folder=out, progress=progress), out
+            lambda progress: run_steady.run_line(file, folder=out, progress=progress),
+            out,
+            "ehl line",
+            overwrite=overwrite,
         )
 
 
@@ -93,6 +97,7 @@ def point(
     ] = None,
     cavitation: _Cavitation = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
+    overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Solve a lubricated point contact; write point.nc, summary.csv and figures.
@@ -115,7 +120,10 @@ def point(
         }
         file = _changed(PointCase.given(case), changes, entrainment, slide_roll)
         solve_and_show(
-            lambda progress: run_steady.run_point(file, folder=out, progress=progress), out
+            lambda progress: run_steady.run_point(file, folder=out, progress=progress),
+            out,
+            "ehl point",
+            overwrite=overwrite,
         )
 
 
