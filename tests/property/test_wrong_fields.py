@@ -47,6 +47,13 @@ FILES: list[tuple[type[InputFile], str, Callable[[Any], object]]] = [
 IDS = [f"{kind.__name__}-{name}" for kind, name, _ in FILES]
 
 
+# a point contact prepares its grid in a tenth of a second, hundreds of times
+BUILT = [
+    pytest.param(*file, marks=[pytest.mark.slow] * (file[0] is PointCase), id=name)
+    for file, name in zip(FILES, IDS, strict=True)
+]
+
+
 def fields(data: dict[str, Any], prefix: str = "") -> Iterator[str]:
     for key, value in data.items():
         yield f"{prefix}{key}"
@@ -87,7 +94,7 @@ def refusal_of(act: Callable[[], object], what: str) -> str:
     return ""
 
 
-@pytest.mark.parametrize(("kind", "name", "build"), FILES, ids=IDS)
+@pytest.mark.parametrize(("kind", "name", "build"), BUILT)
 def test_a_wrong_field_is_refused_by_its_name(kind, name, build):
     data = kind.named(name).model_dump(exclude_none=True)
     names = sorted({*fields(data), *field_notes(kind)})
@@ -104,7 +111,7 @@ def test_a_wrong_field_is_refused_by_its_name(kind, name, build):
             build_refused_or_built(build, file, field, value)
 
 
-@pytest.mark.parametrize(("kind", "name", "build"), FILES, ids=IDS)
+@pytest.mark.parametrize(("kind", "name", "build"), BUILT)
 def test_a_number_that_no_gear_has_is_refused_or_built(kind, name, build):
     data = kind.named(name).model_dump(exclude_none=True)
     for field in field_notes(kind):
