@@ -16,8 +16,10 @@ from gearlube.plotting.style import house_style, new_figure
 from gearlube.studies.helical import run as helical_run
 from gearlube.studies.helical import stages, sweep_grid
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
+from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import RPM, HelicalSettings
+from gearlube.studies.helical.summary import summary_csv, summary_rows
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
@@ -316,6 +318,30 @@ def test_a_run_stopped_at_once_writes_the_summary_of_the_pair(small, tmp_path, m
     assert not datasets(tmp_path)
     text = (tmp_path / "summary.csv").read_text(encoding="utf-8")
     assert "total contact ratio" in text
+
+
+def test_numbers_that_a_study_lacks_are_not_in_its_summary():
+    """Own pairs, stable at every factor studied, had rows of nan."""
+    growth = (("variation", "mesh_frequency"), np.full((3, 2), -0.1))
+    stability = xr.Dataset(
+        {"growth_variation": growth, "growth_variation_light": growth},
+        coords={"variation": [0.5, 1.0, 2.0]},
+    )
+    file = HelicalGearFile.named("he_2007")
+    settings = HelicalSettings(file=file, pinion_torque=200.0, pinion_speed=100.0, parts="geometry")
+    attributes = {"operating_mean_coefficient": np.nan, "operating_power_loss": 3.0}
+    film = xr.Dataset(attrs=attributes | {"loss_factor": np.nan})
+    results = HelicalResults(
+        settings=settings,
+        datasets={"stability": stability, "film": film},
+        mesh=None,
+        failures={},
+        interrupted=False,
+    )
+    rows = {row.quantity: row.value for row in summary_rows(results)}
+    assert rows["stable up to the largest factor, with the pair's damping"] == 2.0
+    assert "loss factor H_V" not in rows
+    assert "nan" not in summary_csv(summary_rows(results))
 
 
 @pytest.mark.parametrize(("options", "stiffness"), [((), 756e6), (("--mesh", "density"), 539e6)])

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,9 +13,10 @@ from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.figures import CATALOGUE, spectrum_map
 from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
 from gearlube.studies.sweep.figures.spectrum_map import DTE, default_top
-from gearlube.studies.sweep.point import failed_point
+from gearlube.studies.sweep.point import failed_point, summarise
 from gearlube.studies.sweep.report import report_html, write_sweep_report
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
+from gearlube.studies.sweep.summary import summary_table
 from tests.helpers import sweep_stand_in as stand_in
 
 SPEEDS, PRELOADS = [20.0, 60.0, 100.0], [2500.0, 6000.0]
@@ -99,3 +101,23 @@ def test_report_of_a_sweep_in_which_everything_failed_names_the_failures():
     html = report_html(dataset)
     assert "out of range" in html
     assert "<img" not in html
+
+
+def test_points_that_left_a_range_are_flagged_and_named_in_the_report():
+    settings = quick_sweep_settings(SweepSettings())
+    recording = stand_in.recorded(60.0, settings)
+    said = "range.torque: torque should be within -400 to 400 N.m, got 450 N.m."
+    left = replace(recording, warnings=("built from other sources", said))
+    points = {
+        (60.0, 2500.0): summarise(recording, 60.0, 2500.0, settings),
+        (60.0, 6000.0): summarise(left, 60.0, 6000.0, settings),
+    }
+    dataset = merge(PRELOADS, [60.0], points).assign_attrs(title="Speed sweep")
+    table = summary_table(dataset)
+    assert table["range_exceeded"].tolist() == [0.0, 1.0]
+    assert table["range_message"].tolist() == ["", said]
+    html = report_html(dataset, entries=())
+    assert html.count(said) == 1
+    assert "left the range of a formula" in html
+    sound = report_html(dataset.isel(preload=[0]), entries=())
+    assert "No finished point left the range" in sound

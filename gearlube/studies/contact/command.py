@@ -14,8 +14,9 @@ from rich.table import Table
 
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
-from gearlube.cli.options import JobsOption
+from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.contact.summary import ContactSummary
@@ -80,6 +81,7 @@ def contact(
     quick: Annotated[
         bool, typer.Option("--quick", help="Few positions and torques, for a first look.")
     ] = False,
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Analyse the tooth contact of a hypoid pair; write its mesh table, contact.nc and figures.
 
@@ -112,7 +114,10 @@ def contact(
         )
         for sentence in gear_file_warnings(file):
             logger.warning("%s", sentence)
-        with progress_on(console, "contact", 2 * cycle.positions) as progress:
+        with (
+            results_folder(out, "contact", overwrite=overwrite),
+            progress_on(console, "contact", 2 * cycle.positions) as progress,
+        ):
             results = run.run_contact(
                 file, replace(usual, cycle=cycle), folder=out, jobs=jobs, progress=progress
             )

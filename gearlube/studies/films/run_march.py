@@ -28,6 +28,8 @@ from gearlube_core.storage.atomic_file import write_dataset
 
 logger = logging.getLogger("gearlube")
 
+MOST_STEPS = 100_000
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarchSteps:
@@ -55,6 +57,22 @@ class MarchSteps:
     snapshots: tuple[int, ...] = ()
     record_every: int = 5
     repeat: bool = False
+
+    def __post_init__(self) -> None:
+        check_within("the first step", self.first, 0, MOST_STEPS, "", "Write FIRST:LAST.")
+        if self.last is not None:
+            check_within("the last step", self.last, 0, MOST_STEPS, "", "Write FIRST:LAST.")
+            if self.last <= self.first:
+                cure = (
+                    f"Write them as {self.last}:{self.first}."
+                    if self.last < self.first
+                    else "The film at rest is that of a step, not of a march."
+                )
+                raise ParameterError(
+                    f"the last step must be above the first, got {self.first} and {self.last}. "
+                    f"{cure}"
+                )
+        check_within("record_every", self.record_every, 1, MOST_STEPS)
 
 
 def run_helical_march(
@@ -100,6 +118,7 @@ def run_helical_march(
     names = {"name": case.file.name, "source": case.file.source}
     first = steps.first
     last = film.steps.count if steps.last is None else steps.last
+    check_within("the last step", last, first + 1, film.steps.count, "", "The cycle ends there.")
     for step in steps.snapshots:
         check_within("snapshots", step, first, last, "", "Name steps of the march.")
     if steps.snapshots and folder is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -43,7 +44,7 @@ def summary_rows(results: HelicalResults) -> list[Row]:
     ):
         if name in found:
             rows += of(found[name])
-    return rows
+    return [row for row in rows if math.isfinite(row.value)]  # a study may lack a number
 
 
 def remarks(results: HelicalResults) -> list[str]:
@@ -164,14 +165,11 @@ def _stability(stability: xr.Dataset) -> list[Row]:
     ):
         unstable = (stability[name] > 0.0).any("mesh_frequency").values
         first = stability["variation"].values[unstable]
-        rows.append(
-            Row(
-                "stability",
-                f"least factor on the mesh variation that is unstable, {words}",
-                float(first[0]) if first.size else float("nan"),
-                "1",
-            )
-        )
+        if first.size:
+            what, factor = "least factor on the mesh variation that is unstable", first[0]
+        else:
+            what, factor = "stable up to the largest factor", stability["variation"].values[-1]
+        rows.append(Row("stability", f"{what}, {words}", float(factor), "1"))
     return rows
 
 

@@ -13,6 +13,7 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import (
     Radii,
     karagiannis_2012_pair,
 )
+from gearlube_core.dynamics.ranges import TORQUE_MARGIN
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.table import MeshTable
 
@@ -96,12 +97,23 @@ class ResonanceSettings:
         if self.load_at is not None:
             check_within("load_at", self.load_at, 0.05, 3.0, "", "0.9 shows the bistable range.")
         self.parameters("two_dof")
-        if self.mesh is not None and self.pinion_torque > 1.5 * self.mesh.torque[-1]:
+        if self.mesh is not None and self.pinion_torque > TORQUE_MARGIN * self.mesh.torque[-1]:
             raise ParameterError(
-                f"pinion_torque must be at most 1.5 times the highest torque of the mesh table, "
-                f"{self.mesh.torque[-1]:g} N.m, got {self.pinion_torque:g} N.m. "
+                f"pinion_torque must be at most {TORQUE_MARGIN:g} times the highest torque of the "
+                f"mesh table, {self.mesh.torque[-1]:g} N.m, got {self.pinion_torque:g} N.m. "
                 "Run `gearlube contact` with higher torques."
             )
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What leaves the range of its table, one sentence each."""
+        if self.mesh is None or self.pinion_torque <= self.mesh.torque[-1]:
+            return ()
+        return (
+            f"The pinion torque of {self.pinion_torque:g} N.m is beyond the mesh table, which ends "
+            f"at {self.mesh.torque[-1]:g} N.m: its data hold at the end. Run `gearlube contact` "
+            "with higher torques.",
+        )
 
     @property
     def models(self) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from gearlube.cli.options import CaseArgument, ExampleOption
+from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
 from gearlube_core.checks import check_finite
@@ -55,6 +55,7 @@ def line(
     temperature: _Temperature = None,
     film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
+    overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Solve a lubricated line contact; write line.nc, summary.csv and figures.
@@ -82,6 +83,8 @@ def line(
                 file, film_error=goal, folder=out, progress=progress
             ),
             out,
+            "ehl line",
+            overwrite=overwrite,
         )
 
 
@@ -100,6 +103,7 @@ def point(
     cavitation: _Cavitation = None,
     film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
+    overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Solve a lubricated point contact; write point.nc, summary.csv and figures.
@@ -127,6 +131,8 @@ def point(
                 file, film_error=goal, folder=out, progress=progress
             ),
             out,
+            "ehl point",
+            overwrite=overwrite,
         )
 
 

@@ -7,7 +7,13 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.options import HelicalGearArgument, SpeedOfFileOption, TorqueOfFileOption
+from gearlube.cli.oil_option import oil_kelvin
+from gearlube.cli.options import (
+    HelicalGearArgument,
+    OverwriteOption,
+    SpeedOfFileOption,
+    TorqueOfFileOption,
+)
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
 from gearlube_core.checks import check_option, check_within
@@ -104,6 +110,7 @@ def helical(
         ),
     ] = "embedded",
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Solve the film on a helical pair's contact line, steady at one position or in time.
 
@@ -127,7 +134,8 @@ def helical(
         file = with_flanks(
             HelicalGearFile.given(gear), facets, crown_start, relief_parabola, relief_exponent
         )
-        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        if oil is None:
+            check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
         if speed_rpm is not None:
             check_within("--speed-rpm", speed_rpm, 0.1, 1e6, "rpm", "Give its magnitude.")
         case = HelicalLineCase(
@@ -137,7 +145,9 @@ def helical(
             step=step,
             position=None if position is None else 1e-3 * position,
             oil=oil,
-            oil_temperature=celsius_to_kelvin(oil_temperature),
+            oil_temperature=celsius_to_kelvin(oil_temperature)
+            if oil is None
+            else oil_kelvin(oil_temperature, oil),
             newtonian=newtonian,
             convention=load_sharing,
             nodes=(nodes_across, nodes_along),
@@ -149,6 +159,8 @@ def helical(
                     case, film_error=goal, folder=out, progress=progress
                 ),
                 out,
+                "ehl helical",
+                overwrite=overwrite,
             )
             return
         first, last = _steps(march)
@@ -163,6 +175,8 @@ def helical(
                 case, steps, folder=out, progress=progress
             ),
             out,
+            "ehl helical",
+            overwrite=overwrite,
         )
 
 
