@@ -149,8 +149,8 @@ def page(rows: list[Judged], spent: float, marches: str) -> str:
         minutes=spent / 60.0,
     ) + (
         table(heads, table_rows)
-        + "\nThe default grid is 129 x 129. On 65 x 65 the coarsest grid has 17 nodes along a side, "
-        "too\nfew for the order to show, and friction passes its bound more often.\n"
+        + "\nThe default grid is 129 x 129. On 65 x 65 the coarsest grid has 17 nodes along a "
+        "side, too\nfew for the order to show, and friction passes its bound more often.\n"
         "\nTrue errors of the 129 x 129 grid, and how many of the contacts warn:\n"
         + table(
             ["", "median", "nineteen in twenty below", "largest", "estimated above 5 %", "truly"],
