@@ -1,11 +1,12 @@
 """Put faults into a copy of the code, one after the other, and see whether a test fails.
 
-    python -m benchmarks.mutation.run FOLDER [--count 500] [--by-hand] [--again]
+    python -m benchmarks.mutation.run FOLDER [--count 500] [--by-hand] [--again [--thorough]]
 
 FOLDER keeps the copy, its caches and `results.jsonl`. A run goes on where the last one stopped:
 the order of the mutants depends on the seed and on the text that each of them changes, so a
 mutant keeps its place while other code changes. Each mutant meets the nearest tests without
-compilation first, then the nearest compiled ones, then those farther away.
+compilation first, then the nearest compiled ones, then those farther away; what survives these
+meets all tests that import the file, directly or not, with `--again --thorough`.
 """
 
 from __future__ import annotations
@@ -25,9 +26,10 @@ from benchmarks.mutation.workplace import Workplace
 PROJECT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
 _MUTATED = ("gearlube_core", "drivetrain", "fmu_src")
-_NEAREST, _NEAR, _FAR = 2, 5, 20  # test files of each stage
-_SECONDS = 20.0  # of unchanged tests at each compiled stage
-_LIMIT = 100.0  # [s] of processor time at each compiled stage
+_NEAREST, _NEAR, _FAR = 2, 5, 15  # test files of each stage
+_SECONDS = (12.0, 8.0)  # of unchanged tests, near and far
+_ALL = 500.0  # [s] of tests and of processor time, where a survivor meets all tests
+_LIMIT = 80.0  # [s] of processor time at each compiled stage
 
 
 def sampled(tree: Path, seed: int) -> list[Mutant]:
@@ -63,18 +65,21 @@ def by_hand(tree: Path) -> Iterator[Mutant]:
         )
 
 
-def outcome(place: Workplace, mutant: Mutant) -> dict[str, object]:
+def outcome(place: Workplace, mutant: Mutant, thorough: bool) -> dict[str, object]:
     """Return what became of a mutant."""
     source = (place.tree / mutant.file).read_bytes()
     changed = mutant.applied(source)
     if mutant.key.startswith("by hand"):  # whole statements
         changed = source[: mutant.start] + mutant.after.encode() + source[mutant.end :]
     tests = [file for _, file in place.reach.tests_of(mutant.file, mutant.scope)]
-    stages = [(tests[:_NEAR], True), (tests[_NEAR:_FAR], True)]
+    near, far = _SECONDS
+    stages = [(tests[:_NEAR], True, near), (tests[_NEAR:_FAR], True, far)]
+    if thorough:
+        stages = [(tests[:_NEAR], True, _ALL), (tests[_NEAR:], True, _ALL)]
     if place.reach.is_compiled(mutant.file):
         for file in tests[:_NEAREST]:
             place.measure_without_compilation(file)
-        stages.insert(0, (tests[:_NEAREST], False))
+        stages.insert(0, (tests[:_NEAREST], False, near))
     row: dict[str, object] = {
         "key": mutant.key,
         "file": mutant.file,
@@ -85,10 +90,10 @@ def outcome(place: Workplace, mutant: Mutant) -> dict[str, object]:
     }
     spent, how = 0.0, "survived"
     place.copy_caches()
-    for files, compiled in stages:
+    for files, compiled, budget in stages:
         if not files:
             continue
-        plan = place.plan(files, compiled, _SECONDS, _LIMIT)
+        plan = place.plan(files, compiled, budget, _ALL if thorough else _LIMIT)
         result = place.run_changed(plan, mutant.file, changed)
         spent += result.seconds
         if result.ended in ("failed", "too long"):
@@ -107,6 +112,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--by-hand", action="store_true", help="those of by_hand.toml instead")
     parser.add_argument("--again", action="store_true", help="survivors once more, on new tests")
+    parser.add_argument("--thorough", action="store_true", help="all tests that reach the file")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="end after")
     parser.add_argument("--compiled-code-of", type=Path, help="a tree whose compiled code to take")
     parser.add_argument("--durations", type=Path, help="output of pytest -n 0 --durations=0")
@@ -135,7 +141,7 @@ def main() -> None:
         done = before.get(mutant.key, "")
         if time.monotonic() > end or (done and (done == "killed" or not options.again)):
             continue
-        row = outcome(place, mutant)
+        row = outcome(place, mutant, options.thorough)
         with results.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")
         said = f"{row['outcome']:>9} {row['seconds']:>6} s  {mutant.file}:{mutant.line}"
