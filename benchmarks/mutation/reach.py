@@ -9,7 +9,8 @@ from __future__ import annotations
 import ast
 import re
 from collections import defaultdict, deque
-from functools import cached_property
+from collections.abc import Iterable
+from functools import cache, cached_property
 from pathlib import Path
 
 PACKAGES = ("gearlube_core", "drivetrain", "fmu_src", "gearlube")
@@ -18,6 +19,14 @@ _FACE = "gearlube/__init__.pyi"
 _MODULE = re.compile(r"(?:gearlube_core|drivetrain|fmu_src|gearlube)(?:\.\w+)+")
 _KERNEL = re.compile(r"^\s*@(?:kernel|inlined|summing|compiled)\b", re.MULTILINE)
 _NAMED = 2.0  # steps that a test seems nearer when it names the changed function
+_SHARED = 0.4  # the same for each rare word of the changed lines that stands in the test
+_RARE = 0.1  # of all tests
+
+
+def _parts_of(names: Iterable[str]) -> frozenset[str]:
+    """Return the words of names as they are written in code, in small letters."""
+    parts = {part for name in names for part in re.split(r"_|(?<=[a-z])(?=[A-Z])", name)}
+    return frozenset(part.lower() for part in parts if len(part) > 3)
 
 
 class Reach:
@@ -42,8 +51,8 @@ class Reach:
                 importers[one].add(file)
         return importers
 
-    def tests_of(self, file: str, scope: str) -> list[tuple[float, str]]:
-        """Return test files with their distance from `scope` in `file`, nearest first.
+    def tests_of(self, file: str, scope: str, text: str = "") -> list[tuple[float, str]]:
+        """Return test files with their distance from `text` in `scope` of `file`, nearest first.
 
         The file itself counts as a test where it has examples in its docstrings.
         """
@@ -56,15 +65,30 @@ class Reach:
                 if distances.get(importer, 99) > distances[here] + step:
                     distances[importer] = distances[here] + step
                     waiting.append(importer)
-        names = {part for part in scope.split(".") if not part.startswith("__")}
+        names = {part for part in scope.split(".") if part and not part.startswith("__")}
+        words = self._rare_words(text)
         found = []
         for test, distance in distances.items():
             if Path(test).name.startswith("test_"):
                 named = bool(names & self._words[test])
-                found.append((distance - _NAMED * named, test))
+                shared = len(words & self._parts(test))
+                found.append((distance - _NAMED * named - _SHARED * shared, test))
         if ">>> " in self._texts[file]:
             found.append((-_NAMED, file))
         return sorted(found)
+
+    def _rare_words(self, text: str) -> set[str]:
+        tests = [file for file in self._texts if Path(file).name.startswith("test_")]
+        words = _parts_of(re.findall(r"\w+", text))
+        return {
+            word
+            for word in words
+            if 0 < sum(word in self._parts(test) for test in tests) <= _RARE * len(tests)
+        }
+
+    @cache  # noqa: B019 - one graph in a run
+    def _parts(self, file: str) -> frozenset[str]:
+        return _parts_of(self._words[file])
 
     def is_compiled(self, file: str) -> bool:
         """Return whether a change of the file has kernels compiled anew."""
