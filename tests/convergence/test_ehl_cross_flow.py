@@ -14,6 +14,7 @@ from gearlube_core.ehl.point.equations.cross_flow import (
 )
 from gearlube_core.ehl.point.equations.mesh import mesh_metric
 from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
+from gearlube_core.ehl.point.equations.shear_factors import ObliqueFactors
 from gearlube_core.ehl.point.equations.stencil import (
     OFFSETS,
     FilmFlow,
@@ -141,3 +142,43 @@ def test_derivatives_of_the_cross_flow_match_differences(oblique: bool) -> None:
         inner = np.s_[1:-1, 1:-1]
         numerical = ((up - down) / 2e-5)[inner]
         assert change[inner] == pytest.approx(numerical, abs=1e-7 * np.abs(numerical).max())
+
+
+def test_both_flows_across_the_slope_answer_to_a_change_of_pressure_by_one_factor() -> None:
+    """Even film, pressure 1 + x y: d/dx(F_xy dp/dy) + d/dy(F_xy dp/dx) = 2 F_xy."""
+    shape = (6, 7)
+    of, answers = (0.8, 1.3, 0.2), (1.1, 1.7, 0.35)  # xx, yy, xy: of the flow, of its changes
+    even = {
+        name: np.full(shape, value)
+        for name, value in zip(
+            ("xx", "yy", "xy", "slope_xx", "slope_yy", "slope_xy", "stiffness", "film_power"),
+            (*of, *answers, 1.0, 3.0),
+            strict=True,
+        )
+    }
+    factors = ObliqueFactors(**even)
+    cubic, fluidity = np.full(shape, 0.7), np.full(shape, 0.4)
+    flow = factors.flow(cubic * factors.xx, fluidity, -np.log(fluidity))
+    zero, metric = np.zeros(shape), mesh_metric(np.arange(7.0), 1.0)
+    parameters = StencilParameters(9.0, 4.0, 1.0, 0.0, 1.5, -0.5, 0.0, 0.0)
+    y, x = np.indices(shape, dtype=float)
+
+    by_pressure, by_film = np.zeros((2, len(OFFSETS), *shape))
+    factors.add_cross_derivatives(
+        parameters,
+        metric,
+        zero,
+        flow,
+        zero,
+        zero + 1.0,
+        factors.slopes(cubic, zero, zero),
+        zero == 0.0,
+        by_pressure,
+        by_film,
+    )
+    change, residual = np.empty(shape), np.zeros(shape)
+    apply_derivatives(OFFSETS, by_pressure, by_film, 1.0 + x * y, zero, change)
+    factors.add_cross_flow(parameters, metric, 1.0 + x * y, flow, residual)
+    inner, mobility = np.s_[1:-1, 1:-1], 2.0 * 0.7 * 0.4 * math.sqrt(9.0 * 4.0)
+    assert residual[inner] == pytest.approx(np.full((4, 5), mobility * of[2]), rel=1e-12)
+    assert change[inner] == pytest.approx(np.full((4, 5), mobility * answers[2]), rel=1e-12)
