@@ -1,4 +1,4 @@
-"""Flow across the slope of pressure through faces: order on uniform and graded grids."""
+"""Flow across the slope of pressure through faces: order on all grids, derivatives."""
 
 from __future__ import annotations
 
@@ -7,9 +7,20 @@ import math
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations.cross_flow import CrossFlow, add_cross_flow
+from gearlube_core.ehl.point.equations.cross_flow import (
+    CrossFlow,
+    add_cross_derivatives,
+    add_cross_flow,
+)
 from gearlube_core.ehl.point.equations.mesh import mesh_metric
-from gearlube_core.ehl.point.equations.stencil import FilmFlow, StencilParameters
+from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
+from gearlube_core.ehl.point.equations.shear_factors import ObliqueFactors
+from gearlube_core.ehl.point.equations.stencil import (
+    OFFSETS,
+    FilmFlow,
+    FlowSlopes,
+    StencilParameters,
+)
 
 STEP = 1e-4  # of the differences that stand for derivatives of the smooth fields
 
@@ -76,3 +87,98 @@ def test_cross_flow_through_faces_is_of_second_order(graded: bool, oblique: bool
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert orders == pytest.approx(2.0, abs=0.15)
     assert errors[-1] < 1e-3
+
+
+@pytest.mark.parametrize("oblique", [False, True], ids=["along x", "oblique"])
+def test_derivatives_of_the_cross_flow_match_differences(oblique: bool) -> None:
+    rng = np.random.default_rng(6)
+    shape = _, nx = 8, 9
+    x = np.linspace(0.0, 1.0, nx) + 0.05 * rng.random(nx)
+    metric = mesh_metric(x, float(np.diff(x).min()))
+    wedge = 1.0 if oblique else 0.0
+    parameters = StencilParameters(40.0, 70.0, 1.0, wedge, 1.5, -0.5, 0.0, 0.0)
+    along, across, ratio_x, ratio_y = 0.5 + rng.random((4, *shape))
+    # laws with exact slopes: rho ~ exp(0.3 p), fluidity ~ exp(-0.6 x 1.5 p) h^-0.4
+    dense, stiffness, thickening, thin = 0.3, 0.6, 1.5, -0.4
+    cross = CrossFlow(ratio_x, ratio_y, ratio_x, ratio_y)
+
+    def film_flow(p: np.ndarray, h: np.ndarray) -> FilmFlow:
+        fluidity = np.exp(-stiffness * thickening * p) * h**thin
+        f, g = along * fluidity, across * fluidity
+        return FilmFlow(np.exp(dense * p) * h**3, f, g, -np.log(f), -np.log(g))
+
+    def cross_flow(p: np.ndarray, h: np.ndarray) -> np.ndarray:
+        residual = np.zeros(shape)
+        add_cross_flow(parameters, metric, p, film_flow(p, h), cross, residual)
+        return residual
+
+    p, h = rng.random(shape), 1.0 + rng.random(shape)
+    slopes = FlowSlopes(
+        *np.ones((3, *shape)),
+        by_pressure=np.full(shape, dense + (1.0 - stiffness) * thickening),
+        film_power=np.full(shape, 3.0 + thin),
+        stiffness=np.full(shape, stiffness),
+    )
+    by_pressure, by_film = np.zeros((2, len(OFFSETS), *shape))
+    add_cross_derivatives(
+        parameters,
+        metric,
+        p,
+        film_flow(p, h),
+        cross,
+        np.full(shape, thickening),
+        h,
+        slopes,
+        np.ones(shape, dtype=bool),
+        by_pressure,
+        by_film,
+    )
+    for _ in range(3):
+        dp, dh = rng.normal(size=(2, *shape))
+        change = np.empty(shape)
+        apply_derivatives(OFFSETS, by_pressure, by_film, dp, dh, change)
+        up, down = (cross_flow(p + e * dp, h + e * dh) for e in (1e-5, -1e-5))
+        # differences of 1e-5: truncation 1e-10, roundings 1e-16/1e-5
+        inner = np.s_[1:-1, 1:-1]
+        numerical = ((up - down) / 2e-5)[inner]
+        assert change[inner] == pytest.approx(numerical, abs=1e-7 * np.abs(numerical).max())
+
+
+def test_both_flows_across_the_slope_answer_to_a_change_of_pressure_by_one_factor() -> None:
+    """Even film, pressure 1 + x y: d/dx(F_xy dp/dy) + d/dy(F_xy dp/dx) = 2 F_xy."""
+    shape = (6, 7)
+    of, answers = (0.8, 1.3, 0.2), (1.1, 1.7, 0.35)  # xx, yy, xy: of the flow, of its changes
+    even = {
+        name: np.full(shape, value)
+        for name, value in zip(
+            ("xx", "yy", "xy", "slope_xx", "slope_yy", "slope_xy", "stiffness", "film_power"),
+            (*of, *answers, 1.0, 3.0),
+            strict=True,
+        )
+    }
+    factors = ObliqueFactors(**even)
+    cubic, fluidity = np.full(shape, 0.7), np.full(shape, 0.4)
+    flow = factors.flow(cubic * factors.xx, fluidity, -np.log(fluidity))
+    zero, metric = np.zeros(shape), mesh_metric(np.arange(7.0), 1.0)
+    parameters = StencilParameters(9.0, 4.0, 1.0, 0.0, 1.5, -0.5, 0.0, 0.0)
+    y, x = np.indices(shape, dtype=float)
+
+    by_pressure, by_film = np.zeros((2, len(OFFSETS), *shape))
+    factors.add_cross_derivatives(
+        parameters,
+        metric,
+        zero,
+        flow,
+        zero,
+        zero + 1.0,
+        factors.slopes(cubic, zero, zero),
+        zero == 0.0,
+        by_pressure,
+        by_film,
+    )
+    change, residual = np.empty(shape), np.zeros(shape)
+    apply_derivatives(OFFSETS, by_pressure, by_film, 1.0 + x * y, zero, change)
+    factors.add_cross_flow(parameters, metric, 1.0 + x * y, flow, residual)
+    inner, mobility = np.s_[1:-1, 1:-1], 2.0 * 0.7 * 0.4 * math.sqrt(9.0 * 4.0)
+    assert residual[inner] == pytest.approx(np.full((4, 5), mobility * of[2]), rel=1e-12)
+    assert change[inner] == pytest.approx(np.full((4, 5), mobility * answers[2]), rel=1e-12)

@@ -17,6 +17,7 @@ LOSSES = [
     "energy.bearing_damping",
     "energy.bearing_torque",
 ]
+EFFICIENCIES = ["efficiency", "axle.efficiency"]
 
 
 @pytest.mark.parametrize("speed_kmh", [20, 100])
@@ -62,6 +63,18 @@ def test_no_loss_is_ever_negative(speed_kmh, friction):
     data = record(axle, torques, LOSSES, 0.1)
     # roundings of sums of about 100 J
     assert np.min(np.diff(data, axis=1)) >= -1e-13
+
+
+def test_efficiencies_are_those_of_the_energies_of_the_step():
+    axle, *torques = running_axle(60)
+    data = record(axle, torques, ["energy.pinion_work", *LOSSES, *EFFICIENCIES], 0.002)
+    put_in, viscous, boundary, *others = np.diff(data[:6], axis=1)
+    of_the_mesh, of_the_axle = data[6:, 1:]
+    friction = viscous + boundary
+    # roundings of energies of 10 J against 1 J put in each step; bearings take over 1e-3 of it
+    np.testing.assert_allclose(of_the_mesh, 1.0 - friction / put_in, rtol=1e-11)
+    np.testing.assert_allclose(of_the_axle, 1.0 - (friction + sum(others)) / put_in, rtol=1e-11)
+    assert np.all(of_the_mesh - of_the_axle > 1e-3)
 
 
 def test_only_bearing_forces_change_the_momentum_of_the_members():

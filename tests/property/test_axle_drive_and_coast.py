@@ -199,6 +199,15 @@ def test_start_rests_on_the_flanks_of_the_torque(torque):
     assert axle.state_view[SIDE] == np.sign(torque)
 
 
+def test_load_level_follows_the_torque_within_hundredths_of_a_second():
+    axle = axle_of(SHIPPED)
+    for _ in range(20):
+        axle.step(1e-3, 2.0 * DRIVING, 2.0 * DRIVING * RATIO, OIL)
+    # a first-order lag of 20 ms after 20 ms, for a torque that does not change meanwhile
+    expected = DRIVING * (2.0 - np.exp(-1.0))
+    assert axle.state_view[LOAD_TORQUE] == pytest.approx(expected, rel=1e-12)
+
+
 def test_steady_coasting_has_the_force_of_the_coast_radius():
     axle = axle_of(TWO_SIDED, COASTING, steps=22, bearing_torque_loss="none", friction="off")
     record(axle, (COASTING, COASTING * RATIO), ["mesh.force"], 0.1)

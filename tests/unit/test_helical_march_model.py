@@ -13,7 +13,7 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
 )
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_INDEX, OUTPUT_NAMES
-from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX
+from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, LOAD_TORQUE
 from gearlube_core.errors import ParameterError, StepError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
@@ -255,6 +255,14 @@ def test_reversing_the_torque_crosses_the_backlash_to_the_coast_flanks() -> None
     assert abs(rows[-1, 0] + drive + gap) < 20e-6
     # impacts at RK4 with 8 steps in the highest period
     assert abs(unaccounted(before, energies(model))) < 1e-3 * np.abs(energies(model)[:2]).max()
+
+
+def test_load_level_follows_the_torque_within_hundredths_of_a_second() -> None:
+    model = started(he_march())
+    history(model, [], 20, 1e-3, torque=1.5 * TORQUE)
+    # a first-order lag of 20 ms after 20 ms, for a torque that does not change meanwhile
+    expected = TORQUE * (1.5 - 0.5 * math.exp(-1.0))
+    assert model.get_state()[LOAD_TORQUE] == pytest.approx(expected, rel=1e-12)
 
 
 def test_film_friction_is_frozen_between_updates_and_converges_with_them() -> None:

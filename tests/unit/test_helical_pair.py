@@ -128,5 +128,7 @@ def test_relief_that_leaves_no_contact_at_some_phase_is_refused():
     plane = unrelieved_plane(modified)
     path = plane.D - plane.A
     assert path < spur.base_pitch
-    with pytest.raises(ParameterError, match="length of unrelieved contact must be above 0 m"):
-        shared_load(np.array([plane.D + 1e-6]), modified, 10.0)
+    within = plane.A + 0.5 * path
+    assert shared_load(np.array([within]), modified, 10.0).share == pytest.approx([1.0])
+    with pytest.raises(ParameterError, match=f"above 0 m .* at X = {plane.D + 1e-6:.6g} m"):
+        shared_load(np.array([within, plane.D + 1e-6]), modified, 10.0)
