@@ -136,7 +136,10 @@ def test_the_example_is_the_shipped_case_and_can_be_read(tmp_path, asked):
         (("--speed-rpm", "0"), "pinion_speed_rpm must be a number, 1 to 47000 rpm"),
         (("--torque", "0"), "pinion_torque_n_m must not be 0"),
         (("--load", "heavy"), "load must be a text, dynamic or static"),
-        (("--oil-temperature", "190"), "oil temperature must be"),
+        (
+            ("--oil-temperature", "190"),
+            "oil_temperature_degc must be within 0 to 150 degC, got 190 degC",
+        ),
     ],
 )
 def test_what_makes_no_sense_is_refused(tmp_path, options, says, caplog):

@@ -130,11 +130,10 @@ def test_an_unknown_name_lists_the_shipped_cases():
         LineCase.named("mourier_2006")
 
 
-def test_a_point_slides_where_its_oil_has_an_eyring_stress():
+def test_a_point_slides_by_the_difference_of_its_speeds():
     speeds = {"side_speed_1_m_s": 0.5, "side_speed_2_m_s": 1.5}
-    assert point(**speeds).problem().sliding is None
-    sheared = point(oil={**OIL, "eyring_stress_mpa": 5.0}, **speeds).problem()
-    assert sheared.sliding == pytest.approx((-2.0, 1.0))
+    for oil in (OIL, {**OIL, "eyring_stress_mpa": 5.0}):
+        assert point(oil=oil, **speeds).problem().sliding == pytest.approx((-2.0, 1.0))
 
 
 def test_a_point_contact_is_discretised_as_its_file_says():
