@@ -88,19 +88,23 @@ TAIL = """
    file = HypoidGearFile.from_toml("my_gear.toml")
    ```
 
-3. Ask whether the settings meet. Each sentence of the report names the misfit and the single
-   changes that would cure it, `suggest_settings` gives them as numbers:
+3. Ask whether the flanks meet. `gearlube contact` asks first, too:
 
    ```python
-   from gearlube_core.hypoid_geometry.flank.setting_check import setting_report, suggest_settings
+   from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 
-   print(*setting_report(file), sep="\\n")
-   for change in suggest_settings(file):
-       print(change)  # pinion.machine.sliding_base_mm from 21.647 to 20.649 mm
+   check_pair(file)
+   print(*pair_warnings(file), sep="\\n")
    ```
 
-   A plane that misses by tenths of a millimetre is most often one sign read the other way; a
-   pressure angle off by several degrees, blade angles given to the wrong flanks.
+   `check_pair` refuses a pair whose flanks do not meet, in one to five seconds. It says which check
+   failed and which setting is most likely wrong:
+
+   > The flanks cannot mesh. The distance of the pinion cutter's reference plane from the middle of
+   > the working depth must be within 0.1 mm, got -36.9 mm. Most likely wrong: the flanks meet with
+   > pinion.machine.sliding_base_mm from -20.647 to 20.647 mm (the sign).
+
+   `pair_warnings` says what only shifts the contact.
 4. Look at the tooth: thin toplands, pointed teeth, undercut.
 
    ```python
@@ -112,10 +116,37 @@ TAIL = """
 5. Take it elsewhere: `write_flank_csv` (points, normals, curvatures), and `write_solid` with
    `tooth_solid` or `gear_solid` for STL and GLB (`gearlube_core/hypoid_geometry/flank/export.py`).
 
-Half a degree of pressure angle that is left is not a fault of the file: summary sheets often omit
-hook angles and blade edge curvature. The two angle corrections of the pinion are the place for it;
-what decides is the unloaded transmission error, which should have its extreme inside the working
-depth.
+## What is checked
+
+The checks run in this order, the cheapest first. Each limit lies between what sound and wrong pairs
+show. Sound pairs stay well below them.
+
+| Check | Refused above | Warning above |
+|---|---|---|
+| Tooth pitch at the mean point, pinion against gear | 1.5 % | |
+| Working depth less two normal modules | 1 module | 0.3 modules |
+| Mean point from the pinion's pitch cone; from its mid-face | 0.05 mm; 2 % | |
+| Angle between the pitch cones at the mean point | 0.2 deg | |
+| Difference of the spiral angles less the offset angle | 0.5 deg | |
+| Ratio of roll against the teeth (machine root angle up to 2 deg) | 5 % | |
+| Blade groups: the same in both cutters, no common factor with the teeth | | |
+| Profile crowning by a blade edge radius | | 0.04 mm |
+| Cutter's reference plane from the middle of the working depth | 1 mm | 0.1 mm |
+| Spiral angle as cut: gear; pinion | 2 deg; 5 deg | |
+| Slopes between the flanks at the mean point, drive and coast | 10 mrad | |
+| Contact of both flanks without load, on both teeth | none | |
+| Extreme of the unloaded transmission error on the teeth | | none |
+| Unloaded transmission error of the pinion, peak to peak | | 1000 urad |
+
+For a file that fails, these changes of one setting are tried: the other sign, ten times or a tenth,
+inches, radians, some teeth or blade groups more or less, two settings exchanged. If none helps, the
+value is looked for at which the misfit vanishes. A change is offered if all checks then pass and
+both flanks touch. The sentence names the change that fits best and up to two others.
+
+A difference of the pressure angles of both blades is no fault: summary sheets often omit hook
+angles and blade edge curvature, and tilt changes the angles of sound pairs by up to a degree. The
+slopes between the flanks are checked instead. If the transmission error has no extreme on the
+teeth, change the two angle corrections of the pinion.
 """
 
 

@@ -30,3 +30,22 @@ def displacements(member: str, word: str) -> tuple[Variable, ...]:
 def energies(words: dict[str, str]) -> tuple[Variable, ...]:
     """Return energies by name and description."""
     return tuple(output(f"energy.{name}", "J", text, 100.0) for name, text in words.items())
+
+
+def ranges() -> tuple[Variable, ...]:
+    """Return the quantities that decide whether tables and formulas are within their ranges."""
+    at = "at the most loaded contact; 0 when not in use"
+    return (
+        Variable(
+            name="range.exceeded", type="Integer", causality="output",
+            description="0: all within their ranges; else the sum of 1 torque, 2 film_load, "
+            "4 film_material, 8 traction, 16 temperature, 32 pressure, see docs/fmu.md",
+        ),
+        output("range.torque", "N.m", "Pinion torque of the mesh data, or that the teeth carry if "
+               "that is more; negative on the coast flanks", 100.0),
+        output("range.film_load", "1", f"Load group M of Moes {at}", 1e3),
+        output("range.film_material", "1", f"Material group L of Moes {at}", 10.0),
+        output("range.traction", "1", f"Number of the traction map {at}", 10.0),
+        output("range.temperature", "K", f"Film temperature {at}", 300.0, "degC"),
+        output("range.pressure", "Pa", f"Largest Hertz pressure {at}", 1e9, "GPa"),
+    )  # fmt: skip

@@ -24,6 +24,9 @@ class Model(Protocol):
     def step(self) -> Callable[..., None]:
         """(h, *inputs): advance by h [s]; on failure raise a GearLubeError and keep the state."""
 
+    def exceeded(self) -> Mapping[str, str]:
+        """Return what is outside its range now: a sentence for each, by the output's name."""
+
     def get_state(self) -> Array:
         """Return the whole state, enough to continue from it."""
 

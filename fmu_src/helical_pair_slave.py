@@ -10,12 +10,15 @@ try:
     from fmu_src.helical_pair import HelicalPair
     from fmu_src.wrapper import give_reference
 except ImportError as error:
-    raise ImportError(
+    reason = (
         "HelicalPair.fmu needs the Python package gearlube where it runs, "
         f"not found in {sys.prefix} (Python {sys.version.split()[0]}): {error}. "
         "Install it there with `pip install gearlube`. A host that is not Python is started by "
         "`gearlube native HOST` of the environment that has it."
-    ) from error
+    )
+    if sys.stderr is not None:  # a host without logging hears nothing else
+        sys.stderr.write(f"{reason}\n")
+    raise ImportError(reason) from error
 
 __all__ = ["HelicalPair"]
 

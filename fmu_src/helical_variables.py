@@ -6,7 +6,7 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
-from fmu_src.common_outputs import MEMBERS, displacements, energies, motion
+from fmu_src.common_outputs import MEMBERS, displacements, energies, motion, ranges
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, output, parameter
 
@@ -155,4 +155,5 @@ HELICAL_PAIR: tuple[Variable, ...] = (
     *(variable for member in MEMBERS for variable in _moved(*member)),
     *(variable for j in (1, 2, 3, 4) for variable in _bearing(j)),
     *_ENERGIES,
+    *ranges(),
 )

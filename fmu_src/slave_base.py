@@ -24,11 +24,12 @@ from fmu_src.definition import Definition, Model, Value
 from fmu_src.host_thread import HostThread
 from fmu_src.identity import IDENTITY_FILE, check_identity, guid_of
 from fmu_src.model_description import LOG_CATEGORIES
+from fmu_src.range_watch import RangeWatch
 from fmu_src.registration import register_variables
 from fmu_src.slave_state import SlaveState
 from fmu_src.state_bytes import Snapshot
 from fmu_src.values import Values
-from fmu_src.wrapper import guarded, unload_before_libraries
+from fmu_src.wrapper import guarded, told_on_stderr, unload_before_libraries
 from gearlube_core.errors import GearLubeError, ParameterError, StepError
 
 LONGEST_STEP = 0.1  # s
@@ -53,6 +54,10 @@ class CoSimulationSlave(Fmi2Slave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        with told_on_stderr(self.instance_name):
+            self._make()
+
+    def _make(self) -> None:
         self.definition = self.definition_of(Path(self.resources or ""))
         self.modelName = self.definition.name
         self._values = Values(self.definition, lambda text: self.report(Fmi2Status.error, text))
@@ -61,6 +66,7 @@ class CoSimulationSlave(Fmi2Slave):
         self._stale = True
         self._broken = ""
         self._time = 0.0
+        self._range_watch = RangeWatch(self.definition.output_names)
         self._slave_state = SlaveState.INSTANTIATED
         self._thread = HostThread()
         register_variables(self, self.definition.variables)
@@ -93,6 +99,7 @@ class CoSimulationSlave(Fmi2Slave):
     ) -> None:
         """Note the start time [s]; the step size of the model follows from its frequencies."""
         self._log_warnings()
+        self._expect(SlaveState.INSTANTIATED)
         if not math.isfinite(start_time):
             raise ParameterError(f"The start time must be finite, got {start_time} s.")
         self._time = start_time
@@ -111,13 +118,17 @@ class CoSimulationSlave(Fmi2Slave):
         self._expect(SlaveState.INITIALISING)
         self._initialise_model()
         self._enter(SlaveState.STEPPING)
+        self._watch_ranges(self._time)
         settings = ", ".join(f"{name} = {value}" for name, value in self._model_parameters.items())
         self.report(Fmi2Status.ok, f"initialised at t = {self._time:g} s with {settings}")
 
     @guarded
     def terminate(self) -> None:
         """Take no further step; outputs can still be read."""
+        self._expect(SlaveState.STEPPING)
         self._enter(SlaveState.TERMINATED)
+        for count in self._range_watch.counts():
+            self.report(Fmi2Status.ok, count)
         self._thread.release()
 
     def do_step(self, current_time: float, step_size: float) -> bool:
@@ -126,12 +137,17 @@ class CoSimulationSlave(Fmi2Slave):
             self._check_step(current_time, step_size)
             self._model.step(step_size, *self._values.inputs())  # type: ignore[union-attr]
             self._collect_outputs()
+            self._watch_ranges(current_time + step_size)
         except BaseException as error:
             refusal = f"step at t = {current_time} s refused. {_explained(error)}"
             self.report(Fmi2Status.discard, refusal)
             return False
         self._time = current_time + step_size
         return True
+
+    def _watch_ranges(self, time: float) -> None:
+        for warning in self._range_watch.warnings(self._model, time):
+            self.report(Fmi2Status.warning, warning)
 
     def _log_warnings(self) -> None:
         while self._warnings:
@@ -215,6 +231,16 @@ class CoSimulationSlave(Fmi2Slave):
     def get_boolean(self, vrs: Sequence[int]) -> list[bool]:
         """Return the values of Boolean variables."""
         return [value != 0.0 for value in self._read("Boolean", vrs).tolist()]
+
+    @guarded
+    def get_string(self, vrs: Sequence[int]) -> list[str]:
+        """Return nothing: no variable is a String."""
+        return [str(value) for value in self._read("String", vrs)]
+
+    @guarded
+    def set_string(self, vrs: Sequence[int], values: Sequence[str]) -> None:
+        """Refuse any reference: no variable is a String."""
+        self._values.index("String", vrs)
 
     @guarded
     def set_real(self, vrs: Sequence[int], values: Sequence[float]) -> None:

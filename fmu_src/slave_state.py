@@ -15,5 +15,7 @@ class SlaveState(IntEnum):
 
     @property
     def settable(self) -> tuple[str, ...]:
-        """Causalities that can be set: parameters are fixed once initialised."""
-        return ("input",) if self >= SlaveState.STEPPING else ("input", "parameter")
+        """Causalities that can be set: parameters until initialised, nothing once terminated."""
+        if self == SlaveState.TERMINATED:
+            return ()
+        return ("input",) if self == SlaveState.STEPPING else ("input", "parameter")

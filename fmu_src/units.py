@@ -60,6 +60,11 @@ _ALL = (
         exponents={"kg": 1, "m": -1, "s": -2},
         display=(DisplayUnit(name="N/(mm.um)", factor=1e-9),),
     ),
+    Unit(
+        name="Pa",
+        exponents={"kg": 1, "m": -1, "s": -2},
+        display=(DisplayUnit(name="GPa", factor=1e-9),),
+    ),
     Unit(name="N.m", exponents={"kg": 1, "m": 2, "s": -2}),
     Unit(name="J", exponents={"kg": 1, "m": 2, "s": -2}),
     Unit(name="W", exponents={"kg": 1, "m": 2, "s": -3}),

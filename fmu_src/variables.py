@@ -6,12 +6,13 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
-from fmu_src.common_outputs import MEMBERS, displacements, energies, motion
+from fmu_src.common_outputs import MEMBERS, displacements, energies, motion, ranges
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, output, parameter
 
 _INPUTS = (
-    input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives",
+    input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives; refused "
+           "beyond 1.5 times the end of the mesh table",
            start=60.0, minimum=-1e4, maximum=1e4, nominal=100.0),
     input_("wheel.torque", "N.m", "Load torque on the gear shaft; positive resists forward motion",
            start=160.0, minimum=-3e4, maximum=3e4, nominal=300.0),
@@ -40,7 +41,8 @@ _PARAMETERS = (
     option("mesh.damping", "Law of the mesh damping", "hysteretic", "modal", start="hysteretic",
            argument="mesh_damping"),
     option("friction.model", "Flank friction",
-           "consistent", "as_printed", "off", start="consistent", argument="friction"),
+           "consistent", "as_printed", "off", "printed_traction_circular", start="consistent",
+           argument="friction"),
     option("bearing.approach", "Roller approach under shaft displacement",
            "full", "as_printed", start="full", argument="bearing_approach"),
     option("bearing.torque_loss", "Drag torque of the bearings",
@@ -137,4 +139,5 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *_ROLLERS,
     *_ENERGIES,
     *_LATER_PARAMETERS,
+    *ranges(),
 )

@@ -28,6 +28,7 @@ import ctypes
 import os
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache, wraps
 from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar
@@ -95,6 +96,22 @@ def _loaded_libraries() -> list[str]:
     mapped = Path("/proc/self/maps").read_text(errors="surrogateescape").splitlines()
     paths = (line.split(maxsplit=5)[5] for line in mapped if ".so" in line and " r-xp " in line)
     return list(dict.fromkeys(paths))
+
+
+@contextmanager
+def told_on_stderr(instance: str) -> Iterator[None]:
+    """Write what stops an instantiation to standard error: the wrapper tells it only to a logger.
+
+    A host that has not asked for logging would see no more than a null pointer.
+    """
+    try:
+        yield
+    except BaseException as error:
+        if sys.stderr is not None:
+            reason = f"{type(error).__name__}: {error}"
+            sys.stderr.write(f"{instance} could not be instantiated. {reason}\n")
+            sys.stderr.flush()
+        raise
 
 
 def guarded(

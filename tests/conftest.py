@@ -1,15 +1,24 @@
-"""What holds for all tests: scripts that pytest must not collect, and workers side by side."""
+"""What holds for all tests: what pytest must not collect, and workers side by side."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Generator
+from pathlib import Path
+from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from tests.helpers.session_folder import open_session_folder
 
-# started by tests in processes of their own, in an environment made for them
-collect_ignore = ["fmu/importer_ecos.py", "fmu/importer_libcosim.py"]
+# importers are started by tests in processes of their own, in an environment made for them;
+# helpers hold no tests and no examples
+collect_ignore = ["fmu/importer_ecos.py", "fmu/importer_libcosim.py", "helpers"]
+
+# the first call of a kernel compiles it, however fast it is afterwards
+settings.register_profile("compiled kernels", deadline=None)
+settings.load_profile("compiled kernels")
 
 _folder = open_session_folder()
 
@@ -26,10 +35,54 @@ def pytest_unconfigure(config: pytest.Config) -> None:
         _folder.cleanup()
 
 
+class _LastFileFirst(pytest.Dir):
+    """A folder whose files are collected in reverse order."""
+
+    def collect(self) -> list[pytest.Item | pytest.Collector]:
+        return list(super().collect())[::-1]
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collect_directory(path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Let every second worker read the files of a folder from the last to the first.
+
+    Each worker collects all tests. A file that one has read lies on disk as bytecode for the other,
+    so each compiles one half of the files.
+    """
+    worker = os.environ.get("PYTEST_XDIST_WORKER", "gw0")
+    return _LastFileFirst.from_parent(parent, path=path) if int(worker[2:]) % 2 else None
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collect_file() -> Generator[None, list[pytest.Collector], list[pytest.Collector]]:
+    """Look for tests here and not for examples in docstrings: those stand in the packages."""
+    collectors = yield
+    return [collector for collector in collectors if type(collector) is pytest.Module]
+
+
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put the tests of film solvers first, all others after them.
+    """Give all workers one order, with the tests of film solvers first.
 
     Each of two workers begins with one half of the list. So one compiles the kernels of films, the
     other those of axles, gears and bearings, and hardly any kernel is compiled twice.
     """
-    items.sort(key=lambda item: "ehl" not in str(item.path) and "_law_" not in str(item.path))
+
+    def is_not_of_films(path: str) -> bool:
+        return "ehl" not in path and "_law_" not in path
+
+    items.sort(key=lambda item: (is_not_of_films(str(item.path)), str(item.path)))
+
+
+@pytest.fixture
+def small_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures are drawn whole, with fewer pixels; what lies where is matplotlib's."""
+    from matplotlib.figure import Figure
+
+    save = Figure.savefig
+
+    def save_small(figure: Figure, path: Any, **options: Any) -> None:
+        figure.set_layout_engine("none")
+        save(figure, path, **(options | {"dpi": 30}))
+
+    monkeypatch.setattr(Figure, "savefig", save_small)

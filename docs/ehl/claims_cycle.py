@@ -8,6 +8,8 @@ from docs.ehl.cases import CYCLE, FilmCase
 from docs.ehl.claims import GPA, MM, UM, Claim, Verdict, judge, listed, span
 from docs.ehl.lines import March
 from docs.ehl.measures import highest_near, jumps, largest_change, off_range, peaks
+from docs.ehl.minimum_film import extrapolated
+from docs.ehl.printed_film import thinnest_printed
 from docs.ehl.runs import COUNT_RANGE, COUNTS, CROWNS, POSITIONS, default_cycle
 from docs.ehl.store import Store
 from gearlube_core.arrays import Array
@@ -80,11 +82,16 @@ def _ranges(store: Store, design: str, pressures: tuple[float, float], films: tu
     at_rest = [UM * store.steady(FilmCase(design=design), n).min_film for n in POSITIONS]
     thinnest, place = int(march.step[h.argmin()]), MM * march["min_film_y"][h.argmin()]
     rest = span(min(at_rest), max(at_rest), "{:.3f}")
+    limit, error = extrapolated(store)
+    printed = thinnest_printed(store, design)
     return Verdict(
         f"{span(p.min(), p.max(), '{:.3f}')} GPa, {span(h.min(), h.max(), '{:.3f}')} um",
         judge(off_range(p, *pressures) < _PRESSURE, off_range(h, *films) < _FILM),
         f"thinnest at step {thinnest}, y = {place:.1f} mm; films at rest at steps 75, 300, 500 are "
-        f"{rest} um; see the smallest film in motion, below",
+        f"{rest} um. Not converged in time: behind the relief of A shorter steps go to "
+        f"{UM * limit:.3f} um, error {UM * error:.3f} um. With a first-order wedge on the "
+        f"thesis' spacing: at least {UM * printed:.3f} um, so that the printed film is probably "
+        "thick by numerics; see the smallest film in motion, below",
     )
 
 

@@ -56,6 +56,7 @@ from docs.helical.separation import crowned_curves, plain_curves
 from docs.helical.stiffness_density import choices, effects, table_density, used
 from docs.helical.structure import six_against_twelve, spur_limit
 from docs.helical.study import study
+from docs.validation.rejudge import helical_section
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
 from gearlube.studies.helical.figures.geometry_catalogue import GEOMETRY_CATALOGUE
 from gearlube_core.dynamics.helical_pair.he_2007 import PINION_SPEED, PINION_TORQUE
@@ -96,7 +97,8 @@ def main() -> None:
 
     page = _text("method")
     page += verdict_counts(he) + claims_table(named, he) + _text("thesis")
-    page += verdict_counts(thesis) + claims_table(rows, thesis) + _text("structure")
+    page += verdict_counts(thesis) + claims_table(rows, thesis)
+    page += _text("structure").replace("REJUDGED\n", helical_section())
     page += zone_table(zone_differences()) + _text("limits")
     page += limit_table(spur_limit()) + _text("six_dof")
     page += form_table({mu: six_against_twelve(mu) for mu in (LOW, HIGH)}) + _text("iso")

@@ -27,6 +27,7 @@ def study(store: Path) -> HelicalResults:
         pinion_torque=PINION_TORQUE,
         pinion_speed=PINION_SPEED,
         speeds=(PINION_SPEED,),
+        mesh="density",
         density=density(),
         torques=TORQUES,
         separation_speeds=0,

@@ -33,6 +33,7 @@ from docs.resonance.pages import (
     verdict_counts,
 )
 from docs.resonance.starts import starts
+from docs.validation.rejudge import pair_section
 from gearlube.studies.resonance.figures import save_resonance_figures
 from gearlube.studies.resonance.run import run_resonance
 from gearlube.studies.resonance.settings import ResonanceSettings
@@ -80,7 +81,8 @@ def main() -> None:
     page += _text("motion").replace("TWICE\n", twice_counted(evidence))
     page += verdict_counts([*motion, *flanks])
     page += claims_table(DYNAMICS, motion) + _text("flanks")
-    page += flank_table(TRIBOLOGY, flanks) + _text("integration")
+    page += flank_table(TRIBOLOGY, flanks)
+    page += _text("integration").replace("REJUDGED\n", kept(work, "rejudged", pair_section))
     page += agreement_table(agreed) + agreement_summary(agreed) + _text("linear")
     page += linear_table(linear) + _text("drift")
     page += drift_table(drifted) + _text("tests")

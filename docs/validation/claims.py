@@ -229,15 +229,19 @@ def unloaded_rollers(sweep: xr.Dataset) -> Verdict:
 def efficiency_level(sweep: xr.Dataset) -> Verdict:
     """Claim 43."""
     values = sweep["efficiency_mesh"].values
-    ours = "inside" if np.all((values > 0.975) & (values < 0.986)) else "outside"
-    printed = sweep.attrs["setting_friction"] == "as_printed"
+    inside = (values >= 0.9905) & (values <= 0.9915)
+    from_kmh = sweep["speed_kmh"].values[np.all(inside, axis=0)]
+    reasons = {
+        "consistent": "eq. (13) with the coefficient that its units require; what decides it "
+        "stands below",
+        "as_printed": "without beta in eq. (13), but with Hertz' mean pressure of the ellipse and "
+        "E' in the asperity load",
+    }
+    reached = f"within 99.05 to 99.15 % from {from_kmh.min():.0f} km/h on" if from_kmh.size else ""
     return Verdict(
         f"{range_text(values, '{:.2f}', 100.0)} %",
         _verdict(bool(np.all((values >= 0.988) & (values <= 0.992)))),
-        "even without beta in eq. (13); with the analysed contact geometry"
-        if printed
-        else f"{ours} the 97.5-98.6 % of eq. (13) with the coefficient its units require, and "
-        "inside the 96-98.5 % that the paper quotes for whole axles",
+        reasons.get(sweep.attrs["setting_friction"], reached),
     )
 
 
@@ -256,10 +260,12 @@ def efficiency_and_preload(sweep: xr.Dataset) -> Verdict:
     return Verdict(
         f"mesh {range_text(mesh.values, '{:+.3f}', 100.0)} %, "
         f"whole axle {range_text(axle.values, '{:+.2f}', 100.0)} %",
-        HOLDS if falls else (PARTLY if bool(np.all(axle.values < 0.0)) else FAILS),
+        HOLDS if falls else (PARTLY if bool(np.all(axle.values < -1e-4)) else FAILS),
         "by flank friction"
         if falls
-        else "not by flank friction; by the bearings' drag torque, which the paper leaves out",
+        else "not by flank friction; by the bearings' drag torque, which the paper leaves out"
+        if bool(np.all(axle.values < -1e-4))
+        else "not by flank friction; drag of the bearings is left out, as in the paper",
     )
 
 

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.results_folder import written_folder
 
 _LOGGER = logging.getLogger("gearlube")
 
@@ -37,8 +38,7 @@ def build_fmu(
     from fmu_src.build import build_models
 
     began = time.monotonic()
-    with exit_on_error("Stopped; no FMU was built."):
-        out.mkdir(parents=True, exist_ok=True)
+    with exit_on_error("Stopped; no FMU was built."), written_folder(out):
         paths = build_models(out, model, mesh_table, gear, line_mesh)
     built = " and ".join(str(path) for path in paths)
     _LOGGER.info("Built %s in %.1f s.", built, time.monotonic() - began)

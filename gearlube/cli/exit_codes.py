@@ -40,9 +40,20 @@ def exit_on_error(when_stopped: str = "Stopped.") -> Iterator[None]:
     except (ParameterError, TableError) as error:
         _LOGGER.error("%s", error)
         raise typer.Exit(BAD_ARGUMENT) from None
-    except (GearLubeError, OSError) as error:
+    except GearLubeError as error:
         _LOGGER.error("%s", error)
         raise typer.Exit(FAILED) from None
+    except OSError as error:
+        _LOGGER.error("%s", _file_error(error))
+        raise typer.Exit(FAILED) from None
+
+
+def _file_error(error: OSError) -> str:
+    """Return an error of the file system as a sentence, without its number."""
+    if error.strerror is None:
+        return str(error)
+    where = f" at {error.filename}" if error.filename is not None else ""
+    return f"The file system refused{where}: {error.strerror.lower()}. Check path and permissions."
 
 
 def exit_if_failed(reason: str) -> None:

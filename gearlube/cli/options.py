@@ -36,3 +36,7 @@ RoughnessOption = Annotated[
 JobsOption = Annotated[
     int | None, typer.Option(help="Local processes. Default: all processors.", metavar="N")
 ]
+OverwriteOption = Annotated[
+    bool,
+    typer.Option("--overwrite", help="Write into OUT also if it is of another study or version."),
+]

@@ -8,6 +8,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.friction.flank_data import contact_geometry
+from gearlube_core.friction.thermal_eyring_data import circular_pressure_coefficient
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_G, R_P, E
 from gearlube_core.mesh_table.table import MeshTable
 
@@ -54,7 +55,13 @@ class PackedMesh:
         return (self.nodes + 1) * N_CHANNELS
 
 
-def pack_mesh(table: MeshTable, contact_modulus: float, radii: str, stiffness: str) -> PackedMesh:
+def pack_mesh(
+    table: MeshTable,
+    contact_modulus: float,
+    radii: str,
+    stiffness: str,
+    pressure: str = "elliptical",
+) -> PackedMesh:
     """Return the flat arrays of `table`.
 
     What depends on position alone (ellipse, film geometry) is evaluated here, once, by the same
@@ -75,6 +82,8 @@ def pack_mesh(table: MeshTable, contact_modulus: float, radii: str, stiffness: s
         F (1/k_m - 1/k_t) further in; what varies of that with the mesh is added to e, so that the
         static transmission error under the level's load stays. "secant": the spring k_m from
         first contact.
+    pressure : {"elliptical", "circular"}
+        Mean pressure of a flank: that of Hertz' ellipse, or `circular_pressure_coefficient`.
     """
     levels = table.torque.size
     orders = table.orders
@@ -93,12 +102,11 @@ def pack_mesh(table: MeshTable, contact_modulus: float, radii: str, stiffness: s
     data = table.windows
     for level in range(levels):
         for node in range(nodes):
-            geometry = contact_geometry(
-                data["R_x"][level, node],
-                data["R_y"][level, node],
-                data["psi"][level, node],
-                contact_modulus,
-            )
+            R_x, R_y = data["R_x"][level, node], data["R_y"][level, node]
+            geometry = contact_geometry(R_x, R_y, data["psi"][level, node], contact_modulus)
+            if pressure == "circular":
+                circle = circular_pressure_coefficient(R_x, R_y, contact_modulus)
+                geometry = geometry._replace(pressure_coefficient=circle)
             windows[level, node] = (
                 data["share"][level, node],
                 *geometry,

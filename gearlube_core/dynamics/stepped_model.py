@@ -11,15 +11,25 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_within
+from gearlube_core.dynamics.ranges import (
+    MAX_SPEED,
+    RANGE_EXCEEDED,
+    TORQUE_MARGIN,
+    Range,
+    left_ranges,
+)
 from gearlube_core.errors import ConvergenceError, ParameterError, StepError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.oil.lubricant import Lubricant
 
 Control = TypeVar("Control", bound=tuple[float, ...])  # a NamedTuple of floats
 
-MAX_SPEED = 5e3  # rad/s
 MAX_STEP = 0.1  # s, communication step
 _N_INPUTS = 3
+TOO_FAST_WORDS = (
+    f"a shaft turns faster than {MAX_SPEED:g} rad/s, where the model has no meaning. "
+    "Reduce the torque, or load the wheel"
+)
 _OK = 0  # status of a kernel that made its step
 
 
@@ -40,6 +50,40 @@ class Words(NamedTuple):
     refusals: Mapping[int, str]  # why a step was refused, by status
 
 
+class TorqueLimits(NamedTuple):
+    """Torques beyond which a step is refused [N.m], and why."""
+
+    pinion_low: float
+    pinion_high: float
+    wheel: float  # of its magnitude
+    cure: str
+
+    @classmethod
+    def around(
+        cls, of_mesh: tuple[float, float], ratio: float, pinion: float, wheel: float
+    ) -> TorqueLimits:
+        """Return `TORQUE_MARGIN` times the torques of the mesh data, at most the given largest.
+
+        Parameters
+        ----------
+        of_mesh : tuple of 2 floats
+            Pinion torques at the ends of the mesh data, of both signs [N.m].
+        ratio : float
+            Teeth of the gear over those of the pinion.
+        pinion, wheel : float
+            Largest magnitudes for any mesh data [N.m].
+        """
+        low, high = (TORQUE_MARGIN * end for end in of_mesh)
+        cure = "Check the unit."
+        if min(-low, high) < pinion:
+            cure = (
+                f"The mesh data end at {of_mesh[0]:g} and {of_mesh[1]:g} N.m at the pinion; "
+                f"beyond {TORQUE_MARGIN:g} times that results have no meaning. Check the unit, or "
+                "analyse the contact at higher torques."
+            )
+        return cls(max(low, -pinion), min(high, pinion), min(max(-low, high) * ratio, wheel), cure)
+
+
 class SteppedModel(ABC, Generic[Control]):
     """A model with two shafts that is advanced by communication steps.
 
@@ -54,7 +98,9 @@ class SteppedModel(ABC, Generic[Control]):
     oil
         Its range of temperatures is that of the input.
     torque_limits
-        Largest torques at pinion and wheel [N.m].
+        Of pinion and wheel.
+    ranges
+        Of tables and formulas, in the order of `ranges.RANGE_OUTPUTS` without the first.
     words
         For messages.
     """
@@ -66,7 +112,8 @@ class SteppedModel(ABC, Generic[Control]):
         output_names: tuple[str, ...],
         control: Control,
         oil: Lubricant,
-        torque_limits: tuple[float, float],
+        torque_limits: TorqueLimits,
+        ranges: tuple[Range, ...],
         words: Words,
     ) -> None:
         self._state = np.zeros(states)
@@ -79,6 +126,7 @@ class SteppedModel(ABC, Generic[Control]):
         self._control_values = flatten(control)
         self._oil, self._oil_range = oil, (oil.temperature_low, oil.temperature_high)
         self._torque_limits, self._words = torque_limits, words
+        self._ranges = ranges
         self._kernels = self._with_data()
         self.outputs: Array = self._outputs.view()
         self.outputs.flags.writeable = False
@@ -185,6 +233,14 @@ class SteppedModel(ABC, Generic[Control]):
             )
         return float(self._outputs[self.output_names.index(name)])
 
+    def exceeded(self) -> dict[str, str]:
+        """Return what the last step left the range of: a sentence for each, by its output.
+
+        Tables and formulas are extrapolated there. docs/fmu.md lists the ranges.
+        """
+        left = left_ranges(self._ranges, self.output(RANGE_EXCEEDED))
+        return {one.output: one.sentence(self.output(one.output)) for one in left}
+
     def get_state(self) -> Array:
         """Return everything that the future depends on: states, inputs, step control."""
         return np.concatenate([self._state, self._inputs, self._control_values])
@@ -221,12 +277,11 @@ class SteppedModel(ABC, Generic[Control]):
         self._control_values[:] = values[at_control:]
 
     def _check_inputs(self, pinion_torque: float, wheel_torque: float, oil: float) -> None:
-        (at_pinion, at_wheel), (low, high) = self._torque_limits, self._oil_range
-        if abs(pinion_torque) <= at_pinion and abs(wheel_torque) <= at_wheel and low <= oil <= high:
+        (least, most, wheel, cure), (low, high) = self._torque_limits, self._oil_range
+        if least <= pinion_torque <= most and abs(wheel_torque) <= wheel and low <= oil <= high:
             return  # the usual case, thousands of times a second
-        check_within("pinion.torque", pinion_torque, -at_pinion, at_pinion, "N.m",
-                     "Check the unit.")  # fmt: skip
-        check_within("wheel.torque", wheel_torque, -at_wheel, at_wheel, "N.m", "Check the unit.")
+        check_within("pinion.torque", pinion_torque, least, most, "N.m", cure)
+        check_within("wheel.torque", wheel_torque, -wheel, wheel, "N.m", cure)
         self._oil.check_temperature(oil, "oil.temperature")
 
     def _write_outputs(self) -> None:

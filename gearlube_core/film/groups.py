@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from gearlube_core.checks import check_positive
+from gearlube_core.kernels.jit import kernel
 
 
 class PointContactGroups(NamedTuple):
@@ -128,3 +130,23 @@ def line_groups(
     U = viscosity * entrainment_speed / stiffness
     G, W = pressure_viscosity * reduced_modulus, line_load / stiffness
     return LineGroups(U, G, W, W * (2.0 * U) ** -0.5, G * (2.0 * U) ** 0.25)
+
+
+@kernel
+def point_moes_groups(
+    R: float, eta0: float, alpha: float, speed: float, load: float, reduced_modulus: float
+) -> tuple[float, float]:
+    """Return M and L of a point contact; equations as in `point_contact_groups`, not checked."""
+    stiffness = reduced_modulus * R
+    root = math.sqrt(math.sqrt(2.0 * eta0 * speed / stiffness))
+    return load / (stiffness * R * root * root * root), alpha * reduced_modulus * root
+
+
+@kernel
+def line_moes_groups(
+    R: float, eta0: float, alpha: float, speed: float, line_load: float, reduced_modulus: float
+) -> tuple[float, float]:
+    """Return M and L of a line contact; equations as in `line_groups`, not checked."""
+    stiffness = reduced_modulus * R
+    root = math.sqrt(math.sqrt(2.0 * eta0 * speed / stiffness))
+    return line_load / (stiffness * root * root), alpha * reduced_modulus * root

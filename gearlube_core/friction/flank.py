@@ -30,6 +30,7 @@ def flank_friction(
 
     consistent:  f_v = mu (F - W_a),  f_b = tau_l0 A_a + gamma W_a,  0 <= W_a <= F
     as printed:  f_v = mu F, with E' in W_a, beta = 1 1/K in mu and the printed F_2, F_5/2
+    printed traction:  as consistent, with beta = 1 1/K in mu
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ def flank_friction(
     solid
         Elastic and thermal data of the pair.
     form
-        CONSISTENT = 0 or AS_PRINTED = 1.
+        CONSISTENT = 0, AS_PRINTED = 1 or PRINTED_TRACTION = 2.
 
     Returns
     -------
@@ -59,7 +60,7 @@ def flank_friction(
     -----
     Range: that of `central_film_thickness`, `plateau_stress_ratio` and `asperity_load`.
     The printed form counts the asperity load in both terms and drops asperities at a film ratio
-    of 3, where its polynomials jump. In both forms mu lies between zero and the isothermal Eyring
+    of 3, where its polynomials jump. In every form mu lies between zero and the isothermal Eyring
     value, W_a is at most F, and the boundary term carries tanh(|dU|/1 mm/s), so that friction
     passes through zero with sliding speed; the paper states none of these.
     Source: [mohammadpour_2015 (11)], and the parts for the terms and their misprints.

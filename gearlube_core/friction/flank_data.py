@@ -10,6 +10,7 @@ from gearlube_core.kernels.jit import kernel
 
 CONSISTENT = 0
 AS_PRINTED = 1
+PRINTED_TRACTION = 2  # traction as printed, everything else consistent
 
 
 class ContactGeometry(NamedTuple):

@@ -8,7 +8,13 @@ from typing import NamedTuple
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.friction.flank import flank_friction
-from gearlube_core.friction.flank_data import AS_PRINTED, CONSISTENT, ContactGeometry, FlankState
+from gearlube_core.friction.flank_data import (
+    AS_PRINTED,
+    CONSISTENT,
+    PRINTED_TRACTION,
+    ContactGeometry,
+    FlankState,
+)
 from gearlube_core.friction.flank_law import FlankLawMaker
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
@@ -19,7 +25,7 @@ class MixedFlankFriction(NamedTuple):
 
     surface: SurfaceParameters
     solid: SolidParameters
-    form: float  # CONSISTENT or AS_PRINTED [-]
+    form: float  # CONSISTENT, AS_PRINTED or PRINTED_TRACTION [-]
 
     @kernel
     def flank_state(
@@ -53,4 +59,16 @@ def as_printed(surface: SurfaceParameters, solid: SolidParameters) -> MixedFlank
     return MixedFlankFriction(surface, solid, float(AS_PRINTED))
 
 
-FLANK_LAWS: Mapping[str, FlankLawMaker] = {"consistent": consistent, "as_printed": as_printed}
+def printed_traction(surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:
+    """Return the law with the traction coefficient as printed in (13), all else consistent."""
+    return MixedFlankFriction(surface, solid, float(PRINTED_TRACTION))
+
+
+FLANK_LAWS: Mapping[str, FlankLawMaker] = {
+    "consistent": consistent,
+    "as_printed": as_printed,
+    "printed_traction_circular": printed_traction,
+}
+
+# the mean pressure that a law is given, by the law's name; "elliptical" for all others
+CONTACT_PRESSURES: Mapping[str, str] = {"printed_traction_circular": "circular"}

@@ -22,7 +22,7 @@ from gearlube_core.friction.evans_johnson_1986 import (
     surface_heating_number,
     viscous_friction_coefficient,
 )
-from gearlube_core.friction.flank_data import AS_PRINTED
+from gearlube_core.friction.flank_data import AS_PRINTED, CONSISTENT
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -111,6 +111,7 @@ def mixed_friction(
 
     consistent:  f_v = mu (F - W_a),  f_b = tau_l0 A_a + gamma W_a,  0 <= W_a <= F
     as printed:  f_v = mu F, with E' in W_a, beta = 1 1/K in mu and the printed F_2, F_5/2
+    printed traction:  as consistent, with beta = 1 1/K in mu
 
     Parameters
     ----------
@@ -137,7 +138,7 @@ def mixed_friction(
     solid
         Elastic and thermal data of the pair.
     form
-        CONSISTENT = 0 or AS_PRINTED = 1.
+        CONSISTENT = 0, AS_PRINTED = 1 or PRINTED_TRACTION = 2.
 
     Returns
     -------
@@ -156,14 +157,13 @@ def mixed_friction(
     area = load / mean_pressure
     film_ratio = film_thickness / surface.sigma
     load_factor = asperity_load_factor(surface)
+    beta = lubricant.beta if form == CONSISTENT else 1.0
     if form == AS_PRINTED:
-        beta = 1.0
         W_a = load_factor * reduced_modulus * area * f_5_2_as_printed(film_ratio)
         A_a = asperity_area_factor(surface) * area * f_2_as_printed(film_ratio)
         W_a = min(W_a, load)
         F_viscous = load
     else:
-        beta = lubricant.beta
         F_2, F_5_2 = asperity_integrals(film_ratio)
         W_a = load_factor * solid.contact_modulus * area * F_5_2
         A_a = asperity_area_factor(surface) * area * F_2

@@ -13,7 +13,8 @@ from gearlube_core.errors import TableError
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.table import PAIRS, MeshTable, Provenance
 
-ORDERS = 5  # mesh orders kept of each series
+ORDERS = 5  # mesh orders kept of each series at least, zero where positions do not resolve them
+_POSITIONS_PER_ORDER = 4  # the corners of a series fold what is above half of them onto the rest
 ZERO_PHASE = -0.5 * PAIRS  # of tooth pair 0 at pinion angle zero, so that it meets mid-window
 _FLATTEST = 20.0  # m, R_y where the ellipse is longer than any tooth
 _LOST = 0.02  # largest share of a pair outside its window that is dropped
@@ -61,7 +62,12 @@ def contact_table(file: HypoidGearFile, dataset: xr.Dataset) -> MeshTable:
     )
 
 
-def fourier(samples: Array, orders: int = ORDERS) -> Array:
+def orders_kept(positions: int) -> int:
+    """Return the highest mesh order kept of so many positions in a mesh period [-]."""
+    return max(ORDERS, positions // _POSITIONS_PER_ORDER)
+
+
+def fourier(samples: Array, orders: int) -> Array:
     """Return the (orders + 1, 2) cosine and sine coefficients of samples over one mesh period.
 
     The mesh phase of the first sample is zero; the series counts from the pinion angle at which
@@ -79,10 +85,11 @@ def fourier(samples: Array, orders: int = ORDERS) -> Array:
 
 
 def _series(state: xr.Dataset) -> dict[str, Array]:
-    values = {key: fourier(state[key].values) for key in ("k_m", "R_p", "R_g", "k_t")}
+    orders = orders_kept(state.sizes["phase"])
+    values = {key: fourier(state[key].values, orders) for key in ("k_m", "R_p", "R_g", "k_t")}
     for axis in ("x", "y", "z"):
-        values[f"n_{axis}"] = fourier(state["n"].sel(axis=axis).values)
-    values["e"] = fourier(state["e"].values)
+        values[f"n_{axis}"] = fourier(state["n"].sel(axis=axis).values, orders)
+    values["e"] = fourier(state["e"].values, orders)
     # zero where the flanks are tightest: only its change is felt
     side = 1.0 if str(state["side"].values) == "drive" else -1.0
     values["e"][0, 0] -= side * float(np.min(side * state["e"].values))

@@ -51,7 +51,8 @@ class GapMap:
     Parameters
     ----------
     gap : ndarray of shape (m, n)
-        Gap [m] to the pinion, inf where the pinion has no flank there. Negative: overlap.
+        Gap [m] to the pinion, inf where the pinion has no flank there or turning does not close
+        the gap, as two pitches away on some pairs. Negative: overlap.
     point, normal : ndarray of shape (m, n, 3)
         Gear points [m] and outward normals in the fixed frame.
     gear_parameters, pinion_parameters : ndarray of shape (m, n, 3)
@@ -69,8 +70,12 @@ class GapMap:
 
     @property
     def touching_rotation(self) -> Array:
-        """Pinion rotation [rad] towards the gear that closes each gap, (m, n); inf where none."""
-        return self.gap / self.arm
+        """Pinion rotation [rad] towards the gear that closes each gap, (m, n); inf where none.
+
+        Where the arm is zero or less, turning does not close the gap.
+        """
+        none = np.full_like(self.gap, np.inf)
+        return np.divide(self.gap, self.arm, out=none, where=self.arm > 0.0)
 
 
 def within_tooth(flank: Flank, r: Array) -> NDArray[np.bool_]:
@@ -118,7 +123,7 @@ def gap_map(pair: FlankPair, gear_angle: float, pinion_angle: float) -> GapMap:
     ).reshape(*s.shape, 4)
     opposite = pinion.sample_parameters(found[..., :3])
     on_tooth = within_tooth(pinion, opposite.r) & (opposite.regularity > 0.0)
-    gap = np.where(on_tooth, found[..., 3], np.inf)
     point, normal = pair.gear_in_place(gear_angle, surface.r, surface.normal)
     arm = closing_arm(pair, point, normal)
+    gap = np.where(on_tooth & (arm > 0.0), found[..., 3], np.inf)
     return GapMap(gap, point, normal, parameters, found[..., :3], arm)

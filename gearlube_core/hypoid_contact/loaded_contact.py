@@ -10,6 +10,7 @@ from scipy.sparse import csr_array, hstack
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
+from gearlube_core.errors import ConvergenceError
 from gearlube_core.hypoid_contact.gap_map import GapMap, gap_map
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
@@ -163,9 +164,14 @@ class MeshPosition:
         Raises
         ------
         ConvergenceError
-            When contact keeps running out of the strips.
+            When the teeth meet nowhere, or contact keeps running out of the strips.
         """
         check_positive("torque", torque, "N.m", "Coast flanks carry positive torque too.")
+        if not math.isfinite(self.unloaded_rotation):
+            raise ConvergenceError(
+                f"the teeth must meet at mesh phase {self.phase:.3f}, turning the pinion closes no "
+                "gap there. Check blank and machine settings: the flanks pass each other."
+            )
         arm = float(np.nanmedian(np.abs(self.maps[len(self.maps) // 2].arm)))
         closing = closing or torque / arm / _FIRST_STIFFNESS
 

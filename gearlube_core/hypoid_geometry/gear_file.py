@@ -56,14 +56,22 @@ class HypoidGearFile(InputFile):
                     f"{role}.face_width_mm must be below {role}.outer_cone_distance_mm, "
                     f"{member.outer_cone_distance_mm:g} mm, got {member.face_width_mm:g} mm"
                 )
-        depth = sum(
-            (member.face_apex_mm - member.pitch_apex_mm) * math.sin(member.pitch_angle_deg * DEGREE)
-            for member in (self.pinion, self.gear)
-        )
+        heights = {
+            role: (member.face_apex_mm - member.pitch_apex_mm)
+            * math.sin(member.pitch_angle_deg * DEGREE)
+            for role, member in (("pinion", self.pinion), ("gear", self.gear))
+        }
+        depth = sum(heights.values())
         if not depth > 0.0:
+            wrong = " and ".join(
+                f"{role}.face_apex_mm or {role}.pitch_apex_mm"
+                for role, height in heights.items()
+                if not height > 0.0
+            )
             raise ValueError(
                 f"The working depth, from the face and pitch apexes, must be above 0 mm, got "
-                f"{depth:.3g} mm; apexes count positive beyond the crossing point"
+                f"{depth:.3g} mm; apexes count positive beyond the crossing point. Most likely "
+                f"wrong: the sign or the decimal point of {wrong}"
             )
         known = field_notes(HypoidGearFile)
         for field in (*self.inferred, *self.completed):

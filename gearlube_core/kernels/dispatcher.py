@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from numba import types
 from numba.core import config
 from numba.core.compiler import Compiler
 from numba.core.registry import CPUDispatcher
@@ -40,7 +41,12 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]
         self._linked = linked
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
-        """Return numba's template of a call from another kernel."""
+        """Return numba's template of a call from another kernel.
+
+        A literal in the call counts as its type: one compilation serves every number.
+        """
+        args = [types.unliteral(argument) for argument in args]
+        kws = {name: types.unliteral(argument) for name, argument in dict(kws).items()}
         return self._linked.get_call_template(args, kws)
 
     def get_overload(self, sig: Any) -> Any:

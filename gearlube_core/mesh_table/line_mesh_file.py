@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from importlib.resources import files
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import xarray as xr
 
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
 from gearlube_core.storage.atomic_file import write_dataset
 
 FORMAT = 1
@@ -73,14 +73,7 @@ def named_line_mesh(name: str) -> LineMesh:
 
 def line_mesh_from_bytes(content: bytes, name: str) -> LineMesh:
     """Return the line mesh in the content of a file; errors call the file `name`."""
-    try:
-        dataset = xr.load_dataset(io.BytesIO(content), engine="scipy")
-    except (OSError, ValueError, TypeError, IndexError) as reason:
-        lines = str(reason).strip().splitlines() or [type(reason).__name__]
-        raise TableError(
-            f"{name} is not a readable NetCDF 3 file: {lines[0].rstrip('.')}. Write it with "
-            "write_line_mesh, or from xarray with to_netcdf(path, engine='scipy')."
-        ) from None
+    dataset = dataset_from_bytes(content, name, "write_line_mesh")
     _check_format(dataset, name)
     missing = [key for key in _UNITS if key not in dataset.variables]
     missing += [key for key in _ATTRIBUTES if key not in dataset.attrs]

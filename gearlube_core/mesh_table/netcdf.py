@@ -6,7 +6,6 @@ entered by two threads, and a co-simulation host may start two axles at once.
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import cast
 
@@ -14,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube_core.errors import TableError
+from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
 from gearlube_core.mesh_table.table import (
     SERIES_UNITS,
     WINDOW_UNITS,
@@ -95,19 +95,12 @@ def read_content(path: str | Path) -> bytes:
 
 def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:
     """Return the table in the content of a file; errors call the file `name`."""
-    try:
-        dataset = xr.load_dataset(io.BytesIO(content), engine="scipy")
-    except (OSError, ValueError, TypeError) as reason:
-        why = str(reason).strip().splitlines()[0].rstrip(".")
-        raise TableError(
-            f"{name} is not a readable NetCDF 3 file: {why}. Write it with write_mesh_table, or "
-            "from xarray with to_netcdf(path, engine='scipy')."
-        ) from None
+    dataset = dataset_from_bytes(content, name, "write_mesh_table")
     _check_format(dataset, name)
     missing = [key for key in ("torque", *SERIES_UNITS, *WINDOW_UNITS) if key not in dataset]
     missing += [key for key in _ATTRIBUTES if key not in dataset.attrs]
     if missing:
-        raise TableError(f"{name} lacks {', '.join(missing)}.")
+        raise TableError(f"{name} lacks {', '.join(missing)}. Write it with write_mesh_table.")
     return MeshTable(
         name=str(dataset.attrs["name"]),
         pinion_teeth=int(dataset.attrs["pinion_teeth"]),

@@ -94,7 +94,10 @@ def film_oil(
     check_within("temperature", temperature, GLASS_TEMPERATURE + 1.0, 1000.0, "K")
     check_within("temperature_exponent", temperature_exponent, 0.0, 5.0)
     if law != "houpert" and temperature_exponent > 0.0:
-        check_within("temperature_exponent", temperature_exponent, 0.0, 0.0, "", "Take houpert.")
+        raise ParameterError(
+            f"law must be houpert where temperature_exponent is above 0, got {law} and "
+            f"{temperature_exponent:g}. Take houpert, or leave the exponent out."
+        )
     limit, slope = (0.0, 0.0) if limiting_shear is None else limiting_shear
     check_within("limiting_shear[0]", limit, 0.0, 1e10, "Pa", "5 MPa is 5e6 Pa.")
     check_within("limiting_shear[1]", slope, 0.0, 1.0)

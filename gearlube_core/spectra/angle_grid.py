@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
@@ -164,4 +163,6 @@ def resample(angle: Array, signals: Array, window: AngleWindow) -> Array:
     1/(s - 1)^4: 4e-3 at 5 samples, 1.5e-4 at 10, 3e-7 at 44 ([unser_1999],
     spline of degree 3).
     """
+    from scipy.interpolate import CubicSpline  # slow to import, also where nothing is resampled
+
     return np.asarray(CubicSpline(angle, signals, axis=0)(window.angle))

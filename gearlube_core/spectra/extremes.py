@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
@@ -46,6 +45,8 @@ def extremes(signal: Array, refine: int = 1) -> Extremes:
     values = np.asarray(signal, dtype=np.float64)
     mean = float(np.mean(values))
     if refine > 1:
+        from scipy.interpolate import CubicSpline  # slow to import, also where nothing is refined
+
         interior = np.arange(_END * refine, (values.size - 1 - _END) * refine + 1) / refine
         between = CubicSpline(np.arange(values.size), values)(interior)
         values = np.concatenate([values, between])

@@ -131,3 +131,12 @@ def test_minimum_film_is_thinner_than_the_central_film(psi: float) -> None:
     arguments = (ETA0, ALPHA, SPEED, LOAD, E_REDUCED)
     central = central_film_thickness(*film_geometry(R_X, R_Y, psi), *arguments)
     assert minimum_film_thickness(*minimum_film_geometry(R_X, R_Y, psi), *arguments) < central
+
+
+@pytest.mark.parametrize(("geometry", "film"), BOTH)
+def test_the_direction_of_entrainment_does_not_count(geometry: Geometry, film: Film) -> None:
+    """The power of a negative speed was no number."""
+    numbers = [*geometry(R_X, R_Y, PSI), ETA0, ALPHA, SPEED, LOAD, E_REDUCED]
+    back = numbers.copy()
+    back[4] = -SPEED
+    assert film(*back) == film(*numbers) > 0.0

@@ -8,11 +8,21 @@ from scipy.special import ellipe, erfc
 
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle
+from gearlube_core.dynamics.packed_mesh import PRESSURE, R_E
 from gearlube_core.friction.flank import LOAD_FLOOR, flank_friction
-from gearlube_core.friction.flank_data import AS_PRINTED, CONSISTENT, FlankState, contact_geometry
+from gearlube_core.friction.flank_data import (
+    AS_PRINTED,
+    CONSISTENT,
+    PRINTED_TRACTION,
+    FlankState,
+    contact_geometry,
+)
+from gearlube_core.friction.flank_laws import FLANK_LAWS
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED, contact_temperature_rise
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
+from tests.helpers.axle_cases import axle_with
 from tests.references.hertz_reference import HertzContact
 
 STEEL = STEEL_MOHAMMADPOUR_2015
@@ -30,11 +40,20 @@ def flank(load: float, rolling: float, sliding: float, form: int = CONSISTENT) -
 
 
 class ByHand:
-    """Eq. (13)-(22) of Mohammadpour et al. 2015 in plain Python; printed = as the paper has it."""
+    """Eq. (13)-(22) of Mohammadpour et al. 2015 in plain Python; printed = as the paper has it.
 
-    def __init__(self, *, printed: bool) -> None:
+    `traction` is what stands for beta in (13), by default what `printed` says [1/K]; `circular`:
+    pressure of the circle that replaces the ellipse, Karagiannis et al. 2012 (21).
+    """
+
+    def __init__(
+        self, *, printed: bool, traction: float | None = None, circular: bool = False
+    ) -> None:
         E_reduced = 2.0 * E_STAR
         p = HertzContact(R_x=R_X, R_y=R_Y, contact_modulus=E_STAR, load=LOAD).mean_pressure
+        if circular:
+            R = math.sqrt(R_X * R_Y)
+            p = LOAD / (math.pi * (0.75 * LOAD * R / E_STAR) ** (2.0 / 3.0))
         area = LOAD / p
         R_e = 1.0 / (math.cos(PSI) ** 2 / R_X + math.sin(PSI) ** 2 / R_Y)
         R_s = 1.0 / (math.sin(PSI) ** 2 / R_X + math.cos(PSI) ** 2 / R_Y)
@@ -61,7 +80,7 @@ class ByHand:
         load_factor = 16.0 * math.sqrt(2.0) / 15.0 * math.pi * 0.055**2 * math.sqrt(0.001)
         W_a = load_factor * modulus * area * F_52
         A_a = math.pi**2 * 0.055**2 * area * F_2
-        beta = 1.0 if printed else OIL.beta
+        beta = traction or (1.0 if printed else OIL.beta)
         e2 = STEEL.conductivity * STEEL.density * STEEL.heat_capacity
         film_resistance = OIL.conductivity / (h / R_e)
         zeta = 4.0 / math.pi * film_resistance * (p / (E_reduced * R_e * e2 * ROLLING)) ** 0.5
@@ -91,6 +110,34 @@ def test_friction_of_a_loaded_flank_agrees_with_the_equations_by_hand(form: int)
     assert state.temperature_rise == pytest.approx(expected.dT, rel=2e-3)
 
 
+def test_printed_traction_at_circular_pressure_agrees_with_the_equations_by_hand() -> None:
+    law = FLANK_LAWS["printed_traction_circular"](SURFACE, SOLID)
+    R = math.sqrt(R_X * R_Y)
+    circle = 1.0 / (math.pi * (0.75 * R / E_STAR) ** (2.0 / 3.0))
+    geometry = GEOMETRY._replace(pressure_coefficient=circle)
+    state = law.flank_state(LOAD, ROLLING, SLIDING, geometry, OIL)
+    expected = ByHand(printed=False, traction=1.0, circular=True)
+    assert state.film_thickness == pytest.approx(expected.h, rel=1e-12)
+    assert state.viscous_friction == pytest.approx(expected.f_v, rel=1e-8)  # as W_a
+    # interpolated asperity integrals, 1e-8
+    assert state.boundary_friction == pytest.approx(expected.f_b, rel=1e-8)
+
+
+@pytest.mark.parametrize("friction", ["printed_traction_circular", "as_printed"])
+def test_only_the_circular_reading_gives_the_axle_the_pressure_of_a_circle(friction: str) -> None:
+    parameters = axle_with(friction=friction)
+    packed = HypoidAxle(parameters).packed
+    # first node of the first level of load
+    R_x, R_y = (parameters.mesh.windows[name][0, 0] for name in ("R_x", "R_y"))
+    if friction == "printed_traction_circular":
+        expected = 1.0 / (math.pi * (0.75 * math.sqrt(R_x * R_y) / E_STAR) ** (2.0 / 3.0))
+    else:
+        expected = HertzContact(R_x=R_x, R_y=R_y, contact_modulus=E_STAR, load=1.0).mean_pressure
+    # scipy's elliptic integrals near m = 1
+    assert packed.windows[PRESSURE] == pytest.approx(expected, rel=1e-11)
+    assert packed.windows[R_E] == HypoidAxle(axle_with()).packed.windows[R_E]
+
+
 def test_printed_form_has_less_viscous_and_more_boundary_friction() -> None:
     consistent, printed = flank(LOAD, ROLLING, SLIDING), flank(LOAD, ROLLING, SLIDING, AS_PRINTED)
     assert printed.viscous_friction < consistent.viscous_friction
@@ -103,7 +150,7 @@ def test_friction_is_even_in_the_direction_of_sliding_and_rolling() -> None:
     assert flank(LOAD, ROLLING, -SLIDING) == flank(LOAD, ROLLING, SLIDING)
 
 
-@pytest.mark.parametrize("form", [CONSISTENT, AS_PRINTED])
+@pytest.mark.parametrize("form", [CONSISTENT, AS_PRINTED, PRINTED_TRACTION])
 def test_an_unloaded_flank_has_no_friction(form: int) -> None:
     for load in (0.0, -100.0):
         state = flank(load, ROLLING, SLIDING, form)
@@ -111,7 +158,7 @@ def test_an_unloaded_flank_has_no_friction(form: int) -> None:
         assert state.film_thickness == flank(LOAD_FLOOR, ROLLING, SLIDING, form).film_thickness
 
 
-@pytest.mark.parametrize("form", [CONSISTENT, AS_PRINTED])
+@pytest.mark.parametrize("form", [CONSISTENT, AS_PRINTED, PRINTED_TRACTION])
 def test_friction_grows_linearly_from_rest(form: int) -> None:
     assert flank(LOAD, ROLLING, 0.0, form)[2:6] == (0.0, 0.0, 0.0, 0.0)
     one, two = flank(LOAD, ROLLING, 1e-9, form), flank(LOAD, ROLLING, 2e-9, form)

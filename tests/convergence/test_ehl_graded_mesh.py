@@ -76,6 +76,7 @@ def test_errors_on_a_graded_mesh_fall_with_its_nodes() -> None:
     assert finer[2] < 0.7 * smallest
 
 
+@pytest.mark.slow  # shorter graded meshes are in the default run
 def test_long_graded_meshes_find_the_film_of_the_stencil_asked_for() -> None:
     film = jamali_2015_film("a", nodes=(97, 193), grading=EXIT_GRADING)
     solution = solve_helical_line(film, 490, MARCH_SETTINGS)

@@ -42,7 +42,7 @@ def run(*arguments):
 def coarse(monkeypatch, tmp_path):
     """The command with coarse teeth and cells, and a cache of its own."""
     monkeypatch.setenv("GEARLUBE_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(contact_dataset, "ERROR_POSITIONS", 32)
+    monkeypatch.setattr(contact_dataset, "ERROR_POSITIONS", 16)
     real = contact_run.run_contact
 
     def run_coarse(file, settings, **options):
@@ -66,19 +66,20 @@ def asked(monkeypatch):
     return calls
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_quick_run_goes_on_after_a_stop_and_writes_table_dataset_and_figures(coarse, monkeypatch):
-    options = ("--quick", "--jobs", 1, "--out", coarse)
+    options = ("--quick", "--positions", 4, "--jobs", 1, "--out", coarse)
     real, loaded = mesh_cycle.position_record, []
 
     def stopping(pair, phase, *others):
-        if len(loaded) == 5:
+        if len(loaded) == 3:
             raise KeyboardInterrupt
         loaded.append((pair.side, phase))
         return real(pair, phase, *others)
 
     monkeypatch.setattr(mesh_cycle, "position_record", stopping)
     assert run(*options).exit_code == INTERRUPTED
-    assert len(list((coarse / "positions").glob("*.npz"))) == 5
+    assert len(list((coarse / "positions").glob("*.npz"))) == 3
     assert not (coarse / "contact.nc").exists()
 
     before = list(loaded)
@@ -90,9 +91,9 @@ def test_quick_run_goes_on_after_a_stop_and_writes_table_dataset_and_figures(coa
     monkeypatch.setattr(mesh_cycle, "position_record", counting)
     result = run(*options)
     assert result.exit_code == 0, result.output
-    # eight positions of either side, none of them twice
-    assert len(loaded) == len(set(loaded)) == 16
-    assert not set(before) & set(loaded[5:])
+    # four positions of either side, none of them twice
+    assert len(loaded) == len(set(loaded)) == 8
+    assert not set(before) & set(loaded[3:])
 
     figures = {path.stem for path in (coarse / "figures").glob("*.png")}
     assert figures == set(CONTACT_CATALOGUE)

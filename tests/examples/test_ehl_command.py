@@ -41,7 +41,9 @@ def test_a_point_whose_oil_does_not_know_temperature_is_refused():
         PointCase.named("elliptical").varied({"temperature": "thermal"})
 
 
-@pytest.mark.parametrize("spacing", [pytest.param("uniform", marks=pytest.mark.slow), "exit"])
+@pytest.mark.slow  # the same store and march as that of hypoid flanks, in the default run
+@pytest.mark.usefixtures("small_pictures")
+@pytest.mark.parametrize("spacing", ["uniform", "exit"])
 def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(spacing, tmp_path, monkeypatch):
     march = (
         "helical", "--march", "300:305", "--snapshots", "302", "--newtonian",
@@ -98,6 +100,7 @@ def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(spacing, tmp_path, mon
     assert (tmp_path / "both" / "compare.png").exists()
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_a_snapshot_that_was_asked_for_too_late_is_said(tmp_path, caplog):
     march = (
         "helical", "--march", "300:301", "--newtonian", "--nodes-across", 33, "--nodes-along", 33,

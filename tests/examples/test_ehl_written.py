@@ -72,6 +72,7 @@ def test_a_point_that_conserves_mass_writes_what_broken_film_holds(tmp_path):
     assert dataset.attrs["friction_force"] == pytest.approx(force, rel=1e-9)
 
 
+@pytest.mark.slow  # a thermal line is in the default run
 def test_a_thermal_point_writes_its_temperatures(tmp_path):
     result = run("point", "elliptical_thermal", "--nodes", 33, "--out", tmp_path)
     assert result.exit_code == 0, result.output

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_contact.unloaded_error import contact_ratio, unloaded_error
 from gearlube_core.hypoid_geometry.flank.flank import Flank
-from gearlube_core.hypoid_geometry.flank.setting_check import setting_report
 from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
@@ -20,7 +20,8 @@ HOBBED = HypoidGearFile.named("mohammadpour_2015")
 
 
 def test_its_settings_meet():
-    assert setting_report(FILE) == []
+    check_pair(FILE)
+    assert pair_warnings(FILE) == []
 
 
 def test_gear_tooth_traces_are_circles_of_the_cutter():

@@ -11,18 +11,23 @@ from typer.testing import CliRunner
 
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.plotting.edge_pressure import mark_edge_pressure
+from gearlube.plotting.style import house_style, new_figure
 from gearlube.studies.helical import run as helical_run
 from gearlube.studies.helical import stages, sweep_grid
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
+from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import RPM, HelicalSettings
+from gearlube.studies.helical.summary import summary_csv, summary_rows
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
 )
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.mesh_table.line_mesh_file import read_line_mesh
+from gearlube_core.mesh_table.line_mesh_file import named_line_mesh, read_line_mesh
+from gearlube_core.tooth_contact.sharp_edge import sharp_edge_remark
 from tests.helpers.helical_dynamics_cases import estimated_pair
 
 GEOMETRY = {"contact_plane", "contact_characteristics", "facet_gaps"}
@@ -55,7 +60,20 @@ def small(monkeypatch):
 
     monkeypatch.setattr(HelicalSettings, "__init__", init)
     monkeypatch.setattr(helical_run, "save_helical_figures", lambda *_: [])
-    return ("--parts", "dynamics", "--mu", 0.1, 0.2, "--speeds-rpm", 1000, 3000, "--jobs", 1)
+    return (
+        "--parts",
+        "dynamics",
+        "--mesh",
+        "density",
+        "--mu",
+        0.1,
+        0.2,
+        "--speeds-rpm",
+        1000,
+        3000,
+        "--jobs",
+        1,
+    )
 
 
 def datasets(folder):
@@ -184,7 +202,7 @@ def test_defaults_are_those_of_the_paper(asked):
     assert len(settings.mu) == 31
     assert (settings.mu[0], settings.mu[-1]) == (0.0, 0.3)
     assert len(settings.swept_speeds(settings.parameters())) == 60
-    assert (settings.mesh, settings.friction, settings.parts) == ("density", "film", "all")
+    assert (settings.mesh, settings.friction, settings.parts) == ("contact", "film", "all")
 
 
 def test_options_reach_the_settings_in_si_units(asked):
@@ -201,6 +219,7 @@ def test_options_reach_the_settings_in_si_units(asked):
     assert settings.mu == (0.0, 0.05, 0.1, 0.2)
     np.testing.assert_allclose(settings.speeds, np.array([500.0, 1000.0, 1500.0]) * np.pi / 30.0)
     assert settings.stiffness_density == pytest.approx(1.25e10)
+    assert settings.mesh == "density"  # which a given density implies
     assert settings.load_steps == (400.0, 800.0)
     assert settings.oil_temperature == pytest.approx(363.15)
     assert settings.roughness_rms == pytest.approx(0.4e-6)
@@ -220,13 +239,13 @@ def test_options_reach_the_settings_in_si_units(asked):
         (("--mu", "a"), ("--mu", "'a'")),
         (("--speeds-rpm", "0:1e6:1"), ("--speeds-rpm", "2000", "larger step")),
         (("--friction", "some"), ("friction", "film", "'some'")),
-        (("--mesh", "some"), ("mesh", "density, contact", "'some'")),
+        (("--mesh", "some"), ("mesh", "contact, density", "'some'")),
         (("--parts", "some"), ("parts", "all", "'some'")),
         (("--density", "0"), ("--density", "N/(um mm)", "13")),
         (("--mesh", "contact", "--density", "13"), ("density", "contact", "Leave it out")),
         (
             ("--mesh", "contact", "--torques", "20", "30"),
-            ("pinion_torque", "30", "225.97", "range"),
+            ("pinion_torque", "30", "225.97", "mesh density"),
         ),
         (("--torques", "-1"), ("torques", "-1 N.m")),
         (("--positions", "2"), ("positions", "within 4 to 400")),
@@ -299,3 +318,67 @@ def test_a_run_stopped_at_once_writes_the_summary_of_the_pair(small, tmp_path, m
     assert not datasets(tmp_path)
     text = (tmp_path / "summary.csv").read_text(encoding="utf-8")
     assert "total contact ratio" in text
+
+
+def test_numbers_that_a_study_lacks_are_not_in_its_summary():
+    """Own pairs, stable at every factor studied, had rows of nan."""
+    growth = (("variation", "mesh_frequency"), np.full((3, 2), -0.1))
+    stability = xr.Dataset(
+        {"growth_variation": growth, "growth_variation_light": growth},
+        coords={"variation": [0.5, 1.0, 2.0]},
+    )
+    file = HelicalGearFile.named("he_2007")
+    settings = HelicalSettings(file=file, pinion_torque=200.0, pinion_speed=100.0, parts="geometry")
+    attributes = {"operating_mean_coefficient": np.nan, "operating_power_loss": 3.0}
+    film = xr.Dataset(attrs=attributes | {"loss_factor": np.nan})
+    results = HelicalResults(
+        settings=settings,
+        datasets={"stability": stability, "film": film},
+        mesh=None,
+        failures={},
+        interrupted=False,
+    )
+    rows = {row.quantity: row.value for row in summary_rows(results)}
+    assert rows["stable up to the largest factor, with the pair's damping"] == 2.0
+    assert "loss factor H_V" not in rows
+    assert "nan" not in summary_csv(summary_rows(results))
+
+
+@pytest.mark.parametrize(("options", "stiffness"), [((), 756e6), (("--mesh", "density"), 539e6)])
+def test_the_pair_vibrates_on_the_stiffness_of_its_loaded_contact(
+    options, stiffness, tmp_path, monkeypatch
+):
+    """By default; that of ISO 6336-1 on request. Values of docs/helical.md, tangent at 226 N.m."""
+    real = HelicalSettings.__init__
+
+    def init(self, **given):
+        given |= {"stability_columns": 4, "stability_rows": 2, "separation_speeds": 0}
+        real(self, **given)
+
+    def contact(study, _):
+        study.mesh = named_line_mesh("he_2007")
+
+    monkeypatch.setattr(HelicalSettings, "__init__", init)
+    monkeypatch.setattr(helical_run, "save_helical_figures", lambda *_: [])
+    monkeypatch.setattr(stages, "_contact", contact)
+    few = ("--parts", "dynamics", "--mu", 0.1, "--speeds-rpm", 1000, "--jobs", 1)
+    result = run(*few, *options, "--friction", "constant", "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    # the shipped line mesh is at 226 N.m; the operating point is 225.97 N.m
+    found = datasets(tmp_path)["response"].attrs["mean_mesh_stiffness"]
+    assert found == pytest.approx(stiffness, rel=2e-3)
+
+
+def test_a_pressure_that_no_flank_bears_is_explained(tmp_path):
+    assert sharp_edge_remark(1.5e9) == ""
+    assert "sharp tip" in sharp_edge_remark(4e9)
+    assert "relief" in sharp_edge_remark(4e9)
+    with house_style():
+        figure = new_figure(4.0, 3.0)
+        calm, sharp = figure.subplots(1, 2)
+        calm.plot([0.0, 1.0], [0.5, 1.5])
+        sharp.plot([0.0, 1.0], [0.5, 6.0])
+        for ax in (calm, sharp):
+            mark_edge_pressure(ax)
+    assert not calm.texts
+    assert "sharp edge" in sharp.texts[0].get_text()

@@ -48,8 +48,11 @@ def test_quick_run_writes_datasets_and_all_figures(tmp_path):
     assert not list(tmp_path.glob("*.part"))
 
 
+@pytest.mark.slow  # the library call without friction is in the default run
+@pytest.mark.usefixtures("small_pictures")
 def test_run_without_friction_leaves_out_the_lubricated_model_and_its_figures(tmp_path):
-    options = ("--mesh", "synthetic", "--friction", "off", "--frequencies", 8)
+    options = ("--mesh", "synthetic", "--friction", "off", "--frequencies", 5)
+    options += ("--range", "0.7:1.1")  # with the folds of the resonance
     result = run(*options, "--quick", "--out", tmp_path)
     assert result.exit_code == 0, result.output
     response = xr.load_dataset(tmp_path / "resonance.nc", engine="scipy")
@@ -59,12 +62,14 @@ def test_run_without_friction_leaves_out_the_lubricated_model_and_its_figures(tm
     assert figures == set(RESONANCE_CATALOGUE) - lubricated
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_a_stopped_run_writes_what_was_found_and_says_so(tmp_path, monkeypatch, caplog):
     def stop(*_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(study, "motions_at", stop)
-    options = ("--mesh", "synthetic", "--friction", "off", "--quick", "--frequencies", 6)
+    options = ("--mesh", "synthetic", "--friction", "off", "--quick", "--frequencies", 5)
+    options += ("--range", "0.7:1.1")
     with caplog.at_level(logging.WARNING, "gearlube"):
         assert run(*options, "--out", tmp_path).exit_code == INTERRUPTED
     assert "Stopped" in caplog.text

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -116,6 +117,8 @@ def test_no_output_can_be_read_after_a_failed_initialisation(case: Case, host: H
         ("getReal", "oil.name", (), "oil.name must be accessed as Integer, got Real"),
         ("getInteger", "pinion.torque", (), "must be accessed as Real, got Integer"),
         ("getBoolean", "pinion.torque", (), "must be accessed as Real, got Boolean"),
+        ("setString", "pinion.torque", ("a",), "must be accessed as Real, got String"),
+        ("getString", "pinion.torque", (), "must be accessed as Real, got String"),
         ("setReal", "pinion.angle", (0.0,), "pinion.angle must not be set"),
         ("setReal", "mesh.backlash", (1e-4,), "mesh.backlash must not be set in this phase"),
         ("setInteger", "oil.name", (2,), "oil.name must not be set in this phase"),
@@ -140,6 +143,52 @@ def test_initialising_twice_is_fatal_and_the_model_stays_ready(host: Host) -> No
     assert host.status("enterInitializationMode") == FATAL
     assert "must be in state INSTANTIATED, is in STEPPING" in host.messages("logStatusFatal")
     assert host.step() == OK
+
+
+def test_terminating_what_was_never_initialised_is_an_error(host: Host) -> None:
+    assert host.status("terminate") == FATAL
+    assert "must be in state STEPPING, is in INSTANTIATED" in host.messages("logStatusFatal")
+    assert host.start() == OK
+    assert host.step() == OK
+
+
+def test_terminating_twice_is_an_error(host: Host) -> None:
+    host.start()
+    assert host.status("terminate") == OK
+    assert host.status("terminate") == FATAL
+    assert "must be in state STEPPING, is in TERMINATED" in host.messages("logStatusFatal")
+
+
+def test_a_start_time_after_the_start_is_an_error_and_changes_nothing(host: Host) -> None:
+    host.start()
+    host.step()
+    assert host.status("setupExperiment", startTime=7.0) == FATAL
+    assert "must be in state INSTANTIATED, is in STEPPING" in host.messages("logStatusFatal")
+    assert host.step() == OK  # at the old time
+
+
+def test_nothing_can_be_set_after_the_end(host: Host) -> None:
+    host.start()
+    host.slave.terminate()
+    assert host.status("setReal", [host.variables["pinion.torque"].valueReference], [1.0]) == FATAL
+    assert "pinion.torque must not be set in this phase" in host.messages("logStatusFatal")
+
+
+def test_a_call_for_strings_without_references_is_legal(host: Host) -> None:
+    host.start()
+    assert host.status("getString", []) == OK
+
+
+def test_a_host_without_logging_reads_on_standard_error_why_no_instance_was_made(
+    fmu_folder: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "other"
+    shutil.copytree(fmu_folder, folder)
+    identity = folder / "resources" / "gearlube_identity.txt"
+    identity.write_text("0" * 64 + "\n" + identity.read_text().split()[1] + "\n")
+    with pytest.raises(Exception, match="instantiate"):
+        Host(folder, logging_on=False)
+    assert "it was built from another version. Rebuild it" in capfd.readouterr().err
 
 
 def test_a_start_time_that_is_no_number_is_fatal(host: Host) -> None:

@@ -77,7 +77,9 @@ def test_the_fmu_computes_with_its_own_table_bit_for_bit(other_host: Callable[[]
         axle.step(H, *torques, 313.15)
     names = ["mesh.dte", "mesh.force", "mesh.frequency", "wheel.speed"]
     assert host.get(*names) == [axle.outputs[OUTPUT_INDEX[name]] for name in names]
-    assert host.messages("logStatusWarning") == ""
+    # the film is warmer than the oil's data reach, and that is all there is to warn of
+    warnings = host.messages("logStatusWarning")
+    assert warnings.count("pair: ") == warnings.count("pair: range.temperature: ") == 1
 
 
 def test_the_description_names_table_teeth_and_source(other_folder: Path) -> None:

@@ -79,7 +79,14 @@ def test_ecos_runs_the_fmu_and_ends_well(case: Case, fmu_path: Path, tmp_path: P
 # Several FMUs and endings in one process take a program of our own. Where there is no compiler, the
 # test above still holds the commonest sequence: one FMU, freed and closed.
 @pytest.mark.skipif(COMPILER is None, reason="no C compiler for a host of several FMUs")
-@pytest.mark.parametrize("ending", ["free", "close", "leave"])
+@pytest.mark.parametrize(
+    "ending",
+    [
+        pytest.param("free", marks=pytest.mark.slow),
+        pytest.param("close", marks=pytest.mark.slow),
+        "leave",
+    ],
+)
 def test_a_host_of_both_fmus_ends_well(
     extracted: Callable[[Case], Path], tmp_path: Path, ending: str
 ) -> None:

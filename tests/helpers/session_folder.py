@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
+from importlib.util import find_spec
 from pathlib import Path
 
 _VARIABLE = "GEARLUBE_TEST_RUN"
@@ -15,7 +17,20 @@ def open_session_folder() -> tempfile.TemporaryDirectory[str] | None:
         return None
     folder = tempfile.TemporaryDirectory(prefix="gearlube-tests-")
     os.environ[_VARIABLE] = folder.name
+    _share_bytecode(folder.name)
     return folder
+
+
+def _share_bytecode(folder: str) -> None:
+    """Keep the bytecode of imports for all processes of the run, where none is kept otherwise.
+
+    With `pip install --no-compile` and PYTHONDONTWRITEBYTECODE every process would compile numpy,
+    scipy and numba anew: 3 s each.
+    """
+    numpy = find_spec("numpy")
+    if sys.dont_write_bytecode and numpy and not os.path.exists(numpy.cached or ""):
+        os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+        os.environ["PYTHONPYCACHEPREFIX"] = os.path.join(folder, "bytecode")
 
 
 def shared_folder(name: str) -> Path:

@@ -105,7 +105,7 @@ def small_point(fmu, speed_kmh, preload, settings):
 
 
 def slow_point(fmu, speed_kmh, preload, settings):
-    time.sleep(0.5)
+    time.sleep(0.15)
     return small_point(fmu, speed_kmh, preload, settings)
 
 

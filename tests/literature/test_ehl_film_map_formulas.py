@@ -10,10 +10,10 @@ CENTRAL, MINIMUM = "central film", "minimum film"
 NODES = 97  # films of these contacts lie within 1 % of those on 257 by 257
 CONTACTS = (
     Contact(1.0, 20.0, 5.0),
-    Contact(1.0, 50.0, 10.0),
+    pytest.param(Contact(1.0, 50.0, 10.0), marks=pytest.mark.slow),
     Contact(2.0, 100.0, 5.0),
-    Contact(3.0, 50.0, 10.0),
-    Contact(5.0, 200.0, 5.0),
+    pytest.param(Contact(3.0, 50.0, 10.0), marks=pytest.mark.slow),
+    pytest.param(Contact(5.0, 200.0, 5.0), marks=pytest.mark.slow),
     Contact(8.0, 100.0, 10.0),
 )
 _FILMS = {}
@@ -53,7 +53,10 @@ def test_central_over_smallest_film_grows_with_load_and_the_formulas_do_not_know
     assert by_formula[1] == pytest.approx(by_formula[0], rel=0.03)
 
 
-@pytest.mark.parametrize("angle", [pytest.param(30.0, marks=pytest.mark.slow), 60.0, 90.0])
+@pytest.mark.parametrize(
+    "angle",
+    [pytest.param(30.0, marks=pytest.mark.slow), 60.0, pytest.param(90.0, marks=pytest.mark.slow)],
+)
 def test_central_films_entrained_at_an_angle_follow_chittenden(angle):
     found = film(Contact(2.0, 50.0, 10.0, angle))
     assert found.sound

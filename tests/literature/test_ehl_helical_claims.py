@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from docs.ehl import measures
+from docs.ehl import claims_cycle, measures
 from docs.ehl.cases import CYCLE, LAYER, FilmCase, facet_case, parabola_case, relief_starts
 from docs.ehl.claims import FAILS, HOLDS, MISSING, PARTLY, judge, verdicts
 from docs.ehl.claims_cycle import CYCLES
@@ -108,12 +108,17 @@ def test_speed_claim_follows_the_exponent_and_the_pressure(power, rise, verdict)
     ("low", "high", "film", "verdict"),
     [(1.02, 1.25, 0.16, HOLDS), (1.02, 1.25, 0.12, PARTLY), (0.9, 1.25, 0.12, FAILS)],
 )
-def test_ranges_of_the_cycle(low, high, film, verdict):
+def test_ranges_of_the_cycle(low, high, film, verdict, monkeypatch):
+    monkeypatch.setattr(claims_cycle, "extrapolated", lambda _: (1.14e-7, 2e-9))
+    monkeypatch.setattr(claims_cycle, "thinnest_printed", lambda *_: 1.65e-7)
     steps = np.arange(1, 576)
     shape = np.sin(np.pi * steps / 575.0)
     p, h = 1e9 * (low + (high - low) * shape), 1e-6 * (film + (0.22 - film) * shape)
     store = Given(lambda case, step: steady(), lambda case: march(steps, p, h))
-    assert CLAIMS["J3"].evaluate(store).verdict == verdict
+    found = CLAIMS["J3"].evaluate(store)
+    assert found.verdict == verdict
+    assert "0.114 um, error 0.002 um" in found.reason
+    assert "at least 0.165 um" in found.reason
 
 
 @pytest.mark.parametrize(("first", "verdict"), [(210, HOLDS), (150, PARTLY)])

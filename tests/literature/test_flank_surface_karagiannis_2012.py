@@ -21,7 +21,7 @@ from gearlube_core.hypoid_geometry.flank.machine_frames import (
     pinion_cut,
     reference_plane_distance,
 )
-from gearlube_core.hypoid_geometry.flank.setting_check import pressure_angle_mismatch
+from gearlube_core.hypoid_geometry.flank.pressure_angle import pressure_angle_mismatch
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 

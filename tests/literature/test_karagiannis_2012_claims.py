@@ -12,13 +12,15 @@ import pytest
 
 from gearlube.studies.resonance.flank_cycle import flank_cycle
 from gearlube.studies.resonance.motions import motion_near
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, march
+from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import karagiannis_2012_pair
 from gearlube_core.dynamics.hypoid_torsional.period_problem import PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.time_sweep import settle_load, time_sweep
 from gearlube_core.periodic import follow
 from tests.helpers.torsional_cases import periodic_orbit, reconstructed
+
+WORK = np.zeros(MARCH_WORK)
 
 
 def shipped(ratio, **options):
@@ -34,8 +36,8 @@ def settled_from(parameters, x_0, ratio, periods=600, steps=256):
     y = model.initial_state(speed)
     y[0] = 1e6 * x_0
     record = np.zeros((steps, N_RECORD))
-    march(y, 0, periods, model.mean_load_torque, speed, rows, p, record[:0])
-    march(y, periods, 1, model.mean_load_torque, speed, rows, p, record)
+    march(y, 0, periods, model.mean_load_torque, speed, rows, p, record[:0], WORK)
+    march(y, periods, 1, model.mean_load_torque, speed, rows, p, record, WORK)
     return 1e-6 * record[:, 1]
 
 
@@ -211,10 +213,10 @@ def test_with_a_mismatch_motions_of_two_mesh_periods_coexist_at_resonance():
     speed = model.pinion_speed(model.natural_frequency)
     y = model.initial_state(speed)
     y[0] = -75.0
-    load = settle_load(y, 40, model.mean_load_torque, speed, rows, p)
+    load = settle_load(y, 40, model.mean_load_torque, speed, rows, p, WORK)
     record = np.zeros((4 * 256, N_RECORD))
-    march(y, 0, 600, load, speed, rows, p, record[:0])
-    march(y, 600, 4, load, speed, rows, p, record)
+    march(y, 0, 600, load, speed, rows, p, record[:0], WORK)
+    march(y, 600, 4, load, speed, rows, p, record, WORK)
     periods = record[:, 1].reshape(4, 256)
     swing = np.ptp(periods)
     assert np.max(np.abs(periods[2:] - periods[:2])) < 0.01 * swing

@@ -23,7 +23,8 @@ NODES = (65, 65)
         # thin lobes beside a contact long in the direction of motion
         pytest.param(0.2, 500.0, 0.0, 0.0, marks=pytest.mark.slow),
         (0.2, 500.0, 10.0, 0.0),
-        (0.2, 200.0, 25.0, 0.0),  # linear systems of high contrast
+        # linear systems of high contrast
+        pytest.param(0.2, 200.0, 25.0, 0.0, marks=pytest.mark.slow),
         pytest.param(0.5, 1000.0, 0.0, 0.0, marks=pytest.mark.slow),
         (100.0, 5000.0, 25.0, 0.0),
         (100.0, 50.0, 0.0, 0.0),  # far thicker than the solids flatten
@@ -90,7 +91,7 @@ def test_limits_act_where_the_film_halves_in_a_cell_and_nowhere_else() -> None:
         (0.5, 20.0, 5.0, 0.01),
         pytest.param(1.0, 20.0, 5.0, 0.01, marks=pytest.mark.slow),
         (1.0, 200.0, 10.0, 0.01),
-        (5.0, 200.0, 10.0, 0.01),
+        pytest.param(5.0, 200.0, 10.0, 0.01, marks=pytest.mark.slow),
         (5.0, 5.0, 5.0, 0.01),  # rigid: oil goes on beyond the border
     ],
 )

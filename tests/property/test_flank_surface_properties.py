@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gearlube_core.hypoid_geometry.flank.flank import Flank
-from gearlube_core.hypoid_geometry.flank.setting_check import reference_misfit
+from gearlube_core.hypoid_geometry.flank.machine_check import reference_misfit
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes

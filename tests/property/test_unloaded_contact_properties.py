@@ -1,5 +1,7 @@
 """What the unloaded contact of any pair obeys: periods, envelopes, order, displacements."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -21,10 +23,20 @@ from tests.helpers.contact_cases import (
 )
 
 
+@cache
+def shipped_error(side):
+    return unloaded_error(shipped_pair(side))
+
+
+@cache
+def shipped_ease_off(side):
+    return ease_off(shipped_pair(side), s_count=16, t_count=31)
+
+
 @pytest.mark.parametrize("side", SIDES)
 def test_error_repeats_every_tooth(side):
     pair = shipped_pair(side)
-    found = unloaded_error(pair)
+    found = shipped_error(side)
     # both pairs touch at a handover: same rotations, one pitch apart; bracketed to 1e-13 rad
     assert found.angular[0] == pytest.approx(found.angular[-1], abs=1e-11)
     assert np.ptp(found.pinion_angle) == pytest.approx(pair.pinion_pitch, abs=1e-11)
@@ -44,7 +56,7 @@ def test_no_neighbour_touches_before_the_ruling_pair(side):
 
 @pytest.mark.parametrize("side", SIDES)
 def test_gear_lags_on_drive_flanks_and_leads_on_coast_flanks(side):
-    found = unloaded_error(shipped_pair(side))
+    found = shipped_error(side)
     sign = {"drive": 1.0, "coast": -1.0}[side]
     assert (sign * found.angular >= -1e-12).all()
     inner = slice(8, -8)
@@ -148,7 +160,7 @@ def test_contact_ratio_counts_the_pitches_on_both_teeth(side):
 
 @pytest.mark.parametrize("side", SIDES)
 def test_pattern_grows_with_the_compound_and_shrinks_with_neighbours(side):
-    ease = ease_off(shipped_pair(side), s_count=16, t_count=31)
+    ease = shipped_ease_off(side)
     one = contact_pattern(ease, pairs="one")
     every = contact_pattern(ease, pairs="all")
     thick = contact_pattern(ease, pairs="all", thickness=20e-6)
@@ -168,8 +180,7 @@ def test_pattern_grows_with_the_compound_and_shrinks_with_neighbours(side):
 @pytest.mark.parametrize("side", SIDES)
 def test_path_of_contact_runs_inside_the_pattern(side):
     pair = shipped_pair(side)
-    ease = ease_off(pair, s_count=16, t_count=31)
-    pattern = contact_pattern(ease)
+    pattern = contact_pattern(shipped_ease_off(side))
     path = unloaded_error(pair, 17).path
     i = np.rint(path.gear_s * 15).astype(int)
     j = np.rint(path.gear_t * 30).astype(int)

@@ -228,3 +228,10 @@ def test_a_file_with_a_completed_setting_makes_completed_data():
     bare = FILE.model_copy(update={"completed": ()})
     kinds = {origin.kind for origin in contact_table(bare, dataset()).provenance.values()}
     assert kinds == {"inferred"}
+
+
+@pytest.mark.parametrize(("positions", "orders"), [(8, 5), (20, 5), (48, 12)])
+def test_a_table_keeps_one_order_for_every_four_positions(positions, orders):
+    """Of 20 positions, order 5 is the last that what folds down from above hardly touches."""
+    table = contact_table(FILE, dataset(positions=positions))
+    assert table.orders == orders

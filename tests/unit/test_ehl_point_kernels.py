@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ from gearlube_core.ehl.point.newton.hierarchy import build_hierarchy, grid_shape
 from gearlube_core.ehl.point.newton.krylov import flexible_gmres
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.newton.transfer import Transfer
+from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact
@@ -184,12 +187,14 @@ def test_unknown_stencils_and_still_surfaces_are_refused() -> None:
         moes_contact(20.0, 5.0, nodes=(9, 65))
 
 
-# slender along the motion, isoviscous: side lobes a few cells wide
-LOBES = moes_contact(100.0, 0.0, nodes=(65, 65), radius_ratio=0.0894)
+@cache
+def lobes() -> PointContactProblem:
+    """Slender along the motion, isoviscous: side lobes a few cells wide."""
+    return moes_contact(100.0, 0.0, nodes=(65, 65), radius_ratio=0.0894)
 
 
 def test_a_film_too_thin_for_second_order_is_limited_at_single_faces_and_says_so() -> None:
-    outcome = solve_point_contact(LOBES).outcome
+    outcome = solve_point_contact(lobes()).outcome
     assert outcome.converged
     assert outcome.wedge == "upwind-2"
     assert 0.0 < outcome.limited < 0.05
@@ -199,10 +204,10 @@ def test_a_film_too_thin_for_second_order_is_limited_at_single_faces_and_says_so
 @pytest.mark.slow
 def test_a_film_that_central_differences_do_not_find_falls_back_and_says_so() -> None:
     central = PointSolverSettings(wedge="central")
-    solution = solve_point_contact(LOBES, central)
+    solution = solve_point_contact(lobes(), central)
     assert solution.outcome.converged
     assert solution.outcome.wedge == "upwind-1"
     assert "upwind-1" in solution.outcome.sentence
     assert solution.minimum_film > 0.0
     strict = PointSolverSettings(wedge="central", fall_back=False)
-    assert not solve_point_contact(LOBES, strict, throw=False).outcome.converged
+    assert not solve_point_contact(lobes(), strict, throw=False).outcome.converged

@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 OWN = """
 from gearlube_core.oil.film_oil import viscosity
 from gearlube_core.oil.film_oil_data import film_oil
@@ -47,6 +49,7 @@ def hits_and_misses(script: str, *places: Path, cache: Path) -> str:
     return done.stdout.strip()
 
 
+@pytest.mark.slow  # a changed source is in the default run, test_compiled_cache
 def test_a_process_without_the_law_reads_what_one_with_it_left(tmp_path):
     (tmp_path / "foreign_law.py").write_text(LAW)
     cache = tmp_path / "cache"

@@ -11,8 +11,8 @@ from gearlube.studies.resonance.response import Response, follow_response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube.studies.resonance.study import study_resonance
 from gearlube.studies.resonance.summary import main_special, summaries
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
+from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.errors import ParameterError
 
@@ -37,9 +37,9 @@ def marched(segment, row, periods=300):
     model, steps = problem.model, problem.steps_per_mesh_period
     rows, p = model.rows(steps), model.kernel_parameters
     speed = branch.parameter[row]
-    march(y, 0, periods, load_torque, speed, rows, p, np.zeros((0, N_RECORD)))
+    march(y, 0, periods, load_torque, speed, rows, p, np.zeros((0, N_RECORD)), np.zeros(MARCH_WORK))
     record = np.zeros((2 * steps, N_RECORD))
-    march(y, periods, 2, load_torque, speed, rows, p, record)
+    march(y, periods, 2, load_torque, speed, rows, p, record, np.zeros(MARCH_WORK))
     return 1e-6 * np.ptp(record[:, 1])
 
 
@@ -98,7 +98,9 @@ def test_time_sweeps_lie_on_the_branches():
 
 
 def test_datasets_state_units_and_survive_netcdf(tmp_path):
-    study = study_resonance(dry(frequencies=6, sweep_frequencies=4, section_starts=3))
+    study = study_resonance(
+        dry(first=0.7, last=1.1, frequencies=5, sweep_frequencies=4, section_starts=3)
+    )
     for name, dataset in (("a", resonance_dataset(study)), ("b", cycle_dataset(study))):
         for variable in dataset.data_vars.values():
             assert variable.attrs["long_name"]
@@ -120,7 +122,7 @@ def test_datasets_state_units_and_survive_netcdf(tmp_path):
 
 
 def test_summary_of_a_softening_resonance():
-    dataset = resonance_dataset(study_resonance(dry(frequencies=40)))
+    dataset = resonance_dataset(study_resonance(dry(first=0.7, last=1.1, frequencies=12)))
     for summary in summaries(dataset):
         if summary.model == "two_dof_mean_radii":
             continue

@@ -21,6 +21,12 @@ def result_with(statuses):
     return xr.Dataset({"status": ("speed", statuses)}, attrs=attributes)
 
 
+@pytest.fixture(autouse=True)
+def folder(monkeypatch, tmp_path):
+    """Commands write into their default folder here."""
+    monkeypatch.chdir(tmp_path)
+
+
 @pytest.fixture
 def calls(monkeypatch):
     """Arguments of the sweeps that the command would run."""
@@ -98,7 +104,10 @@ def test_quick_run_is_short(calls):
         (["--speeds", "20:100:0"], ["above 0 km/h", "got 0 km/h"]),
         (["--speeds", "20:100:0.001"], ["at most 500 values", "got 80001", "larger step"]),
         (["--driver", "horse"], ["vehicle, hold", "'horse'"]),
-        (["--oil-temperature", "400"], ["-20 to 160 degC", "got 400 degC"]),
+        (
+            ["--oil-temperature", "400"],
+            ["0 to 150 degC", "got 400 degC", "The data of"],
+        ),
         (["--roughness-um", "500"], ["got 0.0005 m", "0.5 um"]),
     ],
 )

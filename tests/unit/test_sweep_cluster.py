@@ -77,6 +77,7 @@ def model_of(point):
     return SweepModel(point=point, compile_first=None, natural_frequencies=None)
 
 
+@pytest.mark.slow  # local processes that die are in the default run
 def test_nothing_is_lost_when_a_worker_dies_and_the_result_equals_the_local_run(cluster, tmp_path):
     address, workers = cluster
     fmu = stand_in.write_fmu(tmp_path / "axle.fmu")

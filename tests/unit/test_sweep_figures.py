@@ -2,20 +2,21 @@
 
 import math
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from gearlube.plotting.style import cell_edges
-from gearlube.studies.sweep import report
 from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.figures import CATALOGUE, spectrum_map
 from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
 from gearlube.studies.sweep.figures.spectrum_map import DTE, default_top
-from gearlube.studies.sweep.point import failed_point
+from gearlube.studies.sweep.point import failed_point, summarise
 from gearlube.studies.sweep.report import report_html, write_sweep_report
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
+from gearlube.studies.sweep.summary import summary_table
 from tests.helpers import sweep_stand_in as stand_in
 
 SPEEDS, PRELOADS = [20.0, 60.0, 100.0], [2500.0, 6000.0]
@@ -45,14 +46,9 @@ def test_figure_is_drawn_with_labelled_axes_although_a_point_failed(sweep, entry
 
 
 @pytest.mark.parametrize("entry", CATALOGUE, ids=lambda entry: entry.name)
-def test_figure_is_drawn_for_a_single_point(sweep, entry, tmp_path):
-    entry.draw(sweep.isel(preload=[0], speed=[0])).savefig(tmp_path / "figure.png", dpi=50)
-
-
-def test_figures_leave_pyplot_alone(sweep):
+def test_figure_of_a_single_point_is_drawn_without_pyplot(sweep, entry, tmp_path, small_pictures):
     sys.modules.pop("matplotlib.pyplot", None)
-    for entry in CATALOGUE:
-        entry.draw(sweep)
+    entry.draw(sweep.isel(preload=[0], speed=[0])).savefig(tmp_path / "figure.png")
     assert "matplotlib.pyplot" not in sys.modules
 
 
@@ -84,8 +80,8 @@ def test_cells_touch_half_way_between_speeds():
     np.testing.assert_allclose(cell_edges(np.array([20.0, 30.0, 50.0])), [15.0, 25.0, 40.0, 60.0])
 
 
-def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_path, monkeypatch):
-    monkeypatch.setattr(report, "_DPI", 30)  # what is drawn is held above
+@pytest.mark.usefixtures("small_pictures")  # what is drawn is held above
+def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_path):
     path = write_sweep_report(sweep, tmp_path)
     html = path.read_text(encoding="utf-8")
     assert html.count("data:image/png;base64,") == len(CATALOGUE)
@@ -105,3 +101,23 @@ def test_report_of_a_sweep_in_which_everything_failed_names_the_failures():
     html = report_html(dataset)
     assert "out of range" in html
     assert "<img" not in html
+
+
+def test_points_that_left_a_range_are_flagged_and_named_in_the_report():
+    settings = quick_sweep_settings(SweepSettings())
+    recording = stand_in.recorded(60.0, settings)
+    said = "range.torque: torque should be within -400 to 400 N.m, got 450 N.m."
+    left = replace(recording, warnings=("built from other sources", said))
+    points = {
+        (60.0, 2500.0): summarise(recording, 60.0, 2500.0, settings),
+        (60.0, 6000.0): summarise(left, 60.0, 6000.0, settings),
+    }
+    dataset = merge(PRELOADS, [60.0], points).assign_attrs(title="Speed sweep")
+    table = summary_table(dataset)
+    assert table["range_exceeded"].tolist() == [0.0, 1.0]
+    assert table["range_message"].tolist() == ["", said]
+    html = report_html(dataset, entries=())
+    assert html.count(said) == 1
+    assert "left the range of a formula" in html
+    sound = report_html(dataset.isel(preload=[0]), entries=())
+    assert "No finished point left the range" in sound

@@ -3,6 +3,7 @@
 import shutil
 import signal
 import threading
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from gearlube.studies.sweep.run import SweepModel, run_sweep
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
 from gearlube_core.storage.interrupts import deferred_interrupts
+from gearlube_core.storage.process_pool import ProcessPool
 from tests.helpers import sweep_stand_in as stand_in
 
 SETTINGS = SweepSettings()
@@ -37,6 +39,17 @@ def sweep(fmu, out, point, **options):
         **arguments,
     )
     return dataset, seen
+
+
+@pytest.fixture
+def in_this_process(monkeypatch):
+    """Points of tests that are not about processes are computed without one: it takes a second."""
+    monkeypatch.setattr("gearlube.studies.sweep.run.ProcessPool", _NoProcess)
+
+
+class _NoProcess(ProcessPool):
+    def open(self, tasks):
+        return nullcontext()
 
 
 def computed(seen):
@@ -89,13 +102,13 @@ def test_second_run_computes_nothing_and_gives_the_same_dataset(copied):
     xr.testing.assert_identical(first.drop_attrs(), second.drop_attrs())
 
 
-def test_only_new_speeds_are_computed_when_the_grid_grows(copied):
+def test_only_new_speeds_are_computed_when_the_grid_grows(copied, in_this_process):
     out, fmu, _ = copied
     _, seen = sweep(fmu, out, stand_in.small_point, speeds_kmh=(*SPEEDS, 80.0))
     assert sorted(computed(seen)) == ["80 km/h, 2500 N", "80 km/h, 6000 N"]
 
 
-def test_a_damaged_point_file_is_computed_again(copied):
+def test_a_damaged_point_file_is_computed_again(copied, in_this_process):
     out, fmu, first = copied
     victim = min((out / "points").iterdir())
     victim.write_bytes(victim.read_bytes()[:1000])
@@ -104,12 +117,13 @@ def test_a_damaged_point_file_is_computed_again(copied):
     xr.testing.assert_identical(first.drop_attrs(), second.drop_attrs())
 
 
-def test_failed_points_are_rows_with_a_message_and_are_tried_again(fmu, tmp_path):
+def test_failed_points_are_rows_with_a_message_and_are_tried_again(fmu, tmp_path, request):
     dataset, _ = sweep(fmu, tmp_path / "out", stand_in.refusing_point)
     np.testing.assert_array_equal(dataset["status"], [[1, 0, 0]] * 2)
     assert dataset["message"].values[0, 1] == "the FMU refused the step"
     assert dataset["message"].values[1, 2] == "GearLubeError: unforeseen"
     assert np.isnan(dataset["dte_pp"].values[0, 1])
+    request.getfixturevalue("in_this_process")
     again, seen = sweep(fmu, tmp_path / "out", stand_in.small_point)
     assert len(computed(seen)) == 4
     assert int(again["status"].sum()) == 6
@@ -123,7 +137,7 @@ def test_a_point_whose_process_died_is_computed_by_another_process(fmu, tmp_path
     assert int(dataset["status"].sum()) == 6
 
 
-def test_ctrl_c_keeps_finished_points_and_says_how_to_go_on(fmu, tmp_path):
+def test_ctrl_c_keeps_finished_points_and_says_how_to_go_on(fmu, tmp_path, request):
     with pytest.raises(InterruptedRunError, match="Run the same command again"):
         sweep(
             fmu, tmp_path / "out", stand_in.interrupting_point, speeds_kmh=MANY, preloads=[2500.0]
@@ -132,6 +146,7 @@ def test_ctrl_c_keeps_finished_points_and_says_how_to_go_on(fmu, tmp_path):
     # Two were finished; the third was under way and the queue of the process holds one or two
     # more: they are waited for. The others are cancelled.
     assert 3 <= kept < len(MANY)
+    request.getfixturevalue("in_this_process")
     _, seen = sweep(fmu, tmp_path / "out", stand_in.small_point, speeds_kmh=MANY, preloads=[2500.0])
     assert len(seen) - len(computed(seen)) == kept
 

@@ -7,7 +7,7 @@ import pytest
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
 from gearlube_core.tooth_compliance import cache
-from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
+from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, tooth_compliance
 from tests.helpers.compliance_cases import COARSE, spiral_tooth
 
 SETTINGS = CondensationSettings(profile_hats=3, lengthwise_hats=4, density=COARSE)
@@ -22,14 +22,19 @@ def same(a, b):
     )
 
 
+@pytest.fixture(scope="module")
+def computed():
+    return tooth_compliance(TOOTH, STEEL, SETTINGS)
+
+
 @pytest.fixture
-def counted(monkeypatch):
+def counted(monkeypatch, computed):
+    """Calls that would compute; the result is known."""
     calls = []
-    compute = cache.tooth_compliance
 
     def counting(*arguments):
         calls.append(arguments)
-        return compute(*arguments)
+        return computed
 
     monkeypatch.setattr(cache, "tooth_compliance", counting)
     return calls

@@ -11,8 +11,10 @@ from numba.core.dispatcher import Dispatcher
 from gearlube_core.dynamics import hypoid_torsional
 from gearlube_core.dynamics.hypoid_torsional import (
     angle_march,
+    contact_mode,
     flank_torques,
     mesh_row,
+    mode_march,
     period_map,
     rates,
     time_sweep,
@@ -51,9 +53,11 @@ def zeros(*shape):
 
 
 PER_SPEED = zeros(2), zeros(2)
+WORK = zeros(mode_march.MARCH_WORK)
 CASES = [
     (mesh_row.mesh_row, (*MESH, 0.3, zeros(mesh_row.N_ROW))),
     (mesh_row.mesh_rows, (*MESH, zeros(8, mesh_row.N_ROW))),
+    (mesh_row.rows_between, (ROWS, 30, 0.2, 0.9, zeros(3, mesh_row.N_ROW))),
     (rates.ripple, (0.3, P)),
     (period_map._add_row, (zeros(4, 5), *SLOPES, 0.1, 2)),
 ]
@@ -61,29 +65,69 @@ for name, model in MODELS.items():
     p, rows = model.kernel_parameters, model.rows(16)
     start = model.initial_state(SPEED)
     for x in (3e-6, 0.2e-6, -20e-6, -153e-6):
-        CASES += [(rates.mesh_force, (x, -0.05, 4e8, p))]
+        for rate in (-0.4, -0.05):
+            mode = contact_mode.contact_mode(x, rate, 4e8, p)
+            CASES += [(contact_mode.contact_mode, (x, rate, 4e8, p))]
+            CASES += [(contact_mode.force_in_mode, (mode, x, rate, 4e8, p))]
+            CASES += [(contact_mode.mode_margin, (mode, x, rate, 4e8, p))]
         y = np.array([x * 1e6, *start[1:]])
-        at = y[0], y[1], y[2], 0.1, LOAD, SPEED, rows, 3, p
+        at = y[0], y[1], y[2], 0.1, LOAD, SPEED, rows, 3, mode, p
         CASES += [
             (angle_march.angle_slope, at),
-            (angle_march.angle_step, (y, 0.1, 0.03, LOAD, SPEED, rows, 30, p)),
+            (angle_march.angle_step, (y, 0.1, 0.03, LOAD, SPEED, rows, 30, mode, p)),
+        ]
+        step = y, 0.1, 0.03, 0.2, 0, LOAD, SPEED, rows, 30, p, zeros(4), zeros(3, mesh_row.N_ROW)
+        CASES += [
+            (mode_march.part_of_step, step),
+            (mode_march.approach, (y, SPEED, rows, 3, p)),
+            (mode_march._margin, (mode, y, SPEED, rows, 3, p)),
+            (
+                period_map.tangent_step,
+                (
+                    y,
+                    np.eye(4, 5),
+                    0.1,
+                    0.03,
+                    LOAD,
+                    SPEED,
+                    rows,
+                    30,
+                    mode,
+                    p,
+                    zeros(period_map.WORK),
+                ),
+            ),
         ]
         if name == "reduced":
-            CASES += [(rates.reduced_rates, (x, y[1], 0.1, SPEED, rows, 3, p))]
+            CASES += [(rates.reduced_approach, (y[1], SPEED, rows, 3))]
+            CASES += [(rates.reduced_rates, (x, y[1], 0.1, SPEED, rows, 3, mode, p))]
         else:
-            CASES += [(rates.pair_rates, (x, W_P, W_G, 0.1, LOAD, SPEED, rows, 3, p))]
+            CASES += [(rates.pair_approach, (W_P, W_G, rows, 3))]
+            CASES += [(rates.pair_rates, (x, W_P, W_G, 0.1, LOAD, SPEED, rows, 3, mode, p))]
     record, no_record = zeros(32, 5), zeros(0, 5)
     CASES += [
-        (angle_march.march, (start, 1, 2, LOAD, SPEED, rows, p, record)),
-        (angle_march.march, (start, 1, 2, LOAD, SPEED, rows, p, no_record)),
+        (mode_march.march, (start, 1, 2, LOAD, SPEED, rows, p, record, WORK)),
+        (mode_march.march, (start, 1, 2, LOAD, SPEED, rows, p, no_record, WORK)),
         (
             time_sweep.sweep_kernel,
-            (start, np.array([SPEED, 910.0]), 1, 1, 1, LOAD, rows, p, zeros(2, 16, 5), *PER_SPEED),
+            (
+                start,
+                np.array([SPEED, 910.0]),
+                1,
+                1,
+                1,
+                LOAD,
+                rows,
+                p,
+                zeros(2, 16, 5),
+                *PER_SPEED,
+                WORK,
+            ),
         ),
-        (time_sweep.settle_load, (start, 2, LOAD, SPEED, rows, p)),
+        (time_sweep.settle_load, (start, 2, LOAD, SPEED, rows, p, WORK)),
         (
             period_map.slope_derivative,
-            (start, np.eye(4, 5), 0.1, LOAD, SPEED, rows, 3, p, zeros(4), zeros(4, 5)),
+            (start, np.eye(4, 5), 0.1, LOAD, SPEED, rows, 3, 2, p, zeros(4), zeros(4, 5)),
         ),
         (
             period_map.period_map,
@@ -99,11 +143,11 @@ for name, model in MODELS.items():
         CASES += [(flank_torques.thermal_pair, (rows, 3, FLANK, 900.0, W_P, W_G, p))]
 BROKEN = np.array([2e5, SPEED, SPEED, 0.0])
 CASES += [
-    (time_sweep.settle_load, (BROKEN, 2, LOAD, SPEED, ROWS, P)),
-    (angle_march.march, (BROKEN, 0, 1, LOAD, SPEED, ROWS, P, zeros(0, 5))),
+    (time_sweep.settle_load, (BROKEN, 2, LOAD, SPEED, ROWS, P, WORK)),
+    (mode_march.march, (BROKEN, 0, 1, LOAD, SPEED, ROWS, P, zeros(0, 5), WORK)),
     (
         time_sweep.sweep_kernel,
-        (BROKEN, np.array([SPEED]), 1, 1, 1, LOAD, ROWS, P, zeros(1, 16, 5), *PER_SPEED),
+        (BROKEN, np.array([SPEED]), 1, 1, 1, LOAD, ROWS, P, zeros(1, 16, 5), *PER_SPEED, WORK),
     ),
     (period_map.period_map, (BROKEN, zeros(4, 5), LOAD, SPEED, 1, ROWS, P, zeros(period_map.WORK))),
 ]
@@ -126,7 +170,7 @@ def test_compiled_equals_python(kernel, args):
     compiled, source = everything(kernel, args), everything(kernel.py_func, args)
     # the compiler may fuse products: differences of x' at 20 m/s round at 1e-15 of that, which
     # steps of 1e-5 um in the derivatives raise to 1e-9
-    derived = kernel.__name__ in ("period_map", "slope_derivative")
+    derived = kernel.__name__ in ("period_map", "slope_derivative", "tangent_step")
     scale = np.max(np.abs(source[np.isfinite(source)]))
     limit = 1e-7 if derived else 1e-12
     np.testing.assert_allclose(compiled, source, rtol=limit, atol=1e-15 * scale)

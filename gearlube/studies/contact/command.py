@@ -14,8 +14,9 @@ from rich.table import Table
 
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
-from gearlube.cli.options import JobsOption
+from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.contact.summary import ContactSummary
@@ -43,7 +44,12 @@ def contact(
         ),
     ] = None,
     positions: Annotated[
-        int | None, typer.Option(help="Positions over a mesh period. Default 20.", metavar="N")
+        int | None,
+        typer.Option(
+            help="Positions over a mesh period. Default 20. The mesh table keeps one mesh order "
+            "for every four positions, five at least.",
+            metavar="N",
+        ),
     ] = None,
     offset_error_um: Annotated[
         float,
@@ -75,6 +81,7 @@ def contact(
     quick: Annotated[
         bool, typer.Option("--quick", help="Few positions and torques, for a first look.")
     ] = False,
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Analyse the tooth contact of a hypoid pair; write its mesh table, contact.nc and figures.
 
@@ -83,7 +90,11 @@ def contact(
     from gearlube.studies.contact import run
     from gearlube.studies.contact.gear_solids import write_gears
     from gearlube.studies.contact.settings import QUICK, ContactSettings, Misalignment
-    from gearlube.studies.contact.summary import contact_summary, gear_file_warnings
+    from gearlube.studies.contact.summary import (
+        contact_summary,
+        contact_warnings,
+        gear_file_warnings,
+    )
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
     began = time.monotonic()
@@ -103,14 +114,20 @@ def contact(
         )
         for sentence in gear_file_warnings(file):
             logger.warning("%s", sentence)
-        with progress_on(console, "contact", 2 * cycle.positions) as progress:
+        with (
+            results_folder(out, "contact", overwrite=overwrite),
+            progress_on(console, "contact", 2 * cycle.positions) as progress,
+        ):
             results = run.run_contact(
                 file, replace(usual, cycle=cycle), folder=out, jobs=jobs, progress=progress
             )
             if export:
                 progress(1.0, "gears")
                 write_gears(file, out / "gears")
-        console.print(_table(file.name, contact_summary(results.contact)))
+        rows = contact_summary(results.contact)
+        console.print(_table(file.name, rows))
+        for sentence in contact_warnings(rows):
+            logger.warning("%s", sentence)
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")

@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 import xarray as xr
 
-from gearlube_core.hypoid_contact.analysis import check_settings_meet
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
+from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_geometry.flank.flank import Role
-from gearlube_core.hypoid_geometry.flank.setting_check import setting_report
 from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.tooth_contact.sharp_edge import sharp_edge_remark
 
 _ROLES: tuple[Role, Role] = ("pinion", "gear")
 _TOUCHES = 1e-3  # share of the torque above which a pair counts as in contact
@@ -49,15 +49,21 @@ def contact_summary(contact: xr.Dataset) -> list[ContactSummary]:
     return rows
 
 
+def contact_warnings(rows: list[ContactSummary]) -> list[str]:
+    """Return warnings about the results, one sentence each."""
+    remark = sharp_edge_remark(max(row.highest_pressure for row in rows))
+    return [remark] if remark else []
+
+
 def gear_file_warnings(file: HypoidGearFile) -> list[str]:
     """Return warnings about the machine settings and the teeth, one sentence each.
 
     Raises
     ------
     ParameterError
-        The cutters miss the teeth.
+        The flanks do not meet.
     """
-    check_settings_meet(file)
-    return setting_report(file) + [
+    check_pair(file)
+    return pair_warnings(file) + [
         line for role in _ROLES for line in tooth_form(file, role).report()
     ]

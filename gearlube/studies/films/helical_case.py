@@ -136,6 +136,8 @@ class HelicalLineCase:
                 f"Torque and speed must be given for {self.file.name}, whose file has no "
                 f"[operation], got {torque} N.m and {speed} rad/s. Add the section or give both."
             )
+        check_within("torque", torque, 1e-3, 1e6, "N.m", "Give its magnitude.")
+        check_within("pinion_speed", speed, 1e-2, 1e5, "rad/s", "Give its magnitude.")
         return torque, speed
 
     def _lubricant(self) -> FilmOil:

@@ -17,7 +17,7 @@ from gearlube.studies.films.datasets.helical_cycle import (
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
 from gearlube.studies.films.results import finished, step_file, write_film_results
-from gearlube.studies.films.run_steady import warn_of_ends
+from gearlube.studies.films.run_steady import warn_of_ends, warn_of_grid
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
 from gearlube_core.ehl.transient.march import MARCH_SETTINGS
@@ -27,6 +27,8 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
 
 logger = logging.getLogger("gearlube")
+
+MOST_STEPS = 100_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,6 +56,23 @@ class MarchSteps:
     last: int | None = None
     snapshots: tuple[int, ...] = ()
     record_every: int = 5
+    repeat: bool = False
+
+    def __post_init__(self) -> None:
+        check_within("the first step", self.first, 0, MOST_STEPS, "", "Write FIRST:LAST.")
+        if self.last is not None:
+            check_within("the last step", self.last, 0, MOST_STEPS, "", "Write FIRST:LAST.")
+            if self.last <= self.first:
+                cure = (
+                    f"Write them as {self.last}:{self.first}."
+                    if self.last < self.first
+                    else "The film at rest is that of a step, not of a march."
+                )
+                raise ParameterError(
+                    f"the last step must be above the first, got {self.first} and {self.last}. "
+                    f"{cure}"
+                )
+        check_within("record_every", self.record_every, 1, MOST_STEPS)
 
 
 def run_helical_march(
@@ -99,6 +118,7 @@ def run_helical_march(
     names = {"name": case.file.name, "source": case.file.source}
     first = steps.first
     last = film.steps.count if steps.last is None else steps.last
+    check_within("the last step", last, first + 1, film.steps.count, "", "The cycle ends there.")
     for step in steps.snapshots:
         check_within("snapshots", step, first, last, "", "Name steps of the march.")
     if steps.snapshots and folder is None:
@@ -132,17 +152,21 @@ def run_helical_march(
         checkpoint=None if folder is None else folder / f"march_{key}.npz",
         checkpoint_every=steps.record_every,
         progress=observe,
+        repeat=steps.repeat,
         throw=False,
     )
     # a record may hold more steps than are asked for now
     cycle = replace(cycle, table=cycle.table[: last - first + 1])
+    start = solve_helical_line(film, float(first), MARCH_SETTINGS, throw=False)
     steady: dict[int, FilmSolution] = {}
     for done, step in enumerate(steps.snapshots, last - first):
         report(done, f"step {step} at rest")
         steady[step] = solve_helical_line(film, float(step), MARCH_SETTINGS, throw=False)
         if folder is not None:
             _finish_snapshot(folder, step, key, steady[step])
-    dataset = with_steady_points(cycle_dataset(film, cycle, lines, **names), steady)
+    curves = cycle_dataset(film, cycle, lines, start=start, repeated=steps.repeat, **names)
+    dataset = with_steady_points(curves, steady)
+    warn_of_grid(dataset)
     return finished(dataset, folder, progress, films / (films + 1))
 
 

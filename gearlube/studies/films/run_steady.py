@@ -16,6 +16,7 @@ from gearlube.studies.films.results import finished
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
+from gearlube_core.ehl.grid_error import LARGE_ERROR
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.thermal import solve_thermal_line
 from gearlube_core.ehl.point.solver import solve_point_contact
@@ -24,10 +25,20 @@ from gearlube_core.ehl.transient.march import MARCH_SETTINGS
 from gearlube_core.progress import Progress, no_progress
 
 logger = logging.getLogger("gearlube")
+_ERRORS = {
+    "central film": "error_central_film",
+    "smallest film": "error_minimum_film",
+    "largest pressure": "error_pressure_max",
+    "friction": "error_friction",
+}
 
 
 def run_line(
-    case: LineCase, *, folder: Path | None = None, progress: Progress = no_progress
+    case: LineCase,
+    *,
+    film_error: float | None = None,
+    folder: Path | None = None,
+    progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Return the film of a line contact; the case chooses isothermal or thermal.
 
@@ -36,6 +47,9 @@ def run_line(
     case
         `LineCase.named` of a shipped case, `LineCase.from_toml` of a file or
         `LineCase.from_data` of numbers.
+    film_error
+        Relative error of the films that is wanted [-]: the spacing is halved until the estimate
+        is below it. None: the grid of the case.
     folder
         Where line.nc, summary.csv and figures are written; None: nothing is written.
     progress
@@ -58,23 +72,28 @@ def run_line(
     began = time.monotonic()
     problem, settings = case.problem(), case.settings()
     solution = (
-        solve_thermal_line(problem, *case.solids, settings, throw=False)
+        solve_thermal_line(problem, *case.solids, settings, film_error=film_error, throw=False)
         if case.temperature == "thermal"
-        else solve_line(problem, settings, throw=False)
+        else solve_line(problem, settings, film_error=film_error, throw=False)
     )
     seconds = time.monotonic() - began
     dataset = line_dataset(solution, name=case.name, source=case.source, seconds=seconds)
+    warn_of_grid(dataset)
     return finished(dataset, folder, progress)
 
 
 def run_point(
-    case: PointCase, *, folder: Path | None = None, progress: Progress = no_progress
+    case: PointCase,
+    *,
+    film_error: float | None = None,
+    folder: Path | None = None,
+    progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Return the film of a point contact; the case chooses isothermal or thermal.
 
     Parameters
     ----------
-    case, folder, progress
+    case, film_error, folder, progress
         As in `run_line`; the dataset is point.nc.
 
     Returns
@@ -93,16 +112,21 @@ def run_point(
     _begin(folder, progress, f"film on {case.solver.nodes_x} x {case.solver.nodes_y} nodes")
     problem, settings = case.problem(), case.settings()
     solution = (
-        solve_thermal_point(problem, *case.solids, settings, throw=False)
+        solve_thermal_point(problem, *case.solids, settings, film_error=film_error, throw=False)
         if case.temperature == "thermal"
-        else solve_point_contact(problem, settings, throw=False)
+        else solve_point_contact(problem, settings, film_error=film_error, throw=False)
     )
     dataset = point_dataset(solution, sliding=case.sliding, name=case.name, source=case.source)
+    warn_of_grid(dataset)
     return finished(dataset, folder, progress)
 
 
 def run_helical_line(
-    case: HelicalLineCase, *, folder: Path | None = None, progress: Progress = no_progress
+    case: HelicalLineCase,
+    *,
+    film_error: float | None = None,
+    folder: Path | None = None,
+    progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Return the steady film on a helical pair's contact line at one position.
 
@@ -110,7 +134,7 @@ def run_helical_line(
     ----------
     case
         Gear pair, operation, oil, grid and position.
-    folder, progress
+    film_error, folder, progress
         As in `run_line`; the dataset is helical.nc.
 
     Returns
@@ -136,8 +160,9 @@ def run_helical_line(
     warn_of_ends(film)
     _begin(folder, progress, f"film on {film.nodes[0]} x {film.nodes[1]} nodes")
     # the settings of a march, so that both give one film where nothing moves
-    solution = solve_helical_line(film, step, MARCH_SETTINGS, throw=False)
+    solution = solve_helical_line(film, step, MARCH_SETTINGS, film_error=film_error, throw=False)
     dataset = helical_dataset(film, step, solution, name=case.file.name, source=case.file.source)
+    warn_of_grid(dataset)
     return finished(dataset, folder, progress)
 
 
@@ -146,6 +171,18 @@ def warn_of_ends(film: HelicalFilm) -> None:
     if film.modified.pinion.crown is None and film.modified.gear.crown is None:
         logger.warning(
             "Neither flank is crowned: the line ends abruptly, where the film may not converge."
+        )
+
+
+def warn_of_grid(dataset: xr.Dataset) -> None:
+    """Warn where the estimated error of the grid is large, as the attributes of a film tell it."""
+    largest = {name: dataset.attrs[key] for name, key in _ERRORS.items()}
+    large = {name: error for name, error in largest.items() if error > LARGE_ERROR}
+    if large:
+        logger.warning(
+            "The grid makes an estimated error of %s. Take more nodes, or ask for an error of the "
+            "films (film_error, --film-error).",
+            ", ".join(f"{100.0 * error:.2g} % of the {name}" for name, error in large.items()),
         )
 
 

@@ -10,6 +10,12 @@ import xarray as xr
 from gearlube.output.csv_text import csv_text
 
 SOLUTION = "solution"
+_ERRORS = {
+    "central film": "central_film",
+    "minimum film": "minimum_film",
+    "largest pressure": "pressure_max",
+    "friction": "friction",
+}
 
 
 class Row(NamedTuple):
@@ -49,6 +55,11 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
         rows.append(_own("highest temperature above the inlet", rise, "K"))
         rows.append(_own("turns of film and energy", of["turns"], "1"))
     rows += [_own(f"group {key}", of[f"group_{key}"], "1") for key in "ML" if f"group_{key}" in of]
+    rows += [
+        _own(f"estimated error, {name}", of[f"error_{key}"], "1")
+        for name, key in _ERRORS.items()
+        if math.isfinite(of.get(f"error_{key}", math.nan))
+    ]
     return [
         *rows,
         _own("unbalanced flow", of["residual"], "1"),

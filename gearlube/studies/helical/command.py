@@ -15,19 +15,22 @@ from rich.table import Table
 
 from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import (
     HelicalGearArgument,
     JobsOption,
     OilTemperatureOption,
+    OverwriteOption,
     RoughnessOption,
     SpeedOfFileOption,
     TorqueOfFileOption,
 )
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
+from gearlube.cli.results_folder import results_folder
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
+from gearlube_core.units import rpm_to_rads
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.helical.summary import Row
@@ -68,13 +71,14 @@ def helical(
         ),
     ] = "film",
     mesh: Annotated[
-        str,
+        str | None,
         typer.Option(
-            help="density: one stiffness along all contact lines; contact: that of the loaded "
-            "contact.",
-            metavar="density|contact",
+            help="Stiffness of the vibrating pair. contact: that of the loaded contact; density: "
+            "one density along all contact lines, of ISO 6336-1 or as given. Default: contact, "
+            "or density where --density is given.",
+            metavar="contact|density",
         ),
-    ] = "density",
+    ] = None,
     density: Annotated[
         float | None,
         typer.Option(
@@ -107,6 +111,7 @@ def helical(
     quick: Annotated[
         bool, typer.Option("--quick", help="Few points and coarse teeth, for a first look.")
     ] = False,
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Study a helical or spur pair; write NetCDF datasets, summary.csv and figures.
 
@@ -124,7 +129,6 @@ def helical(
         file = HelicalGearFile.given(gear)
         if jobs is not None:
             check_within("--jobs", jobs, 1, 1024)
-        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
         given = file.operation
         torque = torque if torque is not None or given is None else given.pinion_torque_n_m
         speed_rpm = speed_rpm if speed_rpm is not None or given is None else given.pinion_speed_rpm
@@ -147,16 +151,19 @@ def helical(
             mu=numbers_from("--mu", mu or ("0:0.3:0.01",), "", 0.0, 1.0, example="0:0.3:0.01"),
             speeds=tuple(rpm_to_rads(speed) for speed in speeds),
             friction=friction,
-            mesh=mesh,
+            mesh=mesh or ("contact" if density is None else "density"),
             density=None if density is None else 1e9 * density,
             torques=tuple(sorted(set(torques or ()))),
             positions=positions,
             oil=oil,
-            oil_temperature=celsius_to_kelvin(oil_temperature),
+            oil_temperature=oil_kelvin(oil_temperature, oil),
             roughness_rms=1e-6 * roughness_um,
             parts=parts,
         )
-        with progress_on(console, "helical pair") as progress:
+        with (
+            results_folder(out, "helical", overwrite=overwrite),
+            progress_on(console, "helical pair") as progress,
+        ):
             results = run.run_helical(
                 quick_settings(settings) if quick else settings,
                 folder=out,

@@ -6,7 +6,7 @@ from typing import Any
 
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core import __version__
-from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
+from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE, mean_mesh_stiffness
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import COMPOSITES
 from gearlube_core.dynamics.helical_pair.parameters import HelicalPairParameters
 from gearlube_core.dynamics.helical_pair.supports.bearing_forces import BEARING_FORCES
@@ -81,6 +81,8 @@ def pair_attributes(parameters: HelicalPairParameters) -> dict[str, Any]:
         "total_contact_ratio": parameters.pair.total_contact_ratio,
         "mesh_name": parameters.mesh.name,
         "mesh_source": parameters.mesh.source,
+        "mean_mesh_stiffness": mean_mesh_stiffness(parameters),
+        "mean_mesh_stiffness_units": "N/m",
         "effective_mass": parameters.effective_mass,
         "effective_mass_units": "kg",
         "mesh_damping_ratio": parameters.mesh_damping_ratio,

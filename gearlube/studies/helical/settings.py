@@ -27,7 +27,7 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 
-MESHES = ("density", "contact")
+MESHES = ("contact", "density")
 FRICTIONS = ("film", "constant")
 PARTS = ("all", "contact", "dynamics", "geometry")
 RPM = math.pi / 30.0  # rad/s
@@ -35,7 +35,6 @@ RPM = math.pi / 30.0  # rad/s
 HARMONICS = 15  # [he_2007 sec. 6]
 SHOWN_MU = (0.01, 0.1)  # [he_2007], figures 6 to 8
 LOAD_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)  # of the pinion torque
-_SPEEDS = 60
 _REACH = 1.1  # highest mesh frequency over that of the mesh's own mode
 _COARSE = CondensationSettings(
     profile_hats=5,
@@ -57,12 +56,15 @@ class HelicalSettings:
     mu : tuple of float
         Coefficients of friction of the sweeps [-], rising from 0 to 1.
     speeds : tuple of float
-        Pinion speeds of the sweep [rad/s], rising; empty: 60 of them up to 1.1 times the
-        resonance of the mesh.
-    mesh : {"density", "contact"}
-        One stiffness density along all lines, or that of the loaded contact.
+        Pinion speeds of the sweep [rad/s], rising; empty: `speed_count` of them up to 1.1 times
+        the resonance of the mesh.
+    speed_count : int
+        Speeds of the sweep where `speeds` is empty.
+    mesh : {"contact", "density"}
+        Stiffness of the vibrating pair: that of the loaded contact, or one density along all
+        lines.
     density : float, optional
-        [N/m2]; None: from ISO 6336-1.
+        Of mesh "density" [N/m2]; None: from ISO 6336-1.
     friction : {"film", "constant"}
         What is run: constant coefficients alone, or the friction of the oil film beside them.
     torques : tuple of float
@@ -95,7 +97,8 @@ class HelicalSettings:
     pinion_speed: float
     mu: tuple[float, ...] = tuple(float(v) for v in np.round(np.linspace(0.0, 0.3, 31), 10))
     speeds: tuple[float, ...] = ()
-    mesh: str = "density"
+    speed_count: int = 60
+    mesh: str = "contact"
     density: float | None = None
     friction: str = "film"
     torques: tuple[float, ...] = ()
@@ -130,16 +133,20 @@ class HelicalSettings:
                 )
             cure = "About 1.3e10 N/m2 is usual for steel."
             check_within("density", self.density, 1e7, 1e13, "N/m2", cure)
+        if self.with_contact:
+            self.cycle()
         low, high = 0.999 * self.load_steps[0], 1.001 * self.load_steps[-1]
         if self.with_contact and self.mesh == "contact":
-            cure = "The range of torques must contain the operating point."
+            cure = (
+                "The pair vibrates on the stiffness of its loaded contact at that torque: give "
+                "torques around it, or take mesh density (ISO 6336-1)."
+            )
             check_within("pinion_torque", self.pinion_torque, low, high, "N.m", cure)
         self.film()
         check_within("separation_speeds", self.separation_speeds, 0, 5000)
+        check_within("speed_count", self.speed_count, 2, 2000)
         for name in ("stability_columns", "stability_rows"):
             check_within(name, getattr(self, name), 2, 2000)
-        if self.with_contact:
-            self.cycle()
         if self.with_dynamics:
             self.parameters()
 
@@ -206,8 +213,8 @@ class HelicalSettings:
             return np.array(self.speeds)
         resonance = SeparationProblem(replace(parameters, contact="one_sided")).natural_speed
         top = _REACH * resonance / RPM
-        step = max(10.0 * round(top / _SPEEDS / 10.0), 10.0)
-        return RPM * step * np.arange(1.0, _SPEEDS + 1.0)
+        step = max(10.0 * round(top / self.speed_count / 10.0), 10.0)
+        return RPM * step * np.arange(1.0, self.speed_count + 1.0)
 
 
 def quick_settings(settings: HelicalSettings) -> HelicalSettings:
@@ -218,13 +225,11 @@ def quick_settings(settings: HelicalSettings) -> HelicalSettings:
             return values
         return tuple(values[i] for i in np.linspace(0, len(values) - 1, count).round().astype(int))
 
-    speeds = settings.speeds
-    if not speeds and settings.with_dynamics:
-        speeds = tuple(settings.swept_speeds(settings.parameters()))
     return replace(
         settings,
         mu=thinned(settings.mu, 7),
-        speeds=thinned(speeds, 15),
+        speeds=thinned(settings.speeds, 15),
+        speed_count=min(settings.speed_count, 15),
         torques=settings.torques or thinned(settings.load_steps, 4),
         positions=min(settings.positions, 8),
         stability_columns=min(settings.stability_columns, 40),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ import xarray as xr
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
+from gearlube_core.tooth_contact.sharp_edge import sharp_edge_remark
 
 _MOTIONS = ("delta_z", "u_xp", "u_yp", "u_zp")
 _FORCES = ("F_xp", "F_yp", "F_zp")
@@ -42,7 +44,7 @@ def summary_rows(results: HelicalResults) -> list[Row]:
     ):
         if name in found:
             rows += of(found[name])
-    return rows
+    return [row for row in rows if math.isfinite(row.value)]  # a study may lack a number
 
 
 def remarks(results: HelicalResults) -> list[str]:
@@ -53,6 +55,9 @@ def remarks(results: HelicalResults) -> list[str]:
         sentences.append(f"Not in the pair's source, completed: {fields}.")
     if "contact" in found and found["contact"].attrs["iso_outside"] != "none":
         sentences.append(f"ISO 6336-1 does not hold here: {found['contact'].attrs['iso_outside']}.")
+    if "contact" in found:
+        remark = sharp_edge_remark(float(found["contact"]["pressure_max"].max()))
+        sentences += [remark] if remark else []
     if "sweep" in found and bool((found["sweep"]["stability_margin"] <= 0.0).any()):
         sentences.append("Unstable within the speed sweep: rows without values in sweep.nc.")
     return sentences
@@ -106,7 +111,14 @@ def _contact(contact: xr.Dataset) -> list[Row]:
 
 
 def _response(response: xr.Dataset) -> list[Row]:
-    rows = []
+    rows = [
+        Row(
+            "operating point",
+            "mean mesh stiffness along x, of the vibrating pair",
+            response.attrs["mean_mesh_stiffness"],
+            "N/m",
+        )
+    ]
     for case in response["case"].values:
         at, label = response.sel(case=case), _case(str(case))
         for names, unit in ((_MOTIONS, "m"), (_FORCES, "N")):
@@ -153,14 +165,11 @@ def _stability(stability: xr.Dataset) -> list[Row]:
     ):
         unstable = (stability[name] > 0.0).any("mesh_frequency").values
         first = stability["variation"].values[unstable]
-        rows.append(
-            Row(
-                "stability",
-                f"least factor on the mesh variation that is unstable, {words}",
-                float(first[0]) if first.size else float("nan"),
-                "1",
-            )
-        )
+        if first.size:
+            what, factor = "least factor on the mesh variation that is unstable", first[0]
+        else:
+            what, factor = "stable up to the largest factor", stability["variation"].values[-1]
+        rows.append(Row("stability", f"{what}, {words}", float(factor), "1"))
     return rows
 
 

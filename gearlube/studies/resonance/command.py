@@ -12,11 +12,12 @@ from rich.console import Console
 from rich.table import Table
 
 from gearlube.cli.exit_codes import INTERRUPTED, exit_on_error
-from gearlube.cli.options import OilTemperatureOption, RoughnessOption
+from gearlube.cli.oil_option import oil_kelvin
+from gearlube.cli.options import OilTemperatureOption, OverwriteOption, RoughnessOption
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.results_folder import results_folder
 from gearlube_core.checks import check_finite, check_option, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.units import celsius_to_kelvin
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.resonance.summary import ModelSummary
@@ -85,6 +86,7 @@ def resonance(
         bool,
         typer.Option("--quick", help="Few frequencies and coarse steps, for a first look."),
     ] = False,
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Follow the resonance of the torsional hypoid pair; write resonance.nc, cycle.nc and figures.
 
@@ -94,18 +96,18 @@ def resonance(
     from gearlube.studies.resonance import run
     from gearlube.studies.resonance.settings import MODELS, ResonanceSettings, quick_settings
     from gearlube.studies.resonance.summary import summaries
+    from gearlube_core.dynamics.hypoid_torsional.parameters import KARAGIANNIS_OIL
 
     began = time.monotonic()
     with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
         first, last = _range(frequency_range)
         check_option("--radii", radii, _RADII)
         check_option("--friction", friction, _FRICTION)
-        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
         settings = ResonanceSettings(
             mesh=_mesh(mesh, mismatch, radii, torque),
             radii=radii,  # type: ignore[arg-type]
             pinion_torque=torque,
-            oil_temperature=celsius_to_kelvin(oil_temperature),
+            oil_temperature=oil_kelvin(oil_temperature, KARAGIANNIS_OIL),
             roughness_rms=1e-6 * roughness_um,
             friction=friction,
             first=first,
@@ -113,7 +115,12 @@ def resonance(
             frequencies=frequencies,
             load_at=load_at,
         )
-        with progress_on(console, "resonance") as progress:
+        for sentence in settings.warnings:
+            logger.warning("%s", sentence)
+        with (
+            results_folder(out, "resonance", overwrite=overwrite),
+            progress_on(console, "resonance") as progress,
+        ):
             results = run.run_resonance(
                 quick_settings(settings) if quick else settings, folder=out, progress=progress
             )

@@ -99,6 +99,7 @@ def study_attributes(study: ResonanceStudy) -> dict[str, Any]:
         model = response.segments[0].problem.model
         attributes |= {
             "mesh": model.parameters.mesh.name,
+            "mesh_orders": model.parameters.mesh.orders,
             "natural_frequency": model.natural_frequency,
             "damping_ratio": model.damping_ratio,
             "static_deflection": model.static_deflection,

@@ -10,8 +10,8 @@ from gearlube.studies.resonance.measures import rate_over_period
 from gearlube.studies.resonance.response import Response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, R_G, R_P
+from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
 from gearlube_core.periodic import solve_periodic
@@ -136,7 +136,7 @@ def poincare_section(
     starts = _starts(response, settings, relative, pair.natural_frequency)
     x = np.full((starts.shape[0], STROBES + 1), np.nan)
     rate = np.full_like(x, np.nan)
-    nothing = np.zeros((0, N_RECORD))
+    nothing, work = np.zeros((0, N_RECORD)), np.zeros(MARCH_WORK)
     for number, (x_0, rate_0) in enumerate(starts):
         y = pair.initial_state(speed)
         y[0] = MICRO * x_0
@@ -149,7 +149,7 @@ def poincare_section(
         for strobe in range(STROBES + 1):
             x[number, strobe] = UM * y[0]
             rate[number, strobe] = _rate(y, rows, response.model, speed)
-            if march(y, strobe, 1, pair.mean_load_torque, speed, rows, p, nothing) != OK:
+            if march(y, strobe, 1, pair.mean_load_torque, speed, rows, p, nothing, work) != OK:
                 break
     return PoincareSection(
         relative=relative, x=x, rate=rate, motions=motions_at(response, settings, relative)

@@ -118,7 +118,10 @@ def follow_response(
     )
     model = problem.model
     unit = model.pinion_speed(model.natural_frequency)
-    asked = unit * np.unique(np.concatenate([settings.relative, settings.orbits_at]))
+    wanted = [*settings.relative, *settings.orbits_at]
+    if settings.load_at is not None:
+        wanted.append(settings.load_at)
+    asked = unit * np.unique([at for at in wanted if settings.first <= at <= settings.last])
     low, high = unit * settings.first, unit * settings.last
 
     def observe(_: int, speed: float) -> None:

@@ -87,7 +87,7 @@ def run_resonance(
         write_resonance(results, folder)
     if settings.load_at is not None and not study.interrupted:
         progress(1.0, "load")
-        results = replace(results, load=load_response(settings, settings.load_at))
+        results = replace(results, load=load_response(settings, settings.load_at, study.responses))
         if folder is not None:
             _write_load(results, folder)
     return results

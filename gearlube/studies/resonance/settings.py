@@ -13,6 +13,7 @@ from gearlube_core.dynamics.hypoid_torsional.parameters import (
     Radii,
     karagiannis_2012_pair,
 )
+from gearlube_core.dynamics.ranges import TORQUE_MARGIN
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.table import MeshTable
 
@@ -58,8 +59,8 @@ class ResonanceSettings:
         Also follow the response over the pinion torque, at this mesh over natural frequency [-],
         0.05 to 3.
     steps_per_mesh_period, lubricated_steps : int
-        Of the integrator, without and with friction. Where contact is lost close to a fold,
-        fewer steps than 512 show folds that are not there.
+        Of the integrator, without and with friction. Steps in which flanks touch or part are cut
+        there; with the default, Floquet multipliers are exact to 1e-4, with friction to 3e-4.
 
     Examples
     --------
@@ -80,7 +81,7 @@ class ResonanceSettings:
     sweep_frequencies: int = 60
     section_starts: int = 24
     load_at: float | None = None
-    steps_per_mesh_period: int = 512
+    steps_per_mesh_period: int = 256
     lubricated_steps: int = 128
 
     def __post_init__(self) -> None:
@@ -96,12 +97,23 @@ class ResonanceSettings:
         if self.load_at is not None:
             check_within("load_at", self.load_at, 0.05, 3.0, "", "0.9 shows the bistable range.")
         self.parameters("two_dof")
-        if self.mesh is not None and self.pinion_torque > 1.5 * self.mesh.torque[-1]:
+        if self.mesh is not None and self.pinion_torque > TORQUE_MARGIN * self.mesh.torque[-1]:
             raise ParameterError(
-                f"pinion_torque must be at most 1.5 times the highest torque of the mesh table, "
-                f"{self.mesh.torque[-1]:g} N.m, got {self.pinion_torque:g} N.m. "
+                f"pinion_torque must be at most {TORQUE_MARGIN:g} times the highest torque of the "
+                f"mesh table, {self.mesh.torque[-1]:g} N.m, got {self.pinion_torque:g} N.m. "
                 "Run `gearlube contact` with higher torques."
             )
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What leaves the range of its table, one sentence each."""
+        if self.mesh is None or self.pinion_torque <= self.mesh.torque[-1]:
+            return ()
+        return (
+            f"The pinion torque of {self.pinion_torque:g} N.m is beyond the mesh table, which ends "
+            f"at {self.mesh.torque[-1]:g} N.m: its data hold at the end. Run `gearlube contact` "
+            "with higher torques.",
+        )
 
     @property
     def models(self) -> tuple[str, ...]:
@@ -148,6 +160,6 @@ def quick_settings(settings: ResonanceSettings) -> ResonanceSettings:
         frequencies=min(settings.frequencies, 25),
         sweep_frequencies=min(settings.sweep_frequencies, 12),
         section_starts=min(settings.section_starts, 6),
-        steps_per_mesh_period=256,
+        steps_per_mesh_period=128,
         lubricated_steps=96,
     )

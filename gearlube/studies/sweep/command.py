@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 import shlex
 import sys
 from pathlib import Path
@@ -12,7 +13,13 @@ import typer
 
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
-from gearlube.cli.options import JobsOption, OilTemperatureOption, RoughnessOption
+from gearlube.cli.options import (
+    JobsOption,
+    OilTemperatureOption,
+    OverwriteOption,
+    RoughnessOption,
+)
+from gearlube.cli.results_folder import results_folder
 
 logger = logging.getLogger("gearlube")
 
@@ -31,7 +38,8 @@ def sweep(
     speeds: Annotated[
         list[str] | None,
         typer.Option(
-            help="Vehicle speeds [km/h]: first:last:step and single values. Default 20:100:5.",
+            help="Vehicle speeds [km/h]: first:last:step and single values. "
+            "Default: 20 to 100 in steps of 5.",
             metavar="RANGE...",
         ),
     ] = None,
@@ -50,7 +58,11 @@ def sweep(
         str, typer.Option(help="consistent, or as_printed in the paper.")
     ] = "consistent",
     friction: Annotated[
-        str, typer.Option(help="Flank friction: consistent, as_printed or off.")
+        str,
+        typer.Option(
+            help="Flank friction: consistent, as_printed, off, or printed_traction_circular "
+            "(the reading that gives the paper's efficiency)."
+        ),
     ] = "consistent",
     bearing_torque_loss: Annotated[
         str, typer.Option(help="Drag torque of the bearings: palmgren or none.")
@@ -74,31 +86,43 @@ def sweep(
         Path | None,
         typer.Option(help="Mesh table (.nc) of another gear pair, built into the axle FMU."),
     ] = None,
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Sweep vehicle speed and bearing preload; write sweep.nc, summary.csv and report.html.
 
     Finished points are kept in OUT/points: run the same command again to go on after a stop.
     """
     from gearlube.cli.console import console
+    from gearlube.cli.oil_option import oil_kelvin
     from gearlube.cli.progress_report import progress_on
     from gearlube.cli.ranges import numbers_from
     from gearlube.studies.sweep import run
     from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
     from gearlube.studies.sweep.report import write_sweep_report
-    from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
-    from gearlube_core.checks import check_within
+    from gearlube.studies.sweep.settings import (
+        OILS,
+        PRELOAD_RANGE,
+        SPEED_RANGE,
+        SweepSettings,
+        quick_sweep_settings,
+    )
+    from gearlube_core.checks import check_option, check_within
     from gearlube_core.errors import ParameterError
-    from gearlube_core.units import celsius_to_kelvin
 
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
-        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        check_option("--oil", oil, OILS)
         if fmu is not None and mesh_table is not None:
             raise ParameterError(
                 "--mesh-table must not be given with --fmu, which has its own table, got both. "
                 "Build the FMU with `gearlube build-fmu --mesh-table`, or leave out --fmu."
             )
+        if scheduler is not None and not re.fullmatch(r"[a-z]+://[^\s/]+", scheduler):
+            raise ParameterError(
+                f"--scheduler must be an address such as tcp://host:8786, got {scheduler!r}. "
+                "Take the one that the Dask scheduler prints when it starts."
+            )
         settings = SweepSettings(
-            oil_temperature=celsius_to_kelvin(oil_temperature),
+            oil_temperature=oil_kelvin(oil_temperature, oil),
             oil=oil,
             roughness_rms=roughness_um * 1e-6,
             equations=equations,
@@ -108,14 +132,20 @@ def sweep(
         )
         ranges = speeds or (_QUICK_SPEEDS if quick else _DEFAULT_SPEEDS)
         speeds_kmh = numbers_from(
-            "--speeds", ranges, "km/h", 1.0, 300.0, example="20:100:5", most=500
+            "--speeds", ranges, "km/h", *SPEED_RANGE, example="20:100:5", most=500
         )
+        preloads = [check_within("--preload", p, *PRELOAD_RANGE, "N") for p in preload or ()]
+        if jobs is not None:
+            check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")
         logger.info("Preparing the axle; the first time this compiles it, about 15 s.")
-        with progress_on(console, "sweep") as progress:
+        with (
+            results_folder(out, "sweep", overwrite=overwrite),
+            progress_on(console, "sweep") as progress,
+        ):
             dataset = run.run_sweep(
                 quick_sweep_settings(settings) if quick else settings,
                 speeds_kmh=speeds_kmh,
-                preloads=preload or _DEFAULT_PRELOADS,
+                preloads=preloads or _DEFAULT_PRELOADS,
                 fmu=fmu,
                 mesh_table=mesh_table,
                 out=out,

@@ -16,6 +16,7 @@ from gearlube_core.errors import ParameterError, StepError
 INPUTS = ("pinion.torque", "wheel.torque", "oil.temperature")
 
 _INSTANCE = "axle"
+_WARNING = 1  # fmi2Warning
 _LOADER_NOTE = "Fatal py exception"  # added by pythonfmu's loader, without information
 
 
@@ -42,6 +43,7 @@ class FmuAxle:
         description = read_model_description(str(directory))
         self.guid = description.guid
         self.messages: list[str] = []
+        self.warnings: list[str] = []  # each said once a run
         self._variables = {v.name: v for v in description.modelVariables}
         missing = [name for name in (*INPUTS, *channels) if name not in self._variables]
         if missing:
@@ -87,7 +89,10 @@ class FmuAxle:
 
         def log(_environment: Any, _name: Any, status: int, _category: Any, message: bytes) -> None:
             if status > 0 and message:
-                self.messages.append(message.decode(errors="replace").strip())
+                text = message.decode(errors="replace").strip()
+                self.messages.append(text)
+                if status == _WARNING:
+                    self.warnings.append(text.removeprefix(f"{_INSTANCE}: "))
 
         fmi2 = self._fmi
         callbacks = fmi2.fmi2CallbackFunctions()

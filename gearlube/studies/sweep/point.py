@@ -16,6 +16,7 @@ from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
 from gearlube.studies.sweep.operating_point import operation
 from gearlube.studies.sweep.quantities import described
+from gearlube.studies.sweep.range_variables import range_variables
 from gearlube.studies.sweep.recording import Recording, record
 from gearlube.studies.sweep.scalars import scalars
 from gearlube.studies.sweep.settings import SweepSettings
@@ -72,7 +73,8 @@ def _simulate(
     where = operation(settings, speed_kmh, final_drive, loss)
     with FmuAxle(directory, CHANNELS) as axle:
         axle.set_parameters({**parameters, "pinion.speed_start": where.pinion_speed})
-        return record(axle, where.driver, settings, CHANNELS)
+        recording = record(axle, where.driver, settings, CHANNELS)
+        return replace(recording, warnings=tuple(axle.warnings))
 
 
 def summarise(
@@ -90,6 +92,7 @@ def summarise(
         {
             "status": FINISHED,
             "message": "",
+            **range_variables(recording.warnings),
             **numbers,
             **spectra(recording, window),
             **waves(recording, window),

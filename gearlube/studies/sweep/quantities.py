@@ -17,6 +17,8 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "preload": ("N", "bearing preload"),
     "status": ("1", "1: finished, 0: failed, see message"),
     "message": ("", "why a point failed"),
+    "range_exceeded": ("1", "quantities outside the range of their formula or table; 0: none"),
+    "range_message": ("", "which quantities left their range, first where and how far"),
     "vehicle_speed": ("m s-1", "mean vehicle speed over the record"),
     "pinion_speed": ("rad s-1", "mean pinion speed"),
     "pinion_torque": ("N m", "mean torque on the pinion"),

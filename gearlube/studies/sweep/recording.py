@@ -58,6 +58,8 @@ class Recording:
         Whole pinion revolutions to analyse, at the end of the record [-].
     vehicle_speed : float
         Mean of the vehicle speeds at the start and at the end of the record [m/s].
+    warnings : tuple of str
+        What the axle warned of since its start.
     """
 
     time: Array
@@ -69,6 +71,7 @@ class Recording:
     teeth: int
     revolutions: int
     vehicle_speed: float
+    warnings: tuple[str, ...] = ()
 
     def __getitem__(self, channel: str) -> Array:
         """Return the samples of one channel, shape (n,)."""

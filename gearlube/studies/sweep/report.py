@@ -43,6 +43,7 @@ _COLUMNS = (
     ("η mesh", "%", lambda p: f"{100.0 * float(p['efficiency_mesh']):.2f}"),
     ("η axle", "%", lambda p: f"{100.0 * float(p['efficiency_axle']):.2f}"),
     ("losses", "W", lambda p: f"{float(p['loss'].sum()):.1f}"),
+    ("out of range", "", lambda p: f"{int(p['range_exceeded'])}" if "range_exceeded" in p else ""),
     ("balance", "ppm of input", lambda p: f"{1e6 * float(p['energy_closure_error']):.1f}"),
 )
 
@@ -101,8 +102,18 @@ def report_html(
             for p in points
             if int(p["status"]) != FINISHED
         ],
+        ranges=_ranges(finished),
         figures=_pictures(dataset, figures, entries) if finished else [],
     )
+
+
+def _ranges(points: Sequence[xr.Dataset]) -> list[tuple[str, str, str]]:
+    """Return speed, preload and words of the points that left a range."""
+    return [
+        (f"{float(p['speed_kmh']):g}", f"{float(p['preload']):g}", str(p["range_message"].values))
+        for p in points
+        if "range_exceeded" in p and float(p["range_exceeded"]) > 0.0
+    ]
 
 
 def _points(dataset: xr.Dataset) -> list[xr.Dataset]:

@@ -19,7 +19,7 @@ from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.provenance import code_version
 from gearlube.studies.sweep.quantities import described
-from gearlube.studies.sweep.settings import SweepSettings
+from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSettings
 from gearlube.studies.sweep.unpack import fmu_guid, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
@@ -31,7 +31,7 @@ from gearlube_core.storage.resumable import resumable_results
 
 logger = logging.getLogger(__name__)
 
-_MOST_JOBS = 1024
+MOST_JOBS = 1024
 _PRELOAD_CURE = "A preload must press; the paper uses 2500 and 6000 N."
 
 
@@ -122,12 +122,14 @@ def run_sweep(
     ... )
     """
     settings = settings or SweepSettings()
-    speeds = sorted({check_within("speed", v, 1.0, 400.0, "km/h") for v in speeds_kmh})
-    loads = sorted({check_within("preload", p, 1.0, 1e5, "N", _PRELOAD_CURE) for p in preloads})
+    speeds = sorted({check_within("speed", v, *SPEED_RANGE, "km/h") for v in speeds_kmh})
+    loads = sorted(
+        {check_within("preload", p, *PRELOAD_RANGE, "N", _PRELOAD_CURE) for p in preloads}
+    )
     if not speeds or not loads:
         raise ParameterError("A sweep needs at least one speed and one preload, got none.")
     if jobs is not None:
-        check_within("jobs", jobs, 1, _MOST_JOBS, "", "Leave it out to use all processors.")
+        check_within("jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all processors.")
     archive = _fmu(fmu, mesh_table)
     folder = None if out is None else Path(out)
     with unpacked(archive) as directory:

@@ -7,7 +7,9 @@ import json
 from dataclasses import asdict, dataclass, fields
 
 from drivetrain.driveline.model import COMMUNICATION_STEP
+from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin
 
 DRIVERS = ("vehicle", "hold")
@@ -28,6 +30,11 @@ FMU_PARAMETERS = {
     "steps_per_mesh_period": "solver.steps_per_mesh_period",
     "steps_per_highest_period": "solver.steps_per_highest_period",
 }
+_TABLE = {variable.name: variable for variable in HYPOID_AXLE}
+_FMU_VARIABLES = {name: _TABLE[fmi] for name, fmi in FMU_PARAMETERS.items()}
+OILS = _FMU_VARIABLES["oil"].literals
+SPEED_RANGE = (1.0, 300.0)  # of the vehicle [km/h]
+PRELOAD_RANGE = (1.0, 1e5)  # of a bearing [N]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,12 +94,16 @@ class SweepSettings:
     cage_turns: float = 2.0
 
     def __post_init__(self) -> None:
-        check_within(
-            "oil_temperature", self.oil_temperature, 253.15, 433.15, "K", "That is -20 to 160 degC."
-        )
         check_option("driver", self.driver, DRIVERS)
         check_within("roughness_rms", self.roughness_rms, 1e-9, 1e-5, "m", "0.5 um is 0.5e-6 m.")
         check_within("backlash", self.backlash, 1e-9, 2e-3, "m", "150 um is 150e-6 m.")
+        for name, variable in _FMU_VARIABLES.items():
+            value = getattr(self, name)
+            if variable.literals:
+                check_option(name, value, variable.literals)
+            else:
+                check_within(name, value, *variable.range, variable.unit)
+        Lubricant.named(self.oil).check_temperature(self.oil_temperature, "oil_temperature")
         check_within(
             "communication_step",
             self.communication_step,

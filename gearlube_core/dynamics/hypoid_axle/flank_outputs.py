@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.flanks import pair_friction, sliding_speed
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.state import PHI_P
-from gearlube_core.dynamics.packed_mesh import N_CHANNELS, SHARE
+from gearlube_core.dynamics.hypoid_axle.state import PHI_P, W_P
+from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, SHARE
+from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
+from gearlube_core.film.groups import point_moes_groups
+from gearlube_core.friction.evans_johnson_1986 import traction_map_number
+from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
@@ -28,6 +34,17 @@ FILM_RATIO = FLANK_QUANTITIES.index("film_ratio")
 FRICTION_COEFFICIENT = FLANK_QUANTITIES.index("friction_coefficient")
 TEMPERATURE = FLANK_QUANTITIES.index("temperature")
 N_FLANK_QUANTITIES = len(FLANK_QUANTITIES)
+_LARGEST_OVER_MEAN = 1.5  # pressure of a Hertz ellipse
+
+
+class MostLoaded(NamedTuple):
+    """Numbers of the flank that carries most, each with a range; zeros without load."""
+
+    film_load: float  # M of Moes [-]
+    film_material: float  # L of Moes [-]
+    traction: float  # number of the traction map [-]
+    temperature: float  # of the film [K]
+    pressure: float  # largest Hertz pressure [Pa]
 
 
 @kernel
@@ -42,12 +59,14 @@ def write_flanks(
     first: int,
     channels: Array,
     out: Array,
-) -> None:
+) -> MostLoaded:
     """Write load, film, film ratio, friction coefficient and temperature of every flank.
 
     Their outputs begin at `first`. A flank without load has no film: zeros, and the temperature of
-    the oil.
+    the oil. Returns the flank that carries most, for the ranges of the formulas.
     """
+    most = 0.0
+    found = MostLoaded(0.0, 0.0, 0.0, 0.0, 0.0)
     for pair in range(PAIRS):
         here = first + pair * N_FLANK_QUANTITIES
         pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
@@ -64,3 +83,31 @@ def write_flanks(
             if p.friction != 0.0:
                 out[here + FRICTION_COEFFICIENT] = flank.friction_coefficient
                 out[here + TEMPERATURE] = oil_temperature + flank.temperature_rise
+            if load > most:
+                most = load
+                M, L = point_moes_groups(
+                    channels[R_E],
+                    oil.eta0,
+                    oil.alpha,
+                    max(abs(channels[ENTRAIN] * s[W_P]), SPEED_FLOOR),
+                    load,
+                    p.reduced_modulus,
+                )
+                traction = traction_map_number(
+                    flank.film_thickness,
+                    flank.mean_pressure,
+                    oil.eta0,
+                    oil.alpha,
+                    oil.beta,
+                    oil.tau0,
+                    oil.conductivity,
+                )
+                in_use = 1.0 if flank.film_ratio > LEAST_FILM_RATIO else 0.0
+                found = MostLoaded(
+                    in_use * M,
+                    in_use * L,
+                    in_use * p.friction * traction,
+                    out[here + TEMPERATURE],
+                    _LARGEST_OVER_MEAN * flank.mean_pressure,
+                )
+    return found

@@ -30,6 +30,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
@@ -37,6 +38,7 @@ from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 OK = 0
 NOT_FINITE = 1
 TOO_MANY_STEPS = 2
+TOO_FAST = 3
 
 MAX_STEPS = 1_000_000  # in one communication interval
 STEPS_PER_EXPANSION = 2  # integrator steps that share an expansion of the bearing forces
@@ -180,7 +182,7 @@ def advance(
     Returns
     -------
     int
-        OK, NOT_FINITE or TOO_MANY_STEPS.
+        OK, NOT_FINITE, TOO_MANY_STEPS or TOO_FAST.
 
     Notes
     -----
@@ -218,6 +220,8 @@ def advance(
             scratch,
             stages,
         )
+        if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
+            return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
         if table.levels[0] < 0.0:
             follow_flank(s, table, p.mesh, mesh)
     total = 0.0

@@ -7,6 +7,7 @@ from typing import Annotated, NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftBearings
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
+from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.dynamics.scalars import Positive, Within
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.oil.lubricant import LubricantParameters
@@ -47,6 +48,8 @@ class AxleParameters(NamedTuple):
     lateral_sign: float  # +1 consistent, -1 as printed in [mohammadpour_2015 (1)] c-h
     friction: float  # 1 with flank friction, 0 without
     drag: float  # 1 with bearing drag torque, 0 without
+    reduced_modulus: float  # E' = 2 E* of the flanks [Pa]
+    ranges: RangeLimits
     preload: float  # axial preload of a bearing, for its drag [N]
     bearing_p: ShaftBearings
     bearing_g: ShaftBearings

@@ -11,6 +11,7 @@ from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.integrate import (
     NOT_FINITE,
+    TOO_FAST,
     TOO_MANY_STEPS,
     StepControl,
     step_inputs,
@@ -42,7 +43,13 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
-from gearlube_core.dynamics.stepped_model import Kernels, SteppedModel, Words
+from gearlube_core.dynamics.stepped_model import (
+    TOO_FAST_WORDS,
+    Kernels,
+    SteppedModel,
+    TorqueLimits,
+    Words,
+)
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.kernels import N_SERIES, blend_levels, load_bracket
@@ -61,6 +68,7 @@ _WORDS = Words(
         TOO_MANY_STEPS: (
             "the step needs more than 1000000 integrator steps. Shorten the communication step"
         ),
+        TOO_FAST: TOO_FAST_WORDS,
     },
 )
 
@@ -100,6 +108,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             contact_modulus(parameters.solid, parameters.solid),
             parameters.radii,
             parameters.mesh_stiffness,
+            parameters.contact_pressure,
         )
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
         super().__init__(
@@ -107,7 +116,10 @@ class HypoidAxle(SteppedModel[StepControl]):
             output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0, 1.0, 0.0),
             oil=parameters.oil,
-            torque_limits=(MAX_TORQUE, MAX_WHEEL_TORQUE),
+            torque_limits=TorqueLimits.around(
+                parameters.torque_range, parameters.mesh.ratio, MAX_TORQUE, MAX_WHEEL_TORQUE
+            ),
+            ranges=parameters.ranges,
             words=_WORDS,
         )
 

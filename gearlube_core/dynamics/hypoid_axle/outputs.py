@@ -56,8 +56,9 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.mean_power import mean_power
+from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS, write_ranges
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import N_SERIES
+from gearlube_core.mesh_table.kernels import N_SERIES, R_P
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 OUTPUT_NAMES: tuple[str, ...] = (
@@ -92,6 +93,7 @@ OUTPUT_NAMES: tuple[str, ...] = (
     "energy.bearing_damping",
     "energy.bearing_torque",
     "energy.stored",
+    *RANGE_OUTPUTS,
 )
 OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
 N_OUTPUTS = len(OUTPUT_NAMES)
@@ -126,6 +128,7 @@ WHEEL_DISPLACEMENT = OUTPUT_INDEX["wheel.displacement.x"]
 PINION_BEARINGS = OUTPUT_INDEX[BEARING_OUTPUTS[0]]
 GEAR_BEARINGS = PINION_BEARINGS + 2 * N_BEARING_QUANTITIES
 ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
+RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
 
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
@@ -219,8 +222,20 @@ def write_outputs(
     out[MESH_STIFFNESS] = mesh.stiffness
     out[MESH_FREQUENCY] = p.mesh.z_p * s[W_P] / (2.0 * math.pi)
     channels = scratch[N_FRICTION:AT_EXPANSION]
-    write_flanks(
+    most_loaded = write_flanks(
         s, mesh.force, data.window, data.n_nodes, oil_temperature, oil, p, FLANKS, channels, out
+    )
+    torque = max(abs(s[LOAD_TORQUE]), abs(mesh.force) * data.series[R_P])
+    write_ranges(
+        -torque if s[SIDE] < 0.0 else torque,
+        most_loaded.film_load,
+        most_loaded.film_material,
+        most_loaded.traction,
+        most_loaded.temperature,
+        most_loaded.pressure,
+        p.ranges,
+        RANGES,
+        out,
     )
     write_losses(s, rates, out)
     for i in range(3):

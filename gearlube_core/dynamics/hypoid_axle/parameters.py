@@ -9,14 +9,22 @@ from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
-from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
+from gearlube_core.contact.solid import (
+    STEEL_MOHAMMADPOUR_2015,
+    Solid,
+    contact_modulus,
+    solid_parameters,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
+from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
+from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.errors import ParameterError
+from gearlube_core.film import chittenden_1985
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
-from gearlube_core.friction.flank_laws import FLANK_LAWS
+from gearlube_core.friction.flank_laws import CONTACT_PRESSURES, FLANK_LAWS
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
@@ -25,7 +33,7 @@ Equations = Literal["consistent", "as_printed"]
 Radii = Literal["consistent", "paper", "mean"]
 MeshStiffness = Literal["tangent", "secant"]
 MeshDamping = Literal["hysteretic", "modal"]
-Friction = Literal["consistent", "as_printed", "off"]
+Friction = Literal["consistent", "as_printed", "off", "printed_traction_circular"]
 Approach = Literal["full", "as_printed"]
 TorqueLoss = Literal["none", "palmgren"]
 
@@ -62,8 +70,10 @@ class HypoidAxleParameters(AxleScalars):
         [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
-    friction : {"consistent", "as_printed", "off"} or callable
-        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`.
+    friction : {"consistent", "as_printed", "off", "printed_traction_circular"} or callable
+        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`. The last name
+        reads the paper so that its efficiency comes out: (13) without beta, as printed, at the mean
+        pressure of a circle, `circular_pressure_coefficient`; asperities are consistent.
     bearing_torque_loss : {"none", "palmgren"}
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
@@ -125,6 +135,33 @@ class HypoidAxleParameters(AxleScalars):
         stiffness = self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
         return float(self.modal_loss_factor * (stiffness * self.equivalent_mass) ** 0.5)
 
+    @property
+    def torque_range(self) -> tuple[float, float]:
+        """Pinion torques at the ends of the mesh table [N.m]; below 0 on the coast flanks.
+
+        A table without coast levels takes the data of the drive flanks for both.
+        """
+        low, high = float(self.mesh.torque[0]), float(self.mesh.torque[-1])
+        return (low if low < 0.0 else -high), high
+
+    @property
+    def ranges(self) -> tuple[Range, ...]:
+        """Ranges of the mesh table, the oil and the formulas of film and traction."""
+        return model_ranges(
+            self.torque_range,
+            "Run `gearlube contact` with higher torques.",
+            self.oil,
+            chittenden_1985.LOAD_RANGE,
+            chittenden_1985.MATERIAL_RANGE,
+        )
+
+    @property
+    def contact_pressure(self) -> str:
+        """Mean pressure of the flanks: "elliptical", or "circular" where `friction` asks for it."""
+        if isinstance(self.friction, str):
+            return CONTACT_PRESSURES.get(self.friction, "elliptical")
+        return "elliptical"
+
     def _flank_law(self) -> FlankLaw:
         """Return the law of friction; without friction it still gives the film."""
         if callable(self.friction):
@@ -153,6 +190,8 @@ class HypoidAxleParameters(AxleScalars):
             lateral_sign=-1.0 if as_printed else 1.0,
             friction=0.0 if self.friction == "off" else 1.0,
             drag=1.0 if self.bearing_torque_loss == "palmgren" else 0.0,
+            reduced_modulus=2.0 * contact_modulus(self.solid, self.solid),
+            ranges=range_limits(self.ranges),
             preload=self.bearing.preload_force(),
             bearing_p=bearing,
             bearing_g=bearing,

@@ -9,7 +9,6 @@ are read from `mesh_rows`. States, by form:
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
@@ -17,10 +16,7 @@ from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalP
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM, pair_rates, reduced_rates
 from gearlube_core.kernels.jit import kernel
 
-OK, NOT_FINITE = 0, 1
-DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
 N_Y = 4
-N_RECORD = 5  # angle [rad], x [um], pinion speed, gear speed [rad/s], mesh force [N]
 
 
 class AngleSlope(NamedTuple):
@@ -43,16 +39,20 @@ def angle_slope(
     speed: float,
     rows: Array,
     i: int,
+    mode: int,
     p: TorsionalParameters,
 ) -> AngleSlope:
-    """Return dy/dphi; nothing depends on time. `rows[i]` is `mesh_row` at `phi`."""
+    """Return dy/dphi; nothing depends on time. `rows[i]` is `mesh_row` at `phi`.
+
+    The law of the mesh force is that of `mode`.
+    """
     if p.form == 1.0:
-        reduced = reduced_rates(y_0 * UM, y_1, phi, speed, rows, i, p)
+        reduced = reduced_rates(y_0 * UM, y_1, phi, speed, rows, i, mode, p)
         per_angle = 1.0 / speed
         return AngleSlope(
             reduced.x * MICRO * per_angle, reduced.v * per_angle, 0.0, per_angle, reduced.force
         )
-    rates = pair_rates(y_0 * UM, y_1, y_2, phi, load_torque, speed, rows, i, p)
+    rates = pair_rates(y_0 * UM, y_1, y_2, phi, load_torque, speed, rows, i, mode, p)
     per_angle = 1.0 / y_1
     return AngleSlope(
         rates.x * MICRO * per_angle,
@@ -72,6 +72,7 @@ def angle_step(
     speed: float,
     rows: Array,
     i: int,
+    mode: int,
     p: TorsionalParameters,
 ) -> float:
     """Advance `y` by the angle `h` [rad] with the classic fourth-order Runge-Kutta scheme.
@@ -83,7 +84,7 @@ def angle_step(
     half = 0.5 * h
     j = i + 1
     k = i + 2 if i + 2 < rows.shape[0] else 0
-    s_1 = angle_slope(x, a, b, phi, load_torque, speed, rows, i, p)
+    s_1 = angle_slope(x, a, b, phi, load_torque, speed, rows, i, mode, p)
     s_2 = angle_slope(
         x + half * s_1.y_0,
         a + half * s_1.y_1,
@@ -93,6 +94,7 @@ def angle_step(
         speed,
         rows,
         j,
+        mode,
         p,
     )
     s_3 = angle_slope(
@@ -104,6 +106,7 @@ def angle_step(
         speed,
         rows,
         j,
+        mode,
         p,
     )
     s_4 = angle_slope(
@@ -115,6 +118,7 @@ def angle_step(
         speed,
         rows,
         k,
+        mode,
         p,
     )
     sixth = h / 6.0
@@ -123,55 +127,3 @@ def angle_step(
     y[2] += sixth * (s_1.y_2 + 2.0 * (s_2.y_2 + s_3.y_2) + s_4.y_2)
     y[3] += sixth * (s_1.y_3 + 2.0 * (s_2.y_3 + s_3.y_3) + s_4.y_3)
     return s_1.force
-
-
-@kernel
-def march(
-    y: Array,
-    first_period: int,
-    periods: int,
-    load_torque: float,
-    speed: float,
-    rows: Array,
-    p: TorsionalParameters,
-    record: Array,
-) -> int:
-    """Advance `y` over whole mesh periods; return OK or NOT_FINITE.
-
-    Parameters
-    ----------
-    y : ndarray of shape (4,)
-        Changed.
-    first_period : int
-        Mesh periods since pinion angle zero.
-    periods : int
-    load_torque, speed : float
-        [N.m], [rad/s]
-    rows : ndarray of shape (2 steps, N_ROW)
-        `mesh_rows`; sets the number of steps per mesh period.
-    p : TorsionalParameters
-    record : ndarray of shape (periods * steps, N_RECORD) or (0, N_RECORD)
-        Before each step, or nothing recorded.
-    """
-    steps = rows.shape[0] // 2
-    period = 2.0 * math.pi / p.z_p
-    h = period / steps
-    keep = record.shape[0] > 0
-    for m in range(periods):
-        for i in range(steps):
-            phi = (first_period + m) * period + i * h
-            x = y[0]
-            w_p, w_g = y[1], y[2]
-            if p.form == 1.0:
-                w_p, w_g = speed, speed / p.ratio
-            force = angle_step(y, phi, h, load_torque, speed, rows, 2 * i, p)
-            if keep:
-                at = m * steps + i
-                record[at, 0] = phi
-                record[at, 1] = x
-                record[at, 2] = w_p
-                record[at, 3] = w_g
-                record[at, 4] = force
-        if not abs(y[0]) < DIVERGED_UM or not y[3] < math.inf:
-            return NOT_FINITE
-    return OK

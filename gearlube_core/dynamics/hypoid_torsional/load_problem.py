@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.period_problem import Orbit, PeriodProblem
+from gearlube_core.dynamics.packed_mesh import PackedMesh
 from gearlube_core.periodic.problem import PeriodicProblem
 
+_LEAST, _MOST = 0.11, 9.9e3  # N.m, inside the range of the parameters
 _STEP = 1e-5  # of the torque, in the central difference by it
 
 
@@ -43,12 +47,17 @@ class LoadProblem:
     ) -> None:
         self.speed = check_positive("speed", speed, "rad/s")
         self.parameters = parameters
+        self.periods = periods
         self._options = {"periods": periods, "steps_per_mesh_period": steps_per_mesh_period}
+        self._packed: PackedMesh | None = None
         self._start = self.at(parameters.pinion_torque)
+        self._packed = self._start.model.packed
+        self._states = 3 if parameters.form == "two_dof" else 2
 
     def at(self, torque: float) -> PeriodProblem:
         """Return the problem over the speed at pinion torque `torque` [N.m]."""
-        return PeriodProblem(replace(self.parameters, pinion_torque=float(torque)), **self._options)
+        parameters = replace(self.parameters, pinion_torque=float(torque))
+        return PeriodProblem(parameters, packed=self._packed, **self._options)
 
     def initial_guess(self, torque: float) -> Array:
         """Return z of the static deflection at pinion torque `torque` [N.m], shape (size,)."""
@@ -56,6 +65,10 @@ class LoadProblem:
 
     def residual(self, z: Array, torque: float) -> tuple[Array, Array, Array, Array]:
         """Return the residual, its derivatives by z and by the torque, and the monodromy."""
+        if not _LEAST <= torque <= _MOST:  # a trial step that leaves the range finds no motion
+            n, m = z.size, self._states
+            nothing = np.full((n, n), np.nan)
+            return nothing[0], nothing, nothing[0], np.full((m, m), np.nan)
         residual, jacobian, _, monodromy = self.at(torque).residual(z, self.speed)
         step = _STEP * torque
         above, below = (

@@ -61,3 +61,31 @@ def mesh_rows(
     for i in range(count):
         phi = 2.0 * math.pi * i / (z_p * count)
         mesh_row(series, n_orders, window, n_nodes, z_p, phi, rows[i])
+
+
+@kernel
+def rows_between(rows: Array, first: int, start: float, end: float, between: Array) -> None:
+    """Write the rows at the start, middle and end of a part of a step.
+
+    Parameters
+    ----------
+    rows : ndarray of shape (2 steps, N_ROW)
+        `mesh_rows`; the step has three of them, from `first`, in a circle.
+    start, end : float
+        Of the part, as shares of the step [-].
+    between : ndarray of shape (3, N_ROW)
+        Out. The series follow a parabola through the three rows, the flank data, which are
+        linear between nodes, straight lines.
+    """
+    i, j, k = first, first + 1, (first + 2) % rows.shape[0]
+    for at in range(3):
+        t = start + 0.5 * at * (end - start)
+        a = (1.0 - t) * (1.0 - 2.0 * t)
+        b = 4.0 * t * (1.0 - t)
+        c = t * (2.0 * t - 1.0)
+        for n in range(PAIRS_AT):
+            between[at, n] = a * rows[i, n] + b * rows[j, n] + c * rows[k, n]
+        lower, upper = (i, j) if t < 0.5 else (j, k)
+        weight = 2.0 * t if t < 0.5 else 2.0 * t - 1.0
+        for n in range(PAIRS_AT, N_ROW):
+            between[at, n] = rows[lower, n] + weight * (rows[upper, n] - rows[lower, n])

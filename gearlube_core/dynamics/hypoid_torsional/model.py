@@ -10,12 +10,14 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import contact_modulus, solid_parameters
+from gearlube_core.dynamics.hypoid_torsional.contact_mode import contact_mode
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import (
     DE,
     N_ROW,
     R_G,
     R_P,
+    K,
     mesh_row,
     mesh_rows,
 )
@@ -28,7 +30,9 @@ from gearlube_core.dynamics.hypoid_torsional.rates import (
     MICRO,
     PairRates,
     ReducedRates,
+    pair_approach,
     pair_rates,
+    reduced_approach,
     reduced_rates,
 )
 from gearlube_core.dynamics.packed_mesh import (
@@ -59,9 +63,13 @@ class HypoidTorsional:
     Parameters
     ----------
     parameters : HypoidTorsionalParameters
+    packed : PackedMesh, optional
+        Of a model that differs in the torque alone; packing takes most of the time.
 
     Attributes
     ----------
+    packed : PackedMesh
+        Mesh data of all load levels.
     stiffness : float
         Mean mesh stiffness k0 at the load [N/m].
     kernel_parameters : TorsionalParameters
@@ -72,17 +80,11 @@ class HypoidTorsional:
     [karagiannis_2012]
     """
 
-    def __init__(self, parameters: HypoidTorsionalParameters) -> None:
+    def __init__(
+        self, parameters: HypoidTorsionalParameters, *, packed: PackedMesh | None = None
+    ) -> None:
         self.parameters = parameters
-        solid = parameters.solid
-        packed = pack_mesh(
-            parameters.mesh,
-            contact_modulus(solid, solid),
-            parameters.radii,
-            parameters.mesh_stiffness,
-        )
-        if parameters.friction == "thermal_eyring":
-            _use_grubin_geometry(packed, parameters)
+        self.packed = packed = _packed(parameters) if packed is None else packed
         bracket = load_bracket(parameters.pinion_torque, 1.0, packed.levels, packed.levels.size)
         self._orders, self._nodes = packed.orders, packed.nodes
         self._series = np.zeros(packed.series_size)
@@ -181,12 +183,15 @@ class HypoidTorsional:
         self, x: float, w_p: float, w_g: float, phi: float, load_torque: float, speed: float
     ) -> PairRates:
         """Return the rates of the 2-DOF pair for any time integrator, see `rates.pair_rates`."""
-        p = self.kernel_parameters
-        return pair_rates(x, w_p, w_g, phi, load_torque, speed, self.row(phi), 0, p)
+        p, row = self.kernel_parameters, self.row(phi)
+        mode = contact_mode(x, pair_approach(w_p, w_g, row, 0), row[0, K], p)
+        return pair_rates(x, w_p, w_g, phi, load_torque, speed, row, 0, mode, p)
 
     def reduced_rates(self, x: float, v: float, phi: float, speed: float) -> ReducedRates:
         """Return the rates of the 1-DOF reduction, see `rates.reduced_rates`."""
-        return reduced_rates(x, v, phi, speed, self.row(phi), 0, self.kernel_parameters)
+        p, row = self.kernel_parameters, self.row(phi)
+        mode = contact_mode(x, reduced_approach(v, speed, row, 0), row[0, K], p)
+        return reduced_rates(x, v, phi, speed, row, 0, mode, p)
 
     def initial_state(self, speed: float) -> Array:
         """Return y of `angle_march` at pinion angle and time zero: static deflection, x' = 0."""
@@ -196,6 +201,19 @@ class HypoidTorsional:
             return np.array([x, float(row[DE]) * speed, 0.0, 0.0])
         w_g = (row[R_P] - row[DE]) * speed / row[R_G]
         return np.array([x, speed, w_g, 0.0])
+
+
+def _packed(parameters: HypoidTorsionalParameters) -> PackedMesh:
+    solid = parameters.solid
+    packed = pack_mesh(
+        parameters.mesh,
+        contact_modulus(solid, solid),
+        parameters.radii,
+        parameters.mesh_stiffness,
+    )
+    if parameters.friction == "thermal_eyring":
+        _use_grubin_geometry(packed, parameters)
+    return packed
 
 
 def _use_grubin_geometry(packed: PackedMesh, parameters: HypoidTorsionalParameters) -> None:

@@ -41,6 +41,8 @@ FRICTION_FORMS = {
 KARAGIANNIS_DAMPING = 2278.1  # N s/m, [karagiannis_2012 Table 1]
 KARAGIANNIS_DAMPING_RATIO = 0.03  # [-], [karagiannis_2012 Table 1]
 
+KARAGIANNIS_OIL = "karagiannis_2012"  # in the library
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HypoidTorsionalParameters:
@@ -205,7 +207,7 @@ def karagiannis_2012_pair(mesh: MeshTable | None = None) -> HypoidTorsionalParam
         load_torque="mean",
         hold_gain=0.05,
         friction="off",
-        oil=Lubricant.named("karagiannis_2012"),
+        oil=Lubricant.named(KARAGIANNIS_OIL),
         oil_temperature=313.15,
         solid=STEEL_MOHAMMADPOUR_2015,
         roughness_rms=0.5e-6,

@@ -9,11 +9,13 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, N_Y, OK, march
+from gearlube_core.dynamics.hypoid_torsional.angle_march import N_Y
+from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.period_map import N_COLUMNS, WORK, period_map
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
+from gearlube_core.dynamics.packed_mesh import PackedMesh
 from gearlube_core.periodic.problem import PeriodicProblem
 
 
@@ -57,6 +59,8 @@ class PeriodProblem:
         Mesh periods in one period of the motion.
     steps_per_mesh_period : int
         Of the integrator.
+    packed : PackedMesh, optional
+        See `HypoidTorsional`.
     """
 
     def __init__(
@@ -65,8 +69,9 @@ class PeriodProblem:
         *,
         periods: int = 1,
         steps_per_mesh_period: int = 256,
+        packed: PackedMesh | None = None,
     ) -> None:
-        self.model = HypoidTorsional(parameters)
+        self.model = HypoidTorsional(parameters, packed=packed)
         p = self.model.kernel_parameters
         check_within("periods", periods, 1, 1024)
         teeth = parameters.mesh.pinion_teeth
@@ -190,7 +195,17 @@ class PeriodProblem:
         """Return the motion over the period that starts at z."""
         y, load_torque = self.state(np.asarray(z, dtype=np.float64), speed)
         record = np.zeros((self.periods * self.steps_per_mesh_period, N_RECORD))
-        march(y, 0, self.periods, load_torque, float(speed), self._rows, self._p, record)
+        march(
+            y,
+            0,
+            self.periods,
+            load_torque,
+            float(speed),
+            self._rows,
+            self._p,
+            record,
+            np.zeros(MARCH_WORK),
+        )
         x = record[:, 1] * UM
         return Orbit(
             angle=record[:, 0],

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.flank_force import backlash_deflection, gated_force
+from gearlube_core.dynamics.hypoid_torsional.contact_mode import force_in_mode
 from gearlube_core.dynamics.hypoid_torsional.flank_torques import FlankTorques, flank_torques
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.mesh_row import DE, DK, R_G, R_P, K
@@ -33,12 +33,15 @@ class PairRates(NamedTuple):
 
 
 @kernel
-def mesh_force(x: float, x_rate: float, k: float, p: TorsionalParameters) -> float:
-    """Return F = k f(x) + c x' [N]; gated: no damping force within the backlash, no adhesion."""
-    f = backlash_deflection(x, p.backlash)
-    if p.gated != 0.0:
-        return gated_force(k * f, p.c, x_rate, f)
-    return k * f + p.c * x_rate
+def pair_approach(w_p: float, w_g: float, rows: Array, i: int) -> float:
+    """Return dx/dt [m/s] of the 2-DOF pair at pinion and gear speed [rad/s]."""
+    return (rows[i, R_P] - rows[i, DE]) * w_p - rows[i, R_G] * w_g
+
+
+@kernel
+def reduced_approach(v: float, speed: float, rows: Array, i: int) -> float:
+    """Return dx/dt [m/s] of the 1-DOF form at v [m/s] and pinion speed [rad/s]."""
+    return v - rows[i, DE] * speed
 
 
 @kernel
@@ -51,6 +54,7 @@ def pair_rates(
     speed: float,
     rows: Array,
     i: int,
+    mode: int,
     p: TorsionalParameters,
 ) -> PairRates:
     """Return the rates of the 2-DOF pair.
@@ -77,6 +81,8 @@ def pair_rates(
         Mesh data, see `mesh_row`.
     i : int
         The row that holds those at `phi`.
+    mode : int
+        See `contact_mode`; its law of the mesh force is kept.
     p : TorsionalParameters
 
     Notes
@@ -93,9 +99,8 @@ def pair_rates(
     """
     k = rows[i, K]
     arm_p = rows[i, R_P] - rows[i, DE]
-    x_rate = arm_p * w_p - rows[i, R_G] * w_g
-    force = mesh_force(x, x_rate, k, p)
-    f = backlash_deflection(x, p.backlash)
+    x_rate = pair_approach(w_p, w_g, rows, i)
+    f, force = force_in_mode(mode, x, x_rate, k, p)
     torque_p = -rows[i, R_P] * force
     if p.consistent != 0.0:
         torque_p = -arm_p * force - 0.5 * rows[i, DK] * f * f
@@ -145,6 +150,7 @@ def reduced_rates(
     speed: float,
     rows: Array,
     i: int,
+    mode: int,
     p: TorsionalParameters,
 ) -> ReducedRates:
     """Return the rates of the reduction to one degree of freedom at constant speed.
@@ -157,7 +163,7 @@ def reduced_rates(
         Dynamic transmission error from first contact of the drive flanks [m].
     v : float
         x' + e' Omega, the rate at which the mean base circles approach [m/s]; needs no e''.
-    phi, speed, rows, i, p
+    phi, speed, rows, i, mode, p
         As in `pair_rates`; `speed` is Omega, constant.
 
     Notes
@@ -169,8 +175,8 @@ def reduced_rates(
     ----------
     [karagiannis_2012 (30)] and the 1-DOF model compared there.
     """
-    x_rate = v - rows[i, DE] * speed
-    force = mesh_force(x, x_rate, rows[i, K], p)
+    x_rate = reduced_approach(v, speed, rows, i)
+    force = force_in_mode(mode, x, x_rate, rows[i, K], p).force
     swing = (ripple(phi, p) - 1.0) * p.m_eq * p.R_p0 * p.R_p0 / p.I_p
     drive = p.pinion_torque / p.R_p0 * (1.0 + swing)
     return ReducedRates(x_rate, (drive - force) / p.m_eq, force)

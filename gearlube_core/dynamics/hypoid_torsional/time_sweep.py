@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.dynamics.hypoid_torsional.angle_march import N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import TorsionalParameters
+from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, OK, march
 from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.parameters import HypoidTorsionalParameters
 from gearlube_core.dynamics.hypoid_torsional.rates import UM
@@ -74,6 +74,7 @@ def settle_load(
     speed: float,
     rows: Array,
     p: TorsionalParameters,
+    work: Array,
 ) -> float:
     """March whole revolutions and return the load torque [N.m] under which `speed` stays.
 
@@ -85,7 +86,7 @@ def settle_load(
     inertia = p.I_p + p.I_g * (p.R_p0 / p.R_g0) ** 2
     for n in range(revolutions):
         w_0, t_0 = y[1], y[3]
-        if march(y, 0, int(p.z_p), load_torque, speed, rows, p, nothing) != OK:
+        if march(y, 0, int(p.z_p), load_torque, speed, rows, p, nothing, work) != OK:
             return load_torque
         elapsed = y[3] - t_0
         mean = 2.0 * math.pi / elapsed
@@ -109,6 +110,7 @@ def sweep_kernel(
     record: Array,
     mean_speeds: Array,
     load_torques: Array,
+    work: Array,
 ) -> int:
     """March through all speeds; return the index of the first that is not finite, or their number.
 
@@ -125,6 +127,7 @@ def sweep_kernel(
     load_torque : float
         To start with [N.m].
     record : ndarray of shape (n, keep * steps, N_RECORD)
+    work : ndarray of shape (MARCH_WORK,)
     """
     nothing = record[0, 0:0]
     for i in range(speeds.size):
@@ -133,12 +136,12 @@ def sweep_kernel(
             for j in range(1, 3):
                 y[j] *= scale
         if p.form == 2.0:
-            load_torque = settle_load(y, balance, load_torque, speeds[i], rows, p)
+            load_torque = settle_load(y, balance, load_torque, speeds[i], rows, p, work)
         load_torques[i] = load_torque
-        status = march(y, 0, settle, load_torque, speeds[i], rows, p, nothing)
+        status = march(y, 0, settle, load_torque, speeds[i], rows, p, nothing, work)
         start = y[3]
         if status == OK:
-            status = march(y, settle, keep, load_torque, speeds[i], rows, p, record[i])
+            status = march(y, settle, keep, load_torque, speeds[i], rows, p, record[i], work)
         if status != OK:
             return i
         mean_speeds[i] = keep * 2.0 * math.pi / p.z_p / (y[3] - start)
@@ -209,6 +212,7 @@ def time_sweep(
         record,
         mean_speed,
         load_torque,
+        np.zeros(MARCH_WORK),
     )
     if done < order.size:
         raise StepError(

@@ -272,7 +272,7 @@ class PointCase(ContactCase):
             load=self.load_n,
             contact_modulus=0.5 * self.modulus,
             lubricant=oil,
-            sliding=self.sliding if oil.shear.tau0 > 0.0 or self.temperature == "thermal" else None,
+            sliding=self.sliding,
             nodes=(self.solver.nodes_x, self.solver.nodes_y),
             domain=ContactDomain(self.domain.inlet, self.domain.outlet, self.domain.side),
             oil_beyond=self.domain.oil_beyond,

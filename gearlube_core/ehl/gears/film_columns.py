@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -46,6 +47,10 @@ _COLUMNS: dict[str, Callable[[FilmSolution], float]] = {
     "solid_share": lambda film: film.touch.share,
     "touching_area": lambda film: film.touch.area,
     "solid_pressure": lambda film: film.touch.largest,
+    "grid_error": lambda film: film.error.film,
+    "time_error": lambda film: film.time_error,
+    # of a march that is repeated, see `with_time_errors`
+    "time_error_pressure": lambda _: math.nan,
 }
 
 

@@ -29,6 +29,8 @@ COLUMNS = (
     "solid_share",
     "touching_area",
     "solid_pressure",
+    "time_error",
+    "time_error_pressure",
 )
 
 
@@ -37,6 +39,8 @@ def solve_helical_line(
     step: float,
     settings: PointSolverSettings | None = None,
     *,
+    film_error: float | None = None,
+    most_nodes: int = 1025,
     throw: bool = True,
 ) -> FilmSolution:
     """Return the steady film of the line at one step of its cycle.
@@ -47,10 +51,17 @@ def solve_helical_line(
         Pair, operation, oil and grid.
     step
         Number of the step, need not be whole.
-    settings, throw
+    settings, film_error, most_nodes, throw
         As in `solve_steady_film`.
     """
-    return solve_steady_film(film.moving_film(), step * film.time_step, settings, throw=throw)
+    return solve_steady_film(
+        film.moving_film(),
+        step * film.time_step,
+        settings,
+        film_error=film_error,
+        most_nodes=most_nodes,
+        throw=throw,
+    )
 
 
 def march_helical_cycle(
@@ -65,6 +76,7 @@ def march_helical_cycle(
     checkpoint: Path | str | None = None,
     checkpoint_every: int = 25,
     progress: Progress | None = None,
+    repeat: bool = False,
     throw: bool = True,
 ) -> FilmCurves:
     """Return the film over the steps of a meshing cycle.
@@ -77,7 +89,7 @@ def march_helical_cycle(
         Steps; the film is steady at the first. All of them by default.
     substeps
         Time steps for one step of the cycle.
-    scheme, settings, keep, checkpoint, checkpoint_every, progress, throw
+    scheme, settings, keep, checkpoint, checkpoint_every, progress, repeat, throw
         As in `march_curves`.
 
     Raises
@@ -103,5 +115,6 @@ def march_helical_cycle(
         checkpoint=checkpoint,
         checkpoint_every=checkpoint_every,
         progress=progress,
+        repeat=repeat,
         throw=throw,
     )

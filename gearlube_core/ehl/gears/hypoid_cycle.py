@@ -33,6 +33,9 @@ COLUMNS = (
     "converged",
     "newton_steps",
     "seconds",
+    "grid_error",
+    "time_error",
+    "time_error_pressure",
 )
 
 
@@ -93,6 +96,7 @@ def march_flank(
     checkpoint: Path | str | None = None,
     checkpoint_every: int = 10,
     progress: Progress | None = None,
+    repeat: bool = False,
     throw: bool = True,
 ) -> FilmCurves:
     """Return the film through the engagement, with squeeze, from the steady one at its start.
@@ -105,7 +109,7 @@ def march_flank(
         Equal time steps from the first to the last time of its cycle, 2 to 1e5.
     beta
         -d ln eta/dT of the oil at ambient pressure [1/K].
-    settings, scheme, checkpoint, checkpoint_every, progress, throw
+    settings, scheme, checkpoint, checkpoint_every, progress, repeat, throw
         As in `march_curves`.
 
     Raises
@@ -126,6 +130,7 @@ def march_flank(
         checkpoint=checkpoint,
         checkpoint_every=checkpoint_every,
         progress=progress,
+        repeat=repeat,
         throw=throw,
     )
 

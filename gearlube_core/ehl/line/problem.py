@@ -17,6 +17,7 @@ from gearlube_core.film.moes_1992 import central_film_group
 from gearlube_core.oil.film_oil import FilmOil, pressure_viscosity
 
 CAVITATION = ("reynolds", "mass_conserving")
+MOST_NODES = 20001
 Gap = Callable[[np.ndarray], np.ndarray]
 
 # gap over film where the domain begins and ends, and least distance in half widths
@@ -185,7 +186,7 @@ class LineSettings:
     contact_film: float = 1e-9
 
     def __post_init__(self) -> None:
-        check_within("nodes", self.nodes, 17, 20001)
+        check_within("nodes", self.nodes, 17, MOST_NODES)
         check_option("stencil", self.stencil, STENCILS)
         check_option("cavitation", self.cavitation, CAVITATION)
         check_within("tolerance", self.tolerance, 1e-13, 1e-2)

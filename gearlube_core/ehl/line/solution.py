@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, formal_order
 from gearlube_core.ehl.line.newton import NewtonRecord
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.system import LineState, LineSystem
@@ -38,6 +40,34 @@ class LineSolution:
     records: tuple[tuple[int, NewtonRecord], ...]  # (nodes, iteration) of each grid tried
     converged: bool
     outcome: str
+    coarser: tuple[LineSolution, ...] = ()  # the film on coarser grids, finest first
+    time_error: float = math.nan  # estimated, of the smallest film by time steps [-]; at rest: nan
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """Number of nodes."""
+        return (self.x.size,)
+
+    @property
+    def axes(self) -> tuple[np.ndarray, ...]:
+        """Places of the nodes [m]."""
+        return (self.x,)
+
+    @property
+    def formal_order(self) -> float:
+        """Return the order of the grid."""
+        return formal_order(self.settings.stencil)
+
+    @property
+    def numbers(self) -> FilmNumbers:
+        """Films, largest pressure and friction."""
+        friction = self.friction_coefficient
+        return FilmNumbers(self.central_film, self.minimum_film, self.maximum_pressure, friction)
+
+    @property
+    def error(self) -> FilmError:
+        """Estimated errors of the grid; not known after a step in time."""
+        return FilmError.of(self)
 
     @property
     def maximum_pressure(self) -> float:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from gearlube_core.ehl.grid_error import check_search, coarser_films, refined_film
 from gearlube_core.ehl.line.newton import NewtonRecord, newton
-from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.problem import MOST_NODES, LineProblem, LineSettings
 from gearlube_core.ehl.line.solution import LineSolution, build_solution
 from gearlube_core.ehl.line.system import LOAD, LineState, LineSystem
 from gearlube_core.errors import ConvergenceError, ParameterError
@@ -23,9 +26,11 @@ def solve_line(
     settings: LineSettings | None = None,
     *,
     start: LineSolution | None = None,
+    film_error: float | None = None,
+    most_nodes: int = 16001,
     throw: bool = True,
 ) -> LineSolution:
-    """Return the steady film of a line contact.
+    """Return the steady film of a line contact, with the error of its grid.
 
     Parameters
     ----------
@@ -35,6 +40,11 @@ def solve_line(
         Grid and scheme.
     start : LineSolution, optional
         Of a neighbouring problem; without it the dry contact after Hertz on a nest of grids.
+    film_error : float, optional
+        Relative error of the central and the smallest film that is wanted, 1e-4 to 1 [-]: the
+        spacing is halved until the estimate is below it.
+    most_nodes : int
+        That no grid of that search exceeds.
     throw : bool
         False: return what was reached, `converged` False, instead of raising.
 
@@ -48,6 +58,11 @@ def solve_line(
         When the mean surface speed vanishes, or a starved inlet meets Reynolds' cavitation.
     ConvergenceError
         When the finest grid fails, unless `throw` is False.
+
+    Notes
+    -----
+    The error of the grid is estimated from the same film on two grids of two and four times the
+    spacing; see `estimated_error`.
 
     Examples
     --------
@@ -64,12 +79,35 @@ def solve_line(
             "A steady film needs entrainment, but speed_1 + speed_2 is 0 m/s. "
             "Solve squeeze with the transient solver."
         )
-    mass_conserving = settings.cavitation == "mass_conserving"
-    if problem.inlet_fill < 1.0 and not mass_conserving:
+    if problem.inlet_fill < 1.0 and settings.cavitation != "mass_conserving":
         raise ParameterError(
             f"inlet_fill is {problem.inlet_fill:g}: a starved inlet needs cavitation "
             "mass_conserving."
         )
+    check_search(film_error, most_nodes, MOST_NODES)
+    solution = _on_grid(problem, settings, start)
+    if throw and not solution.converged:
+        raise ConvergenceError(solution.outcome)
+    if not solution.converged:
+        return solution
+    solution = replace(solution, coarser=coarser_films(solution, _on_coarser_grid))
+    searched = ""
+    if film_error is not None:
+        solution, searched = refined_film(
+            solution,
+            film_error,
+            most_nodes,
+            lambda nodes, coarser: replace(
+                _on_grid(problem, replace(settings, nodes=nodes[0]), None), coarser=coarser
+            ),
+        )
+    return replace(solution, outcome=solution.outcome + solution.error.sentence + searched)
+
+
+def _on_grid(
+    problem: LineProblem, settings: LineSettings, start: LineSolution | None
+) -> LineSolution:
+    mass_conserving = settings.cavitation == "mass_conserving"
     records: list[tuple[int, NewtonRecord]] = []
     counts = [settings.nodes] if start is not None else grid_nest(settings)
     last: LineState | None = None
@@ -90,10 +128,22 @@ def solve_line(
     if mass_conserving and record.converged:
         system, state, record = _with_voids(problem, settings, state)
         records.append((settings.nodes, record))
-    solution = build_solution(system, state, settings, tuple(records), problem)
-    if throw and not solution.converged:
-        raise ConvergenceError(solution.outcome)
-    return solution
+    return build_solution(system, state, settings, tuple(records), problem)
+
+
+def _on_coarser_grid(nodes: tuple[int, ...], fine: LineSolution) -> LineSolution | None:
+    """Return the film on fewer nodes, from that on more; None: it was not found."""
+    problem, settings = fine.problem, replace(fine.settings, nodes=nodes[0])
+    system = LineSystem(problem, nodes[0], settings.stencil, False)
+    state, record = newton(
+        system, _from_solution(system, fine), settings.tolerance, settings.max_iterations
+    )
+    if record.converged and settings.cavitation == "mass_conserving":
+        system, state, record = _with_voids(problem, settings, state)
+    if not record.converged:
+        found = _on_grid(problem, settings, None)
+        return found if found.converged else None
+    return build_solution(system, state, settings, ((nodes[0], record),), problem)
 
 
 def grid_nest(settings: LineSettings) -> list[int]:

@@ -9,6 +9,13 @@ import numpy as np
 
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
+from gearlube_core.ehl.grid_error import (
+    FilmError,
+    FilmNumbers,
+    check_search,
+    coarser_films,
+    refined_film,
+)
 from gearlube_core.ehl.line.energy import (
     FilmFields,
     SurfaceHeating,
@@ -17,7 +24,7 @@ from gearlube_core.ehl.line.energy import (
     march_energy,
 )
 from gearlube_core.ehl.line.newton import newton
-from gearlube_core.ehl.line.problem import LineProblem, LineSettings
+from gearlube_core.ehl.line.problem import MOST_NODES, LineProblem, LineSettings
 from gearlube_core.ehl.line.solution import LineSolution, build_solution
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.system import LineState, LineSystem
@@ -64,6 +71,37 @@ class ThermalLineSolution:
     changes: tuple[float, ...]  # of temperature in each turn [K]
     converged: bool
     outcome: str
+    coarser: tuple[ThermalLineSolution, ...] = ()  # the film on coarser grids, finest first
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """Number of nodes."""
+        return self.film.nodes
+
+    @property
+    def axes(self) -> tuple[np.ndarray, ...]:
+        """Places of the nodes [m]."""
+        return self.film.axes
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """Pressure (n,) [Pa]."""
+        return self.film.pressure
+
+    @property
+    def formal_order(self) -> float:
+        """Return the order of the grid."""
+        return self.film.formal_order
+
+    @property
+    def numbers(self) -> FilmNumbers:
+        """Films, largest pressure and friction."""
+        return self.film.numbers
+
+    @property
+    def error(self) -> FilmError:
+        """Estimated errors of the grid."""
+        return FilmError.of(self)
 
     @property
     def surface_temperature(self) -> tuple[np.ndarray, np.ndarray]:
@@ -83,9 +121,11 @@ def solve_thermal_line(
     settings: LineSettings | None = None,
     thermal: ThermalSettings | None = None,
     *,
+    film_error: float | None = None,
+    most_nodes: int = 16001,
     throw: bool = True,
 ) -> ThermalLineSolution:
-    """Return the steady film of a line contact with its temperatures.
+    """Return the steady film of a line contact with its temperatures and the error of its grid.
 
     Parameters
     ----------
@@ -96,6 +136,8 @@ def solve_thermal_line(
         Bodies below and above: density, conductivity, heat capacity.
     settings, thermal
         Of film and energy.
+    film_error, most_nodes
+        As in `solve_line`.
     throw : bool
         False: return what was reached instead of raising.
 
@@ -125,14 +167,50 @@ def solve_thermal_line(
             "The lubricant's temperature_exponent is 0: its viscosity law is isothermal. "
             "Take law houpert."
         )
-    start = solve_line(problem, settings, throw=throw)
+    check_search(film_error, most_nodes, MOST_NODES)
+    solids = solid_1, solid_2
+
+    def on_grid(nodes: tuple[int, ...]) -> ThermalLineSolution:
+        return _on_grid(problem, solids, replace(settings, nodes=nodes[0]), thermal)
+
+    def on_coarser_grid(
+        nodes: tuple[int, ...], _: ThermalLineSolution
+    ) -> ThermalLineSolution | None:
+        found = on_grid(nodes)
+        return found if found.converged else None
+
+    solution = on_grid((settings.nodes,))
+    if throw and not solution.converged:
+        raise ConvergenceError(solution.outcome)
+    if not solution.converged:
+        return solution
+    solution = replace(solution, coarser=coarser_films(solution, on_coarser_grid))
+    searched = ""
+    if film_error is not None:
+        solution, searched = refined_film(
+            solution,
+            film_error,
+            most_nodes,
+            lambda nodes, coarser: replace(on_grid(nodes), coarser=coarser),
+        )
+    return replace(solution, outcome=solution.outcome + solution.error.sentence + searched)
+
+
+def _on_grid(
+    problem: LineProblem,
+    solids: tuple[Solid, Solid],
+    settings: LineSettings,
+    thermal: ThermalSettings,
+) -> ThermalLineSolution:
+    """Return the film on one grid, or what was reached."""
+    start = solve_line(problem, settings, throw=False)
     conserving = settings.cavitation == "mass_conserving"
     system = LineSystem(problem, settings.nodes, settings.stencil, conserving)
     scales = system.scales
     state = LineState(
         start.pressure / scales.pressure, start.void.copy(), start.approach / scales.film
     )
-    energy = _Energy(system, problem, solid_1, solid_2, thermal)
+    energy = _Energy(system, problem, *solids, thermal)
     film, changes = start, []
     reason = "the isothermal film did not converge" if not start.converged else ""
     for _ in range(thermal.max_turns if start.converged else 0):
@@ -152,8 +230,6 @@ def solve_thermal_line(
         if reason
         else f"Converged in {len(changes)} turns, last change {changes[-1]:.1e} K."
     )
-    if reason and throw:
-        raise ConvergenceError(outcome)
     return ThermalLineSolution(
         film=film,
         temperature=energy.along(energy.T),

@@ -13,6 +13,7 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.scaling import row_coefficients
 from gearlube_core.ehl.line.solution import LineSolution, build_solution
 from gearlube_core.ehl.line.system import LOAD, LineState, LineSystem
+from gearlube_core.ehl.time_error import TimeError, time_error_sentence
 from gearlube_core.errors import ConvergenceError, ParameterError
 
 TIME_SCHEMES = ("bdf2", "crank_nicolson")
@@ -64,6 +65,7 @@ class LineMarch:
     Where a film without mass conservation is broken, what gathers is the whole gap. Where no film
     is found, the step is solved again with solids that touch at `contact_film`: load and balances
     of all other nodes hold, what oil a held film makes is `contact_flow` of the solution.
+    Each solution tells about what the time steps cost its smallest film, see `TimeError`.
     """
 
     def __init__(
@@ -91,7 +93,8 @@ class LineMarch:
         self._state = LineState(P, start.void.copy(), start.approach / scales.film)
         self._rise: LineState | None = None
         self._system.evaluate(self._state)
-        self._mass = self._stored()
+        self._mass = self._stored(self._state)
+        self._time_error = TimeError(scheme, self._system.X, self._mass[None, None])
         self._older = self._mass
         self._divergence = self._outflow()
 
@@ -126,6 +129,13 @@ class LineMarch:
                     break
         records = ((system.x.size, record),)
         solution = build_solution(system, state, self.settings, records, problem)
+        stored = self._stored(state)
+        way = problem.entrainment_speed * self._time_step / system.scales.length
+        self._time_error.step(stored[None], state.P[None], np.array([way]))
+        error = self._time_error.of_smallest_film(system.H[None])
+        solution = replace(
+            solution, time_error=error, outcome=solution.outcome + time_error_sentence(error)
+        )
         system.least = 0.0
         if throw and not solution.converged:
             raise ConvergenceError(f"Step {self.steps}: {solution.outcome}")
@@ -133,7 +143,7 @@ class LineMarch:
             state.P - self._state.P, state.void - self._state.void, state.H0 - self._state.H0
         )
         self._state = state
-        self._older, self._mass = self._mass, self._stored()
+        self._older, self._mass = self._mass, stored
         self._divergence = self._outflow()
         return solution
 
@@ -179,8 +189,9 @@ class LineMarch:
         P = np.where(state.P > 0.0, np.maximum(state.P + rise.P, 0.5 * state.P), 0.0)
         return LineState(P, state.void, state.H0 + rise.H0)
 
-    def _stored(self) -> np.ndarray:
-        return self._system.rows.rho * self._system.H * (1.0 - self._state.void)
+    def _stored(self, state: LineState) -> np.ndarray:
+        # of the state that was evaluated last
+        return self._system.rows.rho * self._system.H * (1.0 - state.void)
 
     def _outflow(self) -> np.ndarray:
         # what leaves each cell at full weight, without storage

@@ -23,7 +23,7 @@ Gap = Callable[[Array, Array], Array]
 _FLOODED = 20.0  # films of gap at the inlet
 _FLOODED_MORE = 15.0  # times as many more under thick films with no oil beyond the border
 _LOAD_BEYOND = 0.025  # share of the load that may lie beyond an ambient border
-_MOST_NODES = 2049  # along one side; 2049 x 2049 need about 3 GiB
+MOST_NODES = 2049  # along one side; 2049 x 2049 need about 3 GiB
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,9 +148,9 @@ class PointContactProblem:
                     f"got {low:.4g} to {limits[1]:.4g} m."
                 )
         for axis, count in zip("xy", self.nodes, strict=True):
-            if not 17 <= count <= _MOST_NODES:
+            if not 17 <= count <= MOST_NODES:
                 raise ParameterError(
-                    f"nodes along {axis} must be within 17 to {_MOST_NODES}, got {count}."
+                    f"nodes along {axis} must be within 17 to {MOST_NODES}, got {count}."
                 )
 
     @property

@@ -47,6 +47,8 @@ class PointSolverSettings:
         Most Newton steps on one grid.
     krylov_steps
         Most iterations of one linear solution.
+    estimate_error
+        Solve two coarser grids as well, of which the error of the grid is estimated.
 
     Examples
     --------
@@ -62,6 +64,7 @@ class PointSolverSettings:
     fall_back: bool = True
     newton_steps: int = 60
     krylov_steps: int = 40
+    estimate_error: bool = True
 
     def __post_init__(self) -> None:
         check_option("wedge", self.wedge, WEDGE_WEIGHTS)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, formal_order
 from gearlube_core.ehl.point.equations.limiter import limited_faces
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
@@ -125,6 +126,43 @@ class PointSolution:
     residuals: tuple[float, ...]  # of every Newton step on all grids [-]
     krylov_steps: int
     seconds: float
+    coarser: tuple[PointSolution, ...] = ()  # the film on coarser grids, finest first
+
+    @property
+    def converged(self) -> bool:
+        """Tell whether residual, load, film and complementarity all hold."""
+        return self.outcome.converged
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """Return the number of nodes along x and y."""
+        return self.problem.nodes
+
+    @property
+    def axes(self) -> tuple[Array, ...]:
+        """Return the places of the nodes along x and y [m]."""
+        return self.problem.x, self.problem.y
+
+    @property
+    def formal_order(self) -> float:
+        """Return the order of the grid."""
+        return formal_order(self.outcome.wedge)
+
+    @property
+    def numbers(self) -> FilmNumbers:
+        """Return films, largest pressure and friction."""
+        friction = self.friction_coefficient
+        return FilmNumbers(self.central_film, self.minimum_film, self.maximum_pressure, friction)
+
+    @property
+    def error(self) -> FilmError:
+        """Return the estimated errors of the grid."""
+        return FilmError.of(self)
+
+    def with_words(self, more: str, seconds: float) -> PointSolution:
+        """Return the solution with more to say and more time [s] spent."""
+        outcome = replace(self.outcome, sentence=self.outcome.sentence + more)
+        return replace(self, outcome=outcome, seconds=self.seconds + seconds)
 
     @property
     def central_film(self) -> float:

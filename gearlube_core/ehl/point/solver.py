@@ -1,51 +1,28 @@
-"""Steady film of a point contact: nested grids around the Newton iteration."""
+"""Steady film of a point contact, with the error of its grid and refinement to a goal."""
 
 from __future__ import annotations
 
-import math
 import time
+from dataclasses import replace
 
-import numpy as np
-
+from gearlube_core.ehl.grid_error import check_search, coarser_films, refined_film
 from gearlube_core.ehl.point.cavitation import check_cavitation
-from gearlube_core.ehl.point.level import PointLevel
-from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, build_hierarchy
-from gearlube_core.ehl.point.newton.newton import NewtonRecord
-from gearlube_core.ehl.point.problem import PointContactProblem, expected_film
-from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.grid_film import film_on_coarser_grid, nested_film, point_solution
+from gearlube_core.ehl.point.problem import MOST_NODES, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
-from gearlube_core.ehl.point.solution import PointOutcome, PointSolution
-from gearlube_core.ehl.point.start.continuation import solve_level
-from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, interpolated_state, zero_border
-from gearlube_core.ehl.point.start.starvation import Starvation
-from gearlube_core.ehl.point.terms.state import FilmState
+from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.errors import ConvergenceError
-
-
-def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
-    """Return an ellipse of pressure with the film expected between, on the coarsest grid.
-
-    The dry ellipse, widened to where a rigid film carries and to what the grid can show. The
-    approach leaves the expected film: [jamali_2015 (3.46)] [jamali_2015 (3.47)].
-    """
-    a_x, a_y, _ = problem.hertz_contact
-    film = expected_film(problem)
-    scales, x, y = level.scales, level.grid.x, level.grid.y
-    a_x = max(math.sqrt(a_x**2 + problem.hertz.R_x * film), 2.5 * (x[1] - x[0]))
-    a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
-    ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
-    pressure = zero_border(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
-    pressure *= level.load / level.grid.integral(pressure)
-    return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
 
 
 def solve_point_contact(
     problem: PointContactProblem,
     settings: PointSolverSettings | None = None,
     *,
+    film_error: float | None = None,
+    most_nodes: int = 1025,
     throw: bool = True,
 ) -> PointSolution:
-    """Return pressure and film of a steady point contact.
+    """Return pressure and film of a steady point contact, with the error of its grid.
 
     Parameters
     ----------
@@ -53,6 +30,11 @@ def solve_point_contact(
         Gap, motion, load, oil, domain.
     settings
         Stencil and tolerances.
+    film_error
+        Relative error of the central and the smallest film that is wanted, 1e-4 to 1 [-]: the
+        spacing is halved until the estimate is below it. None: the nodes of the problem.
+    most_nodes
+        Along a side, which no grid of that search exceeds.
     throw
         Raise where the solution does not converge; else return the last state.
 
@@ -69,6 +51,9 @@ def solve_point_contact(
 
     Notes
     -----
+    The error of the grid is estimated from the same film on two grids of two and four times the
+    spacing, a third more time; see `FilmError`.
+
     Newton iteration on pressure and approach with the full deflection by FFT; linear systems by
     flexible GMRES with a multigrid cycle of line solutions; start on nested grids from the dry
     contact. Mass-conserving cavitation keeps these unknowns: the oil in ruptured film follows from
@@ -88,59 +73,29 @@ def solve_point_contact(
     """
     settings = PointSolverSettings() if settings is None else settings
     check_cavitation(problem, settings)
+    check_search(film_error, most_nodes, MOST_NODES)
+
+    def on_grid(nodes: tuple[int, ...]) -> PointSolution:
+        begin = time.perf_counter()
+        finer = problem.with_nodes(*nodes)
+        return point_solution(finer, settings, *nested_film(finer, settings), begin, throw=False)
+
+    solution = on_grid(problem.nodes)
+    if throw and not solution.converged:
+        raise ConvergenceError(solution.outcome.sentence)
+    if not solution.converged or not (settings.estimate_error or film_error):
+        return solution
     begin = time.perf_counter()
-    hierarchy, state, record = nested_film(problem, settings)
-    return point_solution(problem, settings, hierarchy, state, record, begin, throw=throw)
-
-
-def nested_film(
-    problem: PointContactProblem, settings: PointSolverSettings
-) -> tuple[Hierarchy, FilmState, NewtonRecord]:
-    """Return the film on nested grids: the grids, the state on the finest, what was done."""
-    scales = PointScales.of(problem)
-    hierarchy = build_hierarchy(
-        problem, scales, settings.wedge, settings.discretisation, settings.cavitation
+    coarser = coarser_films(
+        solution, lambda nodes, near: film_on_coarser_grid(nodes, near, settings)
     )
-    record = NewtonRecord()
-    state = _hertz_start(problem, hierarchy.levels[0])
-    count = len(hierarchy.levels)
-    starved = None if problem.inlet_layer is None else Starvation(hierarchy, settings, record)
-    for k in range(count):
-        part = hierarchy.below(k + 1)
-        if k:
-            pressure = zero_border(hierarchy.transfers[k - 1].up_smoothly(state.pressure))
-            state = interpolated_state(part.levels[-1], pressure, state)
-        last = k == count - 1
-        tolerance = settings.tolerance if last else COARSE_TOLERANCE
-        if starved is not None:
-            state = starved.start(part, state, last)
-        state = solve_level(part, state, settings, tolerance, record, not last)
-    return hierarchy, state, record
-
-
-def point_solution(
-    problem: PointContactProblem,
-    settings: PointSolverSettings,
-    hierarchy: Hierarchy,
-    state: FilmState,
-    record: NewtonRecord,
-    begin: float,
-    *,
-    throw: bool,
-) -> PointSolution:
-    """Return a state of the finest grid in SI with its outcome; `begin` [s] of the clock."""
-    scales = hierarchy.levels[-1].scales
-    outcome = PointOutcome.of(hierarchy.levels[-1], state, record, settings, problem)
-    if throw and not outcome.converged:
-        raise ConvergenceError(outcome.sentence)
-    return PointSolution(
-        problem=problem,
-        pressure=scales.outward(state.pressure) * scales.pressure,
-        film=scales.outward(state.film) * scales.film,
-        approach=state.approach * scales.film,
-        fill=scales.outward(state.mass / (state.density * state.film)),
-        outcome=outcome,
-        residuals=tuple(record.residuals),
-        krylov_steps=record.krylov,
-        seconds=time.perf_counter() - begin,
-    )
+    solution = replace(solution, coarser=coarser)
+    searched = ""
+    if film_error is not None:
+        solution, searched = refined_film(
+            solution,
+            film_error,
+            most_nodes,
+            lambda nodes, coarse: replace(on_grid(nodes), coarser=coarse),
+        )
+    return solution.with_words(solution.error.sentence + searched, time.perf_counter() - begin)

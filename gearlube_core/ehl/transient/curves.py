@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -63,6 +63,43 @@ class NumberedSteps:
     step_time: float
     substeps: int = 1
 
+    def longer(self) -> NumberedSteps:
+        """Return steps of twice the time step: every step, or every other one."""
+        if self.substeps % 2 == 0:
+            return replace(self, substeps=self.substeps // 2)
+        # numbered from the first on: the n-th is the first + 2 n of these
+        last = self.first + (self.last - self.first) // 2
+        return replace(self, last=last, step_time=2.0 * self.step_time)
+
+
+def with_time_errors(curves: FilmCurves, longer: FilmCurves, every: int) -> FilmCurves:
+    """Return curves with the errors of their time steps, from a march with steps twice as long.
+
+    E = |f_dt - f_2dt|/f_dt, as of a film that converges at first order: smooth films do so at
+    second order, kinks that move with the gap do not.
+
+    Parameters
+    ----------
+    curves
+        Of the shorter steps, with the columns `time_error` and `time_error_pressure`.
+    longer
+        Of steps twice as long, of the same columns.
+    every
+        Rows of `curves` from one row of `longer` to the next. Rows between take the larger of
+        both errors beside them.
+    """
+    table = curves.table.copy()
+    count = len(longer.table)
+    shared = np.arange(count) * every
+    places = np.arange(len(table)) / every
+    before = np.minimum(np.floor(places).astype(int), count - 1)
+    after = np.minimum(np.ceil(places).astype(int), count - 1)
+    for error, of in (("time_error", "minimum_film"), ("time_error_pressure", "pressure_max")):
+        k = curves.columns.index(error)
+        off = np.abs(longer[of] / curves[of][shared] - 1.0)
+        table[:, k] = np.maximum(off[before], off[after])
+    return replace(curves, table=table)
+
 
 def march_curves(
     film: MovingFilm,
@@ -76,6 +113,7 @@ def march_curves(
     checkpoint: Path | str | None = None,
     checkpoint_every: int,
     progress: Progress | None = None,
+    repeat: bool = False,
     throw: bool = True,
 ) -> FilmCurves:
     """Return the curves of a film over numbered steps, from the steady film at the first.
@@ -96,6 +134,9 @@ def march_curves(
         File to write every `checkpoint_every` steps, and to go on from if it is there.
     progress
         Called with the step, the last step and its film, from the first step on.
+    repeat
+        March a second time with time steps twice as long, half as much time again; the columns
+        `time_error` and `time_error_pressure` come from the difference instead of from `TimeError`.
     throw
         Raise at the first step that does not converge; else go on and say so in the table.
 
@@ -141,4 +182,18 @@ def march_curves(
             march.save(path, np.array(rows), kept)
         if progress is not None:
             progress(n, last, solution)
-    return FilmCurves(columns, np.array(rows), kept)
+    curves = FilmCurves(columns, np.array(rows), kept)
+    if not repeat or last == first:
+        return curves
+    longer = march_curves(
+        film,
+        columns,
+        row,
+        steps.longer(),
+        scheme=scheme,
+        settings=settings,
+        checkpoint=None if path is None else path.with_name(f"{path.stem}_longer{path.suffix}"),
+        checkpoint_every=checkpoint_every,
+        throw=throw,
+    )
+    return with_time_errors(curves, longer, 1 if steps.substeps % 2 == 0 else 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import FilmState
+from gearlube_core.ehl.time_error import TimeError
 from gearlube_core.ehl.transient.history import FilmHistory
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.newton import LaggedPreconditioner, step_newton
@@ -71,7 +73,8 @@ class FilmMarch:
     side with the wrong sign.
     Nodes without pressure hold what the gap holds. A step that is not found as a whole is taken in
     2 or 4 parts by backward Euler, and its outcome says so; solutions read again
-    from a record do not.
+    from a record do not. Each film carries an estimate of what the time steps cost its smallest
+    film, see `TimeError`.
     """
 
     def __init__(
@@ -106,6 +109,7 @@ class FilmMarch:
             self._past = FilmHistory(
                 state, state.mass, state.mass, level.terms.storage.inflow(state), None
             )
+            self._time_error = TimeError(scheme, film.x, state.mass[None])
             count, krylov = len(work.residuals), work.krylov
         else:
             self._resume(record)
@@ -154,6 +158,8 @@ class FilmMarch:
             divided = self._divided(parts)
             if divided is not None:
                 state, record = divided, replace(record, converged=True)
+        way = level.terms.entrainment.rows * (level.scales.speed * self.time_step)
+        self._time_error.step(state.mass, state.pressure, way)
         rise = (state.pressure - past.state.pressure, state.approach - past.state.approach)
         self._past = FilmHistory(
             state, state.mass, past.mass, level.terms.storage.inflow(state), rise
@@ -192,8 +198,8 @@ class FilmMarch:
             positions=self._level.grid.positions,
             pressure=past.state.pressure,
             approach=past.state.approach,
-            mass=past.mass,
-            mass_before=past.mass_before,
+            masses=self._time_error.masses,
+            mass_error=self._time_error.error,
             inflow=past.inflow,
             rise=rise,
             approach_rise=approach_rise,
@@ -232,7 +238,9 @@ class FilmMarch:
         state = level.state(record.pressure, record.approach)
         state.residual = np.zeros(level.shape)  # it was solved with storage
         rise = (record.rise, record.approach_rise) if record.steps else None
-        self._past = FilmHistory(state, record.mass, record.mass_before, record.inflow, rise)
+        self._time_error = TimeError(self.scheme, self.film.x, record.masses, record.mass_error)
+        before = record.masses[min(1, len(record.masses) - 1)]
+        self._past = FilmHistory(state, record.masses[0], before, record.inflow, rise)
 
     def _steady(self) -> tuple[FilmState, NewtonRecord]:
         grids = self.film.grids(self.settings.wedge)
@@ -298,4 +306,5 @@ class FilmMarch:
             newton_steps=steps,
             krylov_steps=krylov,
             seconds=seconds,
+            time_error=self._time_error.of_smallest_film(state.film) if self.steps else math.nan,
         )

@@ -21,15 +21,15 @@ class MarchRecord:
     positions: Array  # of the nodes along x over the unit of lengths, shape (nx,)
     pressure: Array
     approach: float
-    mass: Array  # rho h
-    mass_before: Array
+    masses: Array  # rho h now and at up to two times before, newest first, shape (n, ny, nx)
+    mass_error: Array  # of rho h by the time steps so far
     inflow: Array
     rise: Array  # of the pressure in the last step
     approach_rise: float
     curves: Array  # what a caller has gathered so far, any shape
     kept_steps: Array  # whole solutions that a caller keeps: their numbers, shape (m,)
     kept_fields: Array  # pressure [Pa] and film [m], shape (m, 2, nx, ny)
-    kept_values: Array  # the numbers of `FilmSolution`, shape (m, 8)
+    kept_values: Array  # the numbers of `FilmSolution`, shape (m, 9)
 
     def write(self, path: Path | str) -> None:
         """Write the record; an older one at `path` stays whole until the new one is complete."""

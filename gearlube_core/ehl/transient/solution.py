@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import interpn
 
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.grid_error import SECOND_ORDER, FilmError, FilmNumbers, formal_order
 from gearlube_core.ehl.point.border_pressure import border_pressure
 from gearlube_core.ehl.point.equations.mesh import cell_faces
 from gearlube_core.ehl.point.newton.newton import flow_residual
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import NO_TOUCH, Touch
 from gearlube_core.ehl.point.terms.state import FilmState
+from gearlube_core.ehl.time_error import time_error_sentence
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.ehl.transient.problem import MovingFilm
 
@@ -39,6 +43,35 @@ class FilmSolution:
     krylov_steps: int
     seconds: float
     touch: Touch = NO_TOUCH  # how far the solids touch
+    time_error: float = (
+        math.nan
+    )  # estimated, of the smallest film by the time steps [-]; at rest: nan
+    formal_order: float = SECOND_ORDER  # of its grid
+    coarser: tuple[FilmSolution, ...] = ()  # a film at rest on coarser grids, finest first
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """Return the number of nodes along x and y."""
+        return self.x.size, self.y.size
+
+    @property
+    def axes(self) -> tuple[Array, ...]:
+        """Return the places of the nodes along x and y [m]."""
+        return self.x, self.y
+
+    @property
+    def numbers(self) -> FilmNumbers:
+        """Return films and largest pressure; no film at the origin where it is not loaded."""
+        origin = np.zeros(2)
+        central = math.nan
+        if float(interpn(self.axes, self.pressure, origin)[0]) > 0.0:
+            central = float(interpn(self.axes, self.film, origin)[0])
+        return FilmNumbers(central, self.minimum_film, self.maximum_pressure, math.nan)
+
+    @property
+    def error(self) -> FilmError:
+        """Return the estimated errors of the grid; not known in motion."""
+        return FilmError.of(self)
 
     @property
     def maximum_pressure(self) -> float:
@@ -106,6 +139,7 @@ def film_solution(
     krylov_steps: int,
     seconds: float,
     steady: bool = False,
+    time_error: float = math.nan,
 ) -> FilmSolution:
     """Return a state in SI with the judgement on it."""
     scales = level.scales
@@ -128,11 +162,15 @@ def film_solution(
         load_error=state.load_error,
         residual=residual,
         converged=not failed,
-        outcome=_outcome(failed, newton_steps, touch, _STEADY_CURE if steady else _CURE) + cut,
+        outcome=_outcome(failed, newton_steps, touch, _STEADY_CURE if steady else _CURE)
+        + cut
+        + time_error_sentence(time_error),
         newton_steps=newton_steps,
         krylov_steps=krylov_steps,
         seconds=seconds,
         touch=touch,
+        time_error=time_error,
+        formal_order=formal_order(settings.wedge),
     )
 
 
@@ -145,6 +183,7 @@ _NUMBERS = (
     "newton_steps",
     "krylov_steps",
     "seconds",
+    "time_error",
 )
 
 
@@ -176,9 +215,11 @@ def unpack_solutions(
             film=height,
             converged=not failed,
             outcome=_outcome(failed, newton_steps, touch)
-            + border_pressure(pressure, height).sentence,
+            + border_pressure(pressure, height).sentence
+            + time_error_sentence(numbers["time_error"]),
             newton_steps=newton_steps,
             krylov_steps=int(krylov_steps),
             touch=touch,
+            formal_order=formal_order(settings.wedge),
         )
     return solutions

@@ -7,12 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from gearlube_core.ehl.grid_error import FIRST_ORDER, check_search, coarser_films, refined_film
 from gearlube_core.ehl.point.cavitation import refuse_rupture
 from gearlube_core.ehl.point.dry_contact import dry_contact_of_gap
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
-from gearlube_core.ehl.point.problem import expected_film
+from gearlube_core.ehl.point.problem import MOST_NODES, expected_film
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.start.continuation import solve_level
 from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, interpolated_state, zero_border
@@ -81,9 +82,11 @@ def solve_steady_film(
     time: float,
     settings: PointSolverSettings | None = None,
     *,
+    film_error: float | None = None,
+    most_nodes: int = 1025,
     throw: bool = True,
 ) -> FilmSolution:
-    """Return the film as if the conditions of a time had lasted.
+    """Return the film as if the conditions of a time had lasted, with the error of its grid.
 
     Parameters
     ----------
@@ -93,6 +96,8 @@ def solve_steady_film(
         [s].
     settings
         Stencil and tolerances.
+    film_error, most_nodes
+        As in `solve_point_contact`.
     throw
         Raise where the solution does not converge; else return the last state.
 
@@ -102,6 +107,42 @@ def solve_steady_film(
         With the reason and a cure.
     """
     settings = PointSolverSettings() if settings is None else settings
+    check_search(film_error, most_nodes, MOST_NODES)
+    begin = clock.perf_counter()
+
+    def on_grid(nodes: tuple[int, ...], wedge: str) -> tuple[FilmSolution, str]:
+        return _on_grid(film.with_nodes(*nodes), time, replace(settings, wedge=wedge))
+
+    solution, wedge = on_grid(film.nodes, settings.wedge)
+    if throw and not solution.converged:
+        raise ConvergenceError(solution.outcome)
+    if not solution.converged or not (settings.estimate_error or film_error):
+        return solution
+
+    def found(nodes: tuple[int, ...], _: FilmSolution) -> FilmSolution | None:
+        coarse = on_grid(nodes, wedge)[0]
+        return coarse if coarse.converged else None
+
+    solution = replace(solution, coarser=coarser_films(solution, found))
+    searched = ""
+    if film_error is not None:
+        solution, searched = refined_film(
+            solution,
+            film_error,
+            most_nodes,
+            lambda nodes, coarser: replace(on_grid(nodes, settings.wedge)[0], coarser=coarser),
+        )
+    return replace(
+        solution,
+        outcome=solution.outcome + solution.error.sentence + searched,
+        seconds=clock.perf_counter() - begin,
+    )
+
+
+def _on_grid(
+    film: MovingFilm, time: float, settings: PointSolverSettings
+) -> tuple[FilmSolution, str]:
+    """Return the film on its own grid and the stencil of the answer."""
     begin = clock.perf_counter()
     grids = film.grids(settings.wedge)
     set_conditions(film, grids, time)
@@ -121,7 +162,6 @@ def solve_steady_film(
     )
     if solution.converged:
         outcome = solution.outcome + record.fallen_back(settings.wedge)
-        solution = replace(solution, outcome=outcome)
-    if throw and not solution.converged:
-        raise ConvergenceError(solution.outcome)
-    return solution
+        order = FIRST_ORDER if record.first_order else solution.formal_order
+        solution = replace(solution, outcome=outcome, formal_order=order)
+    return solution, "upwind-1" if record.first_order else settings.wedge

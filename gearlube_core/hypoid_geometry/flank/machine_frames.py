@@ -21,6 +21,7 @@ from gearlube_core.hypoid_geometry.flank.cutting_motion import (
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.gear_file_sections import Cutter, Gear, Pinion
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Curve = Literal["convex", "concave"]
@@ -128,6 +129,16 @@ def pinion_cut(file: HypoidGearFile, curve: Curve) -> ReferenceCut:
     )
 
 
+def other_flank(cut: ReferenceCut, member: Gear | Pinion, curve: Curve) -> ReferenceCut:
+    """Return the motion that cuts the `curve` flank, from that of the member's other flank.
+
+    The blades of both flanks pass the mean reference point at the same angles.
+    """
+    motion = cut.motion._replace(**_blade(member, curve))  # type: ignore[arg-type]
+    motion = _with_offset(motion, member.cutter, cut.cutter_angle, cut.cradle_angle)
+    return cut._replace(motion=motion)
+
+
 def reference_plane_distance(cut: ReferenceCut, blank: HypoidBlank) -> float:
     """Return the height [m] of the mean reference point over the cutter's reference plane."""
     return float(_from_cutter(cut.motion, reference_point(blank), cut.cradle_angle)[0])
@@ -200,6 +211,15 @@ def _pinion_cradle_angle(motion: CuttingMotion, point: Array) -> float:
     return min(candidates, key=abs)
 
 
+@kernel
+def _path_section(motion: CuttingMotion, angles: Array, places: Array) -> None:
+    """Write radius and z [m] of the blades' path at cutter angles (n,) [rad] to `places` (n, 2)."""
+    for i in range(angles.size):
+        r = cut_state(motion, 0.0, angles[i], 0.0).r
+        places[i, 0] = math.hypot(r.x, r.y)
+        places[i, 1] = r.z
+
+
 def _gear_cutter_angle(motion: CuttingMotion, blank: HypoidBlank) -> float:
     """Return the cutter angle at the mean cone distance where the spiral angle is the blank's."""
     gear = blank.gear
@@ -218,7 +238,10 @@ def _gear_cutter_angle(motion: CuttingMotion, blank: HypoidBlank) -> float:
             float(tangent @ np.cross(along, radial * cosine - sine * _Z)) / float(tangent @ along)
         )
 
-    candidates = _roots(excess, np.array([excess(th) for th in _TURN]))
+    places = np.empty((_TURN.size, 2))
+    _path_section(motion, _TURN, places)
+    distances = places[:, 0] * sine + (places[:, 1] - apex[2]) * cosine
+    candidates = _roots(excess, distances - gear.mean_cone_distance)
     if not candidates:
         raise ParameterError(
             "The gear's cutter does not cross the middle of the face, cone distance "

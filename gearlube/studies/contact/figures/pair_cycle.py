@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.edge_pressure import mark_edge_pressure
 from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube.studies.contact.figures.flank_maps import _SIDES, _spread
 
@@ -63,6 +64,8 @@ def _pair_figure(
                         color=SERIES[row],
                         label=f"{torque:g} N·m",
                     )
+                if name == "pressure_max":
+                    mark_edge_pressure(ax)
                 if logarithmic and name in logarithmic:
                     ax.set_yscale("log")
                 elif name != "R_y" and column == 1:  # both sides are drawn, so the top is known

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.options import OverwriteOption
+from gearlube.cli.results_folder import results_folder
 from gearlube.studies.films.commands.console import exit_on_errors
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
@@ -30,6 +32,7 @@ def compare(
         ),
     ] = 0.0,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_compare"),
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Draw largest pressures and smallest films of several marches over their steps.
 
@@ -50,5 +53,6 @@ def compare(
                 )
             folders[label] = where
         check_within("--film-exponent", film_exponent, -5.0, 5.0)
-        compare_marches(folders, film_exponent=film_exponent, folder=out)
+        with results_folder(out, "ehl compare", overwrite=overwrite):
+            compare_marches(folders, film_exponent=film_exponent, folder=out)
         logger.info("Results: %s", out / "compare.png")

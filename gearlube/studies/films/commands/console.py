@@ -13,6 +13,7 @@ from rich.table import Table
 
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
     import xarray as xr
@@ -31,14 +32,20 @@ def exit_on_errors(out: Path) -> AbstractContextManager[None]:
     return exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again.")
 
 
-def solve_and_show(solve: Callable[[Progress], xr.Dataset], out: Path) -> None:
+def solve_and_show(
+    solve: Callable[[Progress], xr.Dataset], out: Path, study: str, *, overwrite: bool
+) -> None:
     """Solve with a progress bar and print a summary; exit as failed if it did not converge.
 
-    `solve` takes the progress callback and writes its files into `out`.
+    `solve` takes the progress callback and writes its files into `out`, which is or becomes a
+    folder of `study`.
     """
     from gearlube.studies.films.results import dataset_file
 
-    with progress_on(console, "films") as progress:
+    with (
+        results_folder(out, study, overwrite=overwrite),
+        progress_on(console, "films") as progress,
+    ):
         dataset = solve(progress)
     _show(dataset)
     logger.info("Results: %s, %s", dataset_file(dataset, out), out / "figures")

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from gearlube.cli.options import CaseArgument, ExampleOption
+from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
+from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
 from gearlube_core.checks import check_finite
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
@@ -52,7 +53,9 @@ def line(
     ] = None,
     cavitation: _Cavitation = None,
     temperature: _Temperature = None,
+    film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
+    overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Solve a lubricated line contact; write line.nc, summary.csv and figures.
@@ -74,8 +77,14 @@ def line(
             "temperature": temperature,
         }
         file = _changed(LineCase.given(case), changes, entrainment, slide_roll)
+        goal = film_error_of(film_error)
         solve_and_show(
-            lambda progress: run_steady.run_line(file, folder=out, progress=progress), out
+            lambda progress: run_steady.run_line(
+                file, film_error=goal, folder=out, progress=progress
+            ),
+            out,
+            "ehl line",
+            overwrite=overwrite,
         )
 
 
@@ -92,7 +101,9 @@ def point(
         typer.Option(help="Stencil of the wedge.", metavar="upwind-2|upwind-1|central|quick"),
     ] = None,
     cavitation: _Cavitation = None,
+    film_error: FilmErrorOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
+    overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Solve a lubricated point contact; write point.nc, summary.csv and figures.
@@ -114,8 +125,14 @@ def point(
             "solver.cavitation": cavitation,
         }
         file = _changed(PointCase.given(case), changes, entrainment, slide_roll)
+        goal = film_error_of(film_error)
         solve_and_show(
-            lambda progress: run_steady.run_point(file, folder=out, progress=progress), out
+            lambda progress: run_steady.run_point(
+                file, film_error=goal, folder=out, progress=progress
+            ),
+            out,
+            "ehl point",
+            overwrite=overwrite,
         )
 
 

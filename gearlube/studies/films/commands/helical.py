@@ -7,9 +7,16 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.options import HelicalGearArgument, SpeedOfFileOption, TorqueOfFileOption
+from gearlube.cli.oil_option import oil_kelvin
+from gearlube.cli.options import (
+    HelicalGearArgument,
+    OverwriteOption,
+    SpeedOfFileOption,
+    TorqueOfFileOption,
+)
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
-from gearlube_core.checks import check_within
+from gearlube.studies.films.commands.film_error import FilmErrorOption, film_error_of
+from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
@@ -93,7 +100,17 @@ def helical(
             metavar="uniform|exit",
         ),
     ] = None,
+    film_error: FilmErrorOption = None,
+    time_error: Annotated[
+        str,
+        typer.Option(
+            help="How a march estimates the error of its time steps: from its own steps, or from "
+            "a repeat with steps twice as long, half as much time again.",
+            metavar="embedded|repeat",
+        ),
+    ] = "embedded",
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
+    overwrite: OverwriteOption = False,
 ) -> None:
     """Solve the film on a helical pair's contact line, steady at one position or in time.
 
@@ -107,10 +124,18 @@ def helical(
 
     with exit_on_errors(out):
         _check_options(step, position, march, snapshots)
+        check_option("--time-error", time_error, ("embedded", "repeat"))
+        goal = film_error_of(film_error)
+        if goal is not None and march is not None:
+            raise ParameterError(
+                f"--film-error must not be given with --march, got {film_error!r}: only a film at "
+                "rest is refined. Leave one out, or give --nodes-across."
+            )
         file = with_flanks(
             HelicalGearFile.given(gear), facets, crown_start, relief_parabola, relief_exponent
         )
-        check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
+        if oil is None:
+            check_within("--oil-temperature", oil_temperature, -20.0, 160.0, "degC")
         if speed_rpm is not None:
             check_within("--speed-rpm", speed_rpm, 0.1, 1e6, "rpm", "Give its magnitude.")
         case = HelicalLineCase(
@@ -120,7 +145,9 @@ def helical(
             step=step,
             position=None if position is None else 1e-3 * position,
             oil=oil,
-            oil_temperature=celsius_to_kelvin(oil_temperature),
+            oil_temperature=celsius_to_kelvin(oil_temperature)
+            if oil is None
+            else oil_kelvin(oil_temperature, oil),
             newtonian=newtonian,
             convention=load_sharing,
             nodes=(nodes_across, nodes_along),
@@ -128,17 +155,28 @@ def helical(
         )
         if march is None:
             solve_and_show(
-                lambda progress: run_steady.run_helical_line(case, folder=out, progress=progress),
+                lambda progress: run_steady.run_helical_line(
+                    case, film_error=goal, folder=out, progress=progress
+                ),
                 out,
+                "ehl helical",
+                overwrite=overwrite,
             )
             return
         first, last = _steps(march)
-        steps = run_march.MarchSteps(first=first, last=last, snapshots=_snapshots(snapshots))
+        steps = run_march.MarchSteps(
+            first=first,
+            last=last,
+            snapshots=_snapshots(snapshots),
+            repeat=time_error == "repeat",
+        )
         solve_and_show(
             lambda progress: run_march.run_helical_march(
                 case, steps, folder=out, progress=progress
             ),
             out,
+            "ehl helical",
+            overwrite=overwrite,
         )
 
 

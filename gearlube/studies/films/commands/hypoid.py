@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from gearlube.cli.options import CaseArgument, ExampleOption
+from gearlube.cli.options import CaseArgument, ExampleOption, OverwriteOption
 from gearlube.studies.films.commands.console import exit_on_errors, solve_and_show
 from gearlube_core.errors import ParameterError
 
@@ -88,6 +88,7 @@ def hypoid(
         bool, typer.Option("--quick", help="Few nodes and steps, for a first look.")
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_hypoid"),
+    overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Solve the films of a hypoid tooth pair through its engagement, beside the formulas.
@@ -130,6 +131,8 @@ def hypoid(
                 changed, march=not no_march, folder=out, progress=progress
             ),
             out,
+            "ehl hypoid",
+            overwrite=overwrite,
         )
 
 

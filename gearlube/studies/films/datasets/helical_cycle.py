@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import hashlib
+import math
 
 import numpy as np
 import xarray as xr
 
 from gearlube.studies.films.datasets.cycle_lines import CycleLines
-from gearlube.studies.films.datasets.variables import Variable, noted, noted_curves
+from gearlube.studies.films.datasets.variables import (
+    Variable,
+    error_attributes,
+    noted,
+    noted_curves,
+)
+from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import GRADINGS, HelicalFilm
+from gearlube_core.ehl.time_error import time_error_sentence
 from gearlube_core.ehl.transient.curves import FilmCurves
 from gearlube_core.ehl.transient.solution import FilmSolution
 
@@ -26,6 +34,8 @@ _NOTES = {
     "newton_steps": ("1", "Newton steps"),
     "krylov_steps": ("1", "iterations of the linear solutions"),
     "seconds": ("s", "time that the step took"),
+    "time_error": ("1", "estimated error of the smallest film by the time steps"),
+    "time_error_pressure": ("1", "estimated error of the largest pressure by the time steps"),
 }
 
 
@@ -34,6 +44,8 @@ def cycle_dataset(
     cycle: FilmCurves,
     lines: CycleLines,
     *,
+    start: FilmSolution | None = None,
+    repeated: bool = False,
     name: str = "helical pair",
     source: str = "",
 ) -> xr.Dataset:
@@ -47,6 +59,10 @@ def cycle_dataset(
         Its curves.
     lines
         Pressure and film along the line at its steps.
+    start
+        Film at rest at the first step, whose error of the grid is told; None: none is.
+    repeated
+        The errors of the time steps come from a second march with longer ones.
     name, source
         What figures call the pair, and where its numbers are from.
     """
@@ -68,6 +84,9 @@ def cycle_dataset(
             "nodes_across": film.nodes[0],
             "nodes_along": film.nodes[1],
             "spacing_across": _spacing(film),
+            "time_error_of": "repeat" if repeated else "embedded",
+            "largest_time_error": _largest(cycle["time_error"]),
+            **({} if start is None else error_attributes(start.error)),
             "failures": cycle.failures,
             "converged": int(cycle.failures == 0),
             "outcome": _outcome(cycle),
@@ -104,11 +123,17 @@ def _spacing(film: HelicalFilm) -> str:
     return next((name for name, one in GRADINGS.items() if one == film.grading), "own")
 
 
+def _largest(errors: Array) -> float:
+    known = errors[np.isfinite(errors)]
+    return float(known.max()) if known.size else math.nan
+
+
 def _outcome(cycle: FilmCurves) -> str:
+    warning = time_error_sentence(_largest(cycle["time_error"]))
     steps, failed = cycle["step"], cycle["step"][cycle["converged"] == 0.0]
     if not failed.size:
-        return f"All {steps.size} steps converged."
+        return f"All {steps.size} steps converged.{warning}"
     return (
         f"{failed.size} of {steps.size} steps did not converge, the first is step "
-        f"{failed[0]:.0f}. Take more nodes."
+        f"{failed[0]:.0f}. Take more nodes.{warning}"
     )

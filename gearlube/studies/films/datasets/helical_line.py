@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.films.datasets.variables import formula_variables, noted
+from gearlube.studies.films.datasets.variables import error_attributes, formula_variables, noted
 from gearlube.studies.films.film_formulas import line_film_formulas
 from gearlube.studies.films.helical_case import line_of_step
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
+from gearlube_core.ehl.grid_error import estimated_error
 from gearlube_core.ehl.line.problem import LineProblem
 from gearlube_core.ehl.line.traction import fill_mean_stress
 from gearlube_core.ehl.transient.solution import FilmSolution
@@ -49,6 +52,7 @@ def helical_dataset(
     speed_1, speed_2 = film.surface_speeds(y, X)
     stress = _mean_stress(film, solution, speed_2 - speed_1)
     across = np.trapezoid(stress, x, axis=0)  # N/m; changes sign at the pitch line
+    frictions = [_friction(film, one, speed_1, speed_2, y) for one in (solution, *solution.coarser)]
     load = film.load(X)
     middle = _middle_line(film, X, load, solution.loaded_length)
     pressure_x, pressure_y = solution.maximum_pressure_place
@@ -90,7 +94,13 @@ def helical_dataset(
             "minimum_film_x": film_x,
             "minimum_film_y": film_y,
             "loaded_length": solution.loaded_length,
-            "friction_coefficient": float(np.trapezoid(np.abs(across), y)) / load,
+            "friction_coefficient": frictions[0] / load,
+            **error_attributes(
+                replace(
+                    solution.error,
+                    friction=estimated_error(frictions, formal=solution.formal_order),
+                )
+            ),
             "friction_force": float(np.trapezoid(across, y)),
             "sliding_power": float(np.trapezoid(across * (speed_2 - speed_1), y)),
             "residual": float(solution.residual),
@@ -102,6 +112,15 @@ def helical_dataset(
             "outcome": solution.outcome,
         },
     )
+
+
+def _friction(
+    film: HelicalFilm, solution: FilmSolution, speed_1: Array, speed_2: Array, y: Array
+) -> float:
+    """Return the shear force of both signs counted alike [N]; the speeds hold at `y`."""
+    sliding = np.interp(solution.y, y, speed_2 - speed_1)
+    across = np.trapezoid(_mean_stress(film, solution, sliding), solution.x, axis=0)
+    return float(np.trapezoid(np.abs(across), solution.y))
 
 
 def _mid(solution: FilmSolution) -> int:

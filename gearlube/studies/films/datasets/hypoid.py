@@ -28,6 +28,9 @@ _FILM_NOTES = {
     "converged": ("1", "1 where the film converged"),
     "newton_steps": ("1", "Newton steps"),
     "seconds": ("s", "time that the solution took"),
+    "grid_error": ("1", "estimated error of the films by the grid, at rest"),
+    "time_error": ("1", "estimated error of the smallest film by the time steps"),
+    "time_error_pressure": ("1", "estimated error of the largest pressure by the time steps"),
 }
 _FORMULA_NOTES = {
     "hertz_pressure": ("Pa", "largest dry pressure, Hertz"),

@@ -10,6 +10,7 @@ import xarray as xr
 
 from gearlube.studies.films.datasets.variables import (
     Variable,
+    error_attributes,
     film_heights,
     formula_variables,
     heat_fluxes,
@@ -97,6 +98,7 @@ def line_dataset(
             "central_film": film.central_film,
             "minimum_film": film.minimum_film,
             "friction_coefficient": film.friction_coefficient,
+            **error_attributes(solution.error),
             "friction_1": film.friction[0],
             "friction_2": film.friction[1],
             "temperature_max": math.nan if thermal is None else thermal.max_temperature,

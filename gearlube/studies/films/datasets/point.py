@@ -10,6 +10,7 @@ import xarray as xr
 
 from gearlube.studies.films.datasets.variables import (
     Variable,
+    error_attributes,
     film_heights,
     formula_variables,
     heat_fluxes,
@@ -124,6 +125,7 @@ def point_dataset(
             "central_film": solution.central_film,
             "minimum_film": solution.minimum_film,
             "friction_coefficient": shear.force / problem.load,
+            **error_attributes(given.error),
             "friction_force": shear.force,
             "temperature_max": math.nan if thermal is None else thermal.max_temperature,
             "temperature_inlet": problem.lubricant.temperature,

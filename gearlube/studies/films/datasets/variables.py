@@ -9,6 +9,7 @@ import numpy as np
 
 from gearlube.studies.films.film_formulas import FilmFormula
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.grid_error import FilmError
 from gearlube_core.ehl.transient.curves import FilmCurves
 
 Dimensions = str | tuple[str, ...]
@@ -40,6 +41,17 @@ def heat_fluxes(dimensions: Dimensions, flux_1: Array, flux_2: Array) -> dict[st
     return {
         "heat_flux_1": noted(dimensions, flux_1, "W/m2", "heat into body 1"),
         "heat_flux_2": noted(dimensions, flux_2, "W/m2", "heat into body 2"),
+    }
+
+
+def error_attributes(error: FilmError) -> dict[str, float | str]:
+    """Return the estimated relative errors of the grid and the grids that they come from."""
+    return {
+        "error_central_film": error.central_film,
+        "error_minimum_film": error.minimum_film,
+        "error_pressure_max": error.maximum_pressure,
+        "error_friction": error.friction,
+        "error_grids": ", ".join("x".join(map(str, nodes)) for nodes in error.nodes),
     }
 
 

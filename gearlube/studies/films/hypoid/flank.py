@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,8 +10,10 @@ import numpy as np
 from gearlube.studies.films.hypoid.contact_motion import contact_motion
 from gearlube.studies.films.hypoid.drive import PairDrive, dynamic_drive, static_drive
 from gearlube_core.arrays import Array
+from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters, mohammadpour_2015_axle
+from gearlube_core.dynamics.ranges import TORQUE_MARGIN
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.gears.hypoid_film import HypoidFilm
 from gearlube_core.ehl.gears.hypoid_flank import FlankCycle
@@ -18,6 +21,9 @@ from gearlube_core.ehl.gears.hypoid_window import pair_contact, phase_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil_of
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.units import kelvin_to_celsius
+
+logger = logging.getLogger("gearlube")
 
 _FEWEST = 8  # samples of a cycle
 
@@ -63,7 +69,16 @@ def hypoid_flank(case: HypoidCase) -> HypoidFlank:
     parameters = mohammadpour_2015_axle(
         mesh=case.table(), oil=case.oil, roughness_rms=1e-6 * case.roughness_um
     )
-    parameters.oil.check_temperature(case.oil_temperature, "oil temperature")
+    low, high = parameters.oil.temperature_low, parameters.oil.temperature_high
+    check_within(
+        "oil_temperature_degc",
+        kelvin_to_celsius(case.oil_temperature),
+        round(kelvin_to_celsius(low), 9),
+        round(kelvin_to_celsius(high), 9),
+        "degC",
+        f"The data of {case.oil} are meant for this range.",
+    )
+    check_table_torque(torque, parameters.torque_range)
     drive = (
         dynamic_drive(parameters, speed, torque, case.oil_temperature)
         if case.load == "dynamic"
@@ -80,6 +95,23 @@ def hypoid_flank(case: HypoidCase) -> HypoidFlank:
         flow=case.flow,
     )
     return HypoidFlank(case, parameters, film, drive)
+
+
+def check_table_torque(torque: float, ends: tuple[float, float]) -> None:
+    """Warn of a pinion torque [N.m] beyond the mesh table; refuse one far beyond.
+
+    Raises
+    ------
+    ParameterError
+        Above `TORQUE_MARGIN` times the torque at which the table ends.
+    """
+    low, high = ends
+    cure = f"The mesh table ends at {low:g} and {high:g} N.m. Run `gearlube contact` beyond."
+    check_within(
+        "pinion_torque_n_m", torque, TORQUE_MARGIN * low, TORQUE_MARGIN * high, "N.m", cure
+    )
+    if not low <= torque <= high:
+        logger.warning("The pinion torque is %g N.m. %s Its data hold at the end.", torque, cure)
 
 
 def loaded_span(case: HypoidCase, phase: Array, load: Array) -> slice:

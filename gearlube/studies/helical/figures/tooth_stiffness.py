@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.edge_pressure import mark_edge_pressure
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.helical.figures.layout import closed
 from gearlube_core.arrays import Array
@@ -210,8 +211,8 @@ def load_sharing(contact: xr.Dataset) -> Any:
             ylim=(0.0, None),
             xlabel="mesh periods since it enters the plane of contact",
             xlim=(-0.5, contact["constant_line"].values[-1] + 1.0),
-            title="at sharp tip edges it rises with finer cells",
         )
+        mark_edge_pressure(axes[1, 0])
         axes[0, 1].set(
             ylabel="outside the plane\nof contact [% of torque]",
             ylim=(0.0, None),

@@ -19,19 +19,21 @@ def load_curves(dataset: xr.Dataset) -> Any:
         axes = figure.subplots(2, 1, sharex=True, height_ratios=[2.0, 1.0])
         for colour, form in zip(SERIES, dataset["form"].values, strict=False):
             part = dataset.sel(form=form)
-            torque = part["torque"].values
-            stable = part["stable"].values == 1.0
-            for ax, name, scale in zip(
-                axes, ("peak_to_peak", "separation_share"), (1e6, 100.0), strict=True
-            ):
-                values = scale * part[name].values
-                ax.plot(torque, np.where(stable, values, np.nan), color=colour, label=_NAMES[form])
-                ax.plot(torque, values, color=colour, ls=(0, (4, 2)), lw=1.0)
-            for fold in part["special_torque"].dropna("row").values:
-                near = int(np.nanargmin(np.abs(torque - fold)))
-                axes[0].plot(
-                    fold, 1e6 * part["peak_to_peak"].values[near], "o", mfc="white", mec=colour
-                )
+            label: str | None = _NAMES[form]
+            for number in part["branch"].values:
+                branch = part.sel(branch=number)
+                torque = branch["torque"].values
+                stable = branch["stable"].values == 1.0
+                for ax, name, scale in zip(
+                    axes, ("peak_to_peak", "separation_share"), (1e6, 100.0), strict=True
+                ):
+                    values = scale * branch[name].values
+                    held = np.where(stable, values, np.nan)
+                    ax.plot(torque, held, color=colour, label=label)
+                    ax.plot(torque, values, color=colour, ls=(0, (4, 2)), lw=1.0)
+                label = None
+                folds = branch["special_torque"].values, 1e6 * branch["special_peak_to_peak"].values
+                axes[0].plot(*folds, "o", mfc="white", mec=colour)
         axes[0].set_ylabel("transmission error p-p [µm]")
         axes[1].set_ylabel("time without\ncontact [%]")
         axes[1].set_xlabel("pinion torque [N·m]")

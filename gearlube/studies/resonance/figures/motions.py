@@ -98,6 +98,7 @@ def spectra(cycle: xr.Dataset) -> Any:
         axes = np.atleast_1d(figure.subplots(len(frequencies), 1, sharex=True))
         for ax, relative in zip(axes, frequencies, strict=True):
             _bars(ax, _at(cycle, relative, _DRY))
+            _end_of_table(ax, cycle)
             ax.set(title=_TITLE.format(relative), ylabel="amplitude [µm]")
         axes[-1].set_xlabel("mesh order")
         _shared_legend(figure, axes)
@@ -124,6 +125,21 @@ def _bars(ax: Any, motions: list[xr.Dataset], last: int = 8) -> None:
     ax.set(yscale="log", ylim=(1e-4, None), xticks=range(1, last + 1))
 
 
+def _end_of_table(ax: Any, cycle: xr.Dataset, last: int = 8) -> None:
+    """Shade the orders that the mesh table lacks: they are too small there."""
+    orders = int(cycle.attrs.get("mesh_orders", last))
+    if orders < last:
+        ax.axvspan(orders + 0.5, last + 0.5, color="0.93", zorder=0)
+        ax.text(
+            orders + 0.55,
+            0.97,
+            f"the mesh table ends at order {orders}:\nhigher ones lack their excitation",
+            transform=ax.get_xaxis_transform(),
+            va="top",
+            fontsize=7.0,
+        )
+
+
 def constant_radii(cycle: xr.Dataset) -> Any:
     """Return waveforms and orders of the models with constant radii.
 
@@ -141,6 +157,7 @@ def constant_radii(cycle: xr.Dataset) -> Any:
                 _draw(row[0], motion, lw=2.4 if wide else 1.2)
             _no_contact(row[0])
             _bars(row[1], motions)
+            _end_of_table(row[1], cycle)
             row[0].set(title=_TITLE.format(relative), ylabel="x [µm]", xlim=(0.0, 2.0))
             row[1].set(title=_TITLE.format(relative), ylabel="amplitude [µm]")
         axes[-1, 0].set_xlabel("pinion rotation [mesh periods]")

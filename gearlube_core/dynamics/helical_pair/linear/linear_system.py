@@ -151,6 +151,13 @@ def mean_moments(plane: ContactPlane, mesh: MeshArrays, mu: float) -> Array:
     return np.asarray(np.einsum("i,ijk->jk", weight, moments_at(plane, mesh, mu, phase)))
 
 
+def mean_mesh_stiffness(parameters: HelicalPairParameters) -> float:
+    """Return the stiffness of all lines along the line of action, mean of a mesh period [N/m]."""
+    plane = parameters.kernel_parameters().plane
+    moments = mean_moments(plane, parameters.mesh_arrays(), 0.0)
+    return float(plane.cos_b**2 * moments[0, 0])
+
+
 def system_moments(system: LinearSystem, phase: Array) -> Array:
     """Return the moments at many phases in [0, 1], shape (phases, 5, 3).
 

@@ -8,6 +8,7 @@ from typing import Annotated, NamedTuple
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants, FlankScalars
+from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.dynamics.scalars import Within
 from gearlube_core.oil.lubricant import LubricantParameters
 
@@ -66,3 +67,4 @@ class MarchConstants(NamedTuple):
     surface: SurfaceParameters
     solid: SolidParameters
     oil: LubricantParameters
+    ranges: RangeLimits

@@ -25,7 +25,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
 )
 from gearlube_core.friction.line_friction import LineState, line_friction
 from gearlube_core.helical_geometry.contact_line import clip_line, pitch_crossing
-from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.helical_geometry.line_kinematics import LineKinematics, line_kinematics
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
@@ -80,8 +80,8 @@ def line_point(
     data: Array,
     lubricant: LubricantState,
     p: MarchConstants,
-) -> tuple[float, float, float, LineState]:
-    """Return load [N/m], length [m], sliding speed [m/s] and film at point `place` of a line.
+) -> tuple[float, float, LineKinematics, LineState]:
+    """Return load [N/m], length [m], speeds and film at point `place` of a line.
 
     `place` counts the two Gauss points before the pitch line, then the two after it. The length
     is that of line the point stands for, zero where there is none.
@@ -97,7 +97,8 @@ def line_point(
     x = X - (0.5 * plane.W - z) * plane.sin_b / plane.cos_b
     length = max(z_end - z_start, 0.0) * 0.5 / plane.cos_b
     if length == 0.0:
-        return 0.0, 0.0, 0.0, LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        still = LineKinematics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        return 0.0, 0.0, still, LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     g = view.a + view.tilt * (z * plane.cos_b + x * plane.sin_b)
     at_line = (z - segment.z_low) / (segment.z_high - segment.z_low)
     load = point_load(g, at_line, view.phase, line, data, p.motion.flanks)
@@ -111,7 +112,7 @@ def line_point(
         p.surface,
         p.solid,
     )
-    return load, length, motion.sliding, state
+    return load, length, motion, state
 
 
 @kernel

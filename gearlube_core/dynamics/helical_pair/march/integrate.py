@@ -18,9 +18,11 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     PINION_WORK,
     PSI,
     TIME_IN_STEP,
+    W_G,
     W_P,
     WORK_MARK,
 )
+from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -28,6 +30,7 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 OK = 0
 NOT_FINITE = 1
 TOO_MANY_STEPS = 2
+TOO_FAST = 3
 
 MAX_STEPS = 1_000_000  # in one communication interval
 LOAD_FILTER_TIME = 0.02  # s, the load level follows the torque below the shafts' own motions
@@ -120,7 +123,7 @@ def advance(
     Returns
     -------
     int
-        OK, NOT_FINITE or TOO_MANY_STEPS.
+        OK, NOT_FINITE, TOO_MANY_STEPS or TOO_FAST.
 
     Notes
     -----
@@ -149,6 +152,8 @@ def advance(
             for i in range(N_ODE, N_STATE):
                 stages[i] = s[i]
         rk4_step(s, h, pinion_torque, wheel_torque, data, stages)
+        if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
+            return NOT_FINITE if abs(s[PSI]) > DIVERGED else TOO_FAST
     s[LOAD_TORQUE] += -math.expm1(-duration / LOAD_FILTER_TIME) * (
         abs(pinion_torque) - s[LOAD_TORQUE]
     )

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from gearlube_core.arrays import Array
+from gearlube_core.contact.line_hertz import LARGEST_OVER_MEAN
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import line_point
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankView
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, POINTS_PER_LINE, W_P
+from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
+from gearlube_core.film.groups import line_moes_groups
+from gearlube_core.friction.evans_johnson_1986 import traction_map_number
+from gearlube_core.friction.mixed_friction import SPEED_FLOOR
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -37,6 +43,20 @@ TEMPERATURE = LINE_QUANTITIES.index("temperature")
 N_LINE_QUANTITIES = len(LINE_QUANTITIES)
 
 
+class LinesFound(NamedTuple):
+    """Thinnest film, and numbers of the most loaded point, each with a range; zeros without load.
+
+    The most loaded point is that with the largest load per length.
+    """
+
+    thinnest_film: float  # [m]
+    film_load: float  # M of Moes [-]
+    film_material: float  # L of Moes [-]
+    traction: float  # number of the traction map [-]
+    temperature: float  # of the film [K]
+    pressure: float  # largest Hertz pressure [Pa]
+
+
 @kernel
 def write_lines(
     view: FlankView,
@@ -48,8 +68,8 @@ def write_lines(
     p: MarchConstants,
     first: int,
     out: Array,
-) -> float:
-    """Write the quantities of every line of the flank in `view`; return the thinnest film [m].
+) -> LinesFound:
+    """Write the quantities of every line of the flank in `view`; return what stands out of them.
 
     Their outputs begin at `first`. Means are weighted with the load. A line without load has no
     film: zeros, and the temperature of the oil. `mu_at` is the place of the flank's friction
@@ -62,13 +82,16 @@ def write_lines(
             out[here + j] = 0.0
         out[here + TEMPERATURE] = oil_temperature
     thinnest = math.inf
+    found = LinesFound(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    most = 0.0
+    reduced_modulus = 2.0 * p.solid.contact_modulus
     for line in range(lines):
         slot = pair_slot(view.phase, line, lines)
         here = first + slot * N_LINE_QUANTITIES
         total = film_sum = mu_sum = slide_sum = rise_sum = length_sum = 0.0
         thin = math.inf
         for place in range(POINTS_PER_LINE):
-            load, length, sliding, state = line_point(
+            load, length, motion, state = line_point(
                 view, line, place, abs(s[W_P]), data, lubricant, p
             )
             length_sum += length
@@ -77,10 +100,39 @@ def write_lines(
                 total += part
                 film_sum += part * state.film_thickness
                 mu_sum += part * s[mu_at + POINTS_PER_LINE * slot + place]
-                slide_sum += part * abs(sliding)
+                slide_sum += part * abs(motion.sliding)
                 if p.friction_form > 0.0:
                     rise_sum += part * state.temperature_rise
                 thin = min(thin, state.film_thickness)
+                if load > most:
+                    most = load
+                    M, L = line_moes_groups(
+                        motion.R,
+                        lubricant.eta0,
+                        lubricant.alpha,
+                        max(abs(motion.entrainment), SPEED_FLOOR),
+                        load,
+                        reduced_modulus,
+                    )
+                    traction = traction_map_number(
+                        state.film_thickness,
+                        state.mean_pressure,
+                        lubricant.eta0,
+                        lubricant.alpha,
+                        lubricant.beta,
+                        lubricant.tau0,
+                        lubricant.conductivity,
+                    )
+                    with_film = 1.0 if p.friction_form > 0.0 else 0.0
+                    in_use = 1.0 if state.film_ratio > LEAST_FILM_RATIO else 0.0
+                    found = LinesFound(
+                        0.0,
+                        in_use * M,
+                        in_use * L,
+                        in_use * with_film * traction,
+                        oil_temperature + with_film * state.temperature_rise,
+                        LARGEST_OVER_MEAN * state.mean_pressure,
+                    )
         out[here + LENGTH] = length_sum
         if total > 0.0:
             out[here + LOAD] = total
@@ -91,4 +143,11 @@ def write_lines(
             out[here + SLIDING_SPEED] = slide_sum / total
             out[here + TEMPERATURE] = oil_temperature + rise_sum / total
             thinnest = min(thinnest, thin)
-    return thinnest if thinnest < math.inf else 0.0
+    return LinesFound(
+        thinnest if thinnest < math.inf else 0.0,
+        found.film_load,
+        found.film_material,
+        found.traction,
+        found.temperature,
+        found.pressure,
+    )

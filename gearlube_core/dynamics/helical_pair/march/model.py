@@ -15,6 +15,7 @@ from gearlube_core.dynamics.helical_pair.march.equilibrium import (
 )
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     NOT_FINITE,
+    TOO_FAST,
     TOO_MANY_STEPS,
     WORK_SIZE,
     StepControl,
@@ -31,7 +32,13 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     REFRESHED,
     W_P,
 )
-from gearlube_core.dynamics.stepped_model import Kernels, SteppedModel, Words
+from gearlube_core.dynamics.stepped_model import (
+    TOO_FAST_WORDS,
+    Kernels,
+    SteppedModel,
+    TorqueLimits,
+    Words,
+)
 
 MAX_TORQUE = 1e5  # N.m on either shaft
 _FULL_CONTACT = 1e-5  # m, compression at which all lines touch
@@ -46,6 +53,7 @@ _WORDS = Words(
         TOO_MANY_STEPS: (
             "the step needs more than 1000000 integrator steps. Shorten the communication step"
         ),
+        TOO_FAST: TOO_FAST_WORDS,
     },
 )
 
@@ -100,7 +108,10 @@ class HelicalPairModel(SteppedModel[StepControl]):
             output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0),
             oil=parameters.oil,
-            torque_limits=(MAX_TORQUE, MAX_TORQUE),
+            torque_limits=TorqueLimits.around(
+                parameters.torque_range, parameters.pair.ratio, MAX_TORQUE, MAX_TORQUE
+            ),
+            ranges=parameters.ranges,
             words=_WORDS,
         )
 

@@ -37,6 +37,7 @@ from gearlube_core.dynamics.helical_pair.march.state import (
     WORK_MARK,
 )
 from gearlube_core.dynamics.mean_power import mean_power
+from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS, write_ranges
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -80,6 +81,7 @@ OUTPUT_NAMES: tuple[str, ...] = (
     "energy.mesh_damping",
     "energy.bearing_damping",
     "energy.stored",
+    *RANGE_OUTPUTS,
 )
 OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
 N_OUTPUTS = len(OUTPUT_NAMES)
@@ -111,6 +113,7 @@ LINES = OUTPUT_INDEX[LINE_OUTPUTS[0]]
 DISPLACEMENTS = OUTPUT_INDEX["pinion.displacement.x"]  # in the order of the state
 BEARINGS = OUTPUT_INDEX["bearing[1].force.x"]
 ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
+RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
 N_BEARING_QUANTITIES = len(BEARING_QUANTITIES)
 
 BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c_z
@@ -216,7 +219,20 @@ def write_outputs(
     oil = lubricant_state(p.oil, oil_temperature)
     view = drive if on_drive.N >= on_coast.N else coast
     mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
-    out[THINNEST_FILM] = write_lines(view, mu_at, s, oil_temperature, data, oil, p, LINES, out)
+    found = write_lines(view, mu_at, s, oil_temperature, data, oil, p, LINES, out)
+    out[THINNEST_FILM] = found.thinnest_film
+    torque = max(abs(s[LOAD_TORQUE]), max(on_drive.N, on_coast.N) * plane.r_bp * plane.cos_b)
+    write_ranges(
+        torque if on_drive.N >= on_coast.N else -torque,
+        found.film_load,
+        found.film_material,
+        found.traction,
+        found.temperature,
+        found.pressure,
+        p.ranges,
+        RANGES,
+        out,
+    )
     write_losses(s, rates, out)
     for i in range(N_LATERAL):
         out[DISPLACEMENTS + i] = s[U_P + i]

@@ -25,7 +25,10 @@ from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
     support_damping,
     support_stiffness,
 )
+from gearlube_core.dynamics.model_ranges import model_ranges
+from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
+from gearlube_core.film import dowson_toyoda_1979
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
@@ -148,6 +151,23 @@ class HelicalMarchParameters(MarchScalars):
         return effective_mass(self.pair, self.pinion.polar_inertia, self.gear.polar_inertia)
 
     @property
+    def torque_range(self) -> tuple[float, float]:
+        """Pinion torques at the ends of the line mesh [N.m]; without end for a single level."""
+        high = float(self.mesh.torque[-1]) if self.mesh.torque.size > 1 else math.inf
+        return -high, high
+
+    @property
+    def ranges(self) -> tuple[Range, ...]:
+        """Ranges of the line mesh, the oil and the formulas of film and traction."""
+        return model_ranges(
+            self.torque_range,
+            "Run `gearlube helical --torques` with higher torques.",
+            self.oil,
+            dowson_toyoda_1979.LOAD_RANGE,
+            dowson_toyoda_1979.MATERIAL_RANGE,
+        )
+
+    @property
     def coast_phase(self) -> float:
         """Phase of the drive flanks plus phase of the coast flanks [mesh periods].
 
@@ -193,4 +213,5 @@ class HelicalMarchParameters(MarchScalars):
             surface=gear_flanks(self.roughness_rms),
             solid=solid_parameters(self.solid, self.solid),
             oil=self.oil.parameters(),
+            ranges=range_limits(self.ranges),
         )

@@ -11,13 +11,20 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.contact.solid import Solid
+from gearlube_core.ehl.grid_error import (
+    FilmError,
+    FilmNumbers,
+    check_search,
+    coarser_films,
+    refined_film,
+)
 from gearlube_core.ehl.point.cavitation import check_cavitation, refuse_rupture
+from gearlube_core.ehl.point.grid_film import nested_film, point_solution
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual, newton
-from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.problem import MOST_NODES, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solution import PointSolution
-from gearlube_core.ehl.point.solver import nested_film, point_solution
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.thermal.surfaces import FilmTemperature
 from gearlube_core.errors import ConvergenceError, ParameterError
@@ -66,6 +73,37 @@ class ThermalPointSolution:
     converged: bool
     outcome: str
     seconds: float
+    coarser: tuple[ThermalPointSolution, ...] = ()  # the film on coarser grids, finest first
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """Number of nodes along x and y."""
+        return self.film.nodes
+
+    @property
+    def axes(self) -> tuple[Array, ...]:
+        """Places of the nodes along x and y [m]."""
+        return self.film.axes
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure, (nx, ny) [Pa]."""
+        return self.film.pressure
+
+    @property
+    def formal_order(self) -> float:
+        """Return the order of the grid."""
+        return self.film.formal_order
+
+    @property
+    def numbers(self) -> FilmNumbers:
+        """Films, largest pressure and friction."""
+        return self.film.numbers._replace(friction=self.friction_coefficient)
+
+    @property
+    def error(self) -> FilmError:
+        """Estimated errors of the grid."""
+        return FilmError.of(self)
 
     @property
     def surface_temperature(self) -> tuple[Array, Array]:
@@ -101,9 +139,11 @@ def solve_thermal_point(
     settings: PointSolverSettings | None = None,
     thermal: PointThermalSettings | None = None,
     *,
+    film_error: float | None = None,
+    most_nodes: int = 513,
     throw: bool = True,
 ) -> ThermalPointSolution:
-    """Return the steady film of a point contact with its temperatures.
+    """Return the steady film of a point contact with its temperatures and the error of its grid.
 
     rho c (u dT/dx + v dT/dy) = k d2T/dz2 + tau . d(u, v)/dz + beta T (u dp/dx + v dp/dy)
 
@@ -117,6 +157,8 @@ def solve_thermal_point(
         entrainment and half of the sliding.
     settings, thermal
         Of film and energy.
+    film_error, most_nodes
+        As in `solve_point_contact`.
     throw : bool
         False: return what was reached instead of raising.
 
@@ -149,11 +191,51 @@ def solve_thermal_point(
     """
     settings = settings or PointSolverSettings()
     thermal = thermal or PointThermalSettings()
+    check_search(film_error, most_nodes, MOST_NODES)
     begin = time.perf_counter()
     check_thermal(problem, settings)
+
+    def on_grid(nodes: tuple[int, ...]) -> ThermalPointSolution:
+        return _on_grid(problem.with_nodes(*nodes), (solid_1, solid_2), settings, thermal)
+
+    def on_coarser_grid(
+        nodes: tuple[int, ...], _: ThermalPointSolution
+    ) -> ThermalPointSolution | None:
+        found = on_grid(nodes)
+        return found if found.converged else None
+
+    solution = on_grid(problem.nodes)
+    if throw and not solution.converged:
+        raise ConvergenceError(solution.outcome)
+    if not solution.converged or not (settings.estimate_error or film_error):
+        return solution
+    solution = replace(solution, coarser=coarser_films(solution, on_coarser_grid))
+    searched = ""
+    if film_error is not None:
+        solution, searched = refined_film(
+            solution,
+            film_error,
+            most_nodes,
+            lambda nodes, coarser: replace(on_grid(nodes), coarser=coarser),
+        )
+    return replace(
+        solution,
+        outcome=solution.outcome + solution.error.sentence + searched,
+        seconds=time.perf_counter() - begin,
+    )
+
+
+def _on_grid(
+    problem: PointContactProblem,
+    solids: tuple[Solid, Solid],
+    settings: PointSolverSettings,
+    thermal: PointThermalSettings,
+) -> ThermalPointSolution:
+    """Return the film on the problem's own grid, or what was reached."""
+    begin = time.perf_counter()
     hierarchy, state, record = nested_film(problem, settings)
     level = hierarchy.levels[-1]
-    energy = FilmTemperature(problem, (solid_1, solid_2), level, thermal.heights)
+    energy = FilmTemperature(problem, solids, level, thermal.heights)
     balances: list[float] = []
     good = record.converged
     while good:
@@ -184,8 +266,6 @@ def solve_thermal_point(
             "Take more turns, more nodes at the inlet or less speed."
         )
     converged = good and solved.outcome.converged
-    if throw and not converged:
-        raise ConvergenceError(outcome)
     return _solution(energy, state, solved, tuple(balances), converged, outcome, begin)
 
 

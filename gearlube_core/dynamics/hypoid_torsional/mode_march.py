@@ -1,0 +1,199 @@
+"""March over mesh periods in which every change of the contact mode ends a part of a step.
+
+A step across a kink of the mesh force is exact to second order only, and its derivative to first.
+Cut where the mode changes, its parts keep the fourth order of the scheme. The force is continuous
+there, so that the derivative of a motion does not jump. A touch, or a loss of contact, that begins
+and ends within one step goes unseen.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_torsional.angle_march import N_Y, angle_step
+from gearlube_core.dynamics.hypoid_torsional.contact_mode import contact_mode, mode_margin
+from gearlube_core.dynamics.hypoid_torsional.kernel_parameters import ONE_DOF, TorsionalParameters
+from gearlube_core.dynamics.hypoid_torsional.mesh_row import N_ROW, K, rows_between
+from gearlube_core.dynamics.hypoid_torsional.rates import UM, pair_approach, reduced_approach
+from gearlube_core.kernels.jit import kernel
+
+OK, NOT_FINITE = 0, 1
+DIVERGED_UM = 1.0e5  # transmission error of 0.1 m: teeth long broken [um]
+N_RECORD = 5  # angle [rad], x [um], pinion speed, gear speed [rad/s], mesh force [N]
+MOST_PARTS = 12  # of one step; the last one keeps its mode to the end
+MARCH_WORK = N_Y + 3 * N_ROW
+_CLOSE = 1.0e-9  # share of a step within which the end of a mode is found
+_LOOKS = 60  # at most, each a thousandth of the bracket or more
+
+
+class Part(NamedTuple):
+    """Part of a step in which the contact mode does not change."""
+
+    end: float  # share of the step at its end [-]
+    mode: int  # see `contact_mode`
+    force: float  # mesh force at its start [N]
+
+
+@kernel
+def approach(y: Array, speed: float, rows: Array, i: int, p: TorsionalParameters) -> float:
+    """Return dx/dt of a state [m/s]."""
+    if p.form == ONE_DOF:
+        return reduced_approach(y[1], speed, rows, i)
+    return pair_approach(y[1], y[2], rows, i)
+
+
+@kernel
+def _margin(
+    mode: int, y: Array, speed: float, rows: Array, i: int, p: TorsionalParameters
+) -> float:
+    """Return `mode_margin` of a state [m]."""
+    return mode_margin(mode, y[0] * UM, approach(y, speed, rows, i, p), rows[i, K], p)
+
+
+@kernel
+def part_of_step(
+    y: Array,
+    phi: float,
+    h: float,
+    start: float,
+    whole: int,
+    load_torque: float,
+    speed: float,
+    rows: Array,
+    first: int,
+    p: TorsionalParameters,
+    trial: Array,
+    between: Array,
+) -> Part:
+    """Advance from a share of a step to its end, or to where the contact mode ends before.
+
+    Parameters
+    ----------
+    y : ndarray of shape (4,)
+        State at the share `start` of the step.
+    phi, h : float
+        Pinion angle where the step begins, and its length [rad].
+    start : float
+        [-]
+    whole : int
+        1 to go to the end of the step in any case.
+    load_torque, speed : float
+        [N.m], [rad/s]
+    rows, first
+        Mesh data, and the row at `phi`.
+    p : TorsionalParameters
+    trial : ndarray of shape (4,)
+        Out: state at the end of the part; beyond the mode by less than 1e-9 of the step.
+    between : ndarray of shape (3, N_ROW)
+        Out: mesh data of the part, unless it is the whole step.
+    """
+    data, i, last = rows, first, (first + 2) % rows.shape[0]
+    if start > 0.0:
+        rows_between(rows, first, start, 1.0, between)
+        data, i, last = between, 0, 2
+    mode = contact_mode(y[0] * UM, approach(y, speed, data, i, p), data[i, K], p)
+    margin_low = _margin(mode, y, speed, data, i, p)
+    for n in range(N_Y):
+        trial[n] = y[n]
+    at = phi + start * h
+    force = angle_step(trial, at, (1.0 - start) * h, load_torque, speed, data, i, mode, p)
+    margin_high = _margin(mode, trial, speed, data, last, p)
+    if whole == 1 or not margin_high < 0.0:
+        return Part(1.0, mode, force)
+    low, high, tried, kept = start, 1.0, 1.0, 0
+    for _ in range(_LOOKS):
+        width = high - low
+        if width < _CLOSE:
+            break
+        span = margin_low - margin_high
+        tried = low + (width * margin_low / span if span > 0.0 else 0.5 * width)
+        tried = min(max(tried, low + 1e-3 * width), high - 1e-3 * width)
+        rows_between(rows, first, start, tried, between)
+        for n in range(N_Y):
+            trial[n] = y[n]
+        angle_step(trial, at, (tried - start) * h, load_torque, speed, between, 0, mode, p)
+        margin = _margin(mode, trial, speed, between, 2, p)
+        if margin < 0.0:  # an end that stays for the second time counts half: Illinois
+            high, margin_high = tried, margin
+            margin_low *= 0.5 if kept < 0 else 1.0
+            kept = -1
+        else:
+            low, margin_low = tried, margin
+            margin_high *= 0.5 if kept > 0 else 1.0
+            kept = 1
+    if tried != high:
+        rows_between(rows, first, start, high, between)
+        for n in range(N_Y):
+            trial[n] = y[n]
+        angle_step(trial, at, (high - start) * h, load_torque, speed, between, 0, mode, p)
+    return Part(high, mode, force)
+
+
+@kernel
+def march(
+    y: Array,
+    first_period: int,
+    periods: int,
+    load_torque: float,
+    speed: float,
+    rows: Array,
+    p: TorsionalParameters,
+    record: Array,
+    work: Array,
+) -> int:
+    """Advance `y` over whole mesh periods; return OK or NOT_FINITE.
+
+    Parameters
+    ----------
+    y : ndarray of shape (4,)
+        Changed.
+    first_period : int
+        Mesh periods since pinion angle zero.
+    periods : int
+    load_torque, speed : float
+        [N.m], [rad/s]
+    rows : ndarray of shape (2 steps, N_ROW)
+        `mesh_rows`; sets the number of steps per mesh period.
+    p : TorsionalParameters
+    record : ndarray of shape (periods * steps, N_RECORD) or (0, N_RECORD)
+        Before each step, or nothing recorded.
+    work : ndarray of shape (MARCH_WORK,)
+    """
+    trial = work[0:N_Y]
+    between = work[N_Y:MARCH_WORK].reshape((3, N_ROW))
+    steps = rows.shape[0] // 2
+    period = 2.0 * math.pi / p.z_p
+    h = period / steps
+    keep = record.shape[0] > 0
+    for m in range(periods):
+        for i in range(steps):
+            phi = (first_period + m) * period + i * h
+            x = y[0]
+            w_p, w_g = y[1], y[2]
+            if p.form == 1.0:
+                w_p, w_g = speed, speed / p.ratio
+            start, force = 0.0, 0.0
+            for part in range(MOST_PARTS):
+                whole = 1 if part == MOST_PARTS - 1 else 0
+                done = part_of_step(
+                    y, phi, h, start, whole, load_torque, speed, rows, 2 * i, p, trial, between
+                )
+                for n in range(N_Y):
+                    y[n] = trial[n]
+                if part == 0:
+                    force = done.force
+                start = done.end
+                if start == 1.0:
+                    break
+            if keep:
+                at = m * steps + i
+                record[at, 0] = phi
+                record[at, 1] = x
+                record[at, 2] = w_p
+                record[at, 3] = w_g
+                record[at, 4] = force
+        if not abs(y[0]) < DIVERGED_UM or not y[3] < math.inf:
+            return NOT_FINITE
+    return OK

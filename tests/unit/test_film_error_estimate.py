@@ -1,0 +1,175 @@
+"""Estimates of the error of grid and time step, on sequences whose error is known."""
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlube.studies.films.commands.film_error import film_error_of
+from gearlube_core.ehl.gears.helical_cycle import COLUMNS
+from gearlube_core.ehl.grid_error import FilmError, FilmNumbers, doubled, estimated_error, halved
+from gearlube_core.ehl.time_error import SAFETY_IN_TIME, TimeError
+from gearlube_core.ehl.transient.curves import FilmCurves, NumberedSteps, with_time_errors
+from gearlube_core.errors import ParameterError
+
+
+@pytest.mark.parametrize("order", [1.0, 1.5, 2.0])
+def test_a_value_of_known_order_has_twice_its_true_error(order):
+    finest, middle, coarse = (1.0 + 0.01 * spacing**order for spacing in (1.0, 2.0, 4.0))
+    estimate = estimated_error([finest, middle, coarse])
+    assert estimate * finest == pytest.approx(2.0 * 0.01, rel=1e-12)
+
+
+def test_a_value_of_higher_order_is_not_trusted_beyond_second_order():
+    values = [1.0 + 0.01 * spacing**4 for spacing in (1.0, 2.0, 4.0)]
+    # d_2/4 stands for d_1, divided by 2^2 - 1 and doubled
+    assert estimated_error(values) == pytest.approx(2.0 * (0.01 * 240.0 / 4.0) / 3.0 / values[0])
+
+
+def test_two_values_that_agree_by_chance_are_not_believed():
+    # the last difference is nothing, the one before it 4 %
+    assert estimated_error([1.0, 1.0, 1.04]) == pytest.approx(2.0 * 0.01 / 3.0)
+
+
+def test_values_that_turn_count_with_the_larger_safety():
+    assert estimated_error([1.0, 1.01, 1.0]) == pytest.approx(3.0 * 0.01)
+
+
+def test_a_grid_of_first_order_leaves_half_of_the_error_before():
+    assert estimated_error([1.0, 1.001, 1.041], formal=1.0) == pytest.approx(2.0 * 0.02)
+    assert estimated_error([1.0, 1.03], formal=1.0) == pytest.approx(3.0 * 0.03)
+
+
+def test_two_grids_count_with_the_larger_safety():
+    assert estimated_error([1.0, 1.03]) == pytest.approx(3.0 * 0.03 / 3.0)
+
+
+def test_a_single_grid_or_an_unknown_value_gives_no_estimate():
+    assert math.isnan(estimated_error([1.0]))
+    assert math.isnan(estimated_error([1.0, math.nan, 1.0]))
+    # no sliding, no friction, no error
+    assert estimated_error([0.0, 0.0, 0.0]) == 0.0
+
+
+def test_grids_are_halved_to_nodes_of_the_finer_and_not_below_17():
+    assert halved((129, 65)) == (65, 33)
+    assert doubled((65, 33)) == (129, 65)
+    assert halved((65, 31)) is None
+
+
+class _Flat:
+    """A film whose pressure has a spike that the coarser grid does not show."""
+
+    def __init__(self, nodes, spike, coarser=()):
+        self.nodes, self.coarser, self.converged = (nodes,), coarser, True
+        self.formal_order = 2.0
+        self.axes = (np.linspace(0.0, 1.0, nodes),)
+        self.pressure = np.where(np.abs(self.axes[0] - 0.75) < 1e-9, spike, 0.5)
+        self.pressure[nodes // 4] = 1.0
+        self.numbers = FilmNumbers(1.0, 0.8, float(self.pressure.max()), 0.0)
+
+
+def test_a_spike_that_grows_with_the_grid_makes_the_pressure_uncertain():
+    film = _Flat(33, 0.9, (_Flat(17, 0.6),))
+    # the largest pressure is 1.0 on both grids; the spike may come to 0.9 + 0.3
+    assert film.numbers.maximum_pressure == film.coarser[0].numbers.maximum_pressure
+    assert FilmError.of(film).maximum_pressure == pytest.approx(0.2)
+
+
+def test_the_errors_are_told_and_large_ones_warn():
+    error = FilmError(0.01, 0.06, 0.001, math.nan, ((65, 65), (33, 33)))
+    assert error.film == error.largest == 0.06
+    assert "smallest film 6 %" in error.sentence
+    assert "33 x 33" in error.sentence
+    assert "above 5 %: take more nodes" in error.sentence
+    assert "friction" not in error.sentence
+    small = FilmError(0.01, 0.04, 0.001, 0.0, ((65, 65), (33, 33)))
+    assert "take more nodes" not in small.sentence
+    unknown = FilmError(*4 * [math.nan], ((33, 33),))
+    assert "not known" in unknown.sentence
+
+
+def _advected(scheme, steps):
+    """Largest estimated and true error of a wave that is carried over its length.
+
+    Exact in space: m = 2 + exp(i k x) amplitude, dm/dt = -u dm/dx, of which the scheme multiplies
+    the amplitude.
+    """
+    x = np.linspace(0.0, 1.0, 2001)
+    k, dt = 2.0 * math.pi, 1.0 / steps
+    rate = -1j * k * dt
+
+    def mass(amplitude):
+        return (2.0 + (np.exp(1j * k * x) * amplitude).real)[None]
+
+    amplitudes = [1.0 + 0.0j]
+    estimate = TimeError(scheme, x, mass(1.0)[None])
+    largest = 0.0
+    for n in range(1, steps + 1):
+        if scheme == "crank_nicolson":
+            new = amplitudes[-1] * (1.0 + 0.5 * rate) / (1.0 - 0.5 * rate)
+        elif n == 1:
+            new = np.exp(rate)  # the first step of backward Euler is not looked at
+        else:
+            new = (2.0 * amplitudes[-1] - 0.5 * amplitudes[-2]) / (1.5 - rate)
+        amplitudes.append(new)
+        estimate.step(mass(new), np.ones((1, x.size)), np.array([dt]))
+        if n == 3:
+            estimate.error[:] = 0.0  # what steps without a third difference have added
+            begin = new
+        if n > 3:
+            exact = begin * np.exp(rate * (n - 3))
+            largest = float(np.abs(mass(new) - mass(exact)).max())
+    inside = slice(1200, None)  # oil that has come from inside the domain
+    return float(np.abs(estimate.error[0, inside]).max()), largest
+
+
+@pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
+def test_the_error_of_time_steps_follows_a_carried_wave(scheme):
+    found, true = _advected(scheme, 100)
+    # of third order in the step relative to it: 2 pi/100 and the three steps of its start
+    assert found == pytest.approx(true, rel=0.1)
+    finer, _ = _advected(scheme, 200)
+    assert found / finer == pytest.approx(4.0, rel=0.1)
+
+
+def test_the_smallest_film_takes_the_worst_error_of_thin_nodes():
+    masses = np.array([[[1.0, 2.0, 1.05, 4.0]]])
+    estimate = TimeError("bdf2", np.arange(4.0), masses, np.array([[0.01, 1.0, -0.021, 1.0]]))
+    assert estimate.of_smallest_film(masses[0]) == pytest.approx(SAFETY_IN_TIME * 0.02)
+
+
+def _curves(step, count, every):
+    """Curves over `count` steps whose smallest film is off by 1 % a unit of `step`."""
+    table = np.zeros((count, len(COLUMNS)))
+    table[:, COLUMNS.index("minimum_film")] = 1.0 + 0.01 * step * (np.arange(count) * every > 0)
+    table[:, COLUMNS.index("pressure_max")] = 2.0
+    return FilmCurves(COLUMNS, table, {})
+
+
+@pytest.mark.parametrize(("every", "count"), [(1, 5), (2, 3)])
+def test_a_march_repeated_with_longer_steps_tells_their_error(every, count):
+    curves = with_time_errors(_curves(1.0, 5, 1), _curves(2.0, count, every), every)
+    found = curves["time_error"]
+    assert found[0] == 0.0
+    np.testing.assert_allclose(found[1:], 0.01 / 1.01, rtol=1e-12)
+    np.testing.assert_array_equal(curves["time_error_pressure"], 0.0)
+
+
+def test_longer_steps_are_every_step_or_every_other_one():
+    odd = NumberedSteps(10, 15, 1.0, 0.1)
+    assert odd.longer() == NumberedSteps(10, 12, 1.0, 0.2)
+    even = NumberedSteps(10, 15, 1.0, 0.1, substeps=4)
+    assert even.longer() == NumberedSteps(10, 15, 1.0, 0.1, substeps=2)
+
+
+@pytest.mark.parametrize(("text", "share"), [("1%", 0.01), ("0.01", 0.01), (" 2.5 % ", 0.025)])
+def test_a_film_error_is_a_share_or_per_cent(text, share):
+    assert film_error_of(text) == pytest.approx(share)
+    assert film_error_of(None) is None
+
+
+@pytest.mark.parametrize("text", ["", "small", "nan%", "inf", "200%", "-1%", "0"])
+def test_a_film_error_that_is_none_is_refused(text):
+    with pytest.raises(ParameterError, match="--film-error"):
+        film_error_of(text)

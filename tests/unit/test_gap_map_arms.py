@@ -1,0 +1,38 @@
+"""Gaps of hypoid flanks that turning the pinion does not close."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlube_core.errors import ConvergenceError
+from gearlube_core.hypoid_contact.gap_map import GapMap
+from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
+
+
+def gaps(gap: list[float], arm: list[float]) -> GapMap:
+    points = np.zeros((1, len(gap), 3))
+    return GapMap(np.array([gap]), points, points, points, points, np.array([arm]))
+
+
+def test_gaps_with_an_arm_of_zero_or_less_close_at_no_rotation():
+    """Two pitches away, flanks of 9 x 41 teeth move apart: inf over a negative arm was -inf."""
+    found = gaps(
+        [2e-6, math.inf, 1e-6, 3e-6, -1e-6], [0.02, -0.01, 0.0, math.nan, -0.02]
+    ).touching_rotation
+    np.testing.assert_array_equal(found, [[2e-6 / 0.02, *4 * [math.inf]]])
+
+
+def test_the_first_contact_is_not_where_flanks_part():
+    near, far = gaps([1e-6], [0.02]), gaps([math.inf], [-0.01])
+    position = MeshPosition(None, 0.0, (0.0, 1.0), (near, far))
+    assert position.unloaded_rotation == pytest.approx(5e-5)
+
+
+def test_teeth_that_meet_nowhere_are_said_to_do_so():
+    nowhere = gaps([math.inf], [0.02])
+    position = MeshPosition(None, 0.25, (0.25,), (nowhere,))
+    with pytest.raises(ConvergenceError, match=r"the teeth must meet at mesh phase 0\.250"):
+        position.load(50.0, None, LoadedSettings())
