@@ -73,7 +73,7 @@ def outcome(place: Workplace, mutant: Mutant, thorough: bool) -> dict[str, objec
         changed = source[: mutant.start] + mutant.after.encode() + source[mutant.end :]
     first = mutant.line - 1
     text = b"\n".join(source.splitlines()[first : first + 1 + mutant.before.count("\n")]).decode()
-    tests = [file for _, file in place.reach.tests_of(mutant.file, mutant.scope, text)]
+    tests = place.nearest_tests(mutant.file, mutant.scope, text)
     near, far = _SECONDS
     stages = [(tests[:_NEAR], True, near), (tests[_NEAR:_FAR], True, far)]
     if thorough:

@@ -8,6 +8,7 @@ import os
 import re
 import shutil
 import subprocess
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -57,6 +58,14 @@ class Workplace:
                     there.mkdir(parents=True, exist_ok=True)
                     if not (there / file.name).exists():
                         shutil.copy2(file, there / file.name)
+
+    def nearest_tests(self, file: str, scope: str, text: str) -> list[str]:
+        """Return the test files that reach a change, nearest first, of equals the quickest."""
+        seconds: Counter[str] = Counter()
+        for test, each in self.seconds[True].items():
+            seconds[test.partition("::")[0]] += each
+        found = self.reach.tests_of(file, scope, text)
+        return [test for _, test in sorted(found, key=lambda one: (one[0], seconds[one[1]]))]
 
     def try_unchanged(self, test: str, compiled: bool) -> bool:
         """Return whether a test passes on the unchanged tree; it runs once."""

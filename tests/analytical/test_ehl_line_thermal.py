@@ -101,6 +101,18 @@ def test_surfaces_warm_with_the_root_of_the_distance():
     assert (T[-1, 0] - T0) / quarter == pytest.approx(2.0, rel=1e-2)
 
 
+@pytest.mark.parametrize("limit_slope", [0.0, 0.002], ids=["sheared", "slipping"])
+def test_a_broken_film_is_heated_in_its_share_of_full_film(limit_slope):
+    oil = OIL._replace(limit_slope=limit_slope)
+    film = uniform_film(2, 4e8, 0.3e-6, 1e13, 2.0)._replace(wet=np.array([0.3, 1.0]))
+    heat = np.empty((2, 9))
+    T = np.full((2, 9), T0)
+    for i in range(2):
+        fill_shear(T, i, film, 1.5, oil, heat[i])
+    assert heat[0] == pytest.approx(0.3 * heat[1], rel=1e-13)
+    assert heat[1].max() > 0.0
+
+
 @pytest.mark.parametrize("tau0", [None, 5e6])
 @pytest.mark.parametrize("slope", [0.0, 3e13, -8e13])
 def test_shear_across_an_unevenly_warm_film_slides_as_the_surfaces_do(tau0, slope):

@@ -86,6 +86,16 @@ def test_layers_of_uneven_viscosity_meet_eyrings_closed_form():
         assert stress_share(PLAIN, stress) == pytest.approx(stress_share(CLOSED, stress), rel=1e-6)
 
 
+@pytest.mark.parametrize("slope", [-1e15, 1e13, 1e15])
+def test_stress_in_a_film_with_one_thin_wall_layer_is_finite_and_mirrored(slope):
+    """Turned over, with the surfaces' speeds exchanged, a film has the opposite stress."""
+    eta = np.array([1e18, 1e18, 1.0])  # all flow in the last layer, up to the last digit
+    here = layered_stress(CLOSED, eta, 3e-7, slope, 0.3)
+    there = layered_stress(CLOSED, eta[::-1].copy(), 3e-7, slope, -0.3)
+    assert math.isfinite(here)
+    assert there == pytest.approx(-here, rel=1e-12)
+
+
 def test_films_of_a_ball_are_eyrings_without_its_closed_forms():
     # the quadrature is exact to 1e-9, films are solved to 1e-9
     ours, theirs = oil(PLAIN), oil(CLOSED)
