@@ -33,7 +33,10 @@ def stiffnesses(modified, teeth, settings, phases):
     return np.array(rows)
 
 
-@pytest.mark.parametrize("modified", [PLAIN, relieved(HE_2007, 20e-6, 1.2e-3)])
+@pytest.mark.parametrize(
+    "modified",
+    [pytest.param(PLAIN, marks=pytest.mark.slow), relieved(HE_2007, 20e-6, 1.2e-3)],
+)
 def test_twice_the_cells_change_stiffness_by_less_than_one_percent(modified):
     phases, teeth = (0.05, 0.45, 0.85), coarse_stiffness(HE_2007)
     coarse = stiffnesses(modified, teeth, LoadedSettings(), phases)
