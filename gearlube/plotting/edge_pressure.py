@@ -20,7 +20,8 @@ def mark_edge_pressure(axes: Any) -> None:
     if top <= limit:
         return
     above = max(axes.get_ylim()[1], _ROOM * top)
-    axes.axhspan(limit, above, color="0.92", zorder=0)
+    # far beyond the top: axes that share it may be stretched later
+    axes.axhspan(limit, 100.0 * above, color="0.92", zorder=0)
     axes.set_ylim(0.0, above)
     axes.text(
         0.5,
