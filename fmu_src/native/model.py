@@ -1,0 +1,72 @@
+"""What a model hands to the native FMU: one compiled entry, constant data, sizes and words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+
+from numba import types
+
+from fmu_src.definition import Definition
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.ranges import Range
+
+_POINTER = types.CPointer(types.float64)
+# operation, step, data, parameters, inputs, state, work, outputs
+ENTRY_SIGNATURE = types.int64(types.int64, types.float64, *6 * [_POINTER])
+OK = 0
+
+
+class Operation(IntEnum):
+    """What the entry of a model is asked to do."""
+
+    START = 0  # parameters and inputs -> work, state in static equilibrium, outputs
+    STEP = 1  # state and inputs -> state one communication step later, outputs
+    OUTPUTS = 2  # state and its own inputs -> outputs
+    RESUME = 3  # parameters -> work; the state comes from elsewhere
+
+
+@dataclass(frozen=True, kw_only=True)
+class NativeModel:
+    """A model as a native FMU needs it.
+
+    Parameters
+    ----------
+    definition : Definition
+        Variables and names.
+    entry : callable
+        Plain Python function over kernels, to be compiled with ENTRY_SIGNATURE:
+        `entry(operation, step, data, parameters, inputs, state, work, outputs) -> status`.
+        `parameters` are the values of the FMI parameters and `inputs` those of the inputs, both
+        in the order of the variables; `outputs` follow `definition.output_names`. The status is
+        OK or a key of `refusals`; with any other status but OK `state` is unchanged.
+    data : ndarray of shape (n,)
+        Constants that only a table or a gear decides.
+    state_size : int
+        Everything that the future depends on: states, inputs of the last step, step control.
+    control_at : int
+        Place in the state from which on all values must be above 0.
+    work_size : int
+        What follows from the parameters, and scratch; never saved.
+    limits_at : int
+        Place in `work` of lowest and highest value of each input, written by START and RESUME.
+    ranges_at : int
+        Place in `work` of the `RangeLimits`, ditto.
+    ranges : tuple of Range
+        Words of the ranges, in the order of `RANGE_OUTPUTS` without the first; the limits are
+        those in `work`.
+    refusals : mapping of int to str
+        Why an operation was refused, by status.
+    """
+
+    definition: Definition
+    entry: Callable[..., int]
+    data: Array
+    state_size: int
+    control_at: int
+    work_size: int
+    limits_at: int
+    ranges_at: int
+    ranges: tuple[Range, ...]
+    refusals: Mapping[int, str]
