@@ -1,1 +1,1 @@
-"""FMUs as native libraries: the same kernels, compiled ahead, with FMI functions in C around them."""
+"""FMUs as native libraries: the same kernels compiled ahead, FMI functions in C around them."""
