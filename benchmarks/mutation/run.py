@@ -115,6 +115,7 @@ def main() -> None:
     parser.add_argument("--by-hand", action="store_true", help="those of by_hand.toml instead")
     parser.add_argument("--again", action="store_true", help="survivors once more, on new tests")
     parser.add_argument("--thorough", action="store_true", help="all tests that reach the file")
+    parser.add_argument("--part", default="1/1", metavar="K/N", help="every N-th mutant, from K on")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="end after")
     parser.add_argument("--compiled-code-of", type=Path, help="a tree whose compiled code to take")
     parser.add_argument("--durations", type=Path, help="output of pytest -n 0 --durations=0")
@@ -131,6 +132,8 @@ def main() -> None:
     wanted = sampled(place.tree, options.seed)[: options.count]
     if options.by_hand:
         wanted = list(by_hand(place.tree))
+    part, parts = map(int, options.part.split("/"))
+    wanted = wanted[part - 1 :: parts]
     results = folder / "results.jsonl"
     before = {}
     if results.exists():
