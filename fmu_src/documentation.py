@@ -57,15 +57,20 @@ def variables_markdown(definition: Definition) -> str:
     return "\n".join(lines)
 
 
-def index_html(definition: Definition) -> str:
+_NEEDS = {
+    True: "This FMU needs nothing but its own library.",
+    False: "This FMU computes in the Python package gearlube, which must be installed where it "
+    "runs. A host that is not Python itself preloads libpython and sets PYTHONPATH.",
+}
+
+
+def index_html(definition: Definition, *, native: bool = False) -> str:
     """Return documentation/index.html of the FMU."""
     body = [
         f"<h1>{escape(definition.name)}</h1>",
         f"<p>{escape(definition.description)}.</p>",
-        "<p>This FMU computes in the Python package gearlube, which must be installed where it "
-        "runs. A host that is not Python itself preloads libpython and sets PYTHONPATH. "
-        "Communication steps are above 0 and at most 0.1 s; outputs hold the end of the last "
-        "step.</p>",
+        f"<p>{_NEEDS[native]} Communication steps are above 0 and at most 0.1 s; outputs hold the "
+        "end of the last step.</p>",
     ]
     for title, rows in _sections(definition):
         head = "".join(f"<th>{heading}</th>" for heading in HEADINGS)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fmu_src.common_outputs import MEMBERS, displacements, energies, motion, ranges
 from fmu_src.variable import Variable
-from fmu_src.variable_kinds import count, input_, option, output, parameter
+from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
 
 CUSTOM, LINE_MESH = "custom", "line_mesh"  # literals with a meaning to the model's start
 
@@ -156,4 +156,5 @@ HELICAL_PAIR: tuple[Variable, ...] = (
     *(variable for j in (1, 2, 3, 4) for variable in _bearing(j)),
     *_ENERGIES,
     *ranges(),
+    *options_by_number(_PARAMETERS),
 )

@@ -20,7 +20,8 @@ LOG_CATEGORIES = {
 }
 
 
-def _number(value: float) -> str:
+def number_text(value: float) -> str:
+    """Return a number as XML has it."""
     return repr(int(value)) if float(value).is_integer() and abs(value) < 1e15 else repr(value)
 
 
@@ -29,16 +30,17 @@ def type_name(variable: Variable) -> str:
     return "".join(word.capitalize() for word in re.split(r"[._]", variable.name))
 
 
-def _units(root: ElementTree.Element, definition: Definition) -> None:
+def write_units(root: ElementTree.Element, definition: Definition) -> None:
+    """Add UnitDefinitions, the same in FMI 2 and 3."""
     parent = ElementTree.SubElement(root, "UnitDefinitions")
     for unit in units_of(definition.variables):
         element = ElementTree.SubElement(parent, "Unit", name=unit.name)
         exponents = {base: str(power) for base, power in unit.exponents.items()}
         ElementTree.SubElement(element, "BaseUnit", exponents)
         for display in unit.display:
-            attributes = {"name": display.name, "factor": _number(display.factor)}
+            attributes = {"name": display.name, "factor": number_text(display.factor)}
             if display.offset:
-                attributes["offset"] = _number(display.offset)
+                attributes["offset"] = number_text(display.offset)
             ElementTree.SubElement(element, "DisplayUnit", attributes)
 
 
@@ -54,7 +56,8 @@ def _types(root: ElementTree.Element, definition: Definition) -> None:
                 ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
 
 
-def _typed(variable: Variable) -> dict[str, str]:
+def attributes_of(variable: Variable) -> dict[str, str]:
+    """Return the attributes that depend on the type, the same in FMI 2 and 3."""
     attributes: dict[str, str] = {}
     if variable.type == "Enumeration":
         attributes["declaredType"] = type_name(variable)
@@ -63,9 +66,9 @@ def _typed(variable: Variable) -> dict[str, str]:
     if variable.display_unit:
         attributes["displayUnit"] = variable.display_unit
     numbers = {"min": variable.minimum, "max": variable.maximum, "nominal": variable.nominal}
-    attributes |= {key: _number(value) for key, value in numbers.items() if value is not None}
+    attributes |= {key: number_text(value) for key, value in numbers.items() if value is not None}
     if variable.start is not None:
-        text = _number(variable.start)
+        text = number_text(variable.start)
         attributes["start"] = ("false", "true")[bool(variable.start)] if (
             variable.type == "Boolean"
         ) else text  # fmt: skip
@@ -85,7 +88,7 @@ def _variables(root: ElementTree.Element, definition: Definition) -> None:
         if variable.initial is not None:
             attributes["initial"] = variable.initial
         scalar = ElementTree.SubElement(parent, "ScalarVariable", attributes)
-        ElementTree.SubElement(scalar, variable.type, _typed(variable))
+        ElementTree.SubElement(scalar, variable.type, attributes_of(variable))
 
 
 def _structure(root: ElementTree.Element, definition: Definition) -> None:
@@ -101,7 +104,31 @@ def _structure(root: ElementTree.Element, definition: Definition) -> None:
             )
 
 
-def model_description(definition: Definition, guid: str) -> bytes:
+def write_log_categories(root: ElementTree.Element) -> None:
+    """Add LogCategories, the same in FMI 2 and 3."""
+    categories = ElementTree.SubElement(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        ElementTree.SubElement(categories, "Category", name=name, description=description)
+
+
+def write_default_experiment(root: ElementTree.Element, definition: Definition) -> None:
+    """Add DefaultExperiment, the same in FMI 2 and 3."""
+    ElementTree.SubElement(
+        root,
+        "DefaultExperiment",
+        startTime="0",
+        stopTime=number_text(definition.stop_time),
+        stepSize=number_text(definition.step_size),
+    )
+
+
+def xml_bytes(root: ElementTree.Element) -> bytes:
+    """Return an indented XML file."""
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
+
+
+def model_description(definition: Definition, guid: str, *, native: bool = False) -> bytes:
     """Return modelDescription.xml as UTF-8 bytes; the same input gives the same bytes.
 
     Parameters
@@ -110,6 +137,8 @@ def model_description(definition: Definition, guid: str) -> bytes:
         The FMU.
     guid : str
         Identifier of its content.
+    native : bool
+        Whether the FMU computes by itself, or in the installed package gearlube.
 
     Notes
     -----
@@ -117,6 +146,9 @@ def model_description(definition: Definition, guid: str) -> bytes:
     be repeated bit for bit.
     """
     release = version("gearlube")
+    tool = (
+        f"gearlube {release}" if native else f"gearlube {release}, PythonFMU {version('pythonfmu')}"
+    )
     root = ElementTree.Element(
         "fmiModelDescription",
         {
@@ -127,7 +159,7 @@ def model_description(definition: Definition, guid: str) -> bytes:
             "author": "The gearlube developers",
             "version": release,
             "license": "MIT",
-            "generationTool": f"gearlube {release}, PythonFMU {version('pythonfmu')}",
+            "generationTool": tool,
             "variableNamingConvention": "structured",
             "numberOfEventIndicators": "0",
         },
@@ -137,7 +169,7 @@ def model_description(definition: Definition, guid: str) -> bytes:
         "CoSimulation",
         {
             "modelIdentifier": definition.name,
-            "needsExecutionTool": "true",
+            "needsExecutionTool": "false" if native else "true",
             "canHandleVariableCommunicationStepSize": "true",
             "canInterpolateInputs": "false",
             "maxOutputDerivativeOrder": "0",
@@ -149,19 +181,10 @@ def model_description(definition: Definition, guid: str) -> bytes:
             "providesDirectionalDerivative": "false",
         },
     )
-    _units(root, definition)
+    write_units(root, definition)
     _types(root, definition)
-    categories = ElementTree.SubElement(root, "LogCategories")
-    for name, description in LOG_CATEGORIES.items():
-        ElementTree.SubElement(categories, "Category", name=name, description=description)
-    ElementTree.SubElement(
-        root,
-        "DefaultExperiment",
-        startTime="0",
-        stopTime=_number(definition.stop_time),
-        stepSize=_number(definition.step_size),
-    )
+    write_log_categories(root)
+    write_default_experiment(root, definition)
     _variables(root, definition)
     _structure(root, definition)
-    ElementTree.indent(root)
-    return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
+    return xml_bytes(root)

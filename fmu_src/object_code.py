@@ -2,13 +2,13 @@
 
 numba compiles a `@cfunc` over the kernels; its LLVM module is made self-contained (everything but
 the entry becomes internal), optimised again, so that numba's error paths fall away where nothing
-can raise, and emitted for a fixed target.
+can raise, and emitted for a fixed target. All that is private to numba stands in this file.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
 from numba import cfunc, types
@@ -17,8 +17,21 @@ from numba.core.types import Type
 from numba.extending import intrinsic
 from numba.np import arrayobj
 
-LINUX_TRIPLE = "x86_64-unknown-linux-gnu"
-CPU = "x86-64-v2"
+
+class Target(NamedTuple):
+    """What object code is made for.
+
+    Parameters
+    ----------
+    triple, cpu : str
+        Names of LLVM.
+    """
+
+    triple: str
+    cpu: str
+
+
+LINUX = Target("x86_64-unknown-linux-gnu", "x86-64-v2")
 
 
 @intrinsic  # type: ignore[untyped-decorator]
@@ -43,8 +56,8 @@ def array_at(typingctx: Any, pointer: Type, length: Type) -> Any:
     return array_type(pointer, types.intp), generate
 
 
-def lower_to_object(entry: Callable[..., Any], signature: Any, name: str) -> tuple[bytes, set[str]]:
-    """Return the object code of `entry` and the symbols it expects from outside.
+def intermediate_code(entry: Callable[..., Any], signature: Any, name: str) -> str:
+    """Return `entry` and all kernels that it calls as one LLVM module, its only symbol `name`.
 
     Parameters
     ----------
@@ -54,38 +67,54 @@ def lower_to_object(entry: Callable[..., Any], signature: Any, name: str) -> tup
         Of C types.
     name : str
         Symbol of the entry in the object file.
-
-    Returns
-    -------
-    tuple of (bytes, set of str)
-        ELF object for x86-64 Linux; undefined symbols, libm's included.
     """
     compiled: Any = cfunc(signature, error_model="numpy")(entry)
     module = llvm.parse_assembly(str(compiled._library._final_module))
     for function in module.functions:
-        if function.is_declaration:
-            continue
-        if function.name == compiled.native_name or function.name.startswith("cfunc."):
-            if function.name.startswith("cfunc."):
-                function.name = name
-            continue
-        function.linkage = "internal"
-    for variable in module.global_variables:
-        if not variable.is_declaration:
-            variable.linkage = "internal"
+        if function.name.startswith("cfunc."):
+            function.name = name
+    _hide_all_but(module, name)
+    return str(module)
+
+
+def _hide_all_but(module: Any, name: str) -> None:
+    for one in (*module.functions, *module.global_variables):
+        if not one.is_declaration and one.name != name:
+            one.linkage = "internal"
+
+
+def object_code(code: str, target: Target) -> tuple[bytes, set[str]]:
+    """Return intermediate code as an object file, and the symbols it expects from outside.
+
+    Parameters
+    ----------
+    code : str
+        From `intermediate_code`.
+    target : Target
+
+    Returns
+    -------
+    tuple of (bytes, set of str)
+        Object file in the format of the target; undefined symbols, libm's included.
+    """
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    target = llvm.Target.from_triple(LINUX_TRIPLE).create_target_machine(
-        cpu=CPU, reloc="pic", opt=3
+    module = llvm.parse_assembly(code)
+    machine = llvm.Target.from_triple(target.triple).create_target_machine(
+        cpu=target.cpu, reloc="pic", opt=3
     )
-    for function in module.functions:
-        if not function.is_declaration and function.name != name:
-            function.linkage = "internal"
+    module.triple = target.triple
+    module.data_layout = str(machine.target_data)
     tuning = llvm.create_pipeline_tuning_options(speed_level=3)
-    passes = llvm.create_pass_builder(target, tuning)
+    passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
     undefined = {
         f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")
     }
     undefined |= {v.name for v in module.global_variables if v.is_declaration}
-    return target.emit_object(module), undefined
+    return machine.emit_object(module), undefined
+
+
+def lower_to_object(entry: Callable[..., Any], signature: Any, name: str) -> tuple[bytes, set[str]]:
+    """Return `object_code` of `intermediate_code` for 64-bit Linux."""
+    return object_code(intermediate_code(entry, signature, name), LINUX)

@@ -74,12 +74,16 @@ class Values:
         return [v.start or 0.0 for v in self._table if v.causality == "input"]
 
     def parameters(self) -> dict[str, Value]:
-        """Return the parameters by name, enumerations as literals."""
-        return {
-            variable.name: variable.decoded(value)
-            for variable, value in zip(self._table, self.array.tolist(), strict=True)
-            if variable.causality == "parameter"
-        }
+        """Return the parameters by name, enumerations as literals, also those set by number."""
+        given = zip(self._table, self.array.tolist(), strict=True)
+        values = {v.name: (v, value) for v, value in given if v.causality == "parameter"}
+        numbers = [one for one in values.values() if one[0].option_of]
+        for variable, number in numbers:
+            del values[variable.name]
+            if number != 0.0:
+                option, _ = values[variable.option_of]
+                values[option.name] = option, number
+        return {name: variable.decoded(value) for name, (variable, value) in values.items()}
 
     def store_outputs(self, outputs: Array) -> None:
         """Copy the outputs of the model."""

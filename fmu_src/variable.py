@@ -38,6 +38,9 @@ class Variable:
         Items of an enumeration, in the order of their values 1, 2, ...
     argument : str
         Of a parameter: name of the model's argument.
+    option_of : str
+        Name of the enumeration that this Integer parameter sets by number, for hosts that know no
+        enumerations; 0 leaves it as it is.
     """
 
     name: str
@@ -52,6 +55,7 @@ class Variable:
     nominal: float | None = None
     literals: tuple[str, ...] = ()
     argument: str = ""
+    option_of: str = ""
 
     def __post_init__(self) -> None:
         check_option(f"type of {self.name}", self.type, get_args(VariableType))
@@ -62,7 +66,7 @@ class Variable:
             raise ParameterError(f"{self.name} must have a unit if, and only if, it is Real.")
         if (self.type == "Enumeration") != bool(self.literals):
             raise ParameterError(f"{self.name} must have literals if it is an Enumeration.")
-        if (self.causality == "parameter") != bool(self.argument):
+        if (self.causality == "parameter") != bool(self.argument or self.option_of):
             raise ParameterError(f"{self.name} must have an argument if it is a parameter.")
 
     @property

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from fmu_src.variable import Variable
 
 
@@ -26,6 +28,18 @@ def option(name: str, description: str, *literals: str, start: str, argument: st
     return Variable(
         name=name, type="Enumeration", causality="parameter", description=description,
         start=1 + literals.index(start), literals=literals, argument=argument,
+    )  # fmt: skip
+
+
+def options_by_number(variables: Sequence[Variable]) -> tuple[Variable, ...]:
+    """Return an Integer parameter for each enumeration, for hosts that know no enumerations."""
+    return tuple(
+        Variable(
+            name=f"{one.name}.number", type="Integer", causality="parameter",
+            description=f"{one.name} by number, from 1 on; 0 leaves {one.name} as it is",
+            start=0, minimum=0, maximum=len(one.literals), option_of=one.name,
+        )
+        for one in variables if one.literals
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fmu_src.common_outputs import MEMBERS, displacements, energies, motion, ranges
 from fmu_src.variable import Variable
-from fmu_src.variable_kinds import count, input_, option, output, parameter
+from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
 
 _INPUTS = (
     input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives; refused "
@@ -140,4 +140,5 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *_ENERGIES,
     *_LATER_PARAMETERS,
     *ranges(),
+    *options_by_number(_PARAMETERS + _LATER_PARAMETERS),
 )

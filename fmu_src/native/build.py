@@ -1,0 +1,145 @@
+"""Build native FMUs: one archive for FMI 2 and one for FMI 3, with libraries for all platforms."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from uuid import UUID
+
+from fmu_src.archive import write_archive
+from fmu_src.documentation import index_html
+from fmu_src.identity import source_digest
+from fmu_src.model_description import model_description
+from fmu_src.native.build_description import build_description
+from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
+from fmu_src.native.model_description_3 import ICON, model_description_3, terminals
+from fmu_src.native.platforms import (
+    FMI2_FOLDERS,
+    PLATFORMS,
+    Platform,
+    check_linker,
+    fmi_headers,
+    shared_library,
+    universal_library,
+)
+from fmu_src.native.sources import c_sources
+from fmu_src.object_code import intermediate_code, object_code
+from gearlube_core.checks import check_option
+
+ENTRY = "gearlube_entry"
+FMI_VERSIONS = ("2", "3")
+_PACKAGE = Path(__file__).parents[1]
+
+
+def native_guid(model: NativeModel) -> UUID:
+    """Return the GUID: equal code and data have an equal GUID, on every machine."""
+    digest = hashlib.sha256(model_description(model.definition, "", native=True))
+    for name, text in sorted(c_sources(model, "").items()):
+        digest.update(f"{name}\0{text}\0".encode())
+    digest.update(source_digest(model.definition))
+    return UUID(bytes=digest.digest()[:16])
+
+
+def libraries(
+    model: NativeModel,
+    platforms: Sequence[Platform] = PLATFORMS,
+    report: Callable[[str], None] = lambda text: None,
+) -> dict[str, bytes]:
+    """Return the shared library of a model for each platform, by the platform's name.
+
+    Raises
+    ------
+    GearLubeError
+        The linker is missing, or fails for a platform.
+    """
+    check_linker()
+    name = model.definition.name
+    sources = c_sources(model, str(native_guid(model))) | fmi_headers()
+    report(f"{name}: compiling the kernels")
+    code = intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
+    built = {}
+    for platform in platforms:
+        report(f"{name}: linking for {platform.name}")
+        kernels, _ = object_code(code, platform.target)
+        built[platform.name] = shared_library(platform, sources, kernels, name)
+    return built
+
+
+def _common_content(model: NativeModel) -> dict[str, bytes]:
+    definition = model.definition
+    content = {"documentation/index.html": index_html(definition, native=True).encode()}
+    for licence in sorted((_PACKAGE / "licences").glob("gearlube*.txt")):
+        content[f"documentation/licenses/{licence.name}"] = licence.read_bytes()
+    for name, text in c_sources(model, str(native_guid(model))).items():
+        content[f"sources/{name}"] = text.encode()
+    content |= {f"resources/{name}": data for name, data in definition.resources.items()}
+    return content
+
+
+def fmi2_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes]:
+    """Return the files of the FMI 2.0 archive around the libraries of `libraries`."""
+    definition, guid = model.definition, str(native_guid(model))
+    suffixes = {platform.name: platform.suffix for platform in PLATFORMS}
+    content = _common_content(model)
+    content["modelDescription.xml"] = model_description(definition, guid, native=True)
+    content["model.png"] = (_PACKAGE / "model.png").read_bytes()
+    for folder, platforms in FMI2_FOLDERS.items():
+        there = {name: built[name] for name in platforms if name in built}
+        if there:
+            library = universal_library(there) if len(platforms) > 1 else built[platforms[0]]
+            suffix = suffixes[platforms[0]]
+            content[f"binaries/{folder}/{definition.name}{suffix}"] = library
+    return content
+
+
+def fmi3_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes]:
+    """Return the files of the FMI 3.0 archive around the libraries of `libraries`."""
+    definition, guid = model.definition, str(native_guid(model))
+    content = _common_content(model)
+    content["modelDescription.xml"] = model_description_3(definition, guid)
+    content["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(definition)
+    content[ICON] = (_PACKAGE / "model.png").read_bytes()
+    content["sources/buildDescription.xml"] = build_description(definition.name)
+    for platform in PLATFORMS:
+        if platform.name in built:
+            path = f"binaries/{platform.name}/{definition.name}{platform.suffix}"
+            content[path] = built[platform.name]
+    return content
+
+
+def build_native(
+    model: NativeModel,
+    out_dir: Path,
+    *,
+    platforms: Sequence[Platform] = PLATFORMS,
+    fmi: Sequence[str] = ("2",),
+    report: Callable[[str], None] = lambda text: None,
+) -> list[Path]:
+    """Build the native FMUs of a model and return their paths.
+
+    Parameters
+    ----------
+    model : NativeModel
+    out_dir : path
+    platforms : sequence of Platform
+    fmi : sequence of {"2", "3"}
+        `NAME.fmu` is that of FMI 2, `NAME_FMI3.fmu` that of FMI 3.
+    report : callable
+        Called with a line of progress.
+
+    Raises
+    ------
+    GearLubeError
+        The linker is missing, or fails for a platform; then nothing is written.
+    """
+    for version in fmi:
+        check_option("fmi", version, FMI_VERSIONS)
+    built = libraries(model, platforms, report)
+    contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}
+    paths = []
+    for version in fmi:
+        ending, content = contents[version]
+        paths.append(out_dir / f"{model.definition.name}{ending}.fmu")
+        write_archive(paths[-1], content(model, built))
+    return paths

@@ -1,0 +1,325 @@
+/* FMI 2.0 for co-simulation. */
+#include "fmi2Functions.h"
+
+#include "instance.h"
+
+#include <string.h>
+
+static const fmi2Status statuses[] = {fmi2OK, fmi2Warning, fmi2Discard, fmi2Error};
+
+static fmi2Status answer(gl_status status)
+{
+    return statuses[status];
+}
+
+static void tell(gl_instance *instance, gl_status status, const char *category, const char *text)
+{
+    const fmi2CallbackFunctions *calls = instance->calls;
+    calls->logger(instance->host, instance->name, answer(status), category, "%s", text);
+}
+
+const char *fmi2GetTypesPlatform(void)
+{
+    return fmi2TypesPlatform;
+}
+
+const char *fmi2GetVersion(void)
+{
+    return fmi2Version;
+}
+
+fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[])
+{
+    return gl_is_instance(c) ? answer(gl_choose_logs(c, on, n, names)) : fmi2Error;
+}
+
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *calls, fmi2Boolean visible,
+                              fmi2Boolean logging)
+{
+    const char *why = NULL;
+    (void)resources; /* nothing is read from there */
+    (void)visible;
+    if (!calls || !calls->logger) {
+        gl_say_no_instance(name, "The host must give a logger.");
+        return NULL;
+    }
+    if (type != fmi2CoSimulation) {
+        why = "This FMU is for co-simulation only.";
+    } else if (!guid || strcmp(guid, GL_GUID)) {
+        why = "The GUID must be " GL_GUID ", that of the model description.";
+    }
+    if (why) {
+        gl_say_no_instance(name, why);
+        calls->logger(calls->componentEnvironment, name ? name : GL_MODEL_NAME, fmi2Error,
+                      gl_log_names[GL_LOG_ERROR], "%s", why);
+        return NULL;
+    }
+    return gl_make(name, tell, calls->componentEnvironment, calls, logging);
+}
+
+void fmi2FreeInstance(fmi2Component c)
+{
+    gl_free(c);
+}
+
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance,
+                               fmi2Real start, fmi2Boolean stop_defined, fmi2Real stop)
+{
+    (void)tolerance_defined;
+    (void)tolerance; /* the step follows from the frequencies of the model */
+    (void)stop_defined;
+    (void)stop;
+    return gl_is_instance(c) ? answer(gl_set_start_time(c, start)) : fmi2Error;
+}
+
+fmi2Status fmi2EnterInitializationMode(fmi2Component c)
+{
+    return gl_is_instance(c) ? answer(gl_enter_initialisation(c)) : fmi2Error;
+}
+
+fmi2Status fmi2ExitInitializationMode(fmi2Component c)
+{
+    return gl_is_instance(c) ? answer(gl_exit_initialisation(c)) : fmi2Error;
+}
+
+fmi2Status fmi2Terminate(fmi2Component c)
+{
+    return gl_is_instance(c) ? answer(gl_terminate(c)) : fmi2Error;
+}
+
+fmi2Status fmi2Reset(fmi2Component c)
+{
+    return gl_is_instance(c) ? answer(gl_reset(c)) : fmi2Error;
+}
+
+static const double *read_values(gl_instance *instance, gl_kind kind, const unsigned *refs,
+                                 size_t n, const void *values)
+{
+    if (!gl_is_instance(instance) || gl_check_read(instance, kind, n, refs, values) != GL_OK) {
+        return NULL;
+    }
+    return instance->now.values;
+}
+
+fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
+{
+    const double *from = read_values(c, GL_REAL, vr, n, value);
+    for (size_t i = 0; from && i < n; i++) {
+        value[i] = from[vr[i]];
+    }
+    return from ? fmi2OK : fmi2Error;
+}
+
+fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                          fmi2Integer value[])
+{
+    const double *from = read_values(c, GL_INTEGER, vr, n, value);
+    for (size_t i = 0; from && i < n; i++) {
+        value[i] = (fmi2Integer)from[vr[i]];
+    }
+    return from ? fmi2OK : fmi2Error;
+}
+
+fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                          fmi2Boolean value[])
+{
+    const double *from = read_values(c, GL_BOOLEAN, vr, n, value);
+    for (size_t i = 0; from && i < n; i++) {
+        value[i] = from[vr[i]] != 0.0 ? fmi2True : fmi2False;
+    }
+    return from ? fmi2OK : fmi2Error;
+}
+
+static fmi2Status no_strings(gl_instance *instance, size_t n)
+{
+    if (!gl_is_instance(instance)) {
+        return fmi2Error;
+    }
+    return n ? answer(gl_refuse(instance, "No variable of this FMU is a String.")) : fmi2OK;
+}
+
+fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                         fmi2String value[])
+{
+    (void)vr;
+    (void)value;
+    return no_strings(c, n);
+}
+
+fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                         const fmi2String value[])
+{
+    (void)vr;
+    (void)value;
+    return no_strings(c, n);
+}
+
+static fmi2Status worse(fmi2Status status, gl_status other)
+{
+    return answer(other) > status ? answer(other) : status;
+}
+
+fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                       const fmi2Real value[])
+{
+    if (!gl_is_instance(c) || gl_check_set(c, GL_REAL, n, vr, value) != GL_OK) {
+        return fmi2Error;
+    }
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; i < n; i++) {
+        status = worse(status, gl_set(c, vr[i], value[i]));
+    }
+    return status;
+}
+
+fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                          const fmi2Integer value[])
+{
+    if (!gl_is_instance(c) || gl_check_set(c, GL_INTEGER, n, vr, value) != GL_OK) {
+        return fmi2Error;
+    }
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; i < n; i++) {
+        status = worse(status, gl_set(c, vr[i], (double)value[i]));
+    }
+    return status;
+}
+
+fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                          const fmi2Boolean value[])
+{
+    if (!gl_is_instance(c) || gl_check_set(c, GL_BOOLEAN, n, vr, value) != GL_OK) {
+        return fmi2Error;
+    }
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; i < n; i++) {
+        status = worse(status, gl_set(c, vr[i], value[i] ? 1.0 : 0.0));
+    }
+    return status;
+}
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
+{
+    return gl_is_instance(c) ? answer(gl_save(c, state)) : fmi2Error;
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
+{
+    return gl_is_instance(c) ? answer(gl_restore(c, state)) : fmi2Error;
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
+{
+    return gl_is_instance(c) ? answer(gl_forget(state)) : fmi2Error;
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
+{
+    return gl_is_instance(c) ? answer(gl_state_size(c, state, size)) : fmi2Error;
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
+{
+    return gl_is_instance(c) ? answer(gl_serialise(c, state, (unsigned char *)bytes, size))
+                             : fmi2Error;
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size,
+                                   fmi2FMUstate *state)
+{
+    return gl_is_instance(c)
+               ? answer(gl_deserialise(c, (const unsigned char *)bytes, size, state))
+               : fmi2Error;
+}
+
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_way_back)
+{
+    (void)no_way_back;
+    return gl_is_instance(c) ? answer(gl_step(c, time, step)) : fmi2Error;
+}
+
+static fmi2Status unsupported(gl_instance *instance, const char *what)
+{
+    return gl_is_instance(instance) ? answer(gl_refuse(instance, "This FMU has no %s.", what))
+                                    : fmi2Error;
+}
+
+fmi2Status fmi2CancelStep(fmi2Component c)
+{
+    return unsupported(c, "step that runs in the background");
+}
+
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                                       const fmi2Integer order[], const fmi2Real value[])
+{
+    (void)vr;
+    (void)n;
+    (void)order;
+    (void)value;
+    return unsupported(c, "derivatives of inputs");
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
+                                        const fmi2Integer order[], fmi2Real value[])
+{
+    (void)vr;
+    (void)n;
+    (void)order;
+    (void)value;
+    return unsupported(c, "derivatives of outputs");
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[],
+                                        size_t n_unknown, const fmi2ValueReference known[],
+                                        size_t n_known, const fmi2Real d_known[],
+                                        fmi2Real d_unknown[])
+{
+    (void)unknown;
+    (void)n_unknown;
+    (void)known;
+    (void)n_known;
+    (void)d_known;
+    (void)d_unknown;
+    return unsupported(c, "directional derivatives");
+}
+
+fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
+{
+    (void)kind;
+    (void)value;
+    return unsupported(c, "step that runs in the background");
+}
+
+fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
+{
+    const gl_instance *instance = c;
+    if (!gl_is_instance(c) || !value || kind != fmi2LastSuccessfulTime) {
+        return fmi2Error;
+    }
+    *value = instance->now.time;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
+{
+    (void)kind;
+    (void)value;
+    return unsupported(c, "status that is an integer");
+}
+
+fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
+{
+    if (!gl_is_instance(c) || !value || kind != fmi2Terminated) {
+        return fmi2Error;
+    }
+    *value = fmi2False; /* the model never ends a simulation by itself */
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
+{
+    (void)kind;
+    (void)value;
+    return unsupported(c, "status that is a text");
+}

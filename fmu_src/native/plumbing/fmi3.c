@@ -1,0 +1,310 @@
+/* FMI 3.0 for co-simulation. Values of arrays lie one after the other, element by element. */
+#include "fmi3Functions.h"
+
+#include "instance.h"
+
+#include <string.h>
+
+enum { TIME = GL_VARIABLES }; /* reference of the independent variable */
+
+static const fmi3Status statuses[] = {fmi3OK, fmi3Warning, fmi3Discard, fmi3Error};
+
+static fmi3Status answer(gl_status status)
+{
+    return statuses[status];
+}
+
+static void tell(gl_instance *instance, gl_status status, const char *category, const char *text)
+{
+    fmi3LogMessageCallback log = (fmi3LogMessageCallback)(uintptr_t)instance->calls;
+    if (log) {
+        log(instance->host, answer(status), category, text);
+    }
+}
+
+const char *fmi3GetVersion(void)
+{
+    return fmi3Version;
+}
+
+fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String names[])
+{
+    return gl_is_instance(c) ? answer(gl_choose_logs(c, on, n, names)) : fmi3Error;
+}
+
+static fmi3Instance no_instance(fmi3String name, fmi3InstanceEnvironment host,
+                                fmi3LogMessageCallback log, const char *why)
+{
+    gl_say_no_instance(name, why);
+    if (log) {
+        log(host, fmi3Error, gl_log_names[GL_LOG_ERROR], why);
+    }
+    return NULL;
+}
+
+static const char WRONG_KIND[] = "This FMU is for co-simulation only.";
+
+fmi3Instance fmi3InstantiateCoSimulation(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
+    fmi3Boolean logging, fmi3Boolean events, fmi3Boolean early_return,
+    const fmi3ValueReference intermediate[], size_t n_intermediate, fmi3InstanceEnvironment host,
+    fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update)
+{
+    (void)resources; /* nothing is read from there */
+    (void)visible;
+    (void)early_return;
+    (void)intermediate;
+    (void)update;
+    if (!token || strcmp(token, GL_GUID)) {
+        return no_instance(name, host, log,
+                           "The token must be " GL_GUID ", that of the model description.");
+    }
+    if (events || n_intermediate) {
+        return no_instance(name, host, log,
+                           "This FMU has neither event mode nor intermediate variables.");
+    }
+    return gl_make(name, tell, host, (const void *)(uintptr_t)log, logging);
+}
+
+fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
+                                          fmi3Boolean visible, fmi3Boolean logging,
+                                          fmi3InstanceEnvironment host, fmi3LogMessageCallback log)
+{
+    (void)token;
+    (void)resources;
+    (void)visible;
+    (void)logging;
+    return no_instance(name, host, log, WRONG_KIND);
+}
+
+fmi3Instance fmi3InstantiateScheduledExecution(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
+    fmi3Boolean logging, fmi3InstanceEnvironment host, fmi3LogMessageCallback log,
+    fmi3ClockUpdateCallback update, fmi3LockPreemptionCallback lock,
+    fmi3UnlockPreemptionCallback unlock)
+{
+    (void)token;
+    (void)resources;
+    (void)visible;
+    (void)logging;
+    (void)update;
+    (void)lock;
+    (void)unlock;
+    return no_instance(name, host, log, WRONG_KIND);
+}
+
+void fmi3FreeInstance(fmi3Instance c)
+{
+    gl_free(c);
+}
+
+fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_defined,
+                                       fmi3Float64 tolerance, fmi3Float64 start,
+                                       fmi3Boolean stop_defined, fmi3Float64 stop)
+{
+    (void)tolerance_defined;
+    (void)tolerance; /* the step follows from the frequencies of the model */
+    (void)stop_defined;
+    (void)stop;
+    if (!gl_is_instance(c)) {
+        return fmi3Error;
+    }
+    gl_status status = gl_set_start_time(c, start);
+    return answer(status == GL_OK ? gl_enter_initialisation(c) : status);
+}
+
+fmi3Status fmi3ExitInitializationMode(fmi3Instance c)
+{
+    return gl_is_instance(c) ? answer(gl_exit_initialisation(c)) : fmi3Error;
+}
+
+fmi3Status fmi3Terminate(fmi3Instance c)
+{
+    return gl_is_instance(c) ? answer(gl_terminate(c)) : fmi3Error;
+}
+
+fmi3Status fmi3Reset(fmi3Instance c)
+{
+    return gl_is_instance(c) ? answer(gl_reset(c)) : fmi3Error;
+}
+
+fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Boolean no_way_back,
+                      fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *early_return,
+                      fmi3Float64 *last_time)
+{
+    gl_instance *instance = c;
+    (void)no_way_back;
+    if (!gl_is_instance(instance)) {
+        return fmi3Error;
+    }
+    if (!event_needed || !terminate || !early_return || !last_time) {
+        return answer(gl_refuse(instance, "A pointer of the call is null."));
+    }
+    gl_status status = gl_step(instance, time, step);
+    *event_needed = *terminate = *early_return = false;
+    *last_time = instance->now.time;
+    return answer(status);
+}
+
+/* Checks references, types and the number of values of a call; for an enumeration `enumeration`. */
+static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int setting,
+                       const fmi3ValueReference refs[], size_t n, const void *values,
+                       size_t n_values)
+{
+    size_t expected = 0;
+    if (n && (!refs || !values)) {
+        return gl_refuse(instance, "References or values are missing: a null pointer.");
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (refs[i] == TIME && kind == GL_REAL && !setting) {
+            expected++;
+            continue;
+        }
+        if (refs[i] >= GL_VARIABLES || gl_arrays[refs[i]].count == 0) {
+            return gl_refuse(instance, "No variable of this FMU has the value reference %u.",
+                             refs[i]);
+        }
+        if (kind == GL_INTEGER && enumeration != (gl_variables[refs[i]].literals != NULL)) {
+            return gl_refuse(instance, "%s must be accessed as %s.", gl_variables[refs[i]].name,
+                             enumeration ? "Int32" : "Int64");
+        }
+        const gl_array *array = &gl_arrays[refs[i]];
+        gl_status status =
+            setting
+                ? gl_check_set(instance, kind, (size_t)array->count, array->members, values)
+                : gl_check_read(instance, kind, (size_t)array->count, array->members, values);
+        if (status != GL_OK) {
+            return status;
+        }
+        expected += (size_t)array->count;
+    }
+    if (expected != n_values) {
+        return gl_refuse(instance, "The call must bring room for %lu values, got %lu.",
+                         (unsigned long)expected, (unsigned long)n_values);
+    }
+    return GL_OK;
+}
+
+/* Reads and sets the values of one FMI type, `kind` in our table. */
+#define ACCESS(name, type, kind, enumeration, read)                                               \
+    fmi3Status fmi3Get##name(fmi3Instance c, const fmi3ValueReference refs[], size_t n,           \
+                             type values[], size_t n_values)                                      \
+    {                                                                                             \
+        gl_instance *instance = c;                                                                \
+        size_t k = 0;                                                                             \
+        if (!gl_is_instance(instance) ||                                                          \
+            check(instance, kind, enumeration, 0, refs, n, values, n_values) != GL_OK) {          \
+            return fmi3Error;                                                                     \
+        }                                                                                         \
+        for (size_t i = 0; i < n; i++) {                                                          \
+            for (int j = 0; refs[i] != TIME && j < gl_arrays[refs[i]].count; j++) {               \
+                double value = instance->now.values[gl_arrays[refs[i]].members[j]];               \
+                values[k++] = read;                                                               \
+            }                                                                                     \
+            if (refs[i] == TIME) {                                                                \
+                double value = instance->now.time;                                                \
+                values[k++] = read;                                                               \
+            }                                                                                     \
+        }                                                                                         \
+        return fmi3OK;                                                                            \
+    }                                                                                             \
+    fmi3Status fmi3Set##name(fmi3Instance c, const fmi3ValueReference refs[], size_t n,           \
+                             const type values[], size_t n_values)                                \
+    {                                                                                             \
+        fmi3Status worst = fmi3OK;                                                                \
+        size_t k = 0;                                                                             \
+        if (!gl_is_instance(c) ||                                                                 \
+            check(c, kind, enumeration, 1, refs, n, values, n_values) != GL_OK) {                 \
+            return fmi3Error;                                                                     \
+        }                                                                                         \
+        for (size_t i = 0; i < n; i++) {                                                          \
+            for (int j = 0; j < gl_arrays[refs[i]].count; j++) {                                  \
+                fmi3Status one =                                                                  \
+                    answer(gl_set(c, gl_arrays[refs[i]].members[j], (double)values[k++]));        \
+                worst = one > worst ? one : worst;                                                \
+            }                                                                                     \
+        }                                                                                         \
+        return worst;                                                                             \
+    }
+
+ACCESS(Float64, fmi3Float64, GL_REAL, 0, value)
+ACCESS(Int32, fmi3Int32, GL_INTEGER, 0, (fmi3Int32)value)
+ACCESS(Int64, fmi3Int64, GL_INTEGER, 1, (fmi3Int64)value)
+ACCESS(Boolean, fmi3Boolean, GL_BOOLEAN, 0, value != 0.0)
+
+static fmi3Status unsupported(gl_instance *instance, size_t asked, const char *what)
+{
+    if (!gl_is_instance(instance)) {
+        return fmi3Error;
+    }
+    return asked ? answer(gl_refuse(instance, "This FMU has no %s.", what)) : fmi3OK;
+}
+
+/* Types that no variable has. */
+#define NO_ACCESS(name, type)                                                                     \
+    fmi3Status fmi3Get##name(fmi3Instance c, const fmi3ValueReference refs[], size_t n,           \
+                             type values[], size_t n_values)                                      \
+    {                                                                                             \
+        (void)refs, (void)values, (void)n_values;                                                 \
+        return unsupported(c, n, "variable of type " #name);                                      \
+    }                                                                                             \
+    fmi3Status fmi3Set##name(fmi3Instance c, const fmi3ValueReference refs[], size_t n,           \
+                             const type values[], size_t n_values)                                \
+    {                                                                                             \
+        (void)refs, (void)values, (void)n_values;                                                 \
+        return unsupported(c, n, "variable of type " #name);                                      \
+    }
+
+NO_ACCESS(Float32, fmi3Float32)
+NO_ACCESS(Int8, fmi3Int8)
+NO_ACCESS(UInt8, fmi3UInt8)
+NO_ACCESS(Int16, fmi3Int16)
+NO_ACCESS(UInt16, fmi3UInt16)
+NO_ACCESS(UInt32, fmi3UInt32)
+NO_ACCESS(UInt64, fmi3UInt64)
+NO_ACCESS(String, fmi3String)
+
+fmi3Status fmi3GetBinary(fmi3Instance c, const fmi3ValueReference refs[], size_t n, size_t sizes[],
+                         fmi3Binary values[], size_t n_values)
+{
+    (void)refs, (void)sizes, (void)values, (void)n_values;
+    return unsupported(c, n, "variable of type Binary");
+}
+
+fmi3Status fmi3SetBinary(fmi3Instance c, const fmi3ValueReference refs[], size_t n,
+                         const size_t sizes[], const fmi3Binary values[], size_t n_values)
+{
+    (void)refs, (void)sizes, (void)values, (void)n_values;
+    return unsupported(c, n, "variable of type Binary");
+}
+
+fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state)
+{
+    return gl_is_instance(c) ? answer(gl_save(c, state)) : fmi3Error;
+}
+
+fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state)
+{
+    return gl_is_instance(c) ? answer(gl_restore(c, state)) : fmi3Error;
+}
+
+fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state)
+{
+    return gl_is_instance(c) ? answer(gl_forget(state)) : fmi3Error;
+}
+
+fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size)
+{
+    return gl_is_instance(c) ? answer(gl_state_size(c, state, size)) : fmi3Error;
+}
+
+fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size)
+{
+    return gl_is_instance(c) ? answer(gl_serialise(c, state, bytes, size)) : fmi3Error;
+}
+
+fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size,
+                                   fmi3FMUState *state)
+{
+    return gl_is_instance(c) ? answer(gl_deserialise(c, bytes, size, state)) : fmi3Error;
+}

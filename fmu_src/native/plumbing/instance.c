@@ -1,0 +1,289 @@
+/* Phases of an instance and its steps. */
+#include "instance.h"
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const uint64_t INSTANCE_MARK = 0x6c756265696e7374u;
+static const char *const phase_names[] = {"instantiated", "initialising", "stepping",
+                                          "terminated"};
+
+static void set_to_start(gl_instance *instance)
+{
+    memset(&instance->now, 0, sizeof instance->now);
+    memset(instance->refused, 0, sizeof instance->refused);
+    memset(instance->outside, 0, sizeof instance->outside);
+    instance->points = 0;
+    instance->refusals = 0;
+    instance->stale = 1;
+    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+        instance->now.values[i] = gl_variables[i].start;
+    }
+}
+
+gl_instance *gl_make(const char *name, gl_listener listener, void *host, const void *calls,
+                     int logging)
+{
+    const char *given = name && *name ? name : GL_MODEL_NAME;
+    size_t length = strlen(given) + 1;
+    gl_instance *instance = calloc(1, sizeof *instance);
+    char *copy = malloc(length);
+    if (!instance || !copy) {
+        free(instance);
+        free(copy);
+        gl_say_no_instance(name, "There is not enough memory for an instance.");
+        return NULL;
+    }
+    memcpy(copy, given, length);
+    instance->mark = INSTANCE_MARK;
+    instance->name = copy;
+    instance->listener = listener;
+    instance->host = host;
+    instance->calls = calls;
+    instance->logs = logging ? GL_ALL_LOGS : 0;
+    set_to_start(instance);
+    return instance;
+}
+
+int gl_is_instance(const gl_instance *instance)
+{
+    return instance && instance->mark == INSTANCE_MARK;
+}
+
+void gl_free(gl_instance *instance)
+{
+    if (gl_is_instance(instance)) {
+        instance->mark = 0;
+        free(instance->name);
+        free(instance);
+    }
+}
+
+static gl_status expect(gl_instance *instance, gl_phase phase)
+{
+    if (instance->now.phase == phase) {
+        return GL_OK;
+    }
+    return gl_refuse(instance, "The FMU must be %s for this call, is %s.", phase_names[phase],
+                     phase_names[instance->now.phase]);
+}
+
+gl_status gl_set_start_time(gl_instance *instance, double start)
+{
+    gl_status status = expect(instance, GL_INSTANTIATED);
+    if (status == GL_OK && !isfinite(start)) {
+        status = gl_refuse(instance, "The start time must be finite, got %g s.", start);
+    }
+    if (status == GL_OK) {
+        instance->now.time = start;
+    }
+    return status;
+}
+
+gl_status gl_enter_initialisation(gl_instance *instance)
+{
+    gl_status status = expect(instance, GL_INSTANTIATED);
+    if (status == GL_OK) {
+        instance->now.phase = GL_INITIALISING;
+    }
+    return status;
+}
+
+static const char *refusal_text(int64_t status)
+{
+    for (int i = 0; i < GL_REFUSALS; i++) {
+        if (gl_refusals[i].status == (int)status) {
+            return gl_refusals[i].text;
+        }
+    }
+    return "the model refused it";
+}
+
+/* Inputs have narrower limits than the table of variables says: mesh data and oil decide. */
+static int say_input_beyond(gl_instance *instance, gl_status status, const char *before)
+{
+    for (int i = 0; i < GL_INPUTS; i++) {
+        const gl_variable *variable = &gl_variables[gl_inputs[i]];
+        const double *limits = instance->work + GL_LIMITS_AT + 2 * i;
+        double value = instance->now.values[gl_inputs[i]];
+        if (!(limits[0] <= value && value <= limits[1])) {
+            gl_say(instance, status, "%s%s must be within %g to %g %s, got %g. %s", before,
+                   variable->name, limits[0], limits[1], variable->unit, value,
+                   "Beyond it results have no meaning: the data of mesh or oil end before. "
+                   "Check the unit.");
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void take_outputs(gl_instance *instance)
+{
+    for (int i = 0; i < GL_OUTPUTS; i++) {
+        instance->now.values[gl_outputs[i]] = instance->outputs[i];
+    }
+}
+
+static int outputs_are_finite(const gl_instance *instance)
+{
+    for (int i = 0; i < GL_OUTPUTS; i++) {
+        if (!isfinite(instance->outputs[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+gl_status gl_start(gl_instance *instance)
+{
+    if (gl_say_refused(instance, GL_ERROR, "")) {
+        return GL_ERROR;
+    }
+    double inputs[GL_INPUTS], state[GL_STATE];
+    memset(state, 0, sizeof state);
+    gl_gather_parameters(instance->now.values, instance->parameters);
+    gl_gather_inputs(instance->now.values, inputs);
+    int64_t status = gearlube_entry(GL_RESUME, 0.0, gl_data, instance->parameters, inputs, state,
+                                    instance->work, instance->outputs);
+    if (status == 0) {
+        if (say_input_beyond(instance, GL_ERROR, "")) {
+            return GL_ERROR;
+        }
+        status = gearlube_entry(GL_START, 0.0, gl_data, instance->parameters, inputs, state,
+                                instance->work, instance->outputs);
+    }
+    if (status != 0) {
+        return gl_refuse(instance, "The start was refused: %s.", refusal_text(status));
+    }
+    if (!outputs_are_finite(instance)) {
+        return gl_refuse(instance, "The start was refused: an output is not finite.");
+    }
+    memcpy(instance->now.state, state, sizeof state);
+    take_outputs(instance);
+    instance->stale = 0;
+    return GL_OK;
+}
+
+static void watch_ranges(gl_instance *instance)
+{
+    instance->points++;
+    if (GL_RANGES == 0) {
+        return;
+    }
+    unsigned outside = (unsigned)instance->now.values[GL_EXCEEDED];
+    for (int i = 0; outside && i < GL_RANGES; i++) {
+        if (!(outside >> i & 1u) || instance->outside[i]++) {
+            continue;
+        }
+        const gl_range *range = &gl_ranges[i];
+        const double *limits = instance->work + GL_RANGES_AT + 2 * i;
+        gl_say(instance, GL_WARNING,
+               "%s: %s should be within %g to %g%s%s, got %.4g. %s First at t = %g s; said once "
+               "a run.",
+               range->output, range->what, limits[0], limits[1], *range->unit ? " " : "",
+               range->unit, instance->now.values[range->reference], range->beyond,
+               instance->now.time);
+    }
+}
+
+gl_status gl_exit_initialisation(gl_instance *instance)
+{
+    gl_status status = expect(instance, GL_INITIALISING);
+    if (status == GL_OK && instance->stale) {
+        status = gl_start(instance);
+    }
+    if (status != GL_OK) {
+        return status;
+    }
+    instance->now.phase = GL_STEPPING;
+    watch_ranges(instance);
+    gl_say(instance, GL_OK, "initialised at t = %g s", instance->now.time);
+    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+        if (gl_variables[i].causality == GL_PARAMETER) {
+            double value = instance->now.values[i];
+            const char *const *literals = gl_variables[i].literals;
+            gl_say(instance, GL_OK, "%s = %g%s%s", gl_variables[i].name, value,
+                   literals ? " " : "", literals ? literals[(int)value - 1] : "");
+        }
+    }
+    return GL_OK;
+}
+
+gl_status gl_terminate(gl_instance *instance)
+{
+    gl_status status = expect(instance, GL_STEPPING);
+    if (status != GL_OK) {
+        return status;
+    }
+    instance->now.phase = GL_TERMINATED;
+    for (int i = 0; i < GL_RANGES; i++) {
+        if (instance->outside[i]) {
+            gl_say(instance, GL_OK, "%s was outside its range at %llu of %llu communication points.",
+                   gl_ranges[i].output, (unsigned long long)instance->outside[i],
+                   (unsigned long long)instance->points);
+        }
+    }
+    return GL_OK;
+}
+
+gl_status gl_reset(gl_instance *instance)
+{
+    set_to_start(instance);
+    return GL_OK;
+}
+
+static gl_status check_step(gl_instance *instance, double time, double step)
+{
+    double last = instance->now.time;
+    double allowed = 1e-3 * step + 1e-9 * fmax(1.0, fabs(last));
+    if (instance->now.phase != GL_STEPPING) {
+        return expect(instance, GL_STEPPING);
+    }
+    if (!(0.0 < step && step <= GL_LONGEST_STEP)) {
+        gl_say(instance, GL_DISCARD,
+               "step at t = %g s refused. The communication step must be above 0 and at most %g s, "
+               "got %g s. Renew the torques at least that often.",
+               time, GL_LONGEST_STEP, step);
+        return GL_DISCARD;
+    }
+    if (!(fabs(time - last) <= allowed)) {
+        gl_say(instance, GL_DISCARD,
+               "step at t = %g s refused. The last step ended at %.17g s, and this one must begin "
+               "there. Restore an FMU state to repeat a step.",
+               time, last);
+        return GL_DISCARD;
+    }
+    if (gl_say_refused(instance, GL_DISCARD, "step refused. ") ||
+        say_input_beyond(instance, GL_DISCARD, "step refused. ")) {
+        return GL_DISCARD;
+    }
+    return GL_OK;
+}
+
+gl_status gl_step(gl_instance *instance, double time, double step)
+{
+    gl_status checked = check_step(instance, time, step);
+    if (checked != GL_OK) {
+        return checked;
+    }
+    double inputs[GL_INPUTS], before[GL_STATE];
+    gl_gather_inputs(instance->now.values, inputs);
+    memcpy(before, instance->now.state, sizeof before);
+    int64_t status = gearlube_entry(GL_STEP, step, gl_data, instance->parameters, inputs,
+                                    instance->now.state, instance->work, instance->outputs);
+    if (status == 0 && !outputs_are_finite(instance)) {
+        status = -1;
+    }
+    if (status != 0) {
+        memcpy(instance->now.state, before, sizeof before);
+        gl_say(instance, GL_DISCARD, "step of %g s at t = %g s refused: %s.", step, time,
+               status == -1 ? "an output is not finite" : refusal_text(status));
+        return GL_DISCARD;
+    }
+    take_outputs(instance);
+    instance->now.time = time + step;
+    watch_ranges(instance);
+    return GL_OK;
+}

@@ -1,0 +1,86 @@
+/* An instance of the model: phases, values, refusals, messages and states, for FMI 2 and FMI 3. */
+#ifndef GEARLUBE_INSTANCE_H
+#define GEARLUBE_INSTANCE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "model.h"
+
+typedef enum { GL_INSTANTIATED, GL_INITIALISING, GL_STEPPING, GL_TERMINATED } gl_phase;
+
+/* Values as FMI numbers them. A refused call changes nothing. */
+typedef enum { GL_OK, GL_WARNING, GL_DISCARD, GL_ERROR } gl_status;
+
+/* Categories of messages, in the order of the model description. */
+typedef enum { GL_LOG_EVENTS, GL_LOG_WARNING, GL_LOG_DISCARD, GL_LOG_ERROR, GL_LOGS } gl_log;
+extern const char *const gl_log_names[GL_LOGS];
+#define GL_ALL_LOGS ((1u << GL_LOGS) - 1u)
+
+typedef struct gl_instance gl_instance;
+
+/* Passes a message on to the host. */
+typedef void (*gl_listener)(gl_instance *instance, gl_status status, const char *category,
+                            const char *text);
+
+/* Everything that a host may save and restore. */
+typedef struct {
+    gl_phase phase;
+    double time;                 /* last communication point [s] */
+    double values[GL_VARIABLES]; /* of every variable, in its FMI unit */
+    double state[GL_STATE];      /* of the model */
+} gl_snapshot;
+
+struct gl_instance {
+    uint64_t mark; /* tells an instance from other memory */
+    gl_snapshot now;
+    int stale; /* outputs wait for a start with the present values */
+    int refusals;                        /* values outside their range: how many, */
+    unsigned char refused[GL_VARIABLES]; /* and which */
+    double parameters[GL_PARAMETERS];    /* what `work` was made of */
+    double outputs[GL_OUTPUTS];
+    double work[GL_WORK];
+    uint64_t points, outside[GL_RANGES + 1]; /* communication points, and those outside a range */
+    unsigned logs;                           /* categories that the host wants, as bits */
+    gl_listener listener;
+    void *host;        /* what the listener needs of the host */
+    const void *calls; /* functions of the host */
+    char *name;
+};
+
+gl_instance *gl_make(const char *name, gl_listener listener, void *host, const void *calls,
+                     int logging);
+void gl_free(gl_instance *instance);
+int gl_is_instance(const gl_instance *instance);
+
+/* Says why no instance can be made, also on standard error. */
+void gl_say_no_instance(const char *name, const char *text);
+
+gl_status gl_choose_logs(gl_instance *instance, int on, size_t count, const char *const names[]);
+gl_status gl_refuse(gl_instance *instance, const char *text, ...);
+
+gl_status gl_set_start_time(gl_instance *instance, double start);
+gl_status gl_enter_initialisation(gl_instance *instance);
+gl_status gl_exit_initialisation(gl_instance *instance);
+gl_status gl_terminate(gl_instance *instance);
+gl_status gl_reset(gl_instance *instance);
+gl_status gl_step(gl_instance *instance, double time, double step);
+
+/* Check all of them first, so that a refused call changes nothing. `kind` is that of the call. */
+gl_status gl_check_read(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
+                        const void *values);
+gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
+                       const void *values);
+/* Only after the check; returns GL_WARNING where the value lies outside its range. */
+gl_status gl_set(gl_instance *instance, unsigned reference, double value);
+
+/* States of the host: `place` points at null or at a state that is written over. */
+gl_status gl_save(gl_instance *instance, void **place);
+gl_status gl_restore(gl_instance *instance, const void *state);
+gl_status gl_forget(void **place);
+gl_status gl_state_size(gl_instance *instance, const void *state, size_t *size); /* as bytes */
+gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *bytes, size_t size);
+gl_status gl_deserialise(gl_instance *instance, const unsigned char *bytes, size_t size,
+                         void **place);
+
+#endif

@@ -1,0 +1,182 @@
+/* Saved states: in memory, and as bytes that another process can continue from. */
+#include "instance.h"
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Layout of the bytes, little-endian as all platforms of these FMUs: mark, GUID, phase, checksum of
+   what follows, time, values, state. */
+enum {
+    MARK_SIZE = 8,
+    GUID_SIZE = 40,
+    HEADER_SIZE = MARK_SIZE + GUID_SIZE + 4 + 4,
+    NUMBERS_SIZE = 8 * (1 + GL_VARIABLES + GL_STATE)
+};
+static const char MARK[MARK_SIZE + 1] = "gearlub2";
+
+static uint32_t checksum(const unsigned char *bytes, size_t size)
+{
+    uint32_t crc = 0xffffffffu; /* CRC-32 */
+    for (size_t i = 0; i < size; i++) {
+        crc ^= bytes[i];
+        for (int k = 0; k < 8; k++) {
+            crc = crc >> 1 ^ (0xedb88320u & (0u - (crc & 1u)));
+        }
+    }
+    return ~crc;
+}
+
+static gl_status check_pointers(gl_instance *instance, const void *one, const void *other)
+{
+    return one && other ? GL_OK : gl_refuse(instance, "A pointer of the call is null.");
+}
+
+/* Keeps a snapshot where the host has one, or in new memory. */
+static gl_status keep(gl_instance *instance, const gl_snapshot *snapshot, void **place)
+{
+    gl_snapshot *kept = *place ? *place : malloc(sizeof *kept);
+    if (!kept) {
+        return gl_refuse(instance, "There is not enough memory for a state.");
+    }
+    *kept = *snapshot;
+    *place = kept;
+    return GL_OK;
+}
+
+gl_status gl_save(gl_instance *instance, void **place)
+{
+    gl_status status = check_pointers(instance, place, instance);
+    return status == GL_OK ? keep(instance, &instance->now, place) : status;
+}
+
+gl_status gl_forget(void **place)
+{
+    if (place) {
+        free(*place);
+        *place = NULL;
+    }
+    return GL_OK;
+}
+
+gl_status gl_state_size(gl_instance *instance, const void *state, size_t *size)
+{
+    gl_status status = check_pointers(instance, state, size);
+    if (status == GL_OK) {
+        *size = HEADER_SIZE + NUMBERS_SIZE;
+    }
+    return status;
+}
+
+gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *bytes, size_t size)
+{
+    const gl_snapshot *snapshot = state;
+    gl_status status = check_pointers(instance, state, bytes);
+    if (status == GL_OK && size < HEADER_SIZE + NUMBERS_SIZE) {
+        status = gl_refuse(instance, "A state needs %d bytes, got room for %lu.",
+                           HEADER_SIZE + NUMBERS_SIZE, (unsigned long)size);
+    }
+    if (status != GL_OK) {
+        return status;
+    }
+    unsigned char *numbers = bytes + HEADER_SIZE;
+    uint32_t phase = (uint32_t)snapshot->phase;
+    memset(bytes, 0, HEADER_SIZE);
+    memcpy(bytes, MARK, MARK_SIZE);
+    memcpy(bytes + MARK_SIZE, GL_GUID, strlen(GL_GUID));
+    memcpy(bytes + MARK_SIZE + GUID_SIZE, &phase, 4);
+    memcpy(numbers, &snapshot->time, 8);
+    memcpy(numbers + 8, snapshot->values, sizeof snapshot->values);
+    memcpy(numbers + 8 + sizeof snapshot->values, snapshot->state, sizeof snapshot->state);
+    uint32_t sum = checksum(numbers, NUMBERS_SIZE) ^ phase;
+    memcpy(bytes + HEADER_SIZE - 4, &sum, 4);
+    return GL_OK;
+}
+
+static gl_status from_bytes(gl_instance *instance, const unsigned char *bytes, size_t size,
+                            gl_snapshot *snapshot)
+{
+    char owner[GUID_SIZE + 1] = {0};
+    uint32_t phase, sum;
+    if (size < HEADER_SIZE || memcmp(bytes, MARK, MARK_SIZE)) {
+        return gl_refuse(instance, "The FMU state was not written by a native gearlube FMU.");
+    }
+    memcpy(owner, bytes + MARK_SIZE, GUID_SIZE);
+    if (strcmp(owner, GL_GUID)) {
+        return gl_refuse(instance,
+                         "The FMU state must come from the FMU with GUID %s. Restore it in the "
+                         "FMU that wrote it.",
+                         GL_GUID);
+    }
+    memcpy(&phase, bytes + MARK_SIZE + GUID_SIZE, 4);
+    memcpy(&sum, bytes + HEADER_SIZE - 4, 4);
+    const unsigned char *numbers = bytes + HEADER_SIZE;
+    if (size != HEADER_SIZE + NUMBERS_SIZE || phase > GL_TERMINATED ||
+        (checksum(numbers, NUMBERS_SIZE) ^ phase) != sum) {
+        return gl_refuse(instance, "The FMU state is damaged: length or checksum do not agree.");
+    }
+    snapshot->phase = (gl_phase)phase;
+    memcpy(&snapshot->time, numbers, 8);
+    memcpy(snapshot->values, numbers + 8, sizeof snapshot->values);
+    memcpy(snapshot->state, numbers + 8 + sizeof snapshot->values, sizeof snapshot->state);
+    return GL_OK;
+}
+
+gl_status gl_deserialise(gl_instance *instance, const unsigned char *bytes, size_t size,
+                         void **place)
+{
+    gl_snapshot read;
+    gl_status status = check_pointers(instance, bytes, place);
+    if (status == GL_OK) {
+        status = from_bytes(instance, bytes, size, &read);
+    }
+    return status == GL_OK ? keep(instance, &read, place) : status;
+}
+
+static int is_sound(const gl_snapshot *snapshot)
+{
+    int sound = isfinite(snapshot->time);
+    for (int i = 0; i < GL_STATE; i++) {
+        sound = sound && isfinite(snapshot->state[i]) &&
+                (i < GL_CONTROL_AT || snapshot->state[i] > 0.0);
+    }
+    for (int i = 0; i < GL_VARIABLES; i++) {
+        const gl_variable *variable = &gl_variables[i];
+        double value = snapshot->values[i];
+        sound = sound && (variable->causality != GL_PARAMETER ||
+                          (variable->low <= value && value <= variable->high));
+    }
+    return sound;
+}
+
+gl_status gl_restore(gl_instance *instance, const void *state)
+{
+    const gl_snapshot *snapshot = state;
+    if (!state) {
+        return gl_refuse(instance, "The state is missing: a null pointer.");
+    }
+    if (snapshot->phase >= GL_STEPPING) {
+        double parameters[GL_PARAMETERS], inputs[GL_INPUTS], of_model[GL_STATE];
+        if (!is_sound(snapshot)) {
+            return gl_refuse(instance, "The FMU state holds numbers that no run of it leaves.");
+        }
+        gl_gather_parameters(snapshot->values, parameters);
+        gl_gather_inputs(snapshot->values, inputs);
+        memcpy(of_model, snapshot->state, sizeof of_model);
+        int64_t status = gearlube_entry(GL_RESUME, 0.0, gl_data, parameters, inputs, of_model,
+                                        instance->work, instance->outputs);
+        if (status != 0) {
+            if (instance->now.phase >= GL_STEPPING) { /* back to its own, which are sound */
+                gearlube_entry(GL_RESUME, 0.0, gl_data, instance->parameters, inputs, of_model,
+                               instance->work, instance->outputs);
+            }
+            return gl_refuse(instance, "The FMU state holds parameters that contradict each other.");
+        }
+        memcpy(instance->parameters, parameters, sizeof parameters);
+    }
+    instance->now = *snapshot;
+    instance->stale = snapshot->phase < GL_STEPPING;
+    gl_find_refused(instance);
+    return GL_OK;
+}

@@ -1,0 +1,157 @@
+/* Values of the variables, and the rules for reading and setting them. */
+#include "instance.h"
+#include "internal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *const kind_names[] = {"Real", "Integer", "Boolean"};
+
+void gl_limits_text(const gl_variable *variable, char *text, size_t size)
+{
+    if (!variable->literals) {
+        snprintf(text, size, "within %g to %g%s%s", variable->low, variable->high,
+                 *variable->unit ? " " : "", variable->unit);
+        return;
+    }
+    size_t used = (size_t)snprintf(text, size, "one of");
+    for (int i = 0; i < (int)variable->high && used < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s %d (%s)", i ? "," : "", i + 1,
+                                 variable->literals[i]);
+    }
+}
+
+static int is_legal(const gl_variable *variable, double value)
+{
+    return variable->low <= value && value <= variable->high; /* false for NaN */
+}
+
+int gl_say_refused(gl_instance *instance, gl_status status, const char *before)
+{
+    for (unsigned i = 0; instance->refusals && i < GL_VARIABLES; i++) {
+        if (instance->refused[i]) {
+            char limits[GL_LONGEST_LIMITS];
+            gl_limits_text(&gl_variables[i], limits, sizeof limits);
+            gl_say(instance, status, "%s%s must be %s, got %g.", before, gl_variables[i].name,
+                   limits, instance->now.values[i]);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void note(gl_instance *instance, unsigned reference, int refused)
+{
+    instance->refusals += refused - instance->refused[reference];
+    instance->refused[reference] = (unsigned char)refused;
+}
+
+void gl_find_refused(gl_instance *instance)
+{
+    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+        note(instance, i,
+             gl_variables[i].causality != GL_OUTPUT &&
+                 !is_legal(&gl_variables[i], instance->now.values[i]));
+    }
+}
+
+void gl_gather_parameters(const double *values, double *parameters)
+{
+    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+        if (gl_variables[i].causality == GL_PARAMETER && gl_variables[i].place >= 0) {
+            parameters[gl_variables[i].place] = values[i];
+        }
+    }
+    for (unsigned i = 0; i < GL_VARIABLES; i++) {
+        if (gl_variables[i].option >= 0 && values[i] != 0.0) {
+            parameters[gl_variables[gl_variables[i].option].place] = values[i];
+        }
+    }
+}
+
+void gl_gather_inputs(const double *values, double *inputs)
+{
+    for (int i = 0; i < GL_INPUTS; i++) {
+        inputs[i] = values[gl_inputs[i]];
+    }
+}
+
+static gl_status check(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
+                       const void *values)
+{
+    if (count && (!refs || !values)) {
+        return gl_refuse(instance, "References or values are missing: a null pointer.");
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (refs[i] >= GL_VARIABLES) {
+            return gl_refuse(instance, "The value reference must be within 0 to %d, got %u.",
+                             GL_VARIABLES - 1, refs[i]);
+        }
+        if (gl_variables[refs[i]].kind != kind) {
+            return gl_refuse(instance, "%s must be accessed as %s, got %s.",
+                             gl_variables[refs[i]].name, kind_names[gl_variables[refs[i]].kind],
+                             kind_names[kind]);
+        }
+    }
+    return GL_OK;
+}
+
+static int asks_for_output(size_t count, const unsigned *refs)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (gl_variables[refs[i]].causality == GL_OUTPUT) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+gl_status gl_check_read(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
+                        const void *values)
+{
+    gl_status status = check(instance, kind, count, refs, values);
+    if (status == GL_OK && instance->stale && instance->now.phase < GL_STEPPING &&
+        asks_for_output(count, refs)) {
+        status = gl_start(instance);
+    }
+    return status;
+}
+
+static int can_be_set(const gl_instance *instance, const gl_variable *variable)
+{
+    return (variable->causality == GL_INPUT && instance->now.phase != GL_TERMINATED) ||
+           (variable->causality == GL_PARAMETER && instance->now.phase < GL_STEPPING);
+}
+
+gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
+                       const void *values)
+{
+    gl_status status = check(instance, kind, count, refs, values);
+    for (size_t i = 0; status == GL_OK && i < count; i++) {
+        if (!can_be_set(instance, &gl_variables[refs[i]])) {
+            status = gl_refuse(instance,
+                               "%s must not be set in this phase of the simulation. Set "
+                               "parameters before the end of initialisation, inputs before "
+                               "termination, outputs never.",
+                               gl_variables[refs[i]].name);
+        }
+    }
+    return status;
+}
+
+gl_status gl_set(gl_instance *instance, unsigned reference, double value)
+{
+    const gl_variable *variable = &gl_variables[reference];
+    instance->now.values[reference] = value;
+    instance->stale = 1;
+    note(instance, reference, !is_legal(variable, value));
+    if (!instance->refused[reference]) {
+        return GL_OK;
+    }
+    char limits[GL_LONGEST_LIMITS];
+    gl_limits_text(variable, limits, sizeof limits);
+    gl_say(instance, GL_ERROR,
+           "%s must be %s, got %g. No step is taken until a legal value replaces it.",
+           variable->name, limits, value);
+    return GL_WARNING;
+}

@@ -1,0 +1,158 @@
+"""C text of a model's tables, for the FMI functions in `plumbing`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from fmu_src.native.array_variables import array_variables
+from fmu_src.native.model import NativeModel
+from fmu_src.slave_base import LONGEST_STEP
+from fmu_src.variable import Variable
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.ranges import RANGE_EXCEEDED
+
+PLUMBING = Path(__file__).with_name("plumbing")
+_KINDS = {"Real": "GL_REAL", "Integer": "GL_INTEGER", "Enumeration": "GL_INTEGER",
+          "Boolean": "GL_BOOLEAN"}  # fmt: skip
+_CAUSALITIES = {"parameter": "GL_PARAMETER", "input": "GL_INPUT", "output": "GL_OUTPUT"}
+_NUMBERS_A_LINE = 8
+
+
+def text_literal(text: str) -> str:
+    """Return a C string: ASCII, without what a compiler reads as a sign of its own."""
+    escaped = text.encode("ascii", "replace").decode().replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
+
+
+def number_literal(value: float) -> str:
+    """Return a C number that is exactly `value`."""
+    if math.isinf(value):
+        return "INFINITY" if value > 0.0 else "-INFINITY"
+    return float(value).hex()
+
+
+def _array(declaration: str, items: Iterable[str]) -> str:
+    rows = ",\n    ".join(items)
+    return f"{declaration} = {{\n    {rows},\n}};\n"
+
+
+def _numbers(values: Array) -> list[str]:
+    texts = [number_literal(value) for value in values.tolist()]
+    steps = range(0, len(texts), _NUMBERS_A_LINE)
+    return [", ".join(texts[i : i + _NUMBERS_A_LINE]) for i in steps]
+
+
+def _places(variables: Sequence[Variable], output_names: Sequence[str]) -> list[int]:
+    """Return the place of each variable among parameters, inputs or outputs of the model."""
+    counts = {"parameter": 0, "input": 0}
+    places = []
+    for variable in variables:
+        if variable.causality == "output":
+            places.append(output_names.index(variable.name))
+        elif variable.option_of:
+            places.append(-1)
+        else:
+            places.append(counts[variable.causality])
+            counts[variable.causality] += 1
+    return places
+
+
+def model_sizes(model: NativeModel, guid: str) -> str:
+    """Return `model_sizes.h`."""
+    definition = model.definition
+    own = [v for v in definition.variables if not v.option_of]
+    sizes = {
+        "VARIABLES": len(definition.variables),
+        "PARAMETERS": sum(v.causality == "parameter" for v in own),
+        "INPUTS": sum(v.causality == "input" for v in own),
+        "OUTPUTS": len(definition.output_names),
+        "STATE": model.state_size,
+        "CONTROL_AT": model.control_at,
+        "WORK": model.work_size,
+        "LIMITS_AT": model.limits_at,
+        "RANGES_AT": model.ranges_at,
+        "RANGES": len(model.ranges),
+        "REFUSALS": len(model.refusals),
+        "EXCEEDED": definition.references[RANGE_EXCEEDED],
+    }
+    lines = [f"#define GL_{name} {size}" for name, size in sizes.items()]
+    return "\n".join(
+        [
+            "/* Generated from the list of FMI variables. */",
+            "#ifndef GEARLUBE_MODEL_SIZES_H",
+            "#define GEARLUBE_MODEL_SIZES_H",
+            f"#define GL_MODEL_NAME {text_literal(definition.name)}",
+            f"#define GL_GUID {text_literal(guid)}",
+            *lines,
+            f"#define GL_LONGEST_STEP {LONGEST_STEP!r} /* s */",
+            "#endif\n",
+        ]
+    )
+
+
+def model_tables(model: NativeModel) -> str:
+    """Return `model_tables.c`."""
+    definition = model.definition
+    variables, references = definition.variables, definition.references
+    literals, rows = [], []
+    for i, (variable, place) in enumerate(
+        zip(variables, _places(variables, definition.output_names), strict=True)
+    ):
+        names = "0"
+        if variable.literals:
+            names = f"literals_{i}"
+            items = map(text_literal, variable.literals)
+            literals.append(_array(f"static const char *const {names}[]", items))
+        low, high = variable.range
+        unit = "" if variable.unit == "1" else variable.unit
+        option = references[variable.option_of] if variable.option_of else -1
+        rows.append(
+            f"{{{text_literal(variable.name)}, {text_literal(unit)}, {names}, "
+            f"{number_literal(variable.start or 0.0)}, {number_literal(low)}, "
+            f"{number_literal(high)}, {_KINDS[variable.type]}, "
+            f"{_CAUSALITIES[variable.causality]}, {place}, {option}}}"
+        )
+    arrays = {one.references[0]: one.references for one in array_variables(variables)}
+    members = [
+        _array(f"static const unsigned members_{first}[]", map(str, references))
+        for first, references in arrays.items()
+    ]
+    of_arrays = [
+        f"{{{len(arrays[i])}, members_{i}}}" if i in arrays else "{0, 0}"
+        for i in range(len(variables))
+    ]
+    refusals = [f"{{{status}, {text_literal(text)}}}" for status, text in model.refusals.items()]
+    ranges = [
+        f"{{{text_literal(one.output)}, {text_literal(one.what)}, "
+        f"{text_literal('' if one.unit == '1' else one.unit)}, {text_literal(one.beyond)}, "
+        f"{references[one.output]}}}"
+        for one in model.ranges
+    ]
+    inputs = map(str, definition.references_of("input"))
+    outputs = (str(references[name]) for name in definition.output_names)
+    return "\n".join(
+        [
+            "/* Generated from the list of FMI variables. */",
+            '#include "model.h"\n',
+            "#include <math.h>\n",
+            *literals,
+            *members,
+            _array("const gl_variable gl_variables[GL_VARIABLES]", rows),
+            _array("const gl_array gl_arrays[GL_VARIABLES]", of_arrays),
+            _array("const int gl_inputs[GL_INPUTS]", inputs),
+            _array("const int gl_outputs[GL_OUTPUTS]", outputs),
+            _array("const gl_refusal gl_refusals[GL_REFUSALS]", refusals),
+            _array("const gl_range gl_ranges[GL_RANGES]", ranges),
+            _array("const double gl_data[]", _numbers(model.data)),
+        ]
+    )
+
+
+def c_sources(model: NativeModel, guid: str) -> dict[str, str]:
+    """Return all C files of a native FMU by name, the headers of FMI left out."""
+    files = {path.name: path.read_text("utf-8") for path in sorted(PLUMBING.glob("*.[ch]"))}
+    files["model_sizes.h"] = model_sizes(model, guid)
+    files["model_tables.c"] = model_tables(model)
+    return files
