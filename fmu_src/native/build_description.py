@@ -31,6 +31,6 @@ def build_description(name: str) -> bytes:
     for file in sorted(names):
         ElementTree.SubElement(files, "SourceFile", name=file)
     ElementTree.SubElement(
-        configuration, "Library", name="kernels", internal="true", description="gearlube_entry"
+        configuration, "Library", name="kernels", external="false", description="gearlube_entry"
     )
     return xml_bytes(root)
