@@ -16,7 +16,7 @@ from gearlube_core.contact.solid import (
     solid_parameters,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, modal_damping
 from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.dynamics.ranges import Range, range_limits
@@ -133,7 +133,7 @@ class HypoidAxleParameters(AxleScalars):
         if self.mesh_damping == "hysteretic":
             return 0.0
         stiffness = self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
-        return float(self.modal_loss_factor * (stiffness * self.equivalent_mass) ** 0.5)
+        return modal_damping(self.modal_loss_factor, stiffness, self.equivalent_mass)
 
     @property
     def torque_range(self) -> tuple[float, float]:
@@ -181,6 +181,7 @@ class HypoidAxleParameters(AxleScalars):
             I_g=self.gear_inertia,
             m_p=self.pinion_mass,
             m_g=self.gear_mass,
+            ratio=self.mesh.ratio,
             mesh=constants_of(
                 MeshForceConstants,
                 self,
