@@ -47,20 +47,24 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 MAX_TORQUE = 1e4  # N.m at the pinion: far beyond any car axle
 MAX_WHEEL_TORQUE = 3e4  # N.m
 START_WORK = max(REST_WORK, CONTROL_WORK)
-_WORDS = Words(
-    "axle",
-    "the bearing modes",
-    {
-        NOT_FINITE: (
-            "the axle state is no longer finite or the teeth have parted by more than 0.1 m. "
-            "Reduce the torques or check for an unstable option (equations='as_printed')"
-        ),
-        TOO_MANY_STEPS: (
-            "the step needs more than 1000000 integrator steps. Shorten the communication step"
-        ),
-        TOO_FAST: TOO_FAST_WORDS,
-    },
-)
+STEP_REFUSALS = {
+    NOT_FINITE: (
+        "the axle state is no longer finite or the teeth have parted by more than 0.1 m. "
+        "Reduce the torques or check for an unstable option (equations='as_printed')"
+    ),
+    TOO_MANY_STEPS: (
+        "the step needs more than 1000000 integrator steps. Shorten the communication step"
+    ),
+    TOO_FAST: TOO_FAST_WORDS,
+}
+_WORDS = Words("axle", "the bearing modes", STEP_REFUSALS)
+
+
+def torque_limits(parameters: HypoidAxleParameters) -> TorqueLimits:
+    """Return the torques beyond which a step of the axle is refused."""
+    return TorqueLimits.around(
+        parameters.torque_range, parameters.mesh.ratio, MAX_TORQUE, MAX_WHEEL_TORQUE
+    )
 
 
 class HypoidAxle(SteppedModel[StepControl]):
@@ -106,9 +110,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0, 1.0, 0.0),
             oil=parameters.oil,
-            torque_limits=TorqueLimits.around(
-                parameters.torque_range, parameters.mesh.ratio, MAX_TORQUE, MAX_WHEEL_TORQUE
-            ),
+            torque_limits=torque_limits(parameters),
             ranges=parameters.ranges,
             words=_WORDS,
         )
