@@ -54,6 +54,19 @@ _T_MIN = -math.sqrt(12.0)
 
 
 @kernel
+def preload_approach(
+    preload: float, n_rollers: float, sin_contact: float, kn: float, n: float
+) -> float:
+    """Return the approach of every roller under an axial preload [m], without film.
+
+    F0 = N kn d^n sin L solved for d; units as in `BearingParameters`, preload in N.
+    """
+    if preload == 0.0:
+        return 0.0
+    return (preload / (n_rollers * sin_contact) / kn) ** (1.0 / n)
+
+
+@kernel
 def film_amplitude(
     shaft_speed: float, eta0: float, alpha: float, p: BearingParameters
 ) -> tuple[float, float]:

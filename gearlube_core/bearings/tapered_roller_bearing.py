@@ -11,7 +11,7 @@ from gearlube_core.bearings.parameters import (
     FILM_FLOOR_APPROACH,
     ROLLERS_MAX,
 )
-from gearlube_core.bearings.roller_contact import N_LINE
+from gearlube_core.bearings.roller_contact import N_LINE, preload_approach
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, pi_contact_modulus
@@ -196,10 +196,13 @@ class TaperedRollerBearing:
         """
         if self.preload is None:
             return 0.0 if self.interference is None else float(self.interference)
-        if self.preload == 0.0:
-            return 0.0
-        w = self.preload / (self.n_rollers * math.sin(self.contact_angle))
-        return float((w / self.stiffness_constant) ** (1.0 / self.exponent))
+        return preload_approach(
+            float(self.preload),
+            float(self.n_rollers),
+            math.sin(self.contact_angle),
+            float(self.stiffness_constant),
+            float(self.exponent),
+        )
 
     def preload_force(self) -> float:
         """Return the axial force of either bearing at rest [N]."""

@@ -1,4 +1,4 @@
-"""The kernels that Python and C call: one communication step, and the outputs of a state.
+"""The kernels that Python and C call: the start, one communication step, the outputs of a state.
 
 They take the parameters as one flat array, whose meaning depends on the type of the bearings
 and on the law of flank friction. So they are made once for each pair of these; every kernel below
@@ -13,11 +13,14 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.dynamics.hypoid_axle.force_derivatives import force_derivatives
 from gearlube_core.dynamics.hypoid_axle.integrate import OK, StepControl, advance
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields, MeshLevels
 from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
+from gearlube_core.dynamics.hypoid_axle.start import rest
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.hypoid_axle.step_control import write_step_control
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
@@ -26,6 +29,9 @@ from gearlube_core.kernels.jit import kernel
 class AxleKernels(NamedTuple):
     """Compiled functions of an axle with one type of bearing and one law of flank friction."""
 
+    static_state: Callable[..., tuple[int, float]]
+    step_control: Callable[..., int]
+    derivatives: Callable[..., None]
     communication_step: Callable[..., int]
     outputs: Callable[..., None]
 
@@ -41,6 +47,71 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
     law : type
         The law of flank friction, likewise; see `flank_law.FlankLaw`.
     """
+
+    @kernel
+    def static_state(
+        s: Array,
+        speed: float,
+        inputs: Array,
+        mesh: MeshFields,
+        lossless: Array,
+        work: Array,
+    ) -> tuple[int, float]:
+        """Write the static equilibrium into `s`; return a status and the largest error [N].
+
+        Parameters
+        ----------
+        lossless : ndarray
+            Flattened AxleParameters without losses.
+
+        Others as in `start.rest`; inputs, mesh as in `communication_step`.
+        """
+        p: AxleParameters = tuple_from_array(lossless, AxleParameters, bearing, law)
+        return rest(s, speed, inputs[0], inputs[2], MeshLevels(*mesh), p, work)
+
+    @kernel
+    def step_control(
+        s: Array,
+        steps_per_mesh_period: float,
+        steps_per_highest_period: float,
+        inputs: Array,
+        mesh: MeshFields,
+        lossless: Array,
+        work: Array,
+        control_values: Array,
+    ) -> int:
+        """Write the flattened StepControl about the equilibrium `s`; return a status.
+
+        Arguments as in `static_state` and `step_control.write_step_control`.
+        """
+        p: AxleParameters = tuple_from_array(lossless, AxleParameters, bearing, law)
+        return write_step_control(
+            s,
+            steps_per_mesh_period,
+            steps_per_highest_period,
+            inputs[0],
+            inputs[2],
+            MeshLevels(*mesh),
+            p,
+            work,
+            control_values,
+        )
+
+    @kernel
+    def derivatives(
+        s: Array,
+        of_speeds: float,
+        torque: float,
+        oil_temperature: float,
+        mesh: MeshFields,
+        parameters: Array,
+        work: Array,
+        matrix: Array,
+    ) -> None:
+        """Write derivatives of the forces into `matrix`, as in `force_derivatives`."""
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        table = MeshLevels(*mesh)
+        force_derivatives(s, of_speeds, torque, oil_temperature, table, p, work, matrix)
 
     @kernel
     def communication_step(
@@ -99,4 +170,4 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         torques = (inputs[0], inputs[1])
         write_outputs(s, torques, inputs[2], table, p, work, rollers, out)
 
-    return AxleKernels(communication_step, outputs)
+    return AxleKernels(static_state, step_control, derivatives, communication_step, outputs)

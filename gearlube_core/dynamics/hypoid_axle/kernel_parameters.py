@@ -44,6 +44,7 @@ class AxleParameters(NamedTuple):
     I_g: float  # kg m2
     m_p: float  # kg
     m_g: float  # kg
+    ratio: float  # teeth of the gear over those of the pinion [-]
     mesh: MeshForceConstants
     lateral_sign: float  # +1 consistent, -1 as printed in [mohammadpour_2015 (1)] c-h
     friction: float  # 1 with flank friction, 0 without
@@ -55,3 +56,13 @@ class AxleParameters(NamedTuple):
     bearing_g: ShaftBearings
     flank_law: FlankLaw
     oil: LubricantParameters
+
+
+def without_losses(p: AxleParameters) -> AxleParameters:
+    """Return the axle without flank friction and hysteresis: what is in static equilibrium."""
+    return p._replace(
+        friction=0.0,
+        mesh=p.mesh._replace(hysteretic_loss=0.0),
+        bearing_p=p.bearing_p.without_loss(),
+        bearing_g=p.bearing_g.without_loss(),
+    )

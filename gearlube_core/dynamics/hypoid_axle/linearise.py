@@ -9,17 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad
-from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
-from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
-from gearlube_core.dynamics.hypoid_axle.state import MICRO, N_ODE, U_G, U_P, V_G, V_P, W_G, W_P, X
-from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES, PackedMesh
-from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
+from gearlube_core.dynamics.hypoid_axle.force_derivatives import DERIVATIVES_WORK, N_COORDINATES
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields
+from gearlube_core.dynamics.packed_mesh import PackedMesh
+from gearlube_core.kernels.flat_tuples import flatten
 
-ANGLE_STEP = 1e-8  # rad, of the central differences
-LENGTH_STEP = 1e-9  # m
-SPEED_STEP = 1e-5  # rad/s or m/s
 # generalised coordinates: pinion and gear rotation, then their displacements
 COORDINATES = ("phi_p", "phi_g", "x_p", "y_p", "z_p", "x_g", "y_g", "z_g")
 
@@ -27,7 +23,6 @@ COORDINATES = ("phi_p", "phi_g", "x_p", "y_p", "z_p", "x_g", "y_g", "z_g")
 class AxleInState(Protocol):
     """What of an axle is linearised."""
 
-    parameters: HypoidAxleParameters
     kernel_parameters: AxleParameters
     packed: PackedMesh
     state_view: Array  # shape (N_STATE,)
@@ -89,55 +84,21 @@ def linearise(axle: AxleInState, oil_temperature: float, torque: float) -> Linea
         Pinion torque at which the mesh table is read [N.m].
     """
     p = axle.kernel_parameters._replace(friction=0.0)
-    elastic = p._replace(
-        mesh=p.mesh._replace(hysteretic_loss=0.0),
-        bearing_p=p.bearing_p.without_loss(),
-        bearing_g=p.bearing_g.without_loss(),
-    )
-    masses = np.array([p.I_p, p.I_g] + 3 * [p.m_p] + 3 * [p.m_g])
+    derivatives = axle_kernels(type(p.bearing_p), type(p.flank_law)).derivatives
     mesh = axle.packed
-    spring = STIFFNESS_SERIES[axle.parameters.mesh_stiffness]
-    levels = np.array([axle.parameters.mesh.mean(key, torque) for key in (spring, "R_p")])
-    series = np.zeros(mesh.series_size)
-    series[0] = levels[0]
-    series[1] = levels[1]
-    series[2] = levels[1] * axle.parameters.mesh.ratio
-    for column, key in ((3, "n_x"), (4, "n_y"), (5, "n_z")):
-        series[column] = axle.parameters.mesh.mean(key, torque)
-    oil = lubricant_state(p.oil, oil_temperature)
-    base = np.array(axle.state_view)
-    inputs = StepInputs(0.0, 0.0, 0.0, 0.0)
-    at_load = MeshAtLoad(series, mesh.orders, mesh.windows, mesh.nodes)
-    scratch = np.zeros(SCRATCH)
-    slope = np.zeros(N_ODE)
-    rows = np.r_[W_P, W_G, V_P : V_P + 3, V_G : V_G + 3]
+    fields: MeshFields = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+    state, work = np.array(axle.state_view), np.zeros(DERIVATIVES_WORK)
 
-    def generalised_force(state: Array, p: AxleParameters) -> Array:
-        axle_rhs(state, inputs, at_load, oil, p, 1.0, 1.0, scratch, slope)
-        return masses * slope[rows]
+    def matrix(of_speeds: float, constants: AxleParameters) -> Array:
+        found = np.zeros(N_COORDINATES**2)
+        derivatives(
+            state, of_speeds, torque, oil_temperature, fields, flatten(constants), work, found
+        )
+        return found.reshape(N_COORDINATES, N_COORDINATES)
 
-    normal = series[3:6]
-    # change of the scaled transmission error per unit of each coordinate
-    to_x = MICRO * np.concatenate([[series[1], -series[2]], normal, -normal])
-    places = [None, None, *range(U_P, U_P + 3), *range(U_G, U_G + 3)]
-    stiffness = np.zeros((8, 8))
-    with_losses = np.zeros((8, 8))
-    damping = np.zeros((8, 8))
-    for j in range(8):
-        shift = np.zeros_like(base)
-        step = ANGLE_STEP if j < 2 else LENGTH_STEP
-        shift[X] = step * to_x[j]
-        if places[j] is not None:
-            shift[places[j]] = step * MICRO
-        for matrix, constants in ((stiffness, elastic), (with_losses, p)):
-            change = generalised_force(base + shift, constants)
-            change -= generalised_force(base - shift, constants)
-            matrix[:, j] = -change / (2.0 * step)
-        shift = np.zeros_like(base)
-        shift[rows[j]] = SPEED_STEP
-        change = generalised_force(base + shift, p) - generalised_force(base - shift, p)
-        damping[:, j] = -change / (2.0 * SPEED_STEP)
-    return LinearAxle(np.diag(masses), damping, stiffness, with_losses - stiffness)
+    stiffness = matrix(0.0, without_losses(p))
+    masses = np.array([p.I_p, p.I_g] + 3 * [p.m_p] + 3 * [p.m_g])
+    return LinearAxle(np.diag(masses), matrix(1.0, p), stiffness, matrix(0.0, p) - stiffness)
 
 
 def modes(axle: AxleInState, oil_temperature: float, torque: float) -> dict[str, float]:

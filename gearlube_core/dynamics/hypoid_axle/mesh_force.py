@@ -73,6 +73,12 @@ def reference_frequency(p: MeshForceConstants, pinion_speed: float) -> float:
 
 
 @kernel
+def modal_damping(loss_factor: float, stiffness: float, mass: float) -> float:
+    """Return the coefficient of a mode with this loss factor, c = eta sqrt(k m) [N s/m]."""
+    return loss_factor * math.sqrt(stiffness * mass)
+
+
+@kernel
 def mesh_force(s: Array, series: Array, n_orders: int, p: MeshForceConstants) -> MeshForce:
     """Return the mesh force in state `s`.
 

@@ -16,7 +16,7 @@ from gearlube_core.contact.solid import (
     solid_parameters,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
+from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, modal_damping
 from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.dynamics.ranges import Range, range_limits
@@ -37,6 +37,10 @@ Friction = Literal["consistent", "as_printed", "off", "printed_traction_circular
 Approach = Literal["full", "as_printed"]
 TorqueLoss = Literal["none", "palmgren"]
 
+NO_MODAL_LOSS = (
+    "modal_loss_factor must be above 0 with mesh_damping 'modal', got 0. "
+    "Give about 0.06, or choose 'hysteretic'."
+)
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
 
 
@@ -115,10 +119,7 @@ class HypoidAxleParameters(AxleScalars):
         check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
         check_scalars(self)
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
-            raise ParameterError(
-                "modal_loss_factor must be above 0 with mesh_damping 'modal', got 0. "
-                "Give about 0.06, or choose 'hysteretic'."
-            )
+            raise ParameterError(NO_MODAL_LOSS)
 
     @property
     def equivalent_mass(self) -> float:
@@ -132,8 +133,14 @@ class HypoidAxleParameters(AxleScalars):
         """Coefficient c of the modal option [N s/m], zero for [mohammadpour_2015 (4)]."""
         if self.mesh_damping == "hysteretic":
             return 0.0
-        stiffness = self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
-        return float(self.modal_loss_factor * (stiffness * self.equivalent_mass) ** 0.5)
+        return modal_damping(
+            float(self.modal_loss_factor), self.reference_stiffness, self.equivalent_mass
+        )
+
+    @property
+    def reference_stiffness(self) -> float:
+        """Mean mesh stiffness at REFERENCE_TORQUE [N/m]."""
+        return self.mesh.mean(STIFFNESS_SERIES[self.mesh_stiffness], REFERENCE_TORQUE)
 
     @property
     def torque_range(self) -> tuple[float, float]:
@@ -181,6 +188,7 @@ class HypoidAxleParameters(AxleScalars):
             I_g=self.gear_inertia,
             m_p=self.pinion_mass,
             m_g=self.gear_mass,
+            ratio=self.mesh.ratio,
             mesh=constants_of(
                 MeshForceConstants,
                 self,

@@ -1,0 +1,379 @@
+"""The native model of HypoidAxle.fmu: one entry over the kernels of `gearlube_core`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any, NamedTuple, get_args
+
+import numpy as np
+
+from fmu_src.definition import Definition, Value
+from fmu_src.hypoid_axle import axle_parameters
+from fmu_src.native.model import NativeModel, Operation
+from fmu_src.native.parameter_map import ParameterMap, parameter_map, write_packed
+from fmu_src.object_code import array_at
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.parameters import ROLLERS_MAX
+from gearlube_core.bearings.roller_contact import preload_approach
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
+from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
+from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields
+from gearlube_core.dynamics.hypoid_axle.mesh_force import modal_damping
+from gearlube_core.dynamics.hypoid_axle.model import (
+    START_WORK,
+    STEP_REFUSALS,
+    torque_limits,
+)
+from gearlube_core.dynamics.hypoid_axle.outputs import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.parameters import (
+    NO_MODAL_LOSS,
+    HypoidAxleParameters,
+    MeshStiffness,
+    Radii,
+)
+from gearlube_core.dynamics.hypoid_axle.start import (
+    NO_EQUILIBRIUM,
+    NO_EQUILIBRIUM_CURE,
+    OK,
+)
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.hypoid_axle.step_control import NO_MODES, NO_MODES_WORDS
+from gearlube_core.dynamics.packed_mesh import PackedMesh, pack_mesh
+from gearlube_core.friction.flank_laws import MixedFlankFriction
+from gearlube_core.friction.thermal_eyring_data import PRESSURES
+from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.table import MeshTable
+
+MODAL_WITHOUT_LOSS = 6  # status, beside those of the kernels
+REFUSALS: Mapping[int, str] = {
+    **STEP_REFUSALS,
+    NO_EQUILIBRIUM: f"no static equilibrium at this pinion torque. {NO_EQUILIBRIUM_CURE}",
+    NO_MODES: NO_MODES_WORDS,
+    MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
+}
+_array: Any = array_at
+_START, _STEP, _RESUME = (int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME))
+_N_INPUTS = 3
+_N_CONTROL = count_floats(StepControl)
+_CONTROL_AT = N_STATE + _N_INPUTS
+_STATE_SIZE = _CONTROL_AT + _N_CONTROL
+
+
+class AxleSettings(NamedTuple):
+    """What else of an axle a parameter can change, packed behind its `AxleParameters`."""
+
+    torque_low: float  # N.m, limits of the inputs in their order
+    torque_high: float
+    wheel_low: float  # N.m
+    wheel_high: float
+    oil_low: float  # K
+    oil_high: float
+    steps_per_mesh_period: float
+    steps_per_highest_period: float
+    radii: float  # place of the option in `Radii`
+    stiffness: float  # ditto in `MeshStiffness`
+    pressure: float  # ditto in `PRESSURES`
+    modal: float  # 1 with modal damping of the mesh, 0 with hysteresis
+    modal_loss_factor: float
+    reference_stiffness: float  # N/m, of the modal damping
+    equivalent_mass: float  # kg
+
+
+def _settings(axle: HypoidAxleParameters) -> AxleSettings:
+    torques = torque_limits(axle)
+    return AxleSettings(
+        torques.pinion_low,
+        torques.pinion_high,
+        -torques.wheel,
+        torques.wheel,
+        axle.oil.temperature_low,
+        axle.oil.temperature_high,
+        float(axle.steps_per_mesh_period),
+        float(axle.steps_per_highest_period),
+        float(get_args(Radii).index(axle.radii)),
+        float(get_args(MeshStiffness).index(axle.mesh_stiffness)),
+        float(list(PRESSURES).index(axle.contact_pressure)),
+        1.0 if axle.mesh_damping == "modal" else 0.0,
+        float(axle.modal_loss_factor),
+        axle.reference_stiffness,
+        axle.equivalent_mass,
+    )
+
+
+class _Places(NamedTuple):
+    """Where the parts of `data` and `work` begin, and sizes; whole numbers."""
+
+    # in data
+    options: int
+    rows: int
+    numbers: int
+    lossless: int  # for each float of `AxleParameters` its value without losses, or NaN: unchanged
+    levels: int
+    series: int  # for each of `Radii`, for each of `MeshStiffness`
+    windows: int  # for each of `PRESSURES`
+    data_end: int
+    # in work
+    settings: int
+    without_losses: int
+    trial: int
+    control: int
+    rollers: int
+    scratch: int
+    work_end: int
+    # packed floats that kernels derive
+    interference_p: int
+    interference_g: int
+    modal_damping: int
+    # sizes
+    orders: int
+    nodes: int
+    series_size: int
+    windows_size: int
+
+
+_KINDS = (TaperedRollerParameters, MixedFlankFriction)
+_N_PARAMETERS = count_floats(AxleParameters, *_KINDS)
+_N_SETTINGS = count_floats(AxleSettings)
+_STIFFNESSES = len(get_args(MeshStiffness))
+# the place of each float among the packed ones
+_AT: Any = tuple_from_array(np.arange(float(_N_PARAMETERS)), AxleParameters, *_KINDS)
+
+
+@kernel
+def _write_parameters(parameters: Array, data: Array, at: _Places, work: Array) -> int:
+    """Write everything that follows from the FMI parameters into `work`; return a status."""
+    write_packed(
+        parameters,
+        data[0 : at.options],
+        data[at.options : at.rows],
+        data[at.rows : at.numbers],
+        data[at.numbers : at.lossless],
+        work,
+    )
+    p: AxleParameters = tuple_from_array(work, AxleParameters, *_KINDS)
+    settings: AxleSettings = tuple_from_array(work[at.settings :], AxleSettings)
+    one: Any = p.bearing_p
+    approach = preload_approach(p.preload, one.n_rollers, one.sin_contact, one.kn, one.n)
+    work[at.interference_p] = approach
+    work[at.interference_g] = approach
+    work[at.modal_damping] = 0.0
+    if settings.modal != 0.0:
+        work[at.modal_damping] = modal_damping(
+            settings.modal_loss_factor, settings.reference_stiffness, settings.equivalent_mass
+        )
+    for i in range(_N_PARAMETERS):
+        value = data[at.lossless + i]
+        work[at.without_losses + i] = value if value == value else work[i]
+    if settings.modal != 0.0 and settings.modal_loss_factor == 0.0:
+        return MODAL_WITHOUT_LOSS
+    return OK
+
+
+@kernel
+def _chosen_mesh(data: Array, at: _Places, work: Array) -> MeshFields:
+    """Return the mesh table with the options that are set in `work`."""
+    settings: AxleSettings = tuple_from_array(work[at.settings :], AxleSettings)
+    variant = int(settings.radii) * _STIFFNESSES + int(settings.stiffness)
+    series = at.series + variant * at.series_size
+    windows = at.windows + int(settings.pressure) * at.windows_size
+    return (
+        data[at.levels : at.series],
+        data[series : series + at.series_size],
+        at.orders,
+        data[windows : windows + at.windows_size],
+        at.nodes,
+    )
+
+
+def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
+    """Return the entry of a model whose data and work are laid out so."""
+    kernels = axle_kernels(*_KINDS)
+    static_state, step_control = kernels.static_state, kernels.step_control
+    communication_step, write_outputs = kernels.communication_step, kernels.outputs
+
+    def entry(
+        operation: int,
+        step: float,
+        data: Any,
+        parameters: Any,
+        inputs: Any,
+        state: Any,
+        work: Any,
+        outputs: Any,
+    ) -> int:
+        constants = _array(data, at.data_end)
+        values = _array(work, at.work_end)
+        kept = _array(state, _STATE_SIZE)
+        given = _array(inputs, _N_INPUTS)
+        out = _array(outputs, N_OUTPUTS)
+        if operation in (_START, _RESUME):
+            status = _write_parameters(_array(parameters, n_parameters), constants, at, values)
+            if status != OK or operation == _RESUME:
+                return status
+        mesh = _chosen_mesh(constants, at, values)
+        packed = values[0 : at.settings]
+        s = kept[0:N_STATE]
+        trial = values[at.trial : at.control]
+        rollers = values[at.rollers : at.scratch]
+        scratch = values[at.scratch : at.work_end]
+        if operation == _STEP:
+            control = kept[_CONTROL_AT:_STATE_SIZE]
+            status = communication_step(
+                s, trial, step, given, mesh, packed, control, scratch, rollers, out
+            )
+            if status == OK:
+                for i in range(_N_INPUTS):
+                    kept[N_STATE + i] = given[i]
+            return status
+        last = kept[N_STATE:_CONTROL_AT]
+        if operation == _START:
+            settings: AxleSettings = tuple_from_array(values[at.settings :], AxleSettings)
+            lossless = values[at.without_losses : at.trial]
+            control = values[at.control : at.rollers]
+            speed = _array(parameters, n_parameters)[at_speed]
+            status, _ = static_state(trial, speed, given, mesh, lossless, scratch)
+            if status != OK:
+                return status
+            status = step_control(
+                trial,
+                settings.steps_per_mesh_period,
+                settings.steps_per_highest_period,
+                given,
+                mesh,
+                lossless,
+                scratch,
+                control,
+            )
+            if status != OK:
+                return status
+            for i in range(N_STATE):
+                s[i] = trial[i]
+            for i in range(_N_INPUTS):
+                last[i] = given[i]
+            for i in range(_N_CONTROL):
+                kept[_CONTROL_AT + i] = control[i]
+        write_outputs(s, last, mesh, packed, scratch, rollers, out)
+        return OK
+
+    return entry
+
+
+def _lossless_row(parameters: AxleParameters) -> Array:
+    """Return the packed floats without losses, NaN where they stay."""
+    packed, lossless = flatten(parameters), flatten(without_losses(parameters))
+    return np.where(packed == lossless, np.nan, lossless)
+
+
+def _mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list[Array]]:
+    """Return the mesh as packed by default, and the series and windows of all options."""
+    modulus = contact_modulus(axle.solid, axle.solid)
+    series = [
+        pack_mesh(axle.mesh, modulus, radii, stiffness).series
+        for radii in get_args(Radii)
+        for stiffness in get_args(MeshStiffness)
+    ]
+    by_pressure = [
+        pack_mesh(axle.mesh, modulus, "consistent", "tangent", pressure) for pressure in PRESSURES
+    ]
+    return by_pressure[0], series, [one.windows for one in by_pressure]
+
+
+def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
+    """Return the layout of data and work."""
+    ends = np.cumsum([array.size for array in found.arrays]).tolist()
+    levels = ends[3] + _N_PARAMETERS
+    series = levels + mesh.levels.size
+    windows = series + len(get_args(Radii)) * _STIFFNESSES * mesh.series.size
+    without = _N_PARAMETERS + _N_SETTINGS
+    trial = without + _N_PARAMETERS
+    rollers = trial + N_STATE + _N_CONTROL
+    scratch = rollers + ROLLERS_MAX
+    return _Places(
+        options=ends[0],
+        rows=ends[1],
+        numbers=ends[2],
+        lossless=ends[3],
+        levels=levels,
+        series=series,
+        windows=windows,
+        data_end=windows + len(PRESSURES) * mesh.windows.size,
+        settings=_N_PARAMETERS,
+        without_losses=without,
+        trial=trial,
+        control=trial + N_STATE,
+        rollers=rollers,
+        scratch=scratch,
+        work_end=scratch + max(work_size(mesh.orders, mesh.nodes), START_WORK),
+        interference_p=int(_AT.bearing_p.interference),
+        interference_g=int(_AT.bearing_g.interference),
+        modal_damping=int(_AT.mesh.modal_damping),
+        orders=mesh.orders,
+        nodes=mesh.nodes,
+        series_size=mesh.series.size,
+        windows_size=mesh.windows.size,
+    )
+
+
+def _table_of(definition: Definition) -> MeshTable:
+    """Return the mesh table that a definition carries, or the one that ships."""
+    content = definition.resources.get(FILE_IN_FMU)
+    if content is None:
+        return shipped_mesh_table("mohammadpour_2015")
+    return mesh_table_from_bytes(content, "the mesh table")
+
+
+def native_model(definition: Definition) -> NativeModel:
+    """Return the axle of a definition for a native FMU.
+
+    Raises
+    ------
+    ParameterError
+        The definition has a parameter whose effect no kernel of the entry knows.
+    """
+    mesh = _table_of(definition)
+
+    def axle(arguments: Mapping[str, Value]) -> HypoidAxleParameters:
+        given = {name: value for name, value in arguments.items() if name != "pinion_speed"}
+        return axle_parameters(given, mesh)
+
+    def pack(arguments: Mapping[str, Value]) -> Array:
+        one = axle(arguments)
+        return np.concatenate([flatten(one.kernel_parameters()), flatten(_settings(one))])
+
+    by_default = axle({})
+    derived = int(_AT.bearing_p.interference), int(_AT.bearing_g.interference)
+    found = parameter_map(
+        definition.variables, pack, frozenset((*derived, int(_AT.mesh.modal_damping)))
+    )
+    packed_mesh, series, windows = _mesh_data(by_default)
+    at = _places(found, packed_mesh)
+    data = np.concatenate(
+        [
+            *found.arrays,
+            _lossless_row(by_default.kernel_parameters()),
+            packed_mesh.levels,
+            *series,
+            *windows,
+        ]
+    )
+    unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))
+    parameters = [v.argument for v in definition.variables if v.causality == "parameter"]
+    return NativeModel(
+        definition=definition,
+        entry=_entry(at, len(parameters), parameters.index("pinion_speed")),
+        data=data,
+        state_size=_STATE_SIZE,
+        control_at=_CONTROL_AT,
+        work_size=at.work_end,
+        limits_at=at.settings,
+        ranges_at=int(_AT.ranges.torque_low),
+        ranges=unnamed.ranges,
+        refusals=REFUSALS,
+    )

@@ -1,0 +1,137 @@
+"""How the values of FMI parameters become packed floats, found by asking the Python model.
+
+A packed float is what it is by default, or what one literal of one enumeration makes it, or the
+value of one number as it stands, or it follows from several by a kernel of the model. Which holds
+is found by packing once for every literal and twice for every number, so that no option's meaning
+is written a second time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fmu_src.definition import Value
+from fmu_src.variable import Variable
+from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.jit import kernel
+
+Pack = Callable[[Mapping[str, Value]], Array]  # parameters by `Variable.argument` -> packed floats
+
+
+@dataclass(frozen=True, eq=False)
+class ParameterMap:
+    """The map as arrays for `write_packed`.
+
+    Parameters
+    ----------
+    base : ndarray of shape (m,)
+        Packed floats of the start values.
+    options : ndarray of shape (2 n,)
+        For each enumeration its place among the parameters and its first row.
+    rows : ndarray of shape (r * m,)
+        For each literal the floats that it sets, NaN for the others.
+    numbers : ndarray of shape (2 k,)
+        For each packed float that is a parameter as it stands: its place, and the parameter's.
+    """
+
+    base: Array
+    options: Array
+    rows: Array
+    numbers: Array
+
+    @property
+    def arrays(self) -> tuple[Array, Array, Array, Array]:
+        """The arrays in the order of the arguments of `write_packed`."""
+        return self.base, self.options, self.rows, self.numbers
+
+
+def parameter_map(
+    variables: Sequence[Variable], pack: Pack, derived: frozenset[int]
+) -> ParameterMap:
+    """Return the map of the parameters among `variables`.
+
+    Parameters
+    ----------
+    variables : sequence of Variable
+        Of a definition.
+    pack : callable
+        Parameters by argument -> packed floats, shape (m,).
+    derived : frozenset of int
+        Places that a kernel of the model writes.
+
+    Raises
+    ------
+    ParameterError
+        A number changes a packed float that is neither equal to it nor derived.
+    """
+    parameters = [v for v in variables if v.causality == "parameter"]
+    start = {v.argument: v.decoded(v.start or 0.0) for v in parameters}
+    base = pack(start)
+    by_kernel = np.isin(np.arange(base.size), list(derived))
+    taken = np.zeros(base.size, dtype=bool)  # by an enumeration
+    options: list[int] = []
+    rows: list[Array] = []
+    numbers: list[int] = []
+    for index, variable in enumerate(parameters):
+        if variable.literals:
+            options += [index, len(rows)]
+            own = [pack(start | {variable.argument: literal}) for literal in variable.literals]
+            sets = np.any(own != base, axis=0) & ~by_kernel
+            if np.any(sets & taken):
+                raise ParameterError(
+                    f"{variable.name} must set packed floats of its own, got some that another "
+                    "enumeration sets. Derive them by a kernel that the native entry calls too."
+                )
+            taken |= sets
+            rows += [np.where(sets, packed, np.nan) for packed in own]
+            continue
+        low, high = variable.range
+        one, two = (low + share * (high - low) for share in (0.25, 0.5))
+        ends = [variable.decoded(round(v) if variable.type == "Integer" else v) for v in (one, two)]
+        first, second = (pack(start | {variable.argument: value}) for value in ends)
+        for place in np.flatnonzero(first != second).tolist():
+            if first[place] == ends[0] and second[place] == ends[1]:
+                numbers += [place, index]
+            elif not by_kernel[place]:
+                raise ParameterError(
+                    f"{variable.name} must stand in the packed parameters as it is, got another "
+                    f"number at place {place}. Write the formula as a kernel that the native "
+                    "entry calls too."
+                )
+    return ParameterMap(
+        base,
+        np.array(options, dtype=float),
+        np.concatenate(rows) if rows else np.zeros(0),
+        np.array(numbers, dtype=float),
+    )
+
+
+@kernel
+def write_packed(
+    parameters: Array, base: Array, options: Array, rows: Array, numbers: Array, out: Array
+) -> None:
+    """Write the packed floats of FMI parameters, without those that kernels derive.
+
+    Parameters
+    ----------
+    parameters : ndarray
+        Values in the order of the variables, enumerations from 1.
+    base, options, rows, numbers : ndarray
+        Of a `ParameterMap`.
+    out : ndarray of shape (m,)
+    """
+    m = base.size
+    for i in range(m):
+        out[i] = base[i]
+    for k in range(options.size // 2):
+        literal = int(parameters[int(options[2 * k])]) - 1
+        row = (int(options[2 * k + 1]) + literal) * m
+        for i in range(m):
+            if rows[row + i] == rows[row + i]:
+                out[i] = rows[row + i]
+    for k in range(numbers.size // 2):
+        out[int(numbers[2 * k])] = parameters[int(numbers[2 * k + 1])]
