@@ -14,7 +14,7 @@ _SHORT_STEP = 1e-6  # s
 def compile_ahead(definition: Definition) -> str:
     """Run a temporary model for one step, once per process; return an error text, or ''."""
     table = definition.variables
-    parameters = {v.name: v.decoded(v.start or 0.0) for v in table if v.causality == "parameter"}
+    parameters = {v.name: v.decoded(v.start or 0.0) for v in table if v.is_model_parameter}
     inputs = [v.start or 0.0 for v in table if v.causality == "input"]
     try:
         definition.start_model(parameters, inputs).step(_SHORT_STEP, *inputs)

@@ -70,6 +70,11 @@ class Variable:
             raise ParameterError(f"{self.name} must have an argument if it is a parameter.")
 
     @property
+    def is_model_parameter(self) -> bool:
+        """Whether the model takes it by `argument`; an option by number only stands for one."""
+        return self.causality == "parameter" and not self.option_of
+
+    @property
     def variability(self) -> str:
         """FMI variability: parameters are fixed, Real signals continuous, others discrete."""
         if self.causality == "parameter":

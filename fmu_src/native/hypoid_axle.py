@@ -364,7 +364,7 @@ def native_model(definition: Definition) -> NativeModel:
         ]
     )
     unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))
-    parameters = [v.argument for v in definition.variables if v.causality == "parameter"]
+    parameters = [v.argument for v in definition.variables if v.is_model_parameter]
     return NativeModel(
         definition=definition,
         entry=_entry(at, len(parameters), parameters.index("pinion_speed")),

@@ -68,7 +68,7 @@ def parameter_map(
     ParameterError
         A number changes a packed float that is neither equal to it nor derived.
     """
-    parameters = [v for v in variables if v.causality == "parameter"]
+    parameters = [v for v in variables if v.is_model_parameter]
     start = {v.argument: v.decoded(v.start or 0.0) for v in parameters}
     base = pack(start)
     by_kernel = np.isin(np.arange(base.size), list(derived))

@@ -28,6 +28,8 @@ def text_literal(text: str) -> str:
 
 def number_literal(value: float) -> str:
     """Return a C number that is exactly `value`."""
+    if math.isnan(value):
+        return "NAN"
     if math.isinf(value):
         return "INFINITY" if value > 0.0 else "-INFINITY"
     return float(value).hex()
@@ -62,11 +64,10 @@ def _places(variables: Sequence[Variable], output_names: Sequence[str]) -> list[
 def model_sizes(model: NativeModel, guid: str) -> str:
     """Return `model_sizes.h`."""
     definition = model.definition
-    own = [v for v in definition.variables if not v.option_of]
     sizes = {
         "VARIABLES": len(definition.variables),
-        "PARAMETERS": sum(v.causality == "parameter" for v in own),
-        "INPUTS": sum(v.causality == "input" for v in own),
+        "PARAMETERS": sum(v.is_model_parameter for v in definition.variables),
+        "INPUTS": sum(v.causality == "input" for v in definition.variables),
         "OUTPUTS": len(definition.output_names),
         "STATE": model.state_size,
         "CONTROL_AT": model.control_at,

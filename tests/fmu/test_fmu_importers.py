@@ -32,7 +32,7 @@ def expected(case: Case, names: list[str]) -> list[float]:
     """The model in Python, without FMI."""
     definition = case.definition
     parameters = {
-        v.name: v.decoded(v.start) for v in definition.variables if v.causality == "parameter"
+        v.name: v.decoded(v.start) for v in definition.variables if v.is_model_parameter
     }
     values = case.reals | case.integers
     parameters |= {name: values[name] for name in parameters.keys() & values.keys()}
