@@ -1,4 +1,4 @@
-"""Build the FMUs: `python build_fmu.py --out DIR [--model M] [--check] [--page docs/fmu.md]`."""
+"""Build the FMUs: `python build_fmu.py --out DIR [--model M] [--python] [--check]`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from pathlib import Path
 from fmu_src.build import DEFINITIONS, MODELS, build_models
 from fmu_src.check import problems
 from fmu_src.documentation import update_page
+from fmu_src.native.build import FMI_VERSIONS, NativeOptions
+from fmu_src.native.platforms import PLATFORM_NAMES
 from gearlube_core.errors import GearLubeError
 
 _LOGGER = logging.getLogger("build_fmu")
@@ -18,7 +20,7 @@ _LOGGER = logging.getLogger("build_fmu")
 def main(arguments: list[str] | None = None) -> int:
     """Build, check if asked to, and return the exit status."""
     parser = argparse.ArgumentParser(
-        description="Build HypoidAxle.fmu and HelicalPair.fmu (FMI 2.0 co-simulation)."
+        description="Build HypoidAxle.fmu and HelicalPair.fmu for co-simulation."
     )
     parser.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="where to put them")
     parser.add_argument("--model", choices=MODELS, help="build only this one")
@@ -31,6 +33,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument(
         "--line-mesh", type=Path, metavar="FILE", help="line mesh (.nc) of that helical pair"
     )
+    parser.add_argument(
+        "--python", action="store_true", help="FMUs that compute in the installed package"
+    )
+    parser.add_argument("--platform", action="append", help="such as x86_64-windows")
+    parser.add_argument("--fmi", action="append", help="version of the standard: 2 or 3")
     parser.add_argument("--check", action="store_true", help="validate with fmpy and fmutool")
     parser.add_argument(
         "--page", type=Path, metavar="FILE", help="refresh the tables in docs/fmu.md"
@@ -39,9 +46,15 @@ def main(arguments: list[str] | None = None) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stderr)
     found: list[str] = []
     try:
-        for path in build_models(
-            options.out, options.model, options.mesh_table, options.gear, options.line_mesh
-        ):
+        native = None
+        if not options.python:
+            native = NativeOptions(
+                platforms=options.platform or PLATFORM_NAMES,
+                fmi=options.fmi or FMI_VERSIONS,
+                report=_LOGGER.info,
+            )
+        files = options.mesh_table, options.gear, options.line_mesh
+        for path in build_models(options.out, options.model, *files, native=native):
             _LOGGER.info("built %s (%d kB)", path, path.stat().st_size // 1024)
             found += problems(path) if options.check else []
         for definition in DEFINITIONS if options.page else ():

@@ -1,4 +1,4 @@
-"""Build FMUs with pythonfmu and add the parts that pythonfmu leaves out."""
+"""Build FMUs: native ones, or with pythonfmu those that compute in the installed package."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
 from fmu_src.identity import IDENTITY_FILE, guid_of, identity_text
 from fmu_src.model_description import model_description
+from fmu_src.native.build import NativeOptions, build_native
 from gearlube_core.checks import check_option
 from gearlube_core.errors import GearLubeError, ParameterError
 
@@ -70,7 +71,7 @@ def _build(definition: Definition, out_dir: Path) -> Path:
 
 
 def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None) -> Path:
-    """Build HypoidAxle.fmu in `out_dir` and return its path.
+    """Build HypoidAxle.fmu that computes in Python in `out_dir`, and return its path.
 
     Parameters
     ----------
@@ -94,12 +95,7 @@ def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None)
     ...     build_hypoid_axle(folder).name
     'HypoidAxle.fmu'
     """
-    definition = (
-        hypoid_axle.DEFINITION
-        if mesh_table is None
-        else hypoid_axle.definition_with_table(mesh_table)
-    )
-    return _build(definition, Path(out_dir))
+    return _build(_axle_definition(mesh_table), Path(out_dir))
 
 
 def build_helical_pair(
@@ -107,7 +103,7 @@ def build_helical_pair(
     gear: str | Path | None = None,
     line_mesh: str | Path | None = None,
 ) -> Path:
-    """Build HelicalPair.fmu in `out_dir` and return its path.
+    """Build HelicalPair.fmu that computes in Python in `out_dir`, and return its path.
 
     Parameters
     ----------
@@ -139,6 +135,8 @@ def build_models(
     mesh_table: Path | None = None,
     gear: Path | None = None,
     line_mesh: Path | None = None,
+    *,
+    native: NativeOptions | None = None,
 ) -> list[Path]:
     """Build the FMUs asked for and return their paths.
 
@@ -151,11 +149,15 @@ def build_models(
         Goes into HypoidAxle.fmu.
     gear, line_mesh : path, optional
         Go into HelicalPair.fmu.
+    native : NativeOptions, optional
+        Of native FMUs; by default FMUs that compute in the installed package.
 
     Raises
     ------
     ParameterError
         A file for a model that is not built.
+    GearLubeError
+        A file is wrong, or a native FMU cannot be linked.
     """
     if model is not None:
         check_option("--model", model, MODELS)
@@ -169,9 +171,20 @@ def build_models(
     for name, owner in given.items():
         if owner not in wanted:
             raise ParameterError(f"{name} must come with --model {owner}, got {model}.")
-    paths = []
+    definitions = []
     if "hypoid-axle" in wanted:
-        paths.append(build_hypoid_axle(out_dir, mesh_table))
+        definitions.append(_axle_definition(mesh_table))
     if "helical-pair" in wanted:
-        paths.append(build_helical_pair(out_dir, gear, line_mesh))
-    return paths
+        definitions.append(helical_pair.definition_with(gear, line_mesh))
+    if native is None:
+        return [_build(definition, out_dir) for definition in definitions]
+    from fmu_src.native.models import native_model
+
+    models = [native_model(definition) for definition in definitions]
+    return [path for one in models for path in build_native(one, out_dir, native)]
+
+
+def _axle_definition(mesh_table: str | Path | None) -> Definition:
+    if mesh_table is None:
+        return hypoid_axle.DEFINITION
+    return hypoid_axle.definition_with_table(mesh_table)

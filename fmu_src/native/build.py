@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from uuid import UUID
 
@@ -16,6 +17,7 @@ from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
 from fmu_src.native.model_description_3 import ICON, model_description_3, terminals
 from fmu_src.native.platforms import (
     FMI2_FOLDERS,
+    PLATFORM_NAMES,
     PLATFORMS,
     Platform,
     check_linker,
@@ -30,6 +32,38 @@ from gearlube_core.checks import check_option
 ENTRY = "gearlube_entry"
 FMI_VERSIONS = ("2", "3")
 _PACKAGE = Path(__file__).parents[1]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NativeOptions:
+    """What a native FMU is built for.
+
+    Parameters
+    ----------
+    platforms : sequence of str
+        Names in PLATFORMS.
+    fmi : sequence of {"2", "3"}
+        Versions of the standard, an archive for each.
+    report : callable
+        Called with each line of progress.
+
+    Raises
+    ------
+    ParameterError
+        A platform or version that does not exist, or none.
+    """
+
+    platforms: Sequence[str] = PLATFORM_NAMES
+    fmi: Sequence[str] = FMI_VERSIONS
+    report: Callable[[str], None] = lambda text: None
+
+    def __post_init__(self) -> None:
+        for name, given, known in (
+            ("platform", self.platforms, PLATFORM_NAMES),
+            ("fmi", self.fmi, FMI_VERSIONS),
+        ):
+            for one in given or [""]:
+                check_option(name, one, known)
 
 
 def native_guid(model: NativeModel) -> UUID:
@@ -108,37 +142,21 @@ def fmi3_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
     return content
 
 
-def build_native(
-    model: NativeModel,
-    out_dir: Path,
-    *,
-    platforms: Sequence[Platform] = PLATFORMS,
-    fmi: Sequence[str] = ("2",),
-    report: Callable[[str], None] = lambda text: None,
-) -> list[Path]:
+def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> list[Path]:
     """Build the native FMUs of a model and return their paths.
 
-    Parameters
-    ----------
-    model : NativeModel
-    out_dir : path
-    platforms : sequence of Platform
-    fmi : sequence of {"2", "3"}
-        `NAME.fmu` is that of FMI 2, `NAME_FMI3.fmu` that of FMI 3.
-    report : callable
-        Called with a line of progress.
+    `NAME.fmu` is that of FMI 2, `NAME_FMI3.fmu` that of FMI 3.
 
     Raises
     ------
     GearLubeError
         The linker is missing, or fails for a platform; then nothing is written.
     """
-    for version in fmi:
-        check_option("fmi", version, FMI_VERSIONS)
-    built = libraries(model, platforms, report)
+    platforms = [one for one in PLATFORMS if one.name in options.platforms]
+    built = libraries(model, platforms, options.report)
     contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}
     paths = []
-    for version in fmi:
+    for version in options.fmi:
         ending, content = contents[version]
         paths.append(out_dir / f"{model.definition.name}{ending}.fmu")
         write_archive(paths[-1], content(model, built))

@@ -10,6 +10,8 @@ import tempfile
 from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
+from platform import machine as machine_name
+from platform import system as system_name
 from typing import NamedTuple
 
 from fmu_src.object_code import LINUX, Target
@@ -58,6 +60,7 @@ PLATFORMS = (
         ".so",
     ),
 )
+PLATFORM_NAMES = tuple(platform.name for platform in PLATFORMS)
 # folder in an FMU of FMI 2 -> platforms whose libraries go there as one file
 FMI2_FOLDERS = {
     "linux64": ("x86_64-linux",),
@@ -150,3 +153,22 @@ def universal_library(libraries: Mapping[str, bytes]) -> bytes:
         place += len(library) + padding
     head = struct.pack(">2I", _FAT_MAGIC, len(libraries)) + table
     return head + bytes(align - len(head)) + content
+
+
+def platform_of_this_machine() -> str:
+    """Return the name of the platform that Python runs on here.
+
+    Raises
+    ------
+    GearLubeError
+        No native FMU is built for it.
+    """
+    machines = {"amd64": "x86_64", "x86_64": "x86_64", "arm64": "aarch64", "aarch64": "aarch64"}
+    machine = machines.get(machine_name().lower(), machine_name())
+    name = f"{machine}-{system_name().lower()}"
+    if name not in PLATFORM_NAMES:
+        raise GearLubeError(
+            f"Native FMUs are built for {', '.join(PLATFORM_NAMES)}, this machine is {name}. "
+            "Build an FMU that computes in Python with --python."
+        )
+    return name

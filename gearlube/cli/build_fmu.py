@@ -11,6 +11,7 @@ import typer
 
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.results_folder import written_folder
+from gearlube_core.errors import ParameterError
 
 _LOGGER = logging.getLogger("gearlube")
 
@@ -33,12 +34,39 @@ def build_fmu(
     line_mesh: Annotated[
         Path | None, typer.Option(help="Line mesh (.nc) of that helical pair.")
     ] = None,
+    fmi: Annotated[
+        list[str] | None,
+        typer.Option(help="Version of FMI, 2 or 3; may be repeated. Default: both."),
+    ] = None,
+    platform: Annotated[
+        list[str] | None,
+        typer.Option(help="Platform, such as x86_64-windows; may be repeated. Default: all."),
+    ] = None,
+    python: Annotated[
+        bool,
+        typer.Option(
+            "--python",
+            help="FMUs of FMI 2 that compute in this installed package, for development.",
+        ),
+    ] = False,
 ) -> None:
-    """Build HypoidAxle.fmu and HelicalPair.fmu (FMI 2.0 co-simulation)."""
+    """Build HypoidAxle.fmu and HelicalPair.fmu for co-simulation; they need no Python."""
     from fmu_src.build import build_models
+    from fmu_src.native.build import FMI_VERSIONS, NativeOptions
+    from fmu_src.native.platforms import PLATFORM_NAMES
 
     began = time.monotonic()
-    with exit_on_error("Stopped; no FMU was built."), written_folder(out):
-        paths = build_models(out, model, mesh_table, gear, line_mesh)
+    with exit_on_error("Stopped; no FMU was built."):
+        if python and (fmi or platform):
+            raise ParameterError("--python must come without --fmi and --platform.")
+        native = None
+        if not python:
+            native = NativeOptions(
+                fmi=fmi or FMI_VERSIONS,
+                platforms=platform or PLATFORM_NAMES,
+                report=lambda text: _LOGGER.info("%s", text),
+            )
+        with written_folder(out):
+            paths = build_models(out, model, mesh_table, gear, line_mesh, native=native)
     built = " and ".join(str(path) for path in paths)
     _LOGGER.info("Built %s in %.1f s.", built, time.monotonic() - began)

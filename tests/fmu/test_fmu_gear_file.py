@@ -84,9 +84,7 @@ def test_the_fmu_computes_with_its_own_pair_bit_for_bit(
     assert host.step(H, 5) == OK
     assert host.messages("logStatusWarning") == ""
     carried = definition_with(gear_file, line_mesh)
-    parameters = {
-        v.name: v.decoded(v.start) for v in carried.variables if v.is_model_parameter
-    }
+    parameters = {v.name: v.decoded(v.start) for v in carried.variables if v.is_model_parameter}
     pair = carried.start_model(parameters, [*torques, 333.15])
     for _ in range(5):
         pair.step(H, *torques, 333.15)
@@ -129,9 +127,7 @@ def test_a_pair_without_line_mesh_refuses_it(
     assert host.start(gear__name=2, mesh__stiffness_model=LINE_MESH) == FATAL
     assert "'jamali_2015_a' is shipped" in host.messages("logStatusFatal")
     carried = definition_with(gear_file)
-    parameters = {
-        v.name: v.decoded(v.start) for v in carried.variables if v.is_model_parameter
-    }
+    parameters = {v.name: v.decoded(v.start) for v in carried.variables if v.is_model_parameter}
     with pytest.raises(ParameterError, match="this FMU carries no line mesh"):
         carried.start_model(
             parameters | {"mesh.stiffness_model": "line_mesh"}, [900.0, 900.0, 333.15]

@@ -31,9 +31,7 @@ def names(case: Case) -> list[str]:
 def expected(case: Case, names: list[str]) -> list[float]:
     """The model in Python, without FMI."""
     definition = case.definition
-    parameters = {
-        v.name: v.decoded(v.start) for v in definition.variables if v.is_model_parameter
-    }
+    parameters = {v.name: v.decoded(v.start) for v in definition.variables if v.is_model_parameter}
     values = case.reals | case.integers
     parameters |= {name: values[name] for name in parameters.keys() & values.keys()}
     inputs = [case.reals[name] for name in ("pinion.torque", "wheel.torque", "oil.temperature")]

@@ -1,0 +1,18 @@
+"""The native models by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from fmu_src.definition import Definition
+from fmu_src.native import hypoid_axle
+from fmu_src.native.model import NativeModel
+
+_MODELS: dict[str, Callable[[Definition], NativeModel]] = {
+    "HypoidAxle": hypoid_axle.native_model,
+}
+
+
+def native_model(definition: Definition) -> NativeModel:
+    """Return what a native FMU of a definition is made of."""
+    return _MODELS[definition.name](definition)
