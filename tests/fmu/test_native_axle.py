@@ -1,0 +1,221 @@
+"""The native axle: object code that needs nothing but libm and computes what Python computes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fmu_src.hypoid_axle import DEFINITION, axle_parameters, definition_with_table, start_axle
+from fmu_src.native.hypoid_axle import MODAL_WITHOUT_LOSS, REFUSALS, native_model
+from fmu_src.native.model import OK, Operation
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
+from gearlube_core.dynamics.hypoid_axle.integrate import TOO_MANY_STEPS
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
+from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM
+from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
+from gearlube_core.errors import ParameterError
+from gearlube_core.friction.flank_laws import MixedFlankFriction
+from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
+from gearlube_core.mesh_table.netcdf import write_mesh_table
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from tests.helpers.axle_cases import with_coast_flanks
+from tests.helpers.object_code import (
+    FREESTANDING,
+    LIBM,
+    LoadedModel,
+    symbols,
+    undefined_in_object,
+)
+
+KINDS = (TaperedRollerParameters, MixedFlankFriction)
+N = count_floats(AxleParameters, *KINDS)
+PARAMETERS = [v for v in DEFINITION.variables if v.causality == "parameter"]
+CURRENT = [60.0, 150.0, 333.15]  # N.m, N.m, K
+
+
+@pytest.fixture(scope="module")
+def native():
+    return LoadedModel(native_model(DEFINITION))
+
+
+def drawn(rng):
+    """Any legal parameters, by argument."""
+    values = {}
+    for variable in PARAMETERS:
+        if variable.literals:
+            values[variable.argument] = variable.literals[rng.integers(len(variable.literals))]
+            continue
+        low, high = variable.range
+        value = rng.choice([low, high, rng.uniform(low, high), rng.uniform(low, high)])
+        values[variable.argument] = variable.decoded(
+            round(value) if variable.type == "Integer" else value
+        )
+    return values
+
+
+def drivable(rng):
+    """Parameters and inputs of a car's axle."""
+    values = drawn(rng)
+    values["bearing_preload"] = rng.uniform(100.0, 1e4)
+    values["backlash"] = rng.uniform(0.0, 3e-4)
+    values["pinion_speed"] = rng.uniform(-500.0, 500.0)
+    values["modal_loss_factor"] = rng.uniform(0.01, 0.2)
+    values["steps_per_mesh_period"], values["steps_per_highest_period"] = 64, 22
+    torque = rng.uniform(-400.0, 400.0)
+    return values, [torque, torque * 36 / 13, rng.uniform(300.0, 380.0)]
+
+
+def in_python(values):
+    return axle_parameters({k: v for k, v in values.items() if k != "pinion_speed"})
+
+
+def test_the_entry_needs_nothing_but_libm(native):
+    wanted = undefined_in_object(native.code)
+    assert wanted <= LIBM | FREESTANDING
+    assert native.declared >= wanted - FREESTANDING - LIBM
+    assert "entry_under_test" in {symbol.name for symbol in symbols(native.code)}
+
+
+@pytest.mark.parametrize("count", [100, pytest.param(1000, marks=pytest.mark.slow)])
+def test_parameters_are_packed_bit_for_bit_as_in_python(native, count):
+    rng = np.random.default_rng(count)
+    for _ in range(count):
+        values = drawn(rng)
+        run = native.instance(values, CURRENT)
+        status = run(Operation.RESUME)
+        if values["mesh_damping"] == "modal" and values["modal_loss_factor"] == 0.0:
+            assert status == MODAL_WITHOUT_LOSS
+            with pytest.raises(ParameterError) as refusal:
+                in_python(values)
+            assert REFUSALS[status] == str(refusal.value)
+            continue
+        assert status == OK
+        axle = in_python(values)
+        parameters = axle.kernel_parameters()
+        np.testing.assert_array_equal(run.work[:N], flatten(parameters), str(values))
+        at_ranges = native.model.ranges_at
+        limits = [end for one in axle.ranges for end in (one.low, one.high)]
+        assert run.work[at_ranges : at_ranges + len(limits)].tolist() == limits
+        torques = torque_limits(axle)
+        at_limits = native.model.limits_at
+        assert run.work[at_limits : at_limits + 6].tolist() == [
+            torques.pinion_low,
+            torques.pinion_high,
+            -torques.wheel,
+            torques.wheel,
+            axle.oil.temperature_low,
+            axle.oil.temperature_high,
+        ]
+
+
+# One step of the Newton iteration beyond rounding is all that the two may differ by: positions of
+# 1e-16 of themselves, forces on stiff bearings that cancel from 1 kN to 10 N, 1e-13. The highest
+# frequency comes from differences over 1 nm: 1e-12 (printed equations, ill-conditioned: 2e-11).
+def assert_start_agrees(run, axle):
+    expected = axle.get_state()
+    control = run.model.control_at
+    assert run.state[:control] == pytest.approx(expected[:control], rel=1e-11, abs=1e-13)
+    assert run.state[control:] == pytest.approx(expected[control:], rel=1e-10)
+    assert_outputs_agree(run, axle, 1e-11)
+
+
+def assert_outputs_agree(run, axle, limit):
+    # a sum of bearing forces that cancel is as good as the largest of them
+    of_force = limit * float(np.abs(axle.outputs[force_outputs()]).max())
+    for name, one, two in zip(axle.output_names, run.outputs, axle.outputs, strict=True):
+        floor = 1e-15 if "displacement" in name else 0.0  # m, rounding of 1 um
+        if "bearing" in name and "loss" not in name:
+            floor = of_force
+        if "acceleration" in name:
+            floor = of_force / 1e-3  # of forces on an arm of 0.05 m over 1e-3 kg m2
+        assert one == pytest.approx(two, rel=limit, abs=floor), name
+
+
+def force_outputs():
+    return [i for i, name in enumerate(DEFINITION.output_names) if ".force" in name]
+
+
+def test_starts_and_outputs_agree_with_python_for_all_options(native):
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        values, inputs = drivable(rng)
+        run = native.instance(values, inputs)
+        assert run(Operation.START) == OK
+        assert_start_agrees(run, start_axle(values, inputs))
+
+
+def test_steps_continue_as_in_python_and_outputs_of_a_restored_state_are_the_same(native):
+    values = {"oil": "karagiannis_2012", "friction": "printed_traction_circular"}
+    values["pinion_speed"] = 150.0
+    run = native.instance(values, CURRENT)
+    assert run(Operation.START) == OK
+    axle = start_axle(values, CURRENT)
+    for k in range(20):
+        torque = 60.0 + k
+        run.inputs[0] = torque
+        assert run(Operation.STEP, 1e-3) == OK
+        axle.step(1e-3, torque, *CURRENT[1:])
+    # other instructions on another processor type: roundings grow over 20 ms to below 1e-9
+    assert_outputs_agree(run, axle, 1e-9)
+    assert run.state[36:39].tolist() == [79.0, *CURRENT[1:]]
+    other = native.instance(values, [0.0, 0.0, 300.0])
+    assert other(Operation.RESUME) == OK
+    other.state[:] = run.state
+    assert other(Operation.OUTPUTS) == OK
+    np.testing.assert_array_equal(other.outputs, run.outputs)
+    run.inputs[:] = other.inputs[:] = CURRENT
+    assert run(Operation.STEP, 1e-3) == other(Operation.STEP, 1e-3) == OK
+    np.testing.assert_array_equal(other.state, run.state)
+
+
+def test_what_is_refused_leaves_the_state_as_it_was(native):
+    run = native.instance({}, CURRENT)
+    assert run(Operation.START) == OK
+    before = run.state.copy()
+    assert run(Operation.STEP, 1e9) == TOO_MANY_STEPS
+    np.testing.assert_array_equal(run.state, before)
+    for values, status in (
+        ({"mesh_damping": "modal", "modal_loss_factor": 0.0}, MODAL_WITHOUT_LOSS),
+        ({}, NO_EQUILIBRIUM),
+    ):
+        refused = native.instance(values, CURRENT)
+        refused.state[:] = before
+        if status == NO_EQUILIBRIUM:
+            # cylindrical rollers carry no axial force
+            at = tuple_from_array(np.arange(float(N)), AxleParameters, *KINDS)
+            data = native.model.data.copy()
+            for one in (at.bearing_p, at.bearing_g):
+                data[[int(one.sin_contact), int(one.cos_contact)]] = 1e-300, 1.0
+            refused = replace(refused, model=replace(native.model, data=data))
+        assert refused(Operation.START) == status
+        assert REFUSALS[status]
+        np.testing.assert_array_equal(refused.state, before)
+
+
+def test_another_mesh_table_is_the_one_that_counts(tmp_path):
+    shipped = shipped_mesh_table("mohammadpour_2015")
+    other = replace(with_coast_flanks(shipped), name="11_43", pinion_teeth=11, gear_teeth=43)
+    definition = definition_with_table(write_mesh_table(other, tmp_path / "other.nc"))
+    model = native_model(definition)
+    loaded = LoadedModel(model)
+    inputs = [-40.0, -40.0 * 43 / 11, 350.0]
+    for values in ({"radii": "paper"}, {"mesh_stiffness": "secant", "radii": "mean"}):
+        run = loaded.instance(values, inputs)
+        assert run(Operation.START) == OK
+        values |= {"pinion_speed": 200.0}
+        assert_start_agrees(run, definition.start(values, inputs))
+
+
+def test_words_and_sizes_fit_the_contract(native):
+    model = native.model
+    assert [one.output for one in model.ranges] == list(RANGE_OUTPUTS[1:])
+    assert all("mohammadpour" not in one.beyond for one in model.ranges)
+    run = native.instance({}, CURRENT)
+    assert run(Operation.START) == OK
+    assert np.all(run.state[model.control_at :] > 0.0)
+    assert np.all(np.isfinite(model.data[:N]))
+    lossless = flatten(without_losses(in_python({}).kernel_parameters()))
+    assert lossless.tolist() in np.lib.stride_tricks.sliding_window_view(run.work, N).tolist()

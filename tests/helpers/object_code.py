@@ -1,0 +1,82 @@
+"""Object code of native entries: what it needs from outside, and how to run it from Python."""
+
+from __future__ import annotations
+
+import ctypes
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import llvmlite.binding as llvm
+import numpy as np
+from elftools.elf.elffile import ELFFile
+
+from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel, Operation
+from fmu_src.object_code import lower_to_object
+
+LIBM = {"exp", "expm1", "log", "pow", "sin", "cos", "sqrt", "asinh", "tanh", "erfc", "ceil"}
+LIBM |= {"floor", "hypot", "log1p", "cosh", "sinh", "fmod", "exp2", "sincos"}
+# plain memory primitives that any C library and any compiler run-time provides
+FREESTANDING = {"memcpy", "memset", "memmove"}
+
+
+def symbols(code: bytes) -> list[Any]:
+    """Return the symbols of an object file."""
+    return list(ELFFile(io.BytesIO(code)).get_section_by_name(".symtab").iter_symbols())
+
+
+def undefined_in_object(code: bytes) -> set[str]:
+    """Return the names that object code expects from outside."""
+    names = {one.name for one in symbols(code) if one["st_shndx"] == "SHN_UNDEF" and one.name}
+    return names - {"_GLOBAL_OFFSET_TABLE_"}
+
+
+@dataclass(frozen=True)
+class NativeRun:
+    """One instance of a native model: its arrays, and its entry in object code."""
+
+    model: NativeModel
+    entry: Callable[..., int]
+    parameters: np.ndarray
+    inputs: np.ndarray
+    state: np.ndarray
+    work: np.ndarray
+    outputs: np.ndarray
+
+    def __call__(self, operation: Operation, step: float = 0.0) -> int:
+        arrays = (self.model.data, self.parameters, self.inputs, self.state, self.work)
+        pointers = [array.ctypes.data for array in (*arrays, self.outputs)]
+        return self.entry(int(operation), step, *pointers)
+
+
+class LoadedModel:
+    """The object code of a model in this process."""
+
+    def __init__(self, model: NativeModel) -> None:
+        self.model = model
+        self.code, self.declared = lower_to_object(model.entry, ENTRY_SIGNATURE, "entry_under_test")
+        target = llvm.Target.from_default_triple().create_target_machine()
+        self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target)
+        self._engine.add_object_file(llvm.ObjectFileRef.from_data(self.code))
+        self._engine.finalize_object()
+        pointers = [ctypes.c_void_p] * 6
+        prototype = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_double, *pointers)
+        self._entry = prototype(self._engine.get_function_address("entry_under_test"))
+
+    def instance(self, values: dict[str, Any], inputs: Any) -> NativeRun:
+        """Return an instance with parameters by argument, the others at their start values."""
+        found = []
+        for variable in self.model.definition.variables:
+            if variable.causality == "parameter":
+                value = values.get(variable.argument, variable.decoded(variable.start or 0.0))
+                found.append(variable.literals.index(value) + 1 if variable.literals else value)
+        return NativeRun(
+            self.model,
+            self._entry,
+            np.array(found, dtype=float),
+            np.array(inputs, dtype=float),
+            np.zeros(self.model.state_size),
+            np.zeros(self.model.work_size),
+            np.zeros(len(self.model.definition.output_names)),
+        )

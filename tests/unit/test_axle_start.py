@@ -1,0 +1,103 @@
+"""Static equilibrium and step control of the axle, against SciPy and LAPACK."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import root
+
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle, linearise
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
+from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs
+from gearlube_core.dynamics.hypoid_axle.start import RestProblem, mean_series, rest_forces
+from gearlube_core.dynamics.hypoid_axle.state import N_ODE, U_G, U_P, W_G, W_P
+from gearlube_core.errors import ConvergenceError
+from gearlube_core.mesh_table.kernels import N_SERIES
+from gearlube_core.oil.lubricant_state import lubricant_state
+from tests.helpers.axle_cases import axle_with
+
+OIL = 350.0  # K
+
+
+def started(torque, speed=200.0, **settings):
+    axle = HypoidAxle(axle_with(**settings))
+    axle.initialise(
+        pinion_speed=speed, pinion_torque=torque, wheel_torque=2.0 * torque, oil_temperature=OIL
+    )
+    return axle
+
+
+def with_scipy(axle, torque):
+    """The displacements at rest [um] from MINPACK's hybrid method, on the same forces."""
+    packed, p = axle.packed, without_losses(axle.kernel_parameters)
+    table = MeshLevels(packed.levels, packed.series, packed.orders, packed.windows, packed.nodes)
+    means = np.zeros(N_SERIES)
+    mean_series(torque, table, means)
+    state = axle.state_view.copy()
+    state[W_P] = state[W_G] = 0.0
+    problem = RestProblem(
+        state,
+        StepInputs(torque, 0.0, 0.0, 0.0),
+        MeshAtLoad(means, 0, packed.windows, packed.nodes),
+        lubricant_state(p.oil, OIL),
+        p,
+        np.zeros(SCRATCH),
+        np.zeros(N_ODE),
+    )
+
+    def forces(u):
+        out = np.zeros(6)
+        rest_forces(np.array(u), problem, out)
+        return out
+
+    return root(forces, np.zeros(6), method="hybr", options={"xtol": 1e-12}).x
+
+
+@pytest.mark.parametrize("equations", ["consistent", "as_printed"])
+@pytest.mark.parametrize("torque", [-350.0, 0.0, 5.0, 600.0])
+@pytest.mark.parametrize("preload", [0.0, 2500.0])
+def test_displacements_at_rest_are_those_that_scipy_finds(equations, torque, preload):
+    axle = started(torque, equations=equations, bearing_preload=preload)
+    found = np.r_[axle.state_view[U_P : U_P + 3], axle.state_view[U_G : U_G + 3]]
+    # xtol of MINPACK is 1e-12 of the norm; without preload and load it stops 1e-5 um from 0
+    assert found == pytest.approx(
+        with_scipy(axle, torque), rel=1e-9, abs=2e-5 if not torque else 1e-9
+    )
+
+
+@pytest.mark.parametrize("equations", ["consistent", "as_printed"])
+@pytest.mark.parametrize("torque", [-200.0, 60.0, 400.0])
+def test_the_step_is_tied_to_the_highest_mode_that_lapack_finds(equations, torque):
+    axle = started(torque, equations=equations)
+    frequencies = linearise(axle, OIL, torque).modes()[0]
+    # K from differences over 1 nm has 1e-12 of its own; the same K is used here
+    assert axle.highest_frequency == pytest.approx(frequencies.max(), rel=1e-11)
+
+
+def test_rollers_without_contact_angle_carry_no_axial_force():
+    parameters = axle_with()
+    bearing = replace(parameters.bearing, contact_angle=0.0, preload=None, interference=1e-5)
+    axle = HypoidAxle(replace(parameters, bearing=bearing))
+    before = axle.get_state()
+    with pytest.raises(ConvergenceError, match="no static equilibrium at a pinion torque of 60"):
+        axle.initialise(pinion_speed=1.0, pinion_torque=60.0, wheel_torque=0.0, oil_temperature=OIL)
+    np.testing.assert_array_equal(axle.get_state(), before)
+
+
+@pytest.mark.parametrize("clearance", [0.0, 20e-6])
+def test_shafts_with_clearance_settle_on_the_loaded_rollers(clearance):
+    parameters = axle_with()
+    bearing = replace(parameters.bearing, preload=None, interference=-clearance)
+    axle = HypoidAxle(replace(parameters, bearing=bearing))
+    axle.initialise(pinion_speed=0.0, pinion_torque=60.0, wheel_torque=166.0, oil_temperature=OIL)
+    force = axle.output("mesh.force")
+    for one, two in ((1, 2), (3, 4)):
+        carried = np.array(
+            [
+                axle.output(f"bearing[{one}].force.{c}") + axle.output(f"bearing[{two}].force.{c}")
+                for c in "xyz"
+            ]
+        )
+        # the force at phase 0 differs from that at the means by the variation of the stiffness
+        assert np.linalg.norm(carried) == pytest.approx(force, rel=0.1)
