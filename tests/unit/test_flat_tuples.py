@@ -11,7 +11,12 @@ from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.friction.flank_laws import MixedFlankFriction
-from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array, tuple_to_array
+from gearlube_core.kernels.flat_tuples import (
+    count_floats,
+    flatten,
+    tuple_from_array,
+    tuple_to_array,
+)
 
 
 class Inner(NamedTuple):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.bearing_shares import bearing_shares
 from gearlube_core.dynamics.helical_pair.march.communication import communication_step
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.equilibrium import (
@@ -97,12 +96,7 @@ class HelicalPairModel(SteppedModel[StepControl]):
         self.mesh = pack_march_mesh(parameters.mesh)
         self._data = pair_data(self.constants, parameters.mesh)
         self._rates = MarchRates(self.constants, self.mesh, self._data)
-        self._bearings = np.concatenate(
-            [
-                bearing_shares(body, parameters.support_damping_ratio)
-                for body in (parameters.pinion, parameters.gear)
-            ]
-        )
+        self._bearings = parameters.bearing_shares()
         super().__init__(
             states=N_STATE,
             output_names=OUTPUT_NAMES,
