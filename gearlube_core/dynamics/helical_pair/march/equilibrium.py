@@ -8,7 +8,11 @@ from typing import TypeAlias
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, MotionConstants
 from gearlube_core.dynamics.helical_pair.march.film_refresh import refresh_friction
-from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    LEAST_OFFSET,
+    MeshFields,
+    mesh_at_torque,
+)
 from gearlube_core.dynamics.helical_pair.march.rates import march_rates
 from gearlube_core.dynamics.helical_pair.march.state import (
     FLANK_POINTS,
@@ -35,8 +39,9 @@ NO_EQUILIBRIUM = 1
 NO_FREQUENCIES = 2
 
 MAX_UNKNOWNS = 1 + N_LATERAL  # relative rotation, displacements and tilts
-_MICRO = 1e-6  # m and rad: deflections are micrometres
-_SHARE = 0.1  # of the guessed compression: where teeth are soft that matters, not micrometres
+# m and rad per compression: what matters; a difference of a thousandth does not end contact
+_SHARE = 0.1
+_LEAST_SCALE = 1e-12  # m and rad
 _FILM_PASSES = 4  # friction of the film depends on the loads, weakly
 _DIFFERENCE = 1e-8  # m and rad: small against micrometres of deflection
 _OUT_OF_BALANCE = 1e-6  # of the mesh force
@@ -131,7 +136,8 @@ def settle(
 
     Notes
     -----
-    Friction of the film is computed anew after each of a few solutions.
+    Friction of the film is computed anew after each of a few solutions. Without torque any place
+    between the flanks is an equilibrium; the one found is where the drive flanks just touch.
     """
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     motion = p.motion
@@ -152,9 +158,10 @@ def settle(
     pressed = 2.0 * abs(force) / (plane.W * mean_density(mesh)) + largest_offset(mesh)
     for i in range(n):
         u[i] = 0.0
-        scales[i] = _MICRO
+        scales[i] = max(_LEAST_SCALE, _SHARE * pressed)
     u[0] = pressed / plane.cos_b
-    scales[0] = max(_MICRO, _SHARE * u[0])
+    if pinion_torque == 0.0:
+        u[0] = data[LEAST_OFFSET] / plane.cos_b
     if pinion_torque < 0.0:
         u[0] = -u[0] - flanks.backlash / plane.cos_b
     problem = (data, s, slope, places, forces, pinion_torque)
