@@ -21,26 +21,55 @@ LINUX_TRIPLE = "x86_64-unknown-linux-gnu"
 CPU = "x86-64-v2"
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def array_at(typingctx: Any, pointer: Type, length: Type) -> Any:
-    """Return the float64 array of `length` elements at a C pointer, without a run-time call."""
-    array_type = types.Array(types.float64, 1, "C")
+_DOUBLE = 8  # bytes
+
+
+def _array_of(lengths: int) -> Any:
+    """Return the code that makes an array with so many lengths of a pointer and the lengths."""
+    array_type = types.Array(types.float64, lengths, "C")
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        address, count = arguments
+        address, *shape = arguments
         array = arrayobj.make_array(array_type)(context, builder)
-        size = context.get_constant(types.intp, 8)
+        size = context.get_constant(types.intp, _DOUBLE)
+        strides = [size]
+        for length in shape[:0:-1]:
+            strides.insert(0, builder.mul(strides[0], length))
         arrayobj.populate_array(
             array,
             data=builder.bitcast(address, array.data.type),
-            shape=cgutils.pack_array(builder, [count]),
-            strides=cgutils.pack_array(builder, [size]),
+            shape=cgutils.pack_array(builder, shape),
+            strides=cgutils.pack_array(builder, strides),
             itemsize=size,
             meminfo=None,
         )
         return array._getvalue()
 
+    return array_type, generate
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def array_at(typingctx: Any, pointer: Type, length: Type) -> Any:
+    """Return the float64 array of `length` elements at a C pointer, without a run-time call."""
+    array_type, generate = _array_of(1)
     return array_type(pointer, types.intp), generate
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def matrix_at(typingctx: Any, pointer: Type, rows: Type, columns: Type) -> Any:
+    """Return the float64 array of shape (rows, columns) at a C pointer, row by row."""
+    array_type, generate = _array_of(2)
+    return array_type(pointer, types.intp, types.intp), generate
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def pointer_at(typingctx: Any, pointer: Type, place: Type) -> Any:
+    """Return the pointer to the double at `place` behind a C pointer to doubles."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.gep(arguments[0], [arguments[1]])
+
+    return pointer(pointer, types.intp), generate
 
 
 def lower_to_object(entry: Callable[..., Any], signature: Any, name: str) -> tuple[bytes, set[str]]:

@@ -137,7 +137,8 @@ def settle(
     Notes
     -----
     Friction of the film is computed anew after each of a few solutions. Without torque any place
-    between the flanks is an equilibrium; the one found is where the drive flanks just touch.
+    between the flanks is an equilibrium; the one found is where the drive flanks just touch, or
+    the middle of a backlash below twice that distance.
     """
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     motion = p.motion
@@ -161,7 +162,7 @@ def settle(
         scales[i] = max(_LEAST_SCALE, _SHARE * pressed)
     u[0] = pressed / plane.cos_b
     if pinion_torque == 0.0:
-        u[0] = data[LEAST_OFFSET] / plane.cos_b
+        u[0] = max(data[LEAST_OFFSET], -0.5 * flanks.backlash) / plane.cos_b
     if pinion_torque < 0.0:
         u[0] = -u[0] - flanks.backlash / plane.cos_b
     problem = (data, s, slope, places, forces, pinion_torque)

@@ -48,7 +48,7 @@ NO_FREQUENCIES_WORDS = (
     "the natural frequencies about the static equilibrium are not finite. Use stiffness, masses "
     "and damping nearer to those of gears"
 )
-_WORDS = Words(
+WORDS = Words(
     "pair",
     "the mesh frequency",
     {
@@ -62,6 +62,13 @@ _WORDS = Words(
         TOO_FAST: TOO_FAST_WORDS,
     },
 )
+
+
+def torque_limits(parameters: HelicalMarchParameters) -> TorqueLimits:
+    """Return the torques beyond which a pair takes no step."""
+    return TorqueLimits.around(
+        parameters.torque_range, parameters.pair.ratio, MAX_TORQUE, MAX_TORQUE
+    )
 
 
 class HelicalPairModel(SteppedModel[StepControl]):
@@ -110,11 +117,9 @@ class HelicalPairModel(SteppedModel[StepControl]):
             output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0),
             oil=parameters.oil,
-            torque_limits=TorqueLimits.around(
-                parameters.torque_range, parameters.pair.ratio, MAX_TORQUE, MAX_TORQUE
-            ),
+            torque_limits=torque_limits(parameters),
             ranges=parameters.ranges,
-            words=_WORDS,
+            words=WORDS,
         )
 
     def _with_data(self) -> Kernels:
