@@ -48,28 +48,30 @@ def _array_of(lengths: int) -> Any:
     return array_type, generate
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def array_at(typingctx: Any, pointer: Type, length: Type) -> Any:
+def _array_at(typingctx: Any, pointer: Type, length: Type) -> Any:
     """Return the float64 array of `length` elements at a C pointer, without a run-time call."""
     array_type, generate = _array_of(1)
     return array_type(pointer, types.intp), generate
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def matrix_at(typingctx: Any, pointer: Type, rows: Type, columns: Type) -> Any:
+def _matrix_at(typingctx: Any, pointer: Type, rows: Type, columns: Type) -> Any:
     """Return the float64 array of shape (rows, columns) at a C pointer, row by row."""
     array_type, generate = _array_of(2)
     return array_type(pointer, types.intp, types.intp), generate
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def pointer_at(typingctx: Any, pointer: Type, place: Type) -> Any:
+def _pointer_at(typingctx: Any, pointer: Type, place: Type) -> Any:
     """Return the pointer to the double at `place` behind a C pointer to doubles."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return builder.gep(arguments[0], [arguments[1]])
 
     return pointer(pointer, types.intp), generate
+
+
+array_at: Any = intrinsic(_array_at)
+matrix_at: Any = intrinsic(_matrix_at)
+pointer_at: Any = intrinsic(_pointer_at)
 
 
 def lower_to_object(entry: Callable[..., Any], signature: Any, name: str) -> tuple[bytes, set[str]]:

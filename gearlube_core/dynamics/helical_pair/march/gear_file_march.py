@@ -22,6 +22,7 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 
+DENSITY_WITH_MESH_WORDS = "stiffness_density must be 0 with a line mesh"
 _ZERO = "0 takes the value of the gear file."
 
 
@@ -111,8 +112,7 @@ def helical_march_parameters(
             line_mesh = constant_density_mesh(pair, stiffness_density, "given")
     elif stiffness_density > 0.0:
         raise ParameterError(
-            f"stiffness_density must be 0 with a line mesh, got {stiffness_density:g} N/m2. "
-            "Choose one of them."
+            f"{DENSITY_WITH_MESH_WORDS}, got {stiffness_density:g} N/m2. Choose one of them."
         )
 
     def body(role: Role) -> Body:

@@ -64,6 +64,7 @@ def pair_data(constants: MarchConstants, mesh: LineMesh) -> Array:
     return data
 
 
+@kernel
 def data_size(stations: int, size: int) -> int:
     """Return the length of pair data; `size` is that of the density at one level."""
     return STATIONS_AT + stations + 2 * size
