@@ -34,6 +34,41 @@ class EmbeddedPair:
     line_mesh: LineMesh | None = None
 
 
+def chosen_pair(
+    name: str, stiffness_model: str, embedded: EmbeddedPair | None
+) -> tuple[HelicalGearFile, LineMesh | None]:
+    """Return gear file and line mesh of gear.name and mesh.stiffness_model.
+
+    Parameters
+    ----------
+    name, stiffness_model : str
+        Literals of the two options.
+    embedded : EmbeddedPair, optional
+        What gear.name = custom stands for.
+
+    Raises
+    ------
+    ParameterError, TableError
+        The FMU carries no such files.
+    """
+    if name == CUSTOM and embedded is None:
+        raise ParameterError(
+            "gear.name must be one of the pairs that ship with gearlube, got custom: this FMU "
+            "carries no gear file. Build one with `gearlube build-fmu --gear FILE`."
+        )
+    own = embedded if name == CUSTOM else None
+    gear = own.gear if own else HelicalGearFile.named(name)
+    line_mesh = None
+    if stiffness_model == LINE_MESH:
+        line_mesh = own.line_mesh if own else named_line_mesh(name)
+        if line_mesh is None:
+            raise ParameterError(
+                "mesh.stiffness_model must be uniform, got line_mesh: this FMU carries no line "
+                "mesh. Build one with `gearlube build-fmu --gear FILE --line-mesh FILE`."
+            )
+    return gear, line_mesh
+
+
 def start_pair(
     arguments: Mapping[str, Value], inputs: Sequence[float], embedded: EmbeddedPair | None = None
 ) -> HelicalPairModel:
@@ -52,21 +87,7 @@ def start_pair(
     given: dict[str, Any] = dict(arguments)
     speed = float(given.pop("pinion_speed"))
     name = str(given.pop("gear_name"))
-    if name == CUSTOM and embedded is None:
-        raise ParameterError(
-            "gear.name must be one of the pairs that ship with gearlube, got custom: this FMU "
-            "carries no gear file. Build one with `gearlube build-fmu --gear FILE`."
-        )
-    own = embedded if name == CUSTOM else None
-    gear = own.gear if own else HelicalGearFile.named(name)
-    line_mesh = None
-    if given.pop("stiffness_model") == LINE_MESH:
-        line_mesh = own.line_mesh if own else named_line_mesh(name)
-        if line_mesh is None:
-            raise ParameterError(
-                "mesh.stiffness_model must be uniform, got line_mesh: this FMU carries no line "
-                "mesh. Build one with `gearlube build-fmu --gear FILE --line-mesh FILE`."
-            )
+    gear, line_mesh = chosen_pair(name, str(given.pop("stiffness_model")), embedded)
     parameters = helical_march_parameters(
         gear,
         line_mesh=line_mesh,
@@ -135,16 +156,37 @@ def _read(path: str | Path, what: str) -> bytes:
         raise (ParameterError if what == "gear file" else TableError)(text) from None
 
 
-@cache
-def _definition_with(content: bytes, mesh: bytes) -> Definition:
-    """Return the definition with these files; one object per content, for caches keyed by it."""
+def embedded_pair(resources: Mapping[str, bytes]) -> EmbeddedPair | None:
+    """Return the gear pair whose files are among the resources of an FMU, if there is one.
+
+    Raises
+    ------
+    ParameterError, TableError
+        A file is wrong.
+    """
+    if GEAR_FILE not in resources:
+        return None
+    return _pair_in(resources[GEAR_FILE], resources.get(LINE_MESH_FILE, b""))
+
+
+def _pair_in(content: bytes, mesh: bytes) -> EmbeddedPair:
+    """Return the gear pair in the content of a gear file and, unless empty, of a line mesh."""
     try:
         data = tomllib.loads(content.decode())
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
         raise ParameterError(f"It is not a readable TOML file: {reason}.") from None
-    gear = HelicalGearFile.from_data(data, "The gear file")
+    return EmbeddedPair(
+        gear=HelicalGearFile.from_data(data, "The gear file"),
+        line_mesh=line_mesh_from_bytes(mesh, "the line mesh") if mesh else None,
+    )
+
+
+@cache
+def _definition_with(content: bytes, mesh: bytes) -> Definition:
+    """Return the definition with these files; one object per content, for caches keyed by it."""
+    embedded = _pair_in(content, mesh)
+    gear, line_mesh = embedded.gear, embedded.line_mesh
     pair = gear.helical_pair()
-    line_mesh = line_mesh_from_bytes(mesh, "the line mesh") if mesh else None
     try:
         helical_march_parameters(gear, line_mesh=line_mesh)
     except ParameterError as error:
@@ -160,7 +202,7 @@ def _definition_with(content: bytes, mesh: bytes) -> Definition:
         description=f"{DEFINITION.description}; gear file {gear.name} "
         f"({pair.pinion_teeth}/{pair.gear_teeth} teeth){of_mesh}",
         variables=tuple(replace(v, start=starts.get(v.name, v.start)) for v in HELICAL_PAIR),
-        start=partial(start_pair, embedded=EmbeddedPair(gear=gear, line_mesh=line_mesh)),
+        start=partial(start_pair, embedded=embedded),
         resources={GEAR_FILE: content} | ({LINE_MESH_FILE: mesh} if mesh else {}),
     )
 

@@ -32,28 +32,57 @@ class Target(NamedTuple):
 
 
 LINUX = Target("x86_64-unknown-linux-gnu", "x86-64-v2")
+_DOUBLE = 8  # bytes
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def array_at(typingctx: Any, pointer: Type, length: Type) -> Any:
-    """Return the float64 array of `length` elements at a C pointer, without a run-time call."""
-    array_type = types.Array(types.float64, 1, "C")
+def _array_of(lengths: int) -> Any:
+    """Return the code that makes an array with so many lengths of a pointer and the lengths."""
+    array_type = types.Array(types.float64, lengths, "C")
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        address, count = arguments
+        address, *shape = arguments
         array = arrayobj.make_array(array_type)(context, builder)
-        size = context.get_constant(types.intp, 8)
+        size = context.get_constant(types.intp, _DOUBLE)
+        strides = [size]
+        for length in shape[:0:-1]:
+            strides.insert(0, builder.mul(strides[0], length))
         arrayobj.populate_array(
             array,
             data=builder.bitcast(address, array.data.type),
-            shape=cgutils.pack_array(builder, [count]),
-            strides=cgutils.pack_array(builder, [size]),
+            shape=cgutils.pack_array(builder, shape),
+            strides=cgutils.pack_array(builder, strides),
             itemsize=size,
             meminfo=None,
         )
         return array._getvalue()
 
+    return array_type, generate
+
+
+def _array_at(typingctx: Any, pointer: Type, length: Type) -> Any:
+    """Return the float64 array of `length` elements at a C pointer, without a run-time call."""
+    array_type, generate = _array_of(1)
     return array_type(pointer, types.intp), generate
+
+
+def _matrix_at(typingctx: Any, pointer: Type, rows: Type, columns: Type) -> Any:
+    """Return the float64 array of shape (rows, columns) at a C pointer, row by row."""
+    array_type, generate = _array_of(2)
+    return array_type(pointer, types.intp, types.intp), generate
+
+
+def _pointer_at(typingctx: Any, pointer: Type, place: Type) -> Any:
+    """Return the pointer to the double at `place` behind a C pointer to doubles."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.gep(arguments[0], [arguments[1]])
+
+    return pointer(pointer, types.intp), generate
+
+
+array_at: Any = intrinsic(_array_at)
+matrix_at: Any = intrinsic(_matrix_at)
+pointer_at: Any = intrinsic(_pointer_at)
 
 
 def intermediate_code(entry: Callable[..., Any], signature: Any, name: str) -> str:

@@ -19,6 +19,7 @@ class SurfaceParameters(NamedTuple):
     sigma_over_beta: float  # roughness over tip radius [-], 1e-4 to 1e-2
 
 
+@kernel
 def gear_flanks(sigma: float) -> SurfaceParameters:
     """Return finished gear flanks of a composite root-mean-square roughness [m].
 

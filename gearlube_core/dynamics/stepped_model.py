@@ -183,10 +183,10 @@ class SteppedModel(ABC, Generic[Control]):
         self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
         try:
             self._rest(pinion_speed, pinion_torque, oil_temperature)
+            self._control_values[:] = self._step_control(pinion_torque, oil_temperature)
         except ConvergenceError:
             self._take(before)
             raise
-        self._control_values[:] = self._step_control(pinion_torque, oil_temperature)
         self._write_outputs()
 
     def step(

@@ -109,3 +109,52 @@ def _tuple_from_array(array: Any, tuple_class: Any, *variants: Any) -> Any:
         return _load_kernel(array, tuple_class, variants)
 
     return load
+
+
+def tuple_to_array(values: tuple[Any, ...], array: Array) -> None:
+    """Write the floats of a nested NamedTuple into the first places of a contiguous array.
+
+    The kernels' `flatten`.
+
+    Parameters
+    ----------
+    values : NamedTuple
+        Its fields are numbers and NamedTuples.
+    array : ndarray of shape (>= number of floats,)
+    """
+    floats = flatten(values)
+    array[: floats.size] = floats
+
+
+def _store_tuple(typingctx: Any, values: Any, array: Any) -> Any:
+    """Return the code that stores a tuple; see `tuple_to_array`."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        data = arrayobj.make_array(array)(context, builder, arguments[1]).data
+        position = 0
+
+        def store(part: Any, found: Any) -> None:
+            nonlocal position
+            for kind, value in zip(part.types, cgutils.unpack_tuple(builder, found), strict=True):
+                if isinstance(kind, types.BaseTuple):
+                    store(kind, value)
+                else:
+                    number = context.cast(builder, value, kind, types.float64)
+                    builder.store(number, cgutils.gep_inbounds(builder, data, position))
+                    position += 1
+
+        store(values, arguments[0])
+        return context.get_dummy_value()
+
+    return types.none(values, array), generate
+
+
+_store_kernel: Any = intrinsic(_store_tuple)
+
+
+@overload(tuple_to_array)
+def _tuple_to_array(values: Any, array: Any) -> Any:
+    def store(values: Any, array: Any) -> None:
+        _store_kernel(values, array)
+
+    return store

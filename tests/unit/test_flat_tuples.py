@@ -11,7 +11,12 @@ from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.friction.flank_laws import MixedFlankFriction
-from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
+from gearlube_core.kernels.flat_tuples import (
+    count_floats,
+    flatten,
+    tuple_from_array,
+    tuple_to_array,
+)
 
 
 class Inner(NamedTuple):
@@ -32,6 +37,7 @@ class Outer(NamedTuple):
     e: float
 
 
+AXLE_KINDS = TaperedRollerParameters, MixedFlankFriction
 NESTED = Outer(1.0, Middle(Inner(2.0, 3.0), 4.0, Inner(5.0, 6.0)), Inner(7.0, 8.0), 9.0)
 
 
@@ -98,3 +104,16 @@ def test_the_result_is_a_copy():
     restored = restore_outer(array)
     array[:] = 0.0
     assert restored == NESTED
+
+
+@njit
+def restored_and_written(array, out):
+    tuple_to_array(tuple_from_array(array, AxleParameters, *AXLE_KINDS), out[1:])
+
+
+def test_a_kernel_writes_tuples_in_the_order_of_flatten():
+    floats = flatten(mohammadpour_2015_axle().kernel_parameters())
+    for write in (restored_and_written, restored_and_written.py_func):
+        out = np.full(floats.size + 2, -1.0)
+        write(floats, out)
+        np.testing.assert_array_equal(out, [-1.0, *floats, -1.0])

@@ -2,28 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
-    gear_file_support,
     iso_mesh,
 )
+from gearlube_core.dynamics.helical_pair.march.given_pair import NO_BEARING
 from gearlube_core.dynamics.helical_pair.march.parameters import (
     Body,
     HelicalMarchParameters,
 )
-from gearlube_core.dynamics.helical_pair.supports.shaft_support import (
-    Bearing,
-    ShaftSupport,
-    symmetric_support,
-)
+from gearlube_core.dynamics.helical_pair.supports.shaft_support import Bearing, ShaftSupport
+from gearlube_core.dynamics.helical_pair.supports.support_kernels import replaced_bearing
 from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 
+DENSITY_WITH_MESH_WORDS = "stiffness_density must be 0 with a line mesh"
 _ZERO = "0 takes the value of the gear file."
 
 
@@ -113,8 +112,7 @@ def helical_march_parameters(
             line_mesh = constant_density_mesh(pair, stiffness_density, "given")
     elif stiffness_density > 0.0:
         raise ParameterError(
-            f"stiffness_density must be 0 with a line mesh, got {stiffness_density:g} N/m2. "
-            "Choose one of them."
+            f"{DENSITY_WITH_MESH_WORDS}, got {stiffness_density:g} N/m2. Choose one of them."
         )
 
     def body(role: Role) -> Body:
@@ -140,20 +138,16 @@ def _support(gear: HelicalGearFile, role: Role, instead: ReplacedBearings) -> Sh
     """Return the file's bearings with what is not zero in their place."""
     radial, axial = instead.radial_stiffness, instead.axial_stiffness
     distance = instead.bearing_distance
-    if not gear.body(role).supports:
-        if 0.0 in (radial, axial, distance):
-            raise ParameterError(
-                f"the {role} must have bearings, the gear file {role}.bearing_1 is missing. "
-                "Add them, or give radial and axial stiffness and the bearings' distance."
-            )
-        return symmetric_support(K_xx=radial, K_yy=radial, K_zz=axial, distance=distance)
+    springs = gear.body(role).supports
+    if not springs and 0.0 in (radial, axial, distance):
+        raise ParameterError(
+            f"the {role} must have bearings, the gear file {role}.bearing_1 is missing. "
+            "Add them, or give radial and axial stiffness and the bearings' distance."
+        )
+    first, second = springs or (NO_BEARING, NO_BEARING)
 
-    def changed(bearing: Bearing, side: float) -> Bearing:
-        if radial > 0.0:
-            bearing = replace(bearing, K_xx=0.5 * radial, K_yy=0.5 * radial)
-        if axial > 0.0:
-            bearing = replace(bearing, K_zz=0.5 * axial)
-        return replace(bearing, position=side * distance) if distance > 0.0 else bearing
+    def bearing(spring: SupportStiffness, side: float) -> Bearing:
+        taken = replaced_bearing(spring, side, float(radial), float(axial), float(distance))
+        return Bearing(**taken._asdict())
 
-    of_file = gear_file_support(gear, role)
-    return ShaftSupport(first=changed(of_file.first, 1.0), second=changed(of_file.second, -1.0))
+    return ShaftSupport(first=bearing(first, 1.0), second=bearing(second, -1.0))

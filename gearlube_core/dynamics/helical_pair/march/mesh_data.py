@@ -57,9 +57,17 @@ def pack_march_mesh(mesh: LineMesh) -> MarchMesh:
 def pair_data(constants: MarchConstants, mesh: LineMesh) -> Array:
     """Return pair data at the lowest torque level."""
     packed = pack_march_mesh(mesh)
-    head = flatten(constants)
-    tail = packed.density[0], packed.offset[0]
-    return np.concatenate((head, [packed.offset[0].min()], all_stations(mesh), *tail))
+    station = all_stations(mesh)
+    data = np.zeros(data_size(station.size, packed.density.shape[1]))
+    data[:LEAST_OFFSET] = flatten(constants)
+    place_mesh(station, (packed.torque, packed.density, packed.offset), data)
+    return data
+
+
+@kernel
+def data_size(stations: int, size: int) -> int:
+    """Return the length of pair data; `size` is that of the density at one level."""
+    return STATIONS_AT + stations + 2 * size
 
 
 @kernel
@@ -90,3 +98,11 @@ def mesh_at_torque(
         data[at_density + size + j] = e
         least = min(least, e)
     data[LEAST_OFFSET] = least
+
+
+@kernel
+def place_mesh(station: Array, mesh: MeshFields, data: Array) -> None:
+    """Write stations and the mesh at its lowest level into the pair data behind its constants."""
+    for i in range(station.size):
+        data[STATIONS_AT + i] = station[i]
+    mesh_at_torque(mesh[0][0], mesh, data)

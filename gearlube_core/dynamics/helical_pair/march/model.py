@@ -5,13 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.bearing_shares import bearing_shares
 from gearlube_core.dynamics.helical_pair.march.communication import communication_step
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.equilibrium import (
-    MarchRates,
-    natural_frequencies,
-    settle,
+    EQUILIBRIUM_WORK,
+    MAX_UNKNOWNS,
+    NO_EQUILIBRIUM,
+    OK,
+    highest_frequency,
+    rest,
+    squared_frequencies,
 )
 from gearlube_core.dynamics.helical_pair.march.integrate import (
     NOT_FINITE,
@@ -20,18 +23,16 @@ from gearlube_core.dynamics.helical_pair.march.integrate import (
     WORK_SIZE,
     StepControl,
 )
-from gearlube_core.dynamics.helical_pair.march.mesh_data import pack_march_mesh, pair_data
+from gearlube_core.dynamics.helical_pair.march.mesh_data import (
+    MeshFields,
+    mesh_at_torque,
+    pack_march_mesh,
+    pair_data,
+)
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES, write_outputs
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
-from gearlube_core.dynamics.helical_pair.march.state import (
-    FLANK_POINTS,
-    LOAD_TORQUE,
-    MU,
-    N_ODE,
-    N_STATE,
-    REFRESHED,
-    W_P,
-)
+from gearlube_core.dynamics.helical_pair.march.rates import march_rates
+from gearlube_core.dynamics.helical_pair.march.state import LOAD_TORQUE, N_ODE, N_STATE
 from gearlube_core.dynamics.stepped_model import (
     TOO_FAST_WORDS,
     Kernels,
@@ -39,10 +40,15 @@ from gearlube_core.dynamics.stepped_model import (
     TorqueLimits,
     Words,
 )
+from gearlube_core.errors import ConvergenceError
 
 MAX_TORQUE = 1e5  # N.m on either shaft
-_FULL_CONTACT = 1e-5  # m, compression at which all lines touch
-_WORDS = Words(
+NO_EQUILIBRIUM_CURE = "Reduce the torque or stiffen the supports"
+NO_FREQUENCIES_WORDS = (
+    "the natural frequencies about the static equilibrium are not finite. Use stiffness, masses "
+    "and damping nearer to those of gears"
+)
+WORDS = Words(
     "pair",
     "the mesh frequency",
     {
@@ -56,6 +62,13 @@ _WORDS = Words(
         TOO_FAST: TOO_FAST_WORDS,
     },
 )
+
+
+def torque_limits(parameters: HelicalMarchParameters) -> TorqueLimits:
+    """Return the torques beyond which a pair takes no step."""
+    return TorqueLimits.around(
+        parameters.torque_range, parameters.pair.ratio, MAX_TORQUE, MAX_TORQUE
+    )
 
 
 class HelicalPairModel(SteppedModel[StepControl]):
@@ -96,27 +109,21 @@ class HelicalPairModel(SteppedModel[StepControl]):
         self.constants: MarchConstants = parameters.constants()
         self.mesh = pack_march_mesh(parameters.mesh)
         self._data = pair_data(self.constants, parameters.mesh)
-        self._rates = MarchRates(self.constants, self.mesh, self._data)
-        self._bearings = np.concatenate(
-            [
-                bearing_shares(body, parameters.support_damping_ratio)
-                for body in (parameters.pinion, parameters.gear)
-            ]
-        )
+        self._fields: MeshFields = (self.mesh.torque, self.mesh.density, self.mesh.offset)
+        self._scratch = np.zeros(EQUILIBRIUM_WORK)
+        self._bearings = parameters.bearing_shares()
         super().__init__(
             states=N_STATE,
             output_names=OUTPUT_NAMES,
             control=StepControl(0.0, 0.0, 1.0),
             oil=parameters.oil,
-            torque_limits=TorqueLimits.around(
-                parameters.torque_range, parameters.pair.ratio, MAX_TORQUE, MAX_TORQUE
-            ),
+            torque_limits=torque_limits(parameters),
             ranges=parameters.ranges,
-            words=_WORDS,
+            words=WORDS,
         )
 
     def _with_data(self) -> Kernels:
-        data, work = (tuple(self.mesh), self._data, self._bearings), np.zeros(WORK_SIZE)
+        data, work = (self._fields, self._data, self._bearings), np.zeros(WORK_SIZE)
         return Kernels(
             communication_step,
             (*data, self._control_values, work, self._outputs),
@@ -135,32 +142,53 @@ class HelicalPairModel(SteppedModel[StepControl]):
         """
         full = self._state.copy()
         full[:N_ODE] = state
-        return self._rates.at(full, *self._inputs[:2].tolist())
+        slope = np.zeros(N_ODE)
+        mesh_at_torque(full[LOAD_TORQUE], self._fields, self._data)
+        pinion_torque, wheel_torque = self._inputs[:2].tolist()
+        march_rates(full, pinion_torque, wheel_torque, self._data, slope)
+        return slope
 
     def natural_frequencies(self) -> Array:
-        """Return the undamped natural frequencies about the present state [Hz], rising."""
-        return natural_frequencies(self._state, self._rates)
+        """Return the undamped natural frequencies about the present state [Hz], rising.
+
+        Raises
+        ------
+        ConvergenceError
+            When they are not finite.
+        """
+        real, imaginary = np.zeros(MAX_UNKNOWNS), np.zeros(MAX_UNKNOWNS)
+        data = self._fields, self._data, self._scratch
+        status, n = squared_frequencies(self._state.copy(), *data, real, imaginary)
+        if status != OK:
+            raise ConvergenceError(f"{NO_FREQUENCIES_WORDS}.")
+        return np.sort(np.sqrt(np.maximum(real[:n], 0.0))) / (2.0 * np.pi)
 
     def _rest(self, speed: float, torque: float, oil_temperature: float) -> None:
         """Write the equilibrium at mesh phase zero; the gear turns in the ratio of the teeth."""
-        s = self._state
-        s[LOAD_TORQUE] = abs(torque)
-        s[MU : MU + 2 * FLANK_POINTS] = self.constants.mu
-        s[REFRESHED] = -1.0
-        settle(s, torque, speed, oil_temperature, self._rates)
+        loads = float(torque), float(speed), float(oil_temperature)
+        status, worst = rest(self._state, *loads, self._fields, self._data, self._scratch)
+        _check_found(status, torque, worst)
 
     def _step_control(self, torque: float, oil_temperature: float) -> StepControl:
         """Tie the step to the highest mode with all lines in contact, loaded or not."""
         parameters = self.parameters
-        plane = self.constants.motion.flanks.plane
-        pressed = plane.r_bp * plane.W * float(np.mean(self.mesh.density)) * _FULL_CONTACT
-        state = self._state
-        if abs(torque) < pressed:
-            state = state.copy()
-            least = -pressed if torque < 0.0 else pressed
-            settle(state, least, float(state[W_P]), oil_temperature, self._rates)
+        data = self._fields, self._data, self._scratch
+        s = self._state.copy()
+        status, highest = highest_frequency(s, float(torque), float(oil_temperature), *data)
+        _check_found(status, torque, highest)
         return StepControl(
             float(parameters.steps_per_mesh_period),
             float(parameters.steps_per_highest_period),
-            float(natural_frequencies(state, self._rates)[-1]),
+            highest,
         )
+
+
+def _check_found(status: int, torque: float, worst: float) -> None:
+    """Raise ConvergenceError unless the status of a kernel of `equilibrium` is OK."""
+    if status == NO_EQUILIBRIUM:
+        raise ConvergenceError(
+            f"no static equilibrium at a pinion torque of {torque:g} N.m: forces are out "
+            f"by {worst:g} N. {NO_EQUILIBRIUM_CURE}."
+        )
+    if status != OK:
+        raise ConvergenceError(f"{NO_FREQUENCIES_WORDS}.")

@@ -12,6 +12,7 @@ from gearlube_core.dynamics.helical_pair.march.flank_views import (
     friction_direction,
 )
 from gearlube_core.dynamics.helical_pair.march.flank_wrench import flank_wrench, turned_wrench
+from gearlube_core.dynamics.helical_pair.march.given_pair import BEARING_FIELDS, N_BEARINGS
 from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_OUTPUTS, write_lines
 from gearlube_core.dynamics.helical_pair.march.line_sums import line_sums
 from gearlube_core.dynamics.helical_pair.march.mesh_data import MeshFields, mesh_at_torque
@@ -43,7 +44,6 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import lubricant_state
 
 BEARING_QUANTITIES = ("force.x", "force.y", "force.z")
-N_BEARINGS = 4
 
 OUTPUT_NAMES: tuple[str, ...] = (
     "pinion.angle",
@@ -116,7 +116,6 @@ ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
 RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
 N_BEARING_QUANTITIES = len(BEARING_QUANTITIES)
 
-BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c_z
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
 

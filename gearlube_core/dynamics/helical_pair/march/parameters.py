@@ -6,30 +6,33 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, Literal, get_args
 
+import numpy as np
+
+from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
-from gearlube_core.dynamics.helical_pair.march.constants import (
-    MarchConstants,
-    MarchScalars,
-    MotionConstants,
-    SupportConstants,
+from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, MarchScalars
+from gearlube_core.dynamics.helical_pair.march.given_pair import (
+    BEARING_FIELDS,
+    N_BEARINGS,
+    GivenBody,
+    GivenOil,
+    GivenPair,
+    MarchChoices,
+    write_bearing_shares,
+    write_constants,
 )
-from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants
 from gearlube_core.dynamics.helical_pair.march.mesh_data import all_stations
 from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX
-from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
 from gearlube_core.dynamics.helical_pair.mesh_match import check_line_mesh, effective_mass
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import ShaftSupport
-from gearlube_core.dynamics.helical_pair.supports.support_matrices import (
-    support_damping,
-    support_stiffness,
-)
+from gearlube_core.dynamics.helical_pair.supports.support_matrices import shaft_springs
 from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
 from gearlube_core.film import dowson_toyoda_1979
 from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 
@@ -39,7 +42,10 @@ Equations = Literal["consistent", "he_2007"]
 
 _DAMPING = Within(0.0, 1.0, cure="Five percent is usual.")
 
+# what the constants of the march call the options
 FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
+HELD = {"twelve_dof": 0.0, "six_dof": 1.0}
+LINE_WORK = {"consistent": 1.0, "he_2007": 0.0}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,20 +71,16 @@ class Body:
         for name in ("inertia", "polar_inertia"):
             check_within(name, getattr(self, name), 1e-9, 1e6, "kg m2")
 
-    def constants(self, ratio: float, held: bool) -> SupportConstants:
-        """Return the floats for the kernels; `held` takes axial motion and tilt away."""
-        K = support_stiffness(self.support)
-        c = support_damping(self.support, self.mass, self.inertia, ratio, False)
-        free = 0.0 if held else 1.0
-        return SupportConstants(
-            K_xx=K[0, 0], K_yy=K[1, 1], K_zz=K[2, 2], K_ax=K[3, 3], K_ay=K[4, 4],
-            K_x_ay=K[0, 4], K_y_ax=K[1, 3],
-            c_x=c[0], c_y=c[1], c_z=c[2], c_ax=c[3], c_ay=c[4],
-            mobility=1.0 / self.mass,
-            mobility_z=free / self.mass,
-            mobility_a=free / self.inertia,
-            mobility_r=1.0 / self.polar_inertia,
-        )  # fmt: skip
+    def given(self) -> GivenBody:
+        """Return the floats for the kernels."""
+        first, second = shaft_springs(self.support)
+        return GivenBody(
+            mass=float(self.mass),
+            inertia=float(self.inertia),
+            polar_inertia=float(self.polar_inertia),
+            first=first,
+            second=second,
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -179,39 +181,54 @@ class HelicalMarchParameters(MarchScalars):
         X = plane.P + 0.25 * plane.pitch + 0.5 * plane.W * math.tan(self.pair.base_helix_angle)
         return 2.0 * (X - plane.A) / plane.pitch
 
-    def constants(self) -> MarchConstants:
-        """Return the floats for the kernels."""
-        held = self.form == "six_dof"
-        constant = self.friction == "constant"
+    def given(self) -> GivenPair:
+        """Return what only gear file and line mesh decide."""
         plane = self.pair.plane
         height = plane.r_bp + plane.r_bg
         square = plane.x_g**2 + height**2
-        flanks = constants_of(
-            FlankConstants,
-            self,
+        torque_low, torque_high = self.torque_range
+        return GivenPair(
             plane=plane,
-            damping=damping_factor(self.mesh_damping_ratio, self.effective_mass, plane.cos_b),
+            effective_mass=self.effective_mass,
+            coast_phase=self.coast_phase,
             turn_cos=(height**2 - plane.x_g**2) / square,
             turn_sin=2.0 * plane.x_g * height / square,
-            line_work=1.0 if self.equations == "consistent" else 0.0,
             lines=float(self.mesh.lines),
             phases=float(self.mesh.phase.size),
             stations=float(all_stations(self.mesh).size),
-        )
-        return constants_of(
-            MarchConstants,
-            self,
-            motion=MotionConstants(
-                flanks=flanks,
-                pinion=self.pinion.constants(self.support_damping_ratio, held),
-                gear=self.gear.constants(self.support_damping_ratio, held),
-            ),
             teeth=float(self.pair.pinion_teeth),
-            friction_form=FRICTION_FORMS[self.friction],
-            mu=self.friction_coefficient if constant else 0.0,
-            refreshes=float(self.friction_updates_per_mesh_period),
-            surface=gear_flanks(self.roughness_rms),
+            pinion=self.pinion.given(),
+            gear=self.gear.given(),
             solid=solid_parameters(self.solid, self.solid),
-            oil=self.oil.parameters(),
-            ranges=range_limits(self.ranges),
+            torque_low=torque_low,
+            torque_high=torque_high,
         )
+
+    def given_oil(self) -> GivenOil:
+        """Return the oil with the ranges of the formulas."""
+        return GivenOil(self.oil.parameters(), range_limits(self.ranges))
+
+    def choices(self) -> MarchChoices:
+        """Return what may be chosen for any gear file."""
+        return constants_of(
+            MarchChoices,
+            self,
+            friction_form=FRICTION_FORMS[self.friction],
+            held=HELD[self.form],
+            line_work=LINE_WORK[self.equations],
+            refreshes=float(self.friction_updates_per_mesh_period),
+        )
+
+    def constants(self) -> MarchConstants:
+        """Return the floats for the kernels."""
+        floats = np.zeros(count_floats(MarchConstants))
+        given = flatten(self.given())
+        write_constants(given, flatten(self.given_oil()), flatten(self.choices()), floats)
+        found: MarchConstants = tuple_from_array(floats, MarchConstants)
+        return found
+
+    def bearing_shares(self) -> Array:
+        """Return the shares of all bearings in the members' supports, see `given_pair`."""
+        shares = np.zeros(N_BEARINGS * BEARING_FIELDS)
+        write_bearing_shares(flatten(self.given()), flatten(self.constants()), shares)
+        return shares

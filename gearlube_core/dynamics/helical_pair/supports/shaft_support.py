@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from gearlube_core.checks import check_finite, check_option, check_positive, check_within
+from gearlube_core.dynamics.helical_pair.supports.support_kernels import coupling_limit
 
 Series = Literal["beam", "term_by_term"]
+COUPLING_CURE = "A larger coupling would give energy away; raise the stiffness against tilting."
 _STIFF = 1e13  # N/m, no bearing is as stiff
 
 
@@ -50,9 +52,8 @@ class Bearing:
         for name in ("K_x_theta_y", "K_y_theta_x"):
             check_finite(name, getattr(self, name), "N/rad")
         for a, b, c in (("xx", "theta_y", "x_theta_y"), ("yy", "theta_x", "y_theta_x")):
-            limit = math.sqrt(getattr(self, f"K_{a}") * getattr(self, f"K_{b}"))
-            cure = "A larger coupling would give energy away; raise the stiffness against tilting."
-            check_within(f"K_{c}", getattr(self, f"K_{c}"), -limit, limit, "N/rad", cure)
+            limit = coupling_limit(float(getattr(self, f"K_{a}")), float(getattr(self, f"K_{b}")))
+            check_within(f"K_{c}", getattr(self, f"K_{c}"), -limit, limit, "N/rad", COUPLING_CURE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

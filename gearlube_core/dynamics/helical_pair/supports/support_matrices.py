@@ -10,6 +10,11 @@ from gearlube_core.dynamics.helical_pair.supports.shaft_support import (
     ShaftEnds,
     ShaftSupport,
 )
+from gearlube_core.dynamics.helical_pair.supports.support_kernels import (
+    damping_constant,
+    member_stiffness,
+)
+from gearlube_core.helical_geometry.gear_body import SupportStiffness
 
 _X, _Y, _Z, _THX, _THY = range(5)
 
@@ -53,6 +58,20 @@ def bearing_matrix(bearing: Bearing, shaft: ShaftEnds | None) -> Array:
     return K
 
 
+def shaft_springs(support: ShaftSupport) -> tuple[SupportStiffness, SupportStiffness]:
+    """Return both bearings of a member with their shaft ends in series, as kernels take them."""
+
+    def spring(bearing: Bearing) -> SupportStiffness:
+        K = bearing_matrix(bearing, support.shaft)
+        floats = (
+            bearing.position, K[_X, _X], K[_Y, _Y], K[_Z, _Z], K[_THX, _THX], K[_THY, _THY],
+            K[_X, _THY], K[_Y, _THX],
+        )  # fmt: skip
+        return SupportStiffness(*map(float, floats))
+
+    return spring(support.first), spring(support.second)
+
+
 def support_stiffness(support: ShaftSupport) -> Array:
     """Return the stiffness K = sum T^T K_SB T against (u, theta) of the member, shape (6, 6).
 
@@ -64,11 +83,12 @@ def support_stiffness(support: ShaftSupport) -> Array:
     Source: [he_2007 (28)] [he_2007 (29)] [he_2007 (30)] [he_2007 (31)]
     (28) agrees; in (29), (30) and (31) misprints are put right, see `printed_support_stiffness`.
     """
+    first, second = shaft_springs(support)
+    member = member_stiffness(first, second)
     K = np.zeros((6, 6))
-    for bearing in (support.first, support.second):
-        T = np.eye(6)
-        T[_X, _THY], T[_Y, _THX] = bearing.position, -bearing.position
-        K += T.T @ bearing_matrix(bearing, support.shaft) @ T
+    np.fill_diagonal(K, (*member[:5], 0.0))
+    K[_X, _THY] = K[_THY, _X] = member.K_x_ay
+    K[_Y, _THX] = K[_THX, _Y] = member.K_y_ax
     return K
 
 
@@ -114,8 +134,10 @@ def support_damping(
     Source: [he_2007 (32)] [he_2007 (33)] [he_2007 (34a)] [he_2007 (34b)] [he_2007 (35a)]
     [he_2007 (35b)]
     """
-    total = np.diag(support_stiffness(support)).copy()
-    c = 2.0 * ratio * np.sqrt(total * np.array([mass, mass, mass, inertia, inertia, 0.0]))
+    total = np.diag(support_stiffness(support)).tolist()
+    masses = (*3 * (float(mass),), *2 * (float(inertia),), 0.0)
+    pairs = zip(total, masses, strict=True)
+    c = np.array([damping_constant(K, m, float(ratio)) for K, m in pairs])
     if per_bearing:
         each = [bearing_matrix(b, support.shaft) for b in (support.first, support.second)]
         roots = sum(np.sqrt(np.diag(K)[:3] * mass) for K in each)

@@ -1,0 +1,268 @@
+"""From what gear file and oil give, and what a user chooses, to constants of the march: kernels.
+
+All go in and out as flattened NamedTuples, so that Python and a native FMU call the same code.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from gearlube_core.arrays import Array
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.dynamics.helical_pair.march.constants import (
+    MarchConstants,
+    MotionConstants,
+    SupportConstants,
+)
+from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants
+from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
+from gearlube_core.dynamics.helical_pair.supports.support_kernels import (
+    bearing_at_gear,
+    coupling_limit,
+    damping_constant,
+    member_stiffness,
+    replaced_bearing,
+)
+from gearlube_core.dynamics.ranges import RangeLimits
+from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.helical_geometry.gear_body import SupportStiffness
+from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant import LubricantParameters
+
+OK = 0
+NO_BEARINGS = 1
+COUPLING_TOO_LARGE = 2
+
+N_BEARINGS = 4
+BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c_z
+NO_BEARING = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class GivenBody(NamedTuple):
+    """One gear and its bearings, shaft ends included."""
+
+    mass: float  # [kg]
+    inertia: float  # about a diameter [kg m2]
+    polar_inertia: float  # [kg m2]
+    first: SupportStiffness  # NO_BEARING where there is none
+    second: SupportStiffness
+
+
+class GivenPair(NamedTuple):
+    """What only gear file and line mesh decide."""
+
+    plane: ContactPlane
+    effective_mass: float  # of the relative rotation along the line of action [kg]
+    coast_phase: float  # see `FlankConstants`
+    turn_cos: float
+    turn_sin: float
+    lines: float
+    phases: float
+    stations: float
+    teeth: float  # of the pinion
+    pinion: GivenBody
+    gear: GivenBody
+    solid: SolidParameters
+    torque_low: float  # pinion torques at the ends of the line mesh [N.m]
+    torque_high: float
+
+
+class GivenOil(NamedTuple):
+    """An oil, and the ranges of its data and of all formulas."""
+
+    parameters: LubricantParameters
+    ranges: RangeLimits  # the torque's are those of the pair instead
+
+
+class MarchChoices(NamedTuple):
+    """What a user chooses for any gear file, but for the replaced bearings."""
+
+    friction_form: float  # see `MarchConstants`
+    friction_coefficient: float  # [-]
+    roughness_rms: float  # [m]
+    backlash: float  # [m]
+    mesh_damping_ratio: float  # [-]
+    support_damping_ratio: float  # [-]
+    held: float  # 1: axial motion and tilt are held; 0: free
+    line_work: float  # see `FlankConstants`
+    refreshes: float  # see `MarchConstants`
+
+
+@kernel
+def replaced_body(
+    body: GivenBody, radial: float, axial: float, distance: float
+) -> tuple[int, GivenBody]:
+    """Return a status and the body on other bearings, see `replaced_bearing`."""
+    lacks = body.first.position == 0.0 or body.second.position == 0.0
+    if lacks and (radial == 0.0 or axial == 0.0 or distance == 0.0):
+        return NO_BEARINGS, body
+    first = replaced_bearing(body.first, 1.0, radial, axial, distance)
+    second = replaced_bearing(body.second, -1.0, radial, axial, distance)
+    for bearing in (first, second):
+        if abs(bearing.K_x_theta_y) > coupling_limit(bearing.K_xx, bearing.K_theta_y) or abs(
+            bearing.K_y_theta_x
+        ) > coupling_limit(bearing.K_yy, bearing.K_theta_x):
+            return COUPLING_TOO_LARGE, body
+    return OK, GivenBody(body.mass, body.inertia, body.polar_inertia, first, second)
+
+
+@kernel
+def replace_bearings(
+    given: Array, radial: float, axial: float, distance: float, replaced: Array
+) -> int:
+    """Write the pair on other bearings; return a status.
+
+    Parameters
+    ----------
+    given : ndarray
+        Flattened GivenPair.
+    radial, axial, distance
+        See `gear_file_march.ReplacedBearings`.
+    replaced : ndarray
+        Flattened GivenPair; unchanged when the status is not OK.
+
+    Returns
+    -------
+    int
+        OK, NO_BEARINGS or COUPLING_TOO_LARGE.
+    """
+    pair: GivenPair = tuple_from_array(given, GivenPair)
+    status, pinion = replaced_body(pair.pinion, radial, axial, distance)
+    if status != OK:
+        return status
+    status, gear = replaced_body(pair.gear, radial, axial, distance)
+    if status == OK:
+        tuple_to_array(
+            GivenPair(
+                pair.plane,
+                pair.effective_mass,
+                pair.coast_phase,
+                pair.turn_cos,
+                pair.turn_sin,
+                pair.lines,
+                pair.phases,
+                pair.stations,
+                pair.teeth,
+                pinion,
+                gear,
+                pair.solid,
+                pair.torque_low,
+                pair.torque_high,
+            ),
+            replaced,
+        )
+    return status
+
+
+@kernel
+def support_constants(body: GivenBody, ratio: float, held: float) -> SupportConstants:
+    """Return the support of one member; `held` takes axial motion and tilt away."""
+    K = member_stiffness(body.first, body.second)
+    return SupportConstants(
+        K.K_xx,
+        K.K_yy,
+        K.K_zz,
+        K.K_ax,
+        K.K_ay,
+        K.K_x_ay,
+        K.K_y_ax,
+        damping_constant(K.K_xx, body.mass, ratio),
+        damping_constant(K.K_yy, body.mass, ratio),
+        damping_constant(K.K_zz, body.mass, ratio),
+        damping_constant(K.K_ax, body.inertia, ratio),
+        damping_constant(K.K_ay, body.inertia, ratio),
+        1.0 / body.mass,
+        (1.0 - held) / body.mass,
+        (1.0 - held) / body.inertia,
+        1.0 / body.polar_inertia,
+    )
+
+
+@kernel
+def write_constants(given: Array, oil: Array, choices: Array, constants: Array) -> None:
+    """Write MarchConstants from GivenPair, GivenOil and MarchChoices, all flattened."""
+    pair: GivenPair = tuple_from_array(given, GivenPair)
+    of_oil: GivenOil = tuple_from_array(oil, GivenOil)
+    chosen: MarchChoices = tuple_from_array(choices, MarchChoices)
+    flanks = FlankConstants(
+        pair.plane,
+        damping_factor(chosen.mesh_damping_ratio, pair.effective_mass, pair.plane.cos_b),
+        chosen.backlash,
+        pair.coast_phase,
+        pair.turn_cos,
+        pair.turn_sin,
+        chosen.line_work,
+        pair.lines,
+        pair.phases,
+        pair.stations,
+    )
+    ranges = of_oil.ranges
+    tuple_to_array(
+        MarchConstants(
+            MotionConstants(
+                flanks,
+                support_constants(pair.pinion, chosen.support_damping_ratio, chosen.held),
+                support_constants(pair.gear, chosen.support_damping_ratio, chosen.held),
+            ),
+            pair.teeth,
+            chosen.friction_form,
+            chosen.friction_coefficient if chosen.friction_form == 0.0 else 0.0,
+            chosen.refreshes,
+            gear_flanks(chosen.roughness_rms),
+            pair.solid,
+            of_oil.parameters,
+            RangeLimits(
+                pair.torque_low,
+                pair.torque_high,
+                ranges.film_load_low,
+                ranges.film_load_high,
+                ranges.film_material_low,
+                ranges.film_material_high,
+                ranges.traction_low,
+                ranges.traction_high,
+                ranges.temperature_low,
+                ranges.temperature_high,
+                ranges.pressure_low,
+                ranges.pressure_high,
+            ),
+        ),
+        constants,
+    )
+
+
+@kernel
+def write_share(
+    bearing: SupportStiffness, member: SupportConstants, first: int, out: Array
+) -> None:
+    """Write the BEARING_FIELDS of one bearing of a member from place `first` of `out`."""
+    own = bearing_at_gear(bearing)
+    out[first] = own.K_xx
+    out[first + 1] = own.K_x_ay
+    out[first + 2] = own.K_yy
+    out[first + 3] = own.K_y_ax
+    out[first + 4] = own.K_zz
+    out[first + 5] = member.c_x * own.K_xx / member.K_xx if member.K_xx > 0.0 else 0.0
+    out[first + 6] = member.c_y * own.K_yy / member.K_yy if member.K_yy > 0.0 else 0.0
+    out[first + 7] = member.c_z * own.K_zz / member.K_zz if member.K_zz > 0.0 else 0.0
+
+
+@kernel
+def write_bearing_shares(given: Array, constants: Array, shares: Array) -> None:
+    """Write the share of every bearing in the support force of its member.
+
+    Parameters
+    ----------
+    given, constants : ndarray
+        Flattened GivenPair, and MarchConstants made of it.
+    shares : ndarray
+        BEARING_FIELDS of each of the four bearings. A member's damping is shared in the ratio of
+        the bearings' stiffness.
+    """
+    pair: GivenPair = tuple_from_array(given, GivenPair)
+    motion: MotionConstants = tuple_from_array(constants, MotionConstants)
+    write_share(pair.pinion.first, motion.pinion, 0, shares)
+    write_share(pair.pinion.second, motion.pinion, BEARING_FIELDS, shares)
+    write_share(pair.gear.first, motion.gear, 2 * BEARING_FIELDS, shares)
+    write_share(pair.gear.second, motion.gear, 3 * BEARING_FIELDS, shares)
