@@ -2,24 +2,67 @@
 
 from __future__ import annotations
 
+import hashlib
+import logging
+from importlib.util import find_spec
 from pathlib import Path
 
+_LOGGER = logging.getLogger(__name__)
 
-def cached_hypoid_axle(mesh_table: Path | None = None) -> Path:
+
+def can_build_native() -> bool:
+    """Return whether the compiler of native FMUs is installed."""
+    return find_spec("ziglang") is not None
+
+
+def cached_hypoid_axle(mesh_table: Path | None = None, *, native: bool | None = None) -> Path:
     """Return HypoidAxle.fmu from the user's cache; build it if sources or mesh table are new.
 
-    The folder carries the GUID, which changes with everything that decides the results.
+    Parameters
+    ----------
+    mesh_table : path, optional
+        Of another gear pair; by default the one that ships.
+    native : bool, optional
+        Whether the FMU computes by itself, or in this package. By default native where the
+        compiler is installed.
+
+    Raises
+    ------
+    GearLubeError
+        The table is wrong, or `native` is asked for without the compiler.
+
+    Notes
+    -----
+    The folder's name changes with everything that decides the results.
     """
     from platformdirs import user_cache_path
 
-    from fmu_src.build import build_hypoid_axle
+    from fmu_src.build import build_models
     from fmu_src.hypoid_axle import DEFINITION, definition_with_table
     from fmu_src.identity import guid_of
+    from fmu_src.native.build import NativeOptions
+    from fmu_src.native.platforms import platform_of_this_machine
 
     definition = DEFINITION if mesh_table is None else definition_with_table(mesh_table)
-    folder = user_cache_path("gearlube") / "fmu" / str(guid_of(definition))
+    native = can_build_native() if native is None else native
+    key = f"native-{_native_digest()}-" if native else ""
+    folder = user_cache_path("gearlube") / "fmu" / f"{key}{guid_of(definition)}"
     path = folder / f"{definition.name}.fmu"
     if not path.is_file():
         folder.mkdir(parents=True, exist_ok=True)
-        build_hypoid_axle(folder, mesh_table)
+        options = None
+        if native:
+            _LOGGER.info("building the native FMU of this machine, once")
+            options = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
+        build_models(folder, "hypoid-axle", mesh_table, native=options)
     return path
+
+
+def _native_digest() -> str:
+    """Return a digest of what makes a native FMU of the kernels."""
+    here = Path(__file__).parent
+    digest = hashlib.sha256((here / "object_code.py").read_bytes())
+    for path in sorted((here / "native").rglob("*.[pch]*")):
+        if path.is_file() and path.suffix in (".py", ".c", ".h"):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]

@@ -59,7 +59,7 @@ from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
 
-_PARAMETERS = {v.argument: v for v in HELICAL_PAIR if v.causality == "parameter"}
+_PARAMETERS = {v.argument: v for v in HELICAL_PAIR if v.is_model_parameter}
 _PLACE = {argument: place for place, argument in enumerate(_PARAMETERS)}
 N_PARAMETERS = len(_PARAMETERS)
 N_INPUTS = sum(v.causality == "input" for v in HELICAL_PAIR)
