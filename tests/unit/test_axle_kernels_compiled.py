@@ -21,14 +21,19 @@ from gearlube_core.dynamics.hypoid_axle import (
     bearing_outputs,
     flank_outputs,
     flanks,
+    force_derivatives,
     integrate,
     mesh_at_load,
     mesh_force,
     outputs,
     rhs,
+    start,
+    step_control,
 )
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
+from gearlube_core.dynamics.hypoid_axle.model import START_WORK
 from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, N_OUTPUTS, PINION_BEARINGS
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
@@ -116,6 +121,14 @@ def all_cases():
     at_start[TIME_IN_STEP] = 0.0
     torques = (torque_p, torque_g)
     work = zeros(integrate.work_size(mesh.orders, mesh.nodes))
+    lossless = without_losses(p)
+    at_rest = start.RestProblem(
+        state, inputs, mesh_data, state_of_oil, lossless, zeros(1), zeros(rhs.SCRATCH), zeros(N_ODE)
+    )
+    stiffness = zeros(force_derivatives.N_COORDINATES**2)
+    force_derivatives.force_derivatives(
+        state, 0.0, 60.0, OIL, table, lossless, zeros(START_WORK), stiffness
+    )
     bracket = kernels.load_bracket(33.0, 1.0, mesh.levels, mesh.levels.size)
     write_shaft = (motion, 300.0, state_of_oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0))
     found = [
@@ -179,6 +192,27 @@ def all_cases():
             for parameters in (p, printed)
             for fresh in (1.0, 0.0)
         ),
+        (start.mean_series, (33.0, table, zeros(kernels.N_SERIES))),
+        (start.rest_forces, (np.array([1.0, 2.0, 3.0, -1.0, -2.0, 4.0]), at_rest, zeros(6))),
+        *(
+            (start.rest, (zeros(N_STATE), 145.0, torque, OIL, table, lossless, zeros(START_WORK)))
+            for torque in (60.0, -60.0)
+        ),
+        *((force_derivatives._rate_place, (j,)) for j in range(8)),
+        *((force_derivatives.mass_of, (j, p)) for j in range(8)),
+        *(
+            (
+                force_derivatives.force_derivatives,
+                (state, of_speeds, 60.0, OIL, table, p, zeros(START_WORK), zeros(64)),
+            )
+            for of_speeds in (0.0, 1.0)
+        ),
+        (step_control.highest_frequency, (stiffness, p, zeros(8), zeros(8))),
+        (
+            step_control.write_step_control,
+            (state, 64.0, 22.0, 60.0, OIL, table, lossless, zeros(START_WORK), zeros(5)),
+        ),
+        (mesh_force.modal_damping, (0.06, 5e8, 3.4)),
         (integrate.step_limit, (p, control, 145.0, 5e8)),
         (integrate.step_limit, (printed, control, 145.0, 5e8)),
         *(
@@ -245,7 +279,23 @@ def all_cases():
             (state, torques, OIL, table, p, work, zeros(ROLLERS_MAX), zeros(N_OUTPUTS)),
         ),
     ]
+    inputs_now = np.array([*torques, OIL])
     found += [
+        (
+            COMPILED.static_state,
+            (zeros(N_STATE), 145.0, inputs_now, tuple(table), flatten(lossless), zeros(START_WORK)),
+        ),
+        (
+            COMPILED.step_control,
+            (
+                state, 64.0, 22.0, inputs_now, tuple(table), flatten(lossless), zeros(START_WORK),
+                zeros(5),
+            ),
+        ),
+        (
+            COMPILED.derivatives,
+            (state, 0.0, 60.0, OIL, tuple(table), flatten(p), zeros(START_WORK), zeros(64)),
+        ),
         (
             COMPILED.communication_step,
             (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from gearlube_core.arrays import Array
@@ -35,12 +36,17 @@ N_FREE = 6  # displacements of pinion and gear
 _LARGEST_ERROR = 1e-4  # of the mesh force, in any balance of forces
 _LEAST_FORCE = 1.0  # N, of which this share is taken at least
 _SCALE = 1.0  # um, a displacement that matters
+# Springs that hold shafts without contact while their bearings are found, then are taken away
+_STIFFEST = 1e3  # N/um
+_SOFTENING = 0.1
+_SOFTENINGS = 10
 
 _AT_SLOPE = SCRATCH
 _AT_SERIES = _AT_SLOPE + N_ODE
 _AT_STATE = _AT_SERIES + N_SERIES
 _AT_U = _AT_STATE + N_STATE
-_AT_NEWTON = _AT_U + 3 * N_FREE
+_AT_SOFT = _AT_U + 3 * N_FREE
+_AT_NEWTON = _AT_SOFT + 1
 REST_WORK = _AT_NEWTON + newton_work_size(N_FREE)
 
 
@@ -52,6 +58,7 @@ class RestProblem(NamedTuple):
     mesh: MeshAtLoad
     oil: LubricantState
     p: AxleParameters
+    soft: Array  # stiffness of springs on every displacement [N/um], shape (1,)
     scratch: Array  # shape (SCRATCH,)
     slope: Array  # shape (N_ODE,)
 
@@ -87,8 +94,8 @@ def rest_forces(u: Array, problem: Any, out: Array) -> None:
         problem.slope,
     )
     for i in range(3):
-        out[i] = problem.p.m_p * problem.slope[V_P + i]
-        out[3 + i] = problem.p.m_g * problem.slope[V_G + i]
+        out[i] = problem.p.m_p * problem.slope[V_P + i] - problem.soft[0] * u[i]
+        out[3 + i] = problem.p.m_g * problem.slope[V_G + i] - problem.soft[0] * u[3 + i]
 
 
 _displacements = damped_newton(rest_forces)
@@ -132,7 +139,8 @@ def rest(
     at_rest = work[_AT_STATE:_AT_U]
     u = work[_AT_U : _AT_U + N_FREE]
     scale = work[_AT_U + N_FREE : _AT_U + 2 * N_FREE]
-    out = work[_AT_U + 2 * N_FREE : _AT_NEWTON]
+    out = work[_AT_U + 2 * N_FREE : _AT_SOFT]
+    soft = work[_AT_SOFT:_AT_NEWTON]
     oil = lubricant_state(p.oil, oil_temperature)
     mean_series(torque, mesh, series)
     deflection = torque / series[R_P] / series[K_M]
@@ -144,23 +152,31 @@ def rest(
     for i in range(N_STATE):
         at_rest[i] = s[i]
     for i in range(N_FREE):
-        u[i] = 0.0
         scale[i] = _SCALE
     at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes)
     inputs = StepInputs(torque, 0.0, 0.0, 0.0)
-    problem = RestProblem(at_rest, inputs, at_load, oil, p, scratch, slope)
-    _displacements(u, scale, problem, work[_AT_NEWTON:REST_WORK])
-    rest_forces(u, problem, out)
-    worst = 0.0
-    for i in range(N_FREE):
-        worst = max(worst, abs(out[i]))
-        if out[i] != out[i]:
-            worst = out[i]
-            break
+    problem = RestProblem(at_rest, inputs, at_load, oil, p, soft, scratch, slope)
+    limit = _LARGEST_ERROR * max(abs(torque / series[R_P]), _LEAST_FORCE)
+    worst = math.inf
+    for attempt in range(_SOFTENINGS + 2):
+        # without springs first, then with softer and softer ones, at last without any
+        soft[0] = 0.0
+        if 0 < attempt <= _SOFTENINGS:
+            soft[0] = _STIFFEST * _SOFTENING ** (attempt - 1)
+        if attempt <= 1:
+            for i in range(N_FREE):
+                u[i] = 0.0
+        _displacements(u, scale, problem, work[_AT_NEWTON:REST_WORK])
+        if soft[0] == 0.0:
+            rest_forces(u, problem, out)
+            worst = 0.0
+            for i in range(N_FREE):
+                worst = max(worst, abs(out[i])) if abs(out[i]) < math.inf else math.inf
+            if worst <= limit:
+                break
     for i in range(3):
         s[U_P + i] = u[i]
         s[U_G + i] = u[3 + i]
     s[W_P] = speed
     s[W_G] = speed / p.ratio
-    force = max(abs(torque / series[R_P]), _LEAST_FORCE)
-    return (OK if worst <= _LARGEST_ERROR * force else NO_EQUILIBRIUM), worst
+    return (OK if worst <= limit else NO_EQUILIBRIUM), worst
