@@ -95,3 +95,14 @@ def test_numbers_that_are_not_finite_are_refused(bad):
     matrix = np.eye(3)
     matrix[0, 2] = bad
     assert eigenvalues(matrix.ravel(), 3, np.zeros(3), np.zeros(3)) == NOT_FINITE
+
+
+def test_the_compiled_kernel_is_its_source():
+    matrix = np.random.default_rng(4).normal(size=(8, 8)).ravel()
+    results = []
+    for function in (eigenvalues, eigenvalues.py_func):
+        real, imaginary = np.zeros(8), np.zeros(8)
+        assert function(matrix.copy(), 8, real, imaginary) == OK
+        results.append((real, imaginary))
+    # the callees are the same; the order of operations here too
+    np.testing.assert_allclose(results[0], results[1], rtol=1e-13, atol=1e-14)
