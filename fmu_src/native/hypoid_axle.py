@@ -58,7 +58,6 @@ REFUSALS: Mapping[int, str] = {
     NO_MODES: NO_MODES_WORDS,
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
 }
-_array: Any = array_at
 _START, _STEP, _RESUME = (int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME))
 _N_INPUTS = 3
 _N_CONTROL = count_floats(StepControl)
@@ -208,13 +207,13 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
         work: Any,
         outputs: Any,
     ) -> int:
-        constants = _array(data, at.data_end)
-        values = _array(work, at.work_end)
-        kept = _array(state, _STATE_SIZE)
-        given = _array(inputs, _N_INPUTS)
-        out = _array(outputs, N_OUTPUTS)
+        constants = array_at(data, at.data_end)
+        values = array_at(work, at.work_end)
+        kept = array_at(state, _STATE_SIZE)
+        given = array_at(inputs, _N_INPUTS)
+        out = array_at(outputs, N_OUTPUTS)
         if operation in (_START, _RESUME):
-            status = _write_parameters(_array(parameters, n_parameters), constants, at, values)
+            status = _write_parameters(array_at(parameters, n_parameters), constants, at, values)
             if status != OK or operation == _RESUME:
                 return status
         mesh = _chosen_mesh(constants, at, values)
@@ -237,7 +236,7 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
             settings: AxleSettings = tuple_from_array(values[at.settings :], AxleSettings)
             lossless = values[at.without_losses : at.trial]
             control = values[at.control : at.rollers]
-            speed = _array(parameters, n_parameters)[at_speed]
+            speed = array_at(parameters, n_parameters)[at_speed]
             status, _ = static_state(trial, speed, given, mesh, lossless, scratch)
             if status != OK:
                 return status

@@ -32,7 +32,7 @@ from tests.helpers.object_code import (
 
 KINDS = (TaperedRollerParameters, MixedFlankFriction)
 N = count_floats(AxleParameters, *KINDS)
-PARAMETERS = [v for v in DEFINITION.variables if v.causality == "parameter"]
+PARAMETERS = [v for v in DEFINITION.variables if v.is_model_parameter]
 CURRENT = [60.0, 150.0, 333.15]  # N.m, N.m, K
 
 
@@ -195,6 +195,7 @@ def test_what_is_refused_leaves_the_state_as_it_was(native):
         np.testing.assert_array_equal(refused.state, before)
 
 
+@pytest.mark.slow  # another half minute of compilation
 def test_another_mesh_table_is_the_one_that_counts(tmp_path):
     shipped = shipped_mesh_table("mohammadpour_2015")
     other = replace(with_coast_flanks(shipped), name="11_43", pinion_teeth=11, gear_teeth=43)

@@ -68,7 +68,7 @@ class LoadedModel:
         """Return an instance with parameters by argument, the others at their start values."""
         found = []
         for variable in self.model.definition.variables:
-            if variable.causality == "parameter":
+            if variable.is_model_parameter:
                 value = values.get(variable.argument, variable.decoded(variable.start or 0.0))
                 found.append(variable.literals.index(value) + 1 if variable.literals else value)
         return NativeRun(

@@ -143,29 +143,25 @@ def test_a_shaft_among_rollers_settles_under_the_load_also_from_within_the_clear
 
 
 @kernel
-def without_root(u, problem, out):
-    out[0] = u[0] * u[0] + problem[0]
-
-
-@kernel
-def not_a_number(u, problem, out):
-    out[0] = math.nan
-
-
-@kernel
-def arc_tangent(u, problem, out):
-    out[0] = math.atan(u[0]) - problem[0]
+def one_unknown(u, problem, out):
+    kind, a = problem
+    if kind == 0.0:
+        out[0] = math.atan(u[0]) - a
+    elif kind == 1.0:
+        out[0] = u[0] * u[0] + a
+    else:
+        out[0] = math.nan
 
 
 def test_where_plain_newton_diverges_damping_converges():
-    found, status, _ = solved(arc_tangent, [20.0], 1.0, (0.5,))
+    found, status, _ = solved(one_unknown, [20.0], 1.0, (0.0, 0.5))
     assert status == OK
     assert found[0] == pytest.approx(math.tan(0.5), rel=1e-13)
 
 
 def test_no_root_and_no_number_are_told():
-    assert solved(without_root, [3.0], 1.0, (1.0,))[1] == NOT_CONVERGED
-    assert solved(not_a_number, [3.0], 1.0, (1.0,))[1] == NOT_FINITE
+    assert solved(one_unknown, [3.0], 1.0, (1.0, 1.0))[1] == NOT_CONVERGED
+    assert solved(one_unknown, [3.0], 1.0, (2.0, 0.0))[1] == NOT_FINITE
 
 
 def test_factors_solve_what_needs_pivoting():
