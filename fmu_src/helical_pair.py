@@ -18,6 +18,7 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
 )
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.outputs import OUTPUT_NAMES
+from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
@@ -69,23 +70,20 @@ def chosen_pair(
     return gear, line_mesh
 
 
-def start_pair(
-    arguments: Mapping[str, Value], inputs: Sequence[float], embedded: EmbeddedPair | None = None
-) -> HelicalPairModel:
-    """Return an initialised pair.
+def pair_parameters(
+    arguments: Mapping[str, Value], embedded: EmbeddedPair | None = None
+) -> HelicalMarchParameters:
+    """Return the parameters of a pair.
 
     Parameters
     ----------
     arguments : mapping
-        `pinion_speed`, `gear_name`, `stiffness_model`, `stiffness_density`, `oil`, and fields of
+        `gear_name`, `stiffness_model`, `stiffness_density`, `oil`, and fields of
         `ReplacedBearings` and `HelicalMarchParameters`.
-    inputs : sequence of float
-        pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
     embedded : EmbeddedPair, optional
         What gear.name = custom stands for.
     """
     given: dict[str, Any] = dict(arguments)
-    speed = float(given.pop("pinion_speed"))
     name = str(given.pop("gear_name"))
     gear, line_mesh = chosen_pair(name, str(given.pop("stiffness_model")), embedded)
     parameters = helical_march_parameters(
@@ -95,7 +93,26 @@ def start_pair(
         oil=given.pop("oil"),
         bearings=ReplacedBearings(**{f.name: given.pop(f.name) for f in fields(ReplacedBearings)}),
     )
-    pair = HelicalPairModel(replace(parameters, **given))
+    return replace(parameters, **given)
+
+
+def start_pair(
+    arguments: Mapping[str, Value], inputs: Sequence[float], embedded: EmbeddedPair | None = None
+) -> HelicalPairModel:
+    """Return an initialised pair.
+
+    Parameters
+    ----------
+    arguments : mapping
+        `pinion_speed`, and those of `pair_parameters`.
+    inputs : sequence of float
+        pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
+    embedded : EmbeddedPair, optional
+        What gear.name = custom stands for.
+    """
+    given = dict(arguments)
+    speed = float(given.pop("pinion_speed"))
+    pair = HelicalPairModel(pair_parameters(given, embedded))
     pinion_torque, wheel_torque, oil_temperature = inputs
     pair.initialise(
         pinion_speed=speed,

@@ -19,16 +19,8 @@ import numpy as np
 from fmu_src.definition import Definition
 from fmu_src.helical_pair import chosen_pair, embedded_pair
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
-    ReplacedBearings,
-    helical_march_parameters,
-)
-from gearlube_core.dynamics.helical_pair.march.given_pair import (
-    NO_BEARING,
-    GivenBody,
-    GivenOil,
-    GivenPair,
-)
+from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.helical_pair.march.given_pair import GivenOil, GivenPair
 from gearlube_core.dynamics.helical_pair.march.mesh_data import (
     all_stations,
     data_size,
@@ -37,16 +29,13 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 from gearlube_core.dynamics.helical_pair.march.model import torque_limits
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.ranges import Range
-from gearlube_core.errors import GearLubeError, ParameterError
-from gearlube_core.helical_geometry.gear_file import HelicalGearFile, Role
+from gearlube_core.errors import GearLubeError
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
-from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 
 STIFFNESS_MODELS = 2
 OIL_FLOATS = count_floats(GivenOil)
 GIVEN_FLOATS = count_floats(GivenPair)
-_STAND_INS = ReplacedBearings(radial_stiffness=1e9, axial_stiffness=1e9, bearing_distance=0.1)
 
 
 class CaseHead(NamedTuple):
@@ -73,8 +62,6 @@ class HelicalCases:
         As described above.
     missing : dict of int to str
         Why a case is missing, by its number.
-    no_bearings : str
-        What to say where a gear file has no bearings and none are given.
     ranges : tuple of Range
         Words of the ranges.
     longest_data : int
@@ -83,7 +70,6 @@ class HelicalCases:
 
     data: Array
     missing: dict[int, str]
-    no_bearings: str
     ranges: tuple[Range, ...]
     longest_data: int
 
@@ -100,43 +86,29 @@ def helical_cases(definition: Definition) -> HelicalCases:
     blocks: list[Array] = []
     places = np.zeros(len(names))
     missing: dict[int, str] = {}
-    no_bearings = ""
     longest = 0
     oils: Array = np.empty(0)
     ranges: tuple[Range, ...] = ()
     for number, (name, model) in enumerate(names):
         try:
             gear, line_mesh = chosen_pair(name, model, embedded)
-            parameters, lacking = _parameters(gear, line_mesh)
+            parameters = helical_march_parameters(gear, line_mesh=line_mesh)
         except GearLubeError as error:
             missing[number] = str(error).removesuffix(".")
             continue
         if not oils.size:
             oils = _oils(parameters, literals["oil.name"])
             ranges = _words(parameters)
-        no_bearings = no_bearings or lacking
         places[number] = places.size + oils.size + sum(block.size for block in blocks)
-        block, length = _case(parameters, gear)
+        block, length = _case(parameters)
         blocks.append(block)
         longest = max(longest, length)
     return HelicalCases(
         data=np.concatenate([places, oils, *blocks]),
         missing=missing,
-        no_bearings=no_bearings,
         ranges=ranges,
         longest_data=longest,
     )
-
-
-def _parameters(
-    gear: HelicalGearFile, line_mesh: LineMesh | None
-) -> tuple[HelicalMarchParameters, str]:
-    """Return the marching model and, where the gear file lacks bearings, what is to be said."""
-    try:
-        return helical_march_parameters(gear, line_mesh=line_mesh), ""
-    except ParameterError as error:
-        parameters = helical_march_parameters(gear, line_mesh=line_mesh, bearings=_STAND_INS)
-        return parameters, str(error).removesuffix(".")
 
 
 def _oils(parameters: HelicalMarchParameters, names: tuple[str, ...]) -> Array:
@@ -153,7 +125,7 @@ def _words(parameters: HelicalMarchParameters) -> tuple[Range, ...]:
     )
 
 
-def _case(parameters: HelicalMarchParameters, gear: HelicalGearFile) -> tuple[Array, int]:
+def _case(parameters: HelicalMarchParameters) -> tuple[Array, int]:
     """Return the constants of one case and the length of its pair data."""
     mesh = pack_march_mesh(parameters.mesh)
     station = all_stations(parameters.mesh)
@@ -167,14 +139,8 @@ def _case(parameters: HelicalMarchParameters, gear: HelicalGearFile) -> tuple[Ar
         pinion_high=limits.pinion_high,
         wheel=limits.wheel,
     )
-    given = parameters.given()
-
-    def of_file(body: GivenBody, role: Role) -> GivenBody:
-        if gear.body(role).supports:
-            return body
-        return body._replace(first=NO_BEARING, second=NO_BEARING)
-
-    given = given._replace(pinion=of_file(given.pinion, "pinion"), gear=of_file(given.gear, "gear"))
     fields = mesh.density.ravel(), mesh.offset.ravel()
-    block = np.concatenate([flatten(head), flatten(given), station, mesh.torque, *fields])
+    block = np.concatenate(
+        [flatten(head), flatten(parameters.given()), station, mesh.torque, *fields]
+    )
     return block, data_size(station.size, size)

@@ -19,7 +19,7 @@ from fmu_src.native.helical_cases import (
 from fmu_src.native.model import OK, NativeModel, Operation
 from fmu_src.object_code import array_at, matrix_at, pointer_at
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.helical_pair.march import equilibrium, given_pair, integrate
+from gearlube_core.dynamics.helical_pair.march import equilibrium, integrate
 from gearlube_core.dynamics.helical_pair.march.communication import communication_step
 from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     EQUILIBRIUM_WORK,
@@ -118,8 +118,7 @@ NO_EQUILIBRIUM = 4
 NO_FREQUENCIES = 5
 INPUT_OUT_OF_RANGE = 6
 DENSITY_WITH_LINE_MESH = 7
-NO_BEARINGS = 8
-COUPLING_TOO_LARGE = 9
+COUPLING_TOO_LARGE = 8
 MISSING_CASE = 10  # and its number
 
 _START, _STEP, _RESUME = int(Operation.START), int(Operation.STEP), int(Operation.RESUME)
@@ -149,11 +148,10 @@ def take_parameters(parameters: Array, oils: Array, case: Array, work: Array) ->
     if parameters[STIFFNESS_MODEL] != 1.0 and parameters[DENSITY] > 0.0:
         return DENSITY_WITH_LINE_MESH
     given = work[GIVEN_AT:CHOICES_AT]
-    status = replace_bearings(
+    if not replace_bearings(
         case[HEAD_FLOATS:], parameters[RADIAL], parameters[AXIAL], parameters[DISTANCE], given
-    )
-    if status != given_pair.OK:
-        return NO_BEARINGS if status == given_pair.NO_BEARINGS else COUPLING_TOO_LARGE
+    ):
+        return COUPLING_TOO_LARGE
     choices = work[CHOICES_AT:DENSITY_AT]
     tuple_to_array(
         MarchChoices(
@@ -315,7 +313,6 @@ def native_model(definition: Definition) -> NativeModel:
         NO_FREQUENCIES: NO_FREQUENCIES_WORDS,
         INPUT_OUT_OF_RANGE: "an input is outside its limits",
         DENSITY_WITH_LINE_MESH: DENSITY_WITH_MESH_WORDS,
-        NO_BEARINGS: cases.no_bearings,
         COUPLING_TOO_LARGE: "a bearing of the gear file couples more than the given stiffness "
         f"allows. {COUPLING_CURE.removesuffix('.')}",
         **{MISSING_CASE + number: words for number, words in cases.missing.items()},
@@ -330,5 +327,5 @@ def native_model(definition: Definition) -> NativeModel:
         limits_at=LIMITS_AT,
         ranges_at=RANGES_AT,
         ranges=cases.ranges,
-        refusals={status: words for status, words in refusals.items() if words},
+        refusals=refusals,
     )

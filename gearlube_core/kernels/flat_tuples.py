@@ -7,6 +7,7 @@ as one float64 array: handing over a NamedTuple costs a Python attribute look-up
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import Any, get_type_hints
 
 import numpy as np
@@ -37,9 +38,15 @@ def count_floats(tuple_class: type, *variants: type) -> int:
     return sum(1 if part is float else count_floats(part) for part in _parts(tuple_class, variants))
 
 
+@cache
+def _hints(tuple_class: type) -> tuple[type, ...]:
+    """Return the annotations of the fields; Python evaluates them anew at each call."""
+    return tuple(get_type_hints(tuple_class).values())
+
+
 def _parts(tuple_class: type, variants: Sequence[type] = ()) -> list[type]:
     """Return float or the NamedTuple class of every field."""
-    hints = list(get_type_hints(tuple_class).values())
+    hints = _hints(tuple_class)
     interfaces = dict.fromkeys(h for h in hints if h is not float and not issubclass(h, tuple))
     chosen = dict(zip(interfaces, variants, strict=True))
     return [chosen.get(hint, hint) for hint in hints]

@@ -9,7 +9,6 @@ from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
     iso_mesh,
 )
-from gearlube_core.dynamics.helical_pair.march.given_pair import NO_BEARING
 from gearlube_core.dynamics.helical_pair.march.parameters import (
     Body,
     HelicalMarchParameters,
@@ -23,6 +22,7 @@ from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 
 DENSITY_WITH_MESH_WORDS = "stiffness_density must be 0 with a line mesh"
+_NO_BEARING = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _ZERO = "0 takes the value of the gear file."
 
 
@@ -144,7 +144,7 @@ def _support(gear: HelicalGearFile, role: Role, instead: ReplacedBearings) -> Sh
             f"the {role} must have bearings, the gear file {role}.bearing_1 is missing. "
             "Add them, or give radial and axial stiffness and the bearings' distance."
         )
-    first, second = springs or (NO_BEARING, NO_BEARING)
+    first, second = springs or 2 * (_NO_BEARING,)
 
     def bearing(spring: SupportStiffness, side: float) -> Bearing:
         taken = replaced_bearing(spring, side, float(radial), float(axial), float(distance))

@@ -31,13 +31,8 @@ from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant import LubricantParameters
 
-OK = 0
-NO_BEARINGS = 1
-COUPLING_TOO_LARGE = 2
-
 N_BEARINGS = 4
 BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c_z
-NO_BEARING = SupportStiffness(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class GivenBody(NamedTuple):
@@ -46,7 +41,7 @@ class GivenBody(NamedTuple):
     mass: float  # [kg]
     inertia: float  # about a diameter [kg m2]
     polar_inertia: float  # [kg m2]
-    first: SupportStiffness  # NO_BEARING where there is none
+    first: SupportStiffness
     second: SupportStiffness
 
 
@@ -91,28 +86,29 @@ class MarchChoices(NamedTuple):
 
 
 @kernel
+def gives_no_energy(bearing: SupportStiffness) -> bool:
+    """Return whether the couplings of a bearing are small enough beside its stiffness."""
+    return abs(bearing.K_x_theta_y) <= coupling_limit(bearing.K_xx, bearing.K_theta_y) and abs(
+        bearing.K_y_theta_x
+    ) <= coupling_limit(bearing.K_yy, bearing.K_theta_x)
+
+
+@kernel
 def replaced_body(
     body: GivenBody, radial: float, axial: float, distance: float
-) -> tuple[int, GivenBody]:
-    """Return a status and the body on other bearings, see `replaced_bearing`."""
-    lacks = body.first.position == 0.0 or body.second.position == 0.0
-    if lacks and (radial == 0.0 or axial == 0.0 or distance == 0.0):
-        return NO_BEARINGS, body
+) -> tuple[bool, GivenBody]:
+    """Return whether it gives no energy, and the body on other bearings, see `replaced_bearing`."""
     first = replaced_bearing(body.first, 1.0, radial, axial, distance)
     second = replaced_bearing(body.second, -1.0, radial, axial, distance)
-    for bearing in (first, second):
-        if abs(bearing.K_x_theta_y) > coupling_limit(bearing.K_xx, bearing.K_theta_y) or abs(
-            bearing.K_y_theta_x
-        ) > coupling_limit(bearing.K_yy, bearing.K_theta_x):
-            return COUPLING_TOO_LARGE, body
-    return OK, GivenBody(body.mass, body.inertia, body.polar_inertia, first, second)
+    sound = gives_no_energy(first) and gives_no_energy(second)
+    return sound, GivenBody(body.mass, body.inertia, body.polar_inertia, first, second)
 
 
 @kernel
 def replace_bearings(
     given: Array, radial: float, axial: float, distance: float, replaced: Array
-) -> int:
-    """Write the pair on other bearings; return a status.
+) -> bool:
+    """Write the pair on other bearings; return False where their couplings would give energy away.
 
     Parameters
     ----------
@@ -121,39 +117,31 @@ def replace_bearings(
     radial, axial, distance
         See `gear_file_march.ReplacedBearings`.
     replaced : ndarray
-        Flattened GivenPair; unchanged when the status is not OK.
-
-    Returns
-    -------
-    int
-        OK, NO_BEARINGS or COUPLING_TOO_LARGE.
+        Flattened GivenPair.
     """
     pair: GivenPair = tuple_from_array(given, GivenPair)
-    status, pinion = replaced_body(pair.pinion, radial, axial, distance)
-    if status != OK:
-        return status
-    status, gear = replaced_body(pair.gear, radial, axial, distance)
-    if status == OK:
-        tuple_to_array(
-            GivenPair(
-                pair.plane,
-                pair.effective_mass,
-                pair.coast_phase,
-                pair.turn_cos,
-                pair.turn_sin,
-                pair.lines,
-                pair.phases,
-                pair.stations,
-                pair.teeth,
-                pinion,
-                gear,
-                pair.solid,
-                pair.torque_low,
-                pair.torque_high,
-            ),
-            replaced,
-        )
-    return status
+    sound_pinion, pinion = replaced_body(pair.pinion, radial, axial, distance)
+    sound_gear, gear = replaced_body(pair.gear, radial, axial, distance)
+    tuple_to_array(
+        GivenPair(
+            pair.plane,
+            pair.effective_mass,
+            pair.coast_phase,
+            pair.turn_cos,
+            pair.turn_sin,
+            pair.lines,
+            pair.phases,
+            pair.stations,
+            pair.teeth,
+            pinion,
+            gear,
+            pair.solid,
+            pair.torque_low,
+            pair.torque_high,
+        ),
+        replaced,
+    )
+    return sound_pinion and sound_gear
 
 
 @kernel

@@ -1,0 +1,281 @@
+"""The native entry of the helical pair against the model in Python, for any parameters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fmu_src.helical_pair import DEFINITION, definition_with, pair_parameters
+from fmu_src.helical_variables import HELICAL_PAIR
+from fmu_src.native.helical_pair import (
+    BEARINGS_AT,
+    COUPLING_TOO_LARGE,
+    DATA_AT,
+    DENSITY_WITH_LINE_MESH,
+    GIVEN_AT,
+    INPUT_OUT_OF_RANGE,
+    MISSING_CASE,
+    NO_EQUILIBRIUM,
+    native_model,
+)
+from fmu_src.native.model import OK, NativeModel, Operation
+from gearlube_core.dynamics.helical_pair.march.integrate import TOO_MANY_STEPS
+from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
+from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.ranges import range_limits
+from gearlube_core.errors import GearLubeError, ParameterError
+from tests.architecture.test_object_code import FREESTANDING, LIBM, undefined_in_object
+from tests.helpers.native_entry import NativeEntry, object_of
+
+PARAMETERS = tuple(v for v in HELICAL_PAIR if v.causality == "parameter")
+OUTPUTS = {v.name: v for v in HELICAL_PAIR if v.causality == "output"}
+NOMINAL = np.array([OUTPUTS[name].nominal or 1.0 for name in DEFINITION.output_names])
+NOT_GIVEN_IF_0 = {
+    "mesh.stiffness_density",
+    "support.radial_stiffness",
+    "support.axial_stiffness",
+    "support.bearing_distance",
+}
+INPUTS = [v.start or 0.0 for v in HELICAL_PAIR if v.causality == "input"]
+STEP = 1e-4  # s
+# The same kernels, but for a processor without fused products: roundings, of the value or of the
+# nominal value of its output, where the value is the small difference of large ones
+CLOSE = 1e-11
+
+
+@pytest.fixture(scope="module")
+def shipped() -> NativeModel:
+    return native_model(DEFINITION)
+
+
+def own_gear(folder: Path, edit: Callable[[str], str]) -> NativeModel:
+    """Return the native model with the gear file of he_2007, edited."""
+    shipped = files("gearlube_core.helical_geometry") / "data" / "he_2007.toml"
+    path = folder / "own.toml"
+    path.write_text(edit(shipped.read_text()))
+    return native_model(definition_with(path))
+
+
+def values_of(**settings: float | str) -> list[float]:
+    """Values of all FMI parameters in their order, by name with __ for the dot."""
+    given = {name.replace("__", "."): value for name, value in settings.items()}
+    values = []
+    for variable in PARAMETERS:
+        value = given.pop(variable.name, variable.start)
+        literal = isinstance(value, str)
+        values.append(1.0 + variable.literals.index(value) if literal else float(value))
+    assert not given
+    return values
+
+
+def named(values: list[float]) -> dict[str, Any]:
+    return {v.name: v.decoded(value) for v, value in zip(PARAMETERS, values, strict=True)}
+
+
+def python_model(model: NativeModel, values: list[float], inputs: list[float]) -> HelicalPairModel:
+    pair = model.definition.start_model(named(values), inputs)
+    assert isinstance(pair, HelicalPairModel)
+    return pair
+
+
+def random_values(rng: np.random.Generator) -> list[float]:
+    """Any legal parameters of a shipped pair; those of bearings given or not."""
+    values: dict[str, float] = {}
+    for variable in PARAMETERS:
+        low, high = variable.range
+        value = rng.uniform(low, high)
+        if variable.literals or variable.type == "Integer":
+            value = float(rng.integers(low, high + 1.0))
+        if variable.name in NOT_GIVEN_IF_0:
+            value *= float(rng.integers(0, 2))
+        values[variable.name] = value
+    values["gear.name"] = float(rng.integers(1, 4))  # no gear file, no custom pair
+    if values["gear.name"] > 1.0:
+        values["mesh.stiffness_model"] = 1.0
+    if values["mesh.stiffness_model"] == 2.0:
+        values["mesh.stiffness_density"] = 0.0
+    return list(values.values())
+
+
+def usual_values(rng: np.random.Generator) -> list[float]:
+    """The same with stiffness, backlash and roughness of gears, so that there is a start."""
+    values = dict(zip((v.name for v in PARAMETERS), random_values(rng), strict=True))
+    for variable in PARAMETERS:
+        if variable.nominal is not None and values[variable.name] != 0.0:
+            low, high = variable.range
+            value = variable.nominal * 10.0 ** rng.uniform(-1.0, 1.0)
+            values[variable.name] = min(max(value, low), high)
+    return list(values.values())
+
+
+def check_packed(model: NativeModel, seed: int, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    native = NativeEntry(model)
+    for _ in range(count):
+        values = random_values(rng)
+        assert native.ready(values, native.state) == OK
+        given = {v.argument: v.decoded(x) for v, x in zip(PARAMETERS, values, strict=True)}
+        del given["pinion_speed"]
+        parameters = pair_parameters(given)
+        data = pair_data(parameters.constants(), parameters.mesh)
+        np.testing.assert_array_equal(native.work[DATA_AT : DATA_AT + data.size], data)
+        shares = native.work[BEARINGS_AT:GIVEN_AT]
+        np.testing.assert_array_equal(shares, parameters.bearing_shares())
+        ranges = native.work[model.ranges_at : model.ranges_at + 2 * len(model.ranges)]
+        np.testing.assert_array_equal(ranges, range_limits(parameters.ranges))
+
+
+def check_starts(model: NativeModel, seed: int, count: int) -> None:
+    """Start and three steps; the same starts are refused."""
+    rng = np.random.default_rng(seed)
+    native = NativeEntry(model)
+    refused = 0
+    for _ in range(count):
+        values = usual_values(rng)
+        values[1] = rng.uniform(-500.0, 500.0)  # rad/s
+        torque = rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(0.0, 3.0)
+        inputs = [torque, torque, rng.uniform(290.0, 400.0)]
+        status = native.start(values, inputs)
+        try:
+            pair = python_model(model, values, inputs)
+        except GearLubeError as error:
+            kind = INPUT_OUT_OF_RANGE if isinstance(error, ParameterError) else NO_EQUILIBRIUM
+            assert status == kind
+            refused += 1
+            continue
+        assert status == OK
+        assert_close(native, pair)
+        for _ in range(3):
+            pair.step(STEP, *inputs)
+            assert native.do(Operation.STEP, inputs, STEP) == OK
+            assert_close(native, pair)
+    assert refused < count / 2
+
+
+def assert_close(native: NativeEntry, pair: HelicalPairModel) -> None:
+    scale = np.maximum(np.abs(pair.outputs), NOMINAL)
+    apart = np.abs(native.outputs - pair.outputs) / scale
+    worst = int(np.argmax(apart))
+    assert apart[worst] <= CLOSE, (pair.output_names[worst], apart[worst])
+    control = pair.get_state()[-3:]
+    np.testing.assert_allclose(native.state[-3:], control, rtol=CLOSE)
+
+
+def test_packed_parameters_are_those_of_python_bit_for_bit(shipped: NativeModel) -> None:
+    check_packed(shipped, 1, 200)
+
+
+@pytest.mark.slow
+def test_a_thousand_packed_parameters_are_those_of_python(shipped: NativeModel) -> None:
+    check_packed(shipped, 2, 1000)
+
+
+def test_start_and_steps_are_those_of_python(shipped: NativeModel) -> None:
+    check_starts(shipped, 3, 20)
+
+
+@pytest.mark.slow
+def test_five_hundred_starts_are_those_of_python(shipped: NativeModel) -> None:
+    check_starts(shipped, 4, 500)
+
+
+def test_the_entry_needs_nothing_but_libm(shipped: NativeModel) -> None:
+    code, declared = object_of(shipped.entry)
+    wanted = undefined_in_object(code)
+    assert wanted <= LIBM | FREESTANDING
+    assert declared <= LIBM | FREESTANDING
+    assert len(code) < 700_000  # 0.14 MB when this was written; inlining can multiply it
+
+
+def test_a_state_of_python_continues_natively(shipped: NativeModel) -> None:
+    values = values_of(mesh__stiffness_model="line_mesh")
+    pair = python_model(shipped, values, INPUTS)
+    for _ in range(5):
+        pair.step(STEP, 100.0, 120.0, 340.0)
+    native = NativeEntry(shipped)
+    assert native.ready(values, pair.get_state()) == OK
+    assert native.do(Operation.OUTPUTS) == OK
+    assert_close(native, pair)
+    pair.step(STEP, *INPUTS)
+    assert native.do(Operation.STEP, INPUTS, STEP) == OK
+    assert_close(native, pair)
+
+
+REFUSED = [
+    ({"gear__name": "custom"}, {}, MISSING_CASE + 6),
+    ({"gear__name": "custom", "mesh__stiffness_model": "line_mesh"}, {}, MISSING_CASE + 7),
+    ({"gear__name": "jamali_2015_a", "mesh__stiffness_model": "line_mesh"}, {}, MISSING_CASE + 3),
+    (
+        {"mesh__stiffness_model": "line_mesh", "mesh__stiffness_density": 1e10},
+        {},
+        DENSITY_WITH_LINE_MESH,
+    ),
+    ({"mesh__stiffness_model": "line_mesh"}, {0: 700.0}, INPUT_OUT_OF_RANGE),  # mesh to 450 N.m
+    ({"mesh__stiffness_model": "line_mesh"}, {1: -900.0}, INPUT_OUT_OF_RANGE),  # 1.5 * 1.24 * 450
+    ({}, {0: math.nan}, INPUT_OUT_OF_RANGE),
+    ({}, {2: 200.0}, INPUT_OUT_OF_RANGE),
+    # shafts that give way by more than their radius
+    ({"support__radial_stiffness": 1.0, "friction__model": "off"}, {0: 8e4}, NO_EQUILIBRIUM),
+]
+
+
+@pytest.mark.parametrize(("settings", "changed", "status"), REFUSED)
+def test_what_python_refuses_is_refused_with_the_same_meaning(
+    shipped: NativeModel,
+    settings: dict[str, float | str],
+    changed: dict[int, float],
+    status: int,
+) -> None:
+    values = values_of(**settings)
+    inputs = [changed.get(place, value) for place, value in enumerate(INPUTS)]
+    native = NativeEntry(shipped)
+    native.state[:] = 1.0
+    assert native.start(values, inputs) == status
+    assert (native.state == 1.0).all()
+    with pytest.raises(GearLubeError) as refusal:
+        python_model(shipped, values, inputs)
+    words = shipped.refusals[status]
+    if status not in (INPUT_OUT_OF_RANGE, NO_EQUILIBRIUM):  # Python's name input or force
+        assert words in str(refusal.value)
+
+
+def test_a_refused_step_changes_nothing(shipped: NativeModel) -> None:
+    values = values_of(solver__steps_per_mesh_period=4096, pinion__speed_start=5000.0)
+    native = NativeEntry(shipped)
+    assert native.start(values, INPUTS) == OK
+    before = native.state.copy()
+    assert native.do(Operation.STEP, INPUTS, 0.1) == TOO_MANY_STEPS
+    assert native.do(Operation.STEP, [1e6, *INPUTS[1:]], STEP) == INPUT_OUT_OF_RANGE
+    np.testing.assert_array_equal(native.state, before)
+    assert "Shorten the communication step" in shipped.refusals[TOO_MANY_STEPS]
+
+
+def test_every_status_has_words(shipped: NativeModel, tmp_path: Path) -> None:
+    told = set(range(1, COUPLING_TOO_LARGE + 1))
+    assert set(shipped.refusals) == told | {MISSING_CASE + i for i in (3, 5, 6, 7)}
+    carried = own_gear(tmp_path, str)
+    assert set(carried.refusals) == told | {MISSING_CASE + i for i in (3, 5, 7)}
+
+
+def test_a_bearing_made_too_soft_for_its_coupling_is_refused(tmp_path: Path) -> None:
+    def coupled(text: str) -> str:
+        old = "[gear.bearing_1]\ndistance_mm = 50.8\n"
+        assert old in text
+        return text.replace(old, old + "tilt_y_knm_per_rad = 50.0\ncoupling_x_kn_per_rad = 5e3\n")
+
+    native = NativeEntry(own_gear(tmp_path, coupled))
+    values = values_of(gear__name="custom")
+    assert native.start(values, INPUTS) == OK
+    assert_close(native, python_model(native.model, values, INPUTS))
+    # 5e6 N/rad against the root of 5e8 N/m and 5e4 N.m/rad, then of 5e7 N/m
+    for radial, status in ((1.1e9, OK), (1e8, COUPLING_TOO_LARGE)):
+        values = values_of(gear__name="custom", support__radial_stiffness=radial)
+        assert native.start(values, INPUTS) == status
+    with pytest.raises(ParameterError, match="K_x_theta_y must be within"):
+        python_model(native.model, values, INPUTS)
