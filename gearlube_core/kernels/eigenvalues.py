@@ -237,16 +237,27 @@ def eigenvalues(matrix: Array, n: int, real: Array, imaginary: Array) -> int:
         if steps == _MAX_STEPS:
             return NOT_CONVERGED
         steps += 1
-        x = matrix[at]
-        y = matrix[at - n - 1]
-        w = matrix[at - 1] * matrix[at - n]
         if steps % _EXCEPTIONAL == 0:
-            shift += x
+            corner = matrix[at]
+            shift += corner
             for i in range(last + 1):
-                matrix[i * n + i] -= x
+                matrix[i * n + i] -= corner
             s = abs(matrix[at - 1]) + abs(matrix[at - n - 2])
             x = 0.75 * s
             y = x
             w = -0.4375 * s * s
+        else:
+            x = matrix[at]
+            y = matrix[at - n - 1]
+            w = matrix[at - 1] * matrix[at - n]
+            p = 0.5 * (y - x)
+            q = p * p + w
+            if q >= 0.0:
+                # of two real shifts the nearer one twice: two blocks with the same pair of
+                # eigenvalues hardly part under both
+                z = p + math.copysign(math.sqrt(q), p)
+                x -= w / z if z != 0.0 else 0.0
+                y = x
+                w = 0.0
         _double_step(matrix, n, first, last, x, y, w)
     return OK

@@ -20,8 +20,17 @@ from gearlube_core.dynamics.helical_pair.march.state import (
 )
 from gearlube_core.dynamics.helical_pair.supports.support_matrices import support_damping
 from gearlube_core.errors import ConvergenceError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
-from tests.helpers.helical_march_cases import OIL, SPEED, TORQUE, he_march, output, started
+from tests.helpers.helical_march_cases import (
+    OIL,
+    SPEED,
+    TORQUE,
+    he_march,
+    march_of,
+    output,
+    started,
+)
 
 PLACES = np.r_[PSI, U_P : U_P + 10]
 ROWS = np.r_[W_P, V_P : V_P + 10]
@@ -110,6 +119,28 @@ def test_natural_frequencies_are_those_of_the_undamped_motion(settings: dict[str
     # both from differences over 1e-8 m of a motion without kinks
     np.testing.assert_allclose(found, first_order_frequencies(model), rtol=1e-6)
     assert model.step_control.highest_frequency == found[-1]
+
+
+def test_equal_bearings_with_pairs_of_equal_frequencies_start() -> None:
+    """Two double eigenvalues, with which double QR shifts hardly part blocks of the matrix."""
+    parameters = march_of(
+        HelicalGearFile.named("jamali_2015_a"),
+        friction="film",
+        bearing_distance=0.010848298065511302,  # all digits: others than these do not stall
+        roughness_rms=7.312952775391591e-07,
+        backlash=0.000781245390301689,
+        mesh_damping_ratio=0.18361402656411152,
+        support_damping_ratio=0.11008993593013348,
+    )
+    model = HelicalPairModel(parameters)
+    model.initialise(
+        pinion_speed=-385.40459816910476,
+        pinion_torque=-33.98157276530504,
+        wheel_torque=-33.98157276530504,
+        oil_temperature=329.8954064557473,
+    )
+    found = model.natural_frequencies()
+    np.testing.assert_allclose(found[[5, 8]], found[[6, 9]], rtol=1e-8)
 
 
 def test_without_torque_the_drive_flanks_just_touch() -> None:
