@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -30,10 +31,15 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.ranges import range_limits
 from gearlube_core.errors import GearLubeError, ParameterError
-from tests.architecture.test_object_code import FREESTANDING, LIBM, undefined_in_object
-from tests.helpers.native_entry import NativeEntry, object_of
+from tests.helpers.object_code import (
+    FREESTANDING,
+    LIBM,
+    LoadedModel,
+    NativeRun,
+    undefined_in_object,
+)
 
-PARAMETERS = tuple(v for v in HELICAL_PAIR if v.causality == "parameter")
+PARAMETERS = tuple(v for v in HELICAL_PAIR if v.is_model_parameter)
 OUTPUTS = {v.name: v for v in HELICAL_PAIR if v.causality == "output"}
 NOMINAL = np.array([OUTPUTS[name].nominal or 1.0 for name in DEFINITION.output_names])
 NOT_GIVEN_IF_0 = {
@@ -50,8 +56,22 @@ CLOSE = 1e-11
 
 
 @pytest.fixture(scope="module")
-def shipped() -> NativeModel:
-    return native_model(DEFINITION)
+def shipped() -> LoadedModel:
+    return LoadedModel(native_model(DEFINITION))
+
+
+def instance(
+    loaded: LoadedModel, values: list[float], inputs: list[float], other: NativeModel | None = None
+) -> NativeRun:
+    """Return an instance of the shipped pairs, or of a model with the same entry and other data."""
+    model = other or loaded.model
+    assert model.entry is loaded.model.entry
+    return replace(
+        loaded.instance({}, inputs),
+        model=model,
+        parameters=np.array(values),
+        work=np.zeros(model.work_size),
+    )
 
 
 def own_gear(folder: Path, edit: Callable[[str], str]) -> NativeModel:
@@ -114,12 +134,13 @@ def usual_values(rng: np.random.Generator) -> list[float]:
     return list(values.values())
 
 
-def check_packed(model: NativeModel, seed: int, count: int) -> None:
+def check_packed(loaded: LoadedModel, seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
-    native = NativeEntry(model)
+    model = loaded.model
     for _ in range(count):
         values = random_values(rng)
-        assert native.ready(values, native.state) == OK
+        native = instance(loaded, values, INPUTS)
+        assert native(Operation.RESUME) == OK
         given = {v.argument: v.decoded(x) for v, x in zip(PARAMETERS, values, strict=True)}
         del given["pinion_speed"]
         parameters = pair_parameters(given)
@@ -131,17 +152,18 @@ def check_packed(model: NativeModel, seed: int, count: int) -> None:
         np.testing.assert_array_equal(ranges, range_limits(parameters.ranges))
 
 
-def check_starts(model: NativeModel, seed: int, count: int) -> None:
+def check_starts(loaded: LoadedModel, seed: int, count: int) -> None:
     """Start and three steps; the same starts are refused."""
     rng = np.random.default_rng(seed)
-    native = NativeEntry(model)
+    model = loaded.model
     refused = 0
     for _ in range(count):
         values = usual_values(rng)
         values[1] = rng.uniform(-500.0, 500.0)  # rad/s
         torque = rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(0.0, 3.0)
         inputs = [torque, torque, rng.uniform(290.0, 400.0)]
-        status = native.start(values, inputs)
+        native = instance(loaded, values, inputs)
+        status = native(Operation.START)
         try:
             pair = python_model(model, values, inputs)
         except GearLubeError as error:
@@ -153,12 +175,12 @@ def check_starts(model: NativeModel, seed: int, count: int) -> None:
         assert_close(native, pair)
         for _ in range(3):
             pair.step(STEP, *inputs)
-            assert native.do(Operation.STEP, inputs, STEP) == OK
+            assert native(Operation.STEP, STEP) == OK
             assert_close(native, pair)
     assert refused < count / 2
 
 
-def assert_close(native: NativeEntry, pair: HelicalPairModel) -> None:
+def assert_close(native: NativeRun, pair: HelicalPairModel) -> None:
     scale = np.maximum(np.abs(pair.outputs), NOMINAL)
     apart = np.abs(native.outputs - pair.outputs) / scale
     worst = int(np.argmax(apart))
@@ -167,43 +189,42 @@ def assert_close(native: NativeEntry, pair: HelicalPairModel) -> None:
     np.testing.assert_allclose(native.state[-3:], control, rtol=CLOSE)
 
 
-def test_packed_parameters_are_those_of_python_bit_for_bit(shipped: NativeModel) -> None:
+def test_packed_parameters_are_those_of_python_bit_for_bit(shipped: LoadedModel) -> None:
     check_packed(shipped, 1, 200)
 
 
 @pytest.mark.slow
-def test_a_thousand_packed_parameters_are_those_of_python(shipped: NativeModel) -> None:
+def test_a_thousand_packed_parameters_are_those_of_python(shipped: LoadedModel) -> None:
     check_packed(shipped, 2, 1000)
 
 
-def test_start_and_steps_are_those_of_python(shipped: NativeModel) -> None:
+def test_start_and_steps_are_those_of_python(shipped: LoadedModel) -> None:
     check_starts(shipped, 3, 20)
 
 
 @pytest.mark.slow
-def test_five_hundred_starts_are_those_of_python(shipped: NativeModel) -> None:
+def test_five_hundred_starts_are_those_of_python(shipped: LoadedModel) -> None:
     check_starts(shipped, 4, 500)
 
 
-def test_the_entry_needs_nothing_but_libm(shipped: NativeModel) -> None:
-    code, declared = object_of(shipped.entry)
-    wanted = undefined_in_object(code)
-    assert wanted <= LIBM | FREESTANDING
-    assert declared <= LIBM | FREESTANDING
-    assert len(code) < 700_000  # 0.14 MB when this was written; inlining can multiply it
+def test_the_entry_needs_nothing_but_libm(shipped: LoadedModel) -> None:
+    assert undefined_in_object(shipped.code) <= LIBM | FREESTANDING
+    assert shipped.declared <= LIBM | FREESTANDING
+    assert len(shipped.code) < 700_000  # 0.14 MB when this was written; inlining can multiply it
 
 
-def test_a_state_of_python_continues_natively(shipped: NativeModel) -> None:
+def test_a_state_of_python_continues_natively(shipped: LoadedModel) -> None:
     values = values_of(mesh__stiffness_model="line_mesh")
-    pair = python_model(shipped, values, INPUTS)
+    pair = python_model(shipped.model, values, INPUTS)
     for _ in range(5):
         pair.step(STEP, 100.0, 120.0, 340.0)
-    native = NativeEntry(shipped)
-    assert native.ready(values, pair.get_state()) == OK
-    assert native.do(Operation.OUTPUTS) == OK
+    native = instance(shipped, values, INPUTS)
+    native.state[:] = pair.get_state()
+    assert native(Operation.RESUME) == OK
+    assert native(Operation.OUTPUTS) == OK
     assert_close(native, pair)
     pair.step(STEP, *INPUTS)
-    assert native.do(Operation.STEP, INPUTS, STEP) == OK
+    assert native(Operation.STEP, STEP) == OK
     assert_close(native, pair)
 
 
@@ -227,55 +248,59 @@ REFUSED = [
 
 @pytest.mark.parametrize(("settings", "changed", "status"), REFUSED)
 def test_what_python_refuses_is_refused_with_the_same_meaning(
-    shipped: NativeModel,
+    shipped: LoadedModel,
     settings: dict[str, float | str],
     changed: dict[int, float],
     status: int,
 ) -> None:
     values = values_of(**settings)
     inputs = [changed.get(place, value) for place, value in enumerate(INPUTS)]
-    native = NativeEntry(shipped)
+    native = instance(shipped, values, inputs)
     native.state[:] = 1.0
-    assert native.start(values, inputs) == status
+    assert native(Operation.START) == status
     assert (native.state == 1.0).all()
     with pytest.raises(GearLubeError) as refusal:
-        python_model(shipped, values, inputs)
-    words = shipped.refusals[status]
+        python_model(shipped.model, values, inputs)
+    words = shipped.model.refusals[status]
     if status not in (INPUT_OUT_OF_RANGE, NO_EQUILIBRIUM):  # Python's name input or force
         assert words in str(refusal.value)
 
 
-def test_a_refused_step_changes_nothing(shipped: NativeModel) -> None:
+def test_a_refused_step_changes_nothing(shipped: LoadedModel) -> None:
     values = values_of(solver__steps_per_mesh_period=4096, pinion__speed_start=5000.0)
-    native = NativeEntry(shipped)
-    assert native.start(values, INPUTS) == OK
+    native = instance(shipped, values, INPUTS)
+    assert native(Operation.START) == OK
     before = native.state.copy()
-    assert native.do(Operation.STEP, INPUTS, 0.1) == TOO_MANY_STEPS
-    assert native.do(Operation.STEP, [1e6, *INPUTS[1:]], STEP) == INPUT_OUT_OF_RANGE
+    assert native(Operation.STEP, 0.1) == TOO_MANY_STEPS
+    native.inputs[0] = 1e6
+    assert native(Operation.STEP, STEP) == INPUT_OUT_OF_RANGE
     np.testing.assert_array_equal(native.state, before)
-    assert "Shorten the communication step" in shipped.refusals[TOO_MANY_STEPS]
+    assert "Shorten the communication step" in shipped.model.refusals[TOO_MANY_STEPS]
 
 
-def test_every_status_has_words(shipped: NativeModel, tmp_path: Path) -> None:
+def test_every_status_has_words(shipped: LoadedModel, tmp_path: Path) -> None:
     told = set(range(1, COUPLING_TOO_LARGE + 1))
-    assert set(shipped.refusals) == told | {MISSING_CASE + i for i in (3, 5, 6, 7)}
+    assert set(shipped.model.refusals) == told | {MISSING_CASE + i for i in (3, 5, 6, 7)}
     carried = own_gear(tmp_path, str)
     assert set(carried.refusals) == told | {MISSING_CASE + i for i in (3, 5, 7)}
 
 
-def test_a_bearing_made_too_soft_for_its_coupling_is_refused(tmp_path: Path) -> None:
+def test_a_bearing_made_too_soft_for_its_coupling_is_refused(
+    shipped: LoadedModel, tmp_path: Path
+) -> None:
     def coupled(text: str) -> str:
         old = "[gear.bearing_1]\ndistance_mm = 50.8\n"
         assert old in text
         return text.replace(old, old + "tilt_y_knm_per_rad = 50.0\ncoupling_x_kn_per_rad = 5e3\n")
 
-    native = NativeEntry(own_gear(tmp_path, coupled))
+    model = own_gear(tmp_path, coupled)
     values = values_of(gear__name="custom")
-    assert native.start(values, INPUTS) == OK
-    assert_close(native, python_model(native.model, values, INPUTS))
+    native = instance(shipped, values, INPUTS, model)
+    assert native(Operation.START) == OK
+    assert_close(native, python_model(model, values, INPUTS))
     # 5e6 N/rad against the root of 5e8 N/m and 5e4 N.m/rad, then of 5e7 N/m
     for radial, status in ((1.1e9, OK), (1e8, COUPLING_TOO_LARGE)):
         values = values_of(gear__name="custom", support__radial_stiffness=radial)
-        assert native.start(values, INPUTS) == status
+        assert instance(shipped, values, INPUTS, model)(Operation.START) == status
     with pytest.raises(ParameterError, match="K_x_theta_y must be within"):
-        python_model(native.model, values, INPUTS)
+        python_model(model, values, INPUTS)
