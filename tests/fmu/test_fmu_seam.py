@@ -55,7 +55,7 @@ def defaults(definition: Definition) -> dict[str, object]:
     return {
         v.name: v.decoded(v.start or 0.0)
         for v in definition.variables
-        if v.causality == "parameter"
+        if v.is_model_parameter
     }
 
 
