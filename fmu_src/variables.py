@@ -49,10 +49,10 @@ _PARAMETERS = (
            "none", "palmgren", start="palmgren", argument="bearing_torque_loss"),
     option("oil.name", "Lubricant",
            "mohammadpour_2015", "karagiannis_2012", start="mohammadpour_2015", argument="oil"),
-    count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 64, 16, 4096,
+    count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 56, 16, 4096,
           argument="steps_per_mesh_period"),
     count("solver.steps_per_highest_period",
-           "Integration steps in one period of the highest natural frequency", 22, 8, 4096,
+           "Integration steps in one period of the highest natural frequency", 17, 8, 4096,
           argument="steps_per_highest_period"),
 )  # fmt: skip
 

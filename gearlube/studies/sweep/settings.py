@@ -86,8 +86,8 @@ class SweepSettings:
     friction: str = "consistent"
     bearing_approach: str = "full"
     bearing_torque_loss: str = "palmgren"
-    steps_per_mesh_period: int = 64
-    steps_per_highest_period: int = 22
+    steps_per_mesh_period: int = 56
+    steps_per_highest_period: int = 17
     communication_step: float = COMMUNICATION_STEP
     settling_time: float = 0.3
     record_time: float = 0.5

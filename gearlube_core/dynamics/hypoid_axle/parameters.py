@@ -106,8 +106,8 @@ class HypoidAxleParameters(AxleScalars):
     modal_loss_factor: Annotated[float, Within(0.0, 1.0)] = 0.06
     friction: Friction | FlankLawMaker = "consistent"
     bearing_torque_loss: TorqueLoss = "palmgren"
-    steps_per_mesh_period: Annotated[int, Within(16, 4096, cure="Default 64.")] = 64
-    steps_per_highest_period: Annotated[int, Within(8, 4096, cure="Default 22.")] = 22
+    steps_per_mesh_period: Annotated[int, Within(16, 4096, cure="Default 56.")] = 56
+    steps_per_highest_period: Annotated[int, Within(8, 4096, cure="Default 17.")] = 17
 
     def __post_init__(self) -> None:
         check_option("equations", self.equations, get_args(Equations))
