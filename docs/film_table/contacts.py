@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import interpn
 
-from docs.ehl.film_map import REDUCED_MODULUS, Contact
+from docs.ehl.film_map import Contact
 from gearlube_core.ehl.grid_error import FilmNumbers, peak_error
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings

@@ -59,7 +59,7 @@ def test_line_films_lie_within_the_stated_band_to_the_ends_of_the_range(M: float
 
 
 def test_compressed_films_of_thin_oils_leave_that_band_as_stated() -> None:
-    # the formula knows no density; at one M and L an oil of 12 1/GPa is under 1.67 times the pressure
+    # the formula knows no density; at one M and L pressure is as the inverse of alpha
     assert 1.34 < over_solved(M_HIGH, L_WORST, THIN) < 1.42
 
 
