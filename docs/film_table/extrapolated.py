@@ -98,8 +98,9 @@ def header(version: str) -> str:
         "U = eta0 u/(E' R_x), G = alpha E', W = F/(E' R_x^2); M = W (2U)^(-3/4), L = G (2U)^(1/4).",
         "H = (h/R_x) (2U)^(-1/2). All columns are dimensionless [-] but where a unit stands.",
         "Viscosity after Roelands, eta = eta0 exp{(ln(eta0) + 9.67) [(1 + 5.1 p)^Z - 1]},",
-        f"  p in GPa, eta0 = {ETA0:g} Pa s, alpha = {1e9 * ALPHA:g} 1/GPa, so Z = {oil.viscosity.Z:.4f};"
-        f" E' = {1e-9 * REDUCED_MODULUS:g} GPa, so G = {ALPHA * REDUCED_MODULUS:g}.",
+        f"  p in GPa, eta0 = {ETA0:g} Pa s, alpha = {1e9 * ALPHA:g} 1/GPa.",
+        f"So Z = {oil.viscosity.Z:.4f} and G = {ALPHA * REDUCED_MODULUS:g}, with E' = "
+        f"{1e-9 * REDUCED_MODULUS:g} GPa.",
         "Density after Dowson and Higginson, rho/rho0 = (1 + 2.266 p)/(1 + 1.683 p), p in GPa.",
         "Cavitation: pressure and its gradient vanish (Reynolds). Oil goes on beyond the domain.",
         "",
