@@ -25,6 +25,9 @@ SHAPES = ((1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (2.0, 45.0), (2.0, 90.0))  # a_y/a
 LOADS = (10.0, 30.0, 100.0, 300.0, 1000.0)  # M
 MATERIALS = (2.5, 5.0, 10.0, 15.0)  # L
 NODES, NODES_UNDER_HIGH_LOAD, HIGH_LOAD = 385, 513, 300.0
+# entrained along the long axis, and at an angle where a spike is steep and finer grids take minutes
+NODES_ACROSS, NODES_ACROSS_UNDER_HIGH_LOAD, NODES_AT_AN_ANGLE = 257, 385, 193
+STEEP = 750.0  # M L from which a spike at an angle is
 WEDGE = "quick"  # its central films are right to 0.1 % on a quarter of the nodes along a side
 CHECK_NODES = 193  # of the checks by another stencil and on a larger domain
 CHECKED_EVERY = 9  # contacts, so that all shapes, loads and materials are among them
@@ -39,6 +42,16 @@ def table_contacts() -> list[Contact]:
 def checked_contacts() -> list[Contact]:
     """Return those that are solved again in two other ways."""
     return table_contacts()[::CHECKED_EVERY]
+
+
+def finest_nodes(contact: Contact) -> int:
+    """Return the nodes along a side of the finest grid of a contact of the table."""
+    if contact.angle == 45.0 and contact.M * contact.L >= STEEP:
+        return NODES_AT_AN_ANGLE
+    high = contact.M >= HIGH_LOAD
+    if contact.angle == 90.0:
+        return NODES_ACROSS_UNDER_HIGH_LOAD if high else NODES_ACROSS
+    return NODES_UNDER_HIGH_LOAD if high else NODES
 
 
 def problem(contact: Contact, nodes: int) -> PointContactProblem:
@@ -91,7 +104,7 @@ def solve(contact: Contact, variant: str) -> Solved:
     """Return a contact, solved on three grids."""
     began = time.process_time()
     if variant == "table":
-        case = problem(contact, NODES if contact.M < HIGH_LOAD else NODES_UNDER_HIGH_LOAD)
+        case = problem(contact, finest_nodes(contact))
     elif variant == "wider":
         case = wider_problem(contact, CHECK_NODES)
     else:
@@ -117,7 +130,11 @@ def solve_missing(path: Path) -> Table:
     table = read(path)
     wanted = [(contact, "table") for contact in table_contacts()]
     wanted += [(contact, way) for contact in checked_contacts() for way in ("upwind-2", "wider")]
-    missing = [key for key in wanted if key not in table]
+    # those of the slow kind last
+    missing = sorted(
+        (key for key in wanted if key not in table),
+        key=lambda key: finest_nodes(key[0]) == NODES_AT_AN_ANGLE,
+    )
     path.parent.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()
     for n, key in enumerate(missing, 1):

@@ -1,7 +1,8 @@
 """Rewrite docs/film_table.md and films.csv: python -m docs.film_table.make [workdir] [--present].
 
-Half an hour of one processor the first time. Films are kept in the folder given as argument, by
-default build/film_table, and a rerun solves only what is missing. With --present nothing is solved.
+A quarter of an hour of one processor the first time. Films are kept in the folder given as
+argument, by default build/film_table, and a rerun solves only what is missing. With --present
+nothing is solved.
 """
 
 from __future__ import annotations
@@ -19,8 +20,12 @@ from docs.film_table.contacts import (
     LOADS,
     MATERIALS,
     NODES,
+    NODES_ACROSS,
+    NODES_ACROSS_UNDER_HIGH_LOAD,
+    NODES_AT_AN_ANGLE,
     NODES_UNDER_HIGH_LOAD,
     SHAPES,
+    STEEP,
     Table,
     checked_contacts,
     film_group,
@@ -58,6 +63,10 @@ def page(rows: Sequence[Row], solved: Table) -> str:
         materials=", ".join(f"{one:g}" for one in MATERIALS),
         grids=_grids(NODES),
         grids_high=_grids(NODES_UNDER_HIGH_LOAD),
+        grids_across=_grids(NODES_ACROSS),
+        grids_across_high=_grids(NODES_ACROSS_UNDER_HIGH_LOAD),
+        grids_angle=_grids(NODES_AT_AN_ANGLE),
+        steep=STEEP,
         high=HIGH_LOAD,
         errors=table(
             ["", "median", "largest", "rows above 0.5 %"],
@@ -82,6 +91,7 @@ def page(rows: Sequence[Row], solved: Table) -> str:
 def _checks(rows: Sequence[Row], solved: Table) -> tuple[float, float, float, float, int]:
     """Return what another stencil and a larger domain change at most, and what lies inside."""
     by_contact = {row.solved.contact: row for row in rows}
+    middle = (CHECK_NODES - 1) * 2 + 1  # finest grid whose middle one has the check's spacing
     stencil: tuple[list[float], list[float]] = ([], [])
     domain: tuple[list[float], list[float]] = ([], [])
     inside = 0
@@ -94,8 +104,7 @@ def _checks(rows: Sequence[Row], solved: Table) -> tuple[float, float, float, fl
             off = abs(found.value / own.value - 1.0)
             stencil[k].append(off)
             inside += off <= own.error + found.error
-            # grids of the table with the spacing of the wider ones: none where they differ
-            if row.solved.nodes == 2 * CHECK_NODES - 1:
+            if row.solved.nodes == middle:
                 domain[k].append(abs(wider.grids[0][k] / own_grids[1][k] - 1.0))
     return max(stencil[0]), max(stencil[1]), max(domain[0]), max(domain[1]), inside
 
