@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import interpn
 
-from docs.ehl.film_map import Contact
+from docs.ehl.film_map import RADIUS, REDUCED_MODULUS, Contact
+from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.grid_error import FilmNumbers, peak_error
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
@@ -75,12 +76,19 @@ def wider_problem(contact: Contact, nodes: int) -> PointContactProblem:
 
 def film_group(contact: Contact, film: float) -> float:
     """Return H = (h/R_x) (2 U)^(-1/2)."""
-    return float(film / contact.problem(17).hertz.R_x / np.sqrt(2.0 * contact.speed_group))
+    return float(film / RADIUS / np.sqrt(2.0 * contact.speed_group))
+
+
+def hertz_pressure(contact: Contact) -> float:
+    """Return the largest pressure of the dry contact [Pa]."""
+    load = contact.load_group * REDUCED_MODULUS * RADIUS**2
+    R_y = RADIUS * contact.radius_ratio
+    return 1.5 * float(hertz_ellipse(RADIUS, R_y, 0.5 * REDUCED_MODULUS, load)[2])
 
 
 def pressure_group(contact: Contact, pressure: float) -> float:
     """Return a pressure over the largest of the dry contact [-]."""
-    return pressure / contact.problem(17).hertz_contact[2]
+    return pressure / hertz_pressure(contact)
 
 
 @dataclass(frozen=True, slots=True)

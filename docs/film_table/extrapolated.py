@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from docs.ehl.film_map import ALPHA, ETA0, REDUCED_MODULUS, Contact
-from docs.film_table.contacts import Solved, film_group, pressure_group
+from docs.film_table.contacts import Solved, film_group, hertz_pressure, pressure_group
 from gearlube_core.oil.film_oil_data import film_oil
 
 DOMAIN_ERROR = (
@@ -77,7 +77,7 @@ class Row(NamedTuple):
         c, films = self.solved.contact, self.solved.grids
         numbers = [f"{v:.6g}" for v in (c.ellipticity, c.angle, c.M, c.L)]
         numbers += [f"{v:.6g}" for v in (c.radius_ratio, c.speed_group, c.load_group)]
-        numbers.append(f"{1e-9 * c.problem(17).hertz_contact[2]:.4g}")
+        numbers.append(f"{1e-9 * hertz_pressure(c):.4g}")
         for value in (self.central, self.minimum, self.pressure):
             numbers += [f"{value.value:.5g}", f"{100.0 * value.error:.2g}"]
         numbers += [f"{self.solved.density_ratio:.4f}", str(self.solved.nodes)]
