@@ -37,13 +37,16 @@ def test_smooth_line_of_the_thesis():
     # Jamali 2015 chapter 7: 360 kN/m, R 14 mm, 6.71 m/s, slide-roll 0.36, p_max 0.95 GPa;
     # an independent Newton trial on 800 nodes: centre 0.239 um, least 0.208 um
     film = solve_line(thesis_line())
-    assert film.maximum_pressure == pytest.approx(0.95e9, rel=0.02)
-    assert film.central_film == pytest.approx(0.239e-6, rel=0.015)
-    assert film.minimum_film == pytest.approx(0.208e-6, rel=0.015)
+    # two printed digits and the 0.6 % by which steel of 207 GPa, not printed, may be off
+    assert film.maximum_pressure == pytest.approx(0.95e9, rel=0.01)
+    # three printed digits, 0.2 %, and the grid of the trial: 800 nodes are up to 0.6 % too thin
+    assert film.central_film == pytest.approx(0.239e-6, rel=0.009)
+    assert film.minimum_film == pytest.approx(0.208e-6, rel=0.009)
 
 
 def test_least_film_of_dowson_and_higginson():
-    # H_min = 2.65 U^0.7 G^0.54 W^-0.13 is a fit, +-10 %
+    # H_min = 2.65 U^0.7 G^0.54 W^-0.13 is a fit, +-10 %; the film of this contact itself is held
+    # to 0.4 % in tests/convergence/test_ehl_second_solver.py
     film = solve_line(steel_contact(1e-11, 5000.0, 1e-4))
     formula = minimum_line_film_thickness(0.01, 0.05, 5000.0 / MODULUS, 0.44, 2.2e5, MODULUS)
     assert formula / 0.01 == pytest.approx(1.7406e-5, rel=1e-4)
@@ -84,11 +87,13 @@ def test_moes_asymptotes():
 
     settings = LineSettings(nodes=1601)
     thin = contact(0.01, 0.0)
-    thin = replace(thin, domain=tuple(2.5 * x for x in thin.extent()))
+    thin = replace(thin, domain=tuple(5.0 * x for x in thin.extent()))
     film = solve_line(thin, LineSettings(nodes=3201, tolerance=1e-7))
-    assert moes_group(thin, film.minimum_film) == pytest.approx(2.45 / 0.01, rel=0.01)
+    # 2.4479 is Martin's number; the ends of the domain and 3201 nodes take 0.1 %
+    assert moes_group(thin, film.minimum_film) == pytest.approx(2.4479 / 0.01, rel=1.5e-3)
     soft = contact(300.0, 0.0)
     film = solve_line(soft, settings)
+    # ends of a fit, which it meets at no finite load; worth 5 % here and for the hard oil
     assert moes_group(soft, film.minimum_film) == pytest.approx(2.05 * 300.0**-0.2, rel=0.05)
     hard = contact(100.0, 10.0, "roelands")
     film = solve_line(hard, settings)
