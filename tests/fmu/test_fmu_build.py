@@ -62,7 +62,7 @@ def test_the_guid_follows_the_interface(case: Case) -> None:
 
 def test_the_command_builds_and_checks(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level(logging.INFO):
-        assert main(["--out", str(tmp_path), "--check"]) == 0
+        assert main(["--python", "--out", str(tmp_path), "--check"]) == 0
     assert "no problem found by fmpy and fmutool" in caplog.text
     assert {path.name for path in tmp_path.iterdir()} == {f"{case.name}.fmu" for case in CASES}
 

@@ -182,13 +182,18 @@ def test_the_commands_build_what_is_asked_for(
 ) -> None:
     files_given = ["--gear", str(gear_file), "--line-mesh", str(line_mesh)]
     run = CliRunner().invoke
-    assert run(cli.app, ["build-fmu", *files_given, "--out", str(tmp_path / "a")]).exit_code == 0
+    assert (
+        run(
+            cli.app, ["build-fmu", "--python", *files_given, "--out", str(tmp_path / "a")]
+        ).exit_code
+        == 0
+    )
     assert [path.name for path in (tmp_path / "a").iterdir()] == ["HelicalPair.fmu"]
     with caplog.at_level(logging.INFO):
-        assert build_fmu.main([*files_given, "--out", str(tmp_path / "b")]) == 0
+        assert build_fmu.main(["--python", *files_given, "--out", str(tmp_path / "b")]) == 0
     built = [(tmp_path / name / "HelicalPair.fmu").read_bytes() for name in "ab"]
     assert built[0] == built[1]
-    one = ["build-fmu", "--model", "hypoid-axle", "--out", str(tmp_path / "c")]
+    one = ["build-fmu", "--python", "--model", "hypoid-axle", "--out", str(tmp_path / "c")]
     assert run(cli.app, one).exit_code == 0
     assert [path.name for path in (tmp_path / "c").iterdir()] == ["HypoidAxle.fmu"]
     names = sorted(path.name for path in build_models(tmp_path / "d"))

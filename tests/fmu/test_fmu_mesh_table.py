@@ -202,12 +202,17 @@ def test_the_commands_pass_the_table_on(
     table: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     assert CliRunner().invoke(
-        cli.app, ["build-fmu", "--mesh-table", str(table), "--out", str(tmp_path)]
+        cli.app, ["build-fmu", "--python", "--mesh-table", str(table), "--out", str(tmp_path)]
     ).exit_code == 0  # fmt: skip
     unzipped = Path(extract(str(tmp_path / "HypoidAxle.fmu"), str(tmp_path / "unzipped")))
     assert mesh_table_of(unzipped).name == "pair_11_43"
     with caplog.at_level(logging.INFO):
-        assert build_fmu.main(["--mesh-table", str(table), "--out", str(tmp_path / "again")]) == 0
+        assert (
+            build_fmu.main(
+                ["--python", "--mesh-table", str(table), "--out", str(tmp_path / "again")]
+            )
+            == 0
+        )
     again = tmp_path / "again" / "HypoidAxle.fmu"
     assert again.read_bytes() == (tmp_path / "HypoidAxle.fmu").read_bytes()
     seen: list[dict[str, object]] = []
