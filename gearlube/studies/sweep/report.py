@@ -156,6 +156,7 @@ def _settings(dataset: xr.Dataset) -> list[tuple[str, str]]:
 def _versions(dataset: xr.Dataset) -> list[tuple[str, str]]:
     lines = [
         ("gearlube", str(dataset.attrs.get("gearlube_version", ""))),
+        ("FMU", str(dataset.attrs.get("fmu_kind", ""))),
         ("FMU GUID", str(dataset.attrs.get("fmu_guid", ""))),
         ("mesh table", str(dataset.attrs.get("mesh_table", ""))),
         ("Python", platform.python_version()),

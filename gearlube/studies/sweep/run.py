@@ -20,7 +20,7 @@ from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_
 from gearlube.studies.sweep.provenance import code_version
 from gearlube.studies.sweep.quantities import described
 from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSettings
-from gearlube.studies.sweep.unpack import fmu_guid, unpacked
+from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.mesh_table.table import MeshTable
@@ -133,7 +133,8 @@ def run_sweep(
     archive = _fmu(fmu, mesh_table)
     folder = None if out is None else Path(out)
     with unpacked(archive) as directory:
-        guid, mesh = fmu_guid(directory), mesh_table_of(directory)
+        guid, kind = fmu_guid(directory), fmu_kind(directory)
+        mesh = mesh_table_of(directory)
         keys = {
             (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=code_version())
             for p in loads
@@ -147,6 +148,7 @@ def run_sweep(
             "title": "Speed sweep of a lubricated hypoid axle",
             "gearlube_version": code_version(),
             "fmu_guid": guid,
+            "fmu_kind": kind,
             "mesh_table": mesh.name,
             "mesh_table_source": mesh.source,
             "command_line": command_line,

@@ -8,6 +8,7 @@ import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from gearlube_core.errors import ParameterError
 
@@ -40,11 +41,22 @@ def unpacked(fmu: Path) -> Iterator[Path]:
         shutil.rmtree(directory, ignore_errors=True)
 
 
-def fmu_guid(directory: Path) -> str:
-    """Return the GUID in the model description of an unzipped FMU."""
+def _description(directory: Path) -> Any:
     from lxml import etree
 
     description = directory / "modelDescription.xml"
     if not description.is_file():
         raise ParameterError(f"{directory} is no unzipped FMU: modelDescription.xml is missing.")
-    return str(etree.parse(str(description)).getroot().get("guid"))
+    return etree.parse(str(description)).getroot()
+
+
+def fmu_guid(directory: Path) -> str:
+    """Return the GUID in the model description of an unzipped FMU."""
+    return str(_description(directory).get("guid"))
+
+
+def fmu_kind(directory: Path) -> str:
+    """Return "native" for an FMU that computes by itself, else "in Python"."""
+    slave = _description(directory).find("CoSimulation")
+    needs_tool = slave is not None and slave.get("needsExecutionTool") == "true"
+    return "in Python" if needs_tool else "native"
