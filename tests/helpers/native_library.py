@@ -89,7 +89,9 @@ class NativeInstance:
         self.log: list[tuple[int, str, str]] = []
         self.time = 0.0
         token = library.guid.encode() if guid is None else guid.encode()
-        make = library.function("Instantiate" if library.version == 2 else "InstantiateCoSimulation")
+        make = library.function(
+            "Instantiate" if library.version == 2 else "InstantiateCoSimulation"
+        )
         make.restype = pointer
         if library.version == 2:
             self.callbacks = Callbacks(logger=_LOGGER_2(self._on_message_2))
@@ -178,7 +180,9 @@ class NativeInstance:
         else:
             flags, last = (c_bool * 3)(True, True, True), c_double()
             ends = [byref(flags, i) for i in range(3)]
-            status = self.call("DoStep", c_double(at), c_double(h), c_bool(True), *ends, byref(last))
+            status = self.call(
+                "DoStep", c_double(at), c_double(h), c_bool(True), *ends, byref(last)
+            )
             if status <= DISCARD:
                 assert list(flags) == [False] * 3
                 assert last.value == (at + h if status == OK else self.time)
@@ -191,7 +195,9 @@ class NativeInstance:
         assert self.call(_STATES[self.library.version][0], byref(state)) == OK
         return state
 
-    def restore(self, state: Any) -> int:
+    def restore(self, state: Any, time: float | None = None) -> int:
+        """Restore a state, saved at `time` if that is not ours."""
+        self.time = self.time if time is None else time
         return self.call(_STATES[self.library.version][1], state)
 
     def free_state(self, state: Any) -> int:
