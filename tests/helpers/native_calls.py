@@ -21,8 +21,8 @@ from tests.helpers.small_native_model import HIDDEN_OIL, SINGULAR_OIL
 
 INSTANTIATED, INITIALISING, STEPPING, TERMINATED = range(4)
 LARGEST = 2**40  # of the number that decides the arguments of a call
-_STEPS = (2.0**-10, 0.1, 1e-3, 1e-300, 0.0, -1e-3, 0.2, math.nan, math.inf, 1e300)
-_TIMES = (0.0, 0.0, 1e-12, 0.5, -0.5, math.nan, -math.inf)
+_STEPS = (2.0**-10, 2.0**-10, 1e-3, 1e-3, 2.0**-10, 0.1, 1e-300, 0.0, -1e-3, 0.2, math.nan, math.inf, 1e300)
+_TIMES = (*8 * [0.0], 1e-12, 0.5, -0.5, math.nan, -math.inf)
 _STARTS = (0.0, 0.0, 2.5, -1.0, math.nan, math.inf)
 _STOPS = (None, None, 10.0, 0.2, -5.0, math.nan, math.inf)
 _VALUES = {
@@ -346,7 +346,7 @@ class Calls:
 
 # what moves a run on stands here more often
 NAMES = (
-    "start", "step", "set", "get", "step", "set", "get", "step", "enter", "leave", "save",
+    *4 * ("start", "step", "step", "set", "step", "step", "get"), "enter", "leave", "save",
     "restore", "setup", "null", "terminate", "reset", "restore_damaged", "forget", "choose_logs",
     "not_there", "make_anew",
 )  # fmt: skip
