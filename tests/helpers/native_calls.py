@@ -21,7 +21,21 @@ from tests.helpers.small_native_model import HIDDEN_OIL, SINGULAR_OIL
 
 INSTANTIATED, INITIALISING, STEPPING, TERMINATED = range(4)
 LARGEST = 2**40  # of the number that decides the arguments of a call
-_STEPS = (2.0**-10, 2.0**-10, 1e-3, 1e-3, 2.0**-10, 0.1, 1e-300, 0.0, -1e-3, 0.2, math.nan, math.inf, 1e300)
+_STEPS = (
+    2.0**-10,
+    2.0**-10,
+    1e-3,
+    1e-3,
+    2.0**-10,
+    0.1,
+    1e-300,
+    0.0,
+    -1e-3,
+    0.2,
+    math.nan,
+    math.inf,
+    1e300,
+)
 _TIMES = (*8 * [0.0], 1e-12, 0.5, -0.5, math.nan, -math.inf)
 _STARTS = (0.0, 0.0, 2.5, -1.0, math.nan, math.inf)
 _STOPS = (None, None, 10.0, 0.2, -5.0, math.nan, math.inf)
@@ -180,7 +194,7 @@ class Calls:
                     assert math.isfinite(value)
                 else:
                     expected = self.values[reference]
-                    assert value == expected or (math.isnan(value) and math.isnan(expected))
+                    assert float(value) == expected or (math.isnan(value) and math.isnan(expected))
             k += self.counts[reference]
         return status, {OK}
 
@@ -191,7 +205,10 @@ class Calls:
                    STEPPING: ("input",), TERMINATED: ()}[self.phase]  # fmt: skip
         fits = self._fit(kind, references)
         count = sum(self.counts[r] for r in references) if fits else len(references)
-        values = [arguments.one_of(_VALUES[kind]) for _ in range(count)]
+        choices = _VALUES[kind]
+        if kind == "Enumeration" and self.library.version == 3:
+            choices = (*choices, 2**63 - 1, -(2**63))
+        values = [arguments.one_of(choices) for _ in range(count)]
         status = self.instance.set_raw(kind, references, values)
         if not (fits and all(self.variables[r].causality in allowed for r in references)):
             return status, {ERROR}
@@ -275,7 +292,11 @@ class Calls:
             return status, {ERROR}
         inputs = [r for r, v in self.variables.items() if v.causality == "input"]
         oil = self._value("oil.temperature")
-        if any(map(self._illegal, inputs)) or self._is_beyond() or oil in (SINGULAR_OIL, HIDDEN_OIL):
+        if (
+            any(map(self._illegal, inputs))
+            or self._is_beyond()
+            or oil in (SINGULAR_OIL, HIDDEN_OIL)
+        ):
             return status, {DISCARD}
         if status == DISCARD:
             assert "the speed would leave the range" in self.instance.log[-1][2]
