@@ -15,11 +15,12 @@ from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS, Range
 
-START, STEP = 0, 1
+START, STEP, RESUME = 0, 1, 3
 TURNED, SPEED, TORQUE, LOAD, OIL, LIMIT, N_STATE = range(7)
 INERTIA, DRAG, SPEED_START, LAW, SUBSTEPS, BRAKED, N_PARAMETERS = range(7)
 N_RANGES = len(RANGE_OUTPUTS) - 1
-LIMITS_AT, RANGES_AT, N_WORK = 0, 6, 6 + 2 * N_RANGES
+LIMITS_AT, RANGES_AT, DRAG_AT = 0, 6, 6 + 2 * N_RANGES
+N_WORK = DRAG_AT + 1
 FASTEST = 1000.0  # rad/s, above it a step is refused
 SINGULAR_OIL, HIDDEN_OIL = 400.0, 401.0  # K, where an output, or the state alone, is infinite
 
@@ -73,9 +74,9 @@ def entry(operation, step, data, parameters, inputs, state, work, outputs):  # t
     """Do one operation of the model, as `NativeModel.entry` says; torque range of 30 N.m."""
     p, u, s = array_at(parameters, N_PARAMETERS), array_at(inputs, 3), array_at(state, N_STATE)
     w, out, constants = array_at(work, N_WORK), array_at(outputs, N_OUTPUTS), array_at(data, 2)
-    drag = p[DRAG] * (2.0 if p[BRAKED] != 0.0 else 1.0)
     squared = p[LAW] == 2.0
-    if operation == START or operation == 3:
+    if operation in (START, RESUME):
+        w[DRAG_AT] = p[DRAG] * (2.0 if p[BRAKED] != 0.0 else 1.0)
         for i in range(2):
             w[LIMITS_AT + 2 * i] = -constants[0]
             w[LIMITS_AT + 2 * i + 1] = constants[0]
@@ -86,11 +87,12 @@ def entry(operation, step, data, parameters, inputs, state, work, outputs):  # t
             w[RANGES_AT + 2 * i + 1] = constants[1]
         if squared and p[DRAG] == 0.0:
             return NO_DRAG
-        if operation == 3:
+        if operation == RESUME:
             return 0
         if abs(u[0] - u[1]) > 60.0:
             return TOO_MUCH
         s[TURNED], s[SPEED], s[LIMIT] = 0.0, p[SPEED_START], 1.0
+    drag = w[DRAG_AT]
     if operation == STEP:
         turned, speed = s[TURNED], s[SPEED]
         h = step / p[SUBSTEPS]
@@ -112,7 +114,7 @@ def entry(operation, step, data, parameters, inputs, state, work, outputs):  # t
         s[TURNED], s[SPEED] = turned, speed
         if u[2] == HIDDEN_OIL:
             s[TURNED] = math.inf
-    if operation == START or operation == STEP:
+    if operation in (START, STEP):
         s[TORQUE], s[LOAD], s[OIL] = u[0], u[1], u[2]
     angle = min(s[TURNED], 1e9)
     out[0], out[1], out[2], out[3] = angle, s[SPEED], -0.5 * angle, -0.5 * s[SPEED]
