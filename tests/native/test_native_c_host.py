@@ -26,7 +26,7 @@ def compiled_host(folder: Path, target: str) -> Path:
     for name, text in fmi_headers().items():
         (folder / name).write_text(text)
     path = folder / ("small_host.exe" if "windows" in target else "small_host")
-    command = [sys.executable, "-m", "ziglang", "cc", "-target", target, "-O1", "-I", str(folder),
+    command = [sys.executable, "-m", "ziglang", "cc", "-target", target, "-O2", "-I", str(folder),
                str(HOST), "-o", str(path), "-lm"]  # fmt: skip
     subprocess.run(command, check=True, cwd=folder)
     return path
