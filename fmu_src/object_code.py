@@ -102,6 +102,7 @@ def intermediate_code(entry: Callable[..., Any], signature: Any, name: str) -> s
     for function in module.functions:
         if function.name.startswith("cfunc."):
             function.name = name
+            function.visibility = "hidden"  # for what it is linked with, not for a host
     _hide_all_but(module, name)
     return str(module)
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from uuid import UUID
 
@@ -28,6 +30,8 @@ from fmu_src.native.platforms import (
 from fmu_src.native.sources import c_sources
 from fmu_src.object_code import intermediate_code, object_code
 from gearlube_core.checks import check_option
+from gearlube_core.kernels.source_code import code_of
+from gearlube_core.kernels.source_files import source_files
 
 ENTRY = "gearlube_entry"
 FMI_VERSIONS = ("2", "3")
@@ -71,8 +75,20 @@ def native_guid(model: NativeModel) -> UUID:
     digest = hashlib.sha256(model_description(model.definition, "", native=True))
     for name, text in sorted(c_sources(model, "").items()):
         digest.update(f"{name}\0{text}\0".encode())
-    digest.update(source_digest(model.definition))
+    digest.update(source_digest(model.definition) + _entry_digest(model.entry))
     return UUID(bytes=digest.digest()[:16])
+
+
+@cache
+def _entry_digest(entry: Callable[..., int]) -> bytes:
+    """Return a hash of the entry's name and of its code with all that it imports."""
+    codes = (
+        code_of(Path(file).read_text("utf-8")).encode()
+        for file in source_files(inspect.getfile(entry))
+    )
+    digest = hashlib.sha256(entry.__qualname__.encode())
+    digest.update(b"".join(sorted(hashlib.sha256(code).digest() for code in codes)))
+    return digest.digest()
 
 
 def libraries(

@@ -22,8 +22,13 @@ _NUMBERS_A_LINE = 8
 
 def text_literal(text: str) -> str:
     """Return a C string: ASCII, without what a compiler reads as a sign of its own."""
-    escaped = text.encode("ascii", "replace").decode().replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{escaped}"'
+    return f'"{"".join(map(_character, text.encode("ascii", "replace").decode()))}"'
+
+
+def _character(sign: str) -> str:
+    if sign in '\\"?':  # two question marks begin a trigraph
+        return "\\" + sign
+    return sign if sign.isprintable() else f"\\{ord(sign):03o}"
 
 
 def number_literal(value: float) -> str:

@@ -3,6 +3,7 @@
 
 #include "instance.h"
 
+#include <math.h>
 #include <string.h>
 
 static const fmi2Status statuses[] = {fmi2OK, fmi2Warning, fmi2Discard, fmi2Error};
@@ -12,10 +13,27 @@ static fmi2Status answer(gl_status status)
     return statuses[status];
 }
 
+/* The logger takes a text like that of printf, with #r1# for a variable. The message is sent as that
+   text and not as an argument of "%s", because hosts exist that read no arguments. */
+static void log_text(fmi2CallbackLogger logger, void *host, const char *name, gl_status status,
+                     const char *category, const char *text)
+{
+    char message[2 * GL_LONGEST_MESSAGE];
+    size_t used = 0;
+    for (; *text && used + 2 < sizeof message; text++) {
+        if (*text == '%' || *text == '#') {
+            message[used++] = *text;
+        }
+        message[used++] = *text;
+    }
+    message[used] = '\0';
+    logger(host, name, answer(status), category, message);
+}
+
 static void tell(gl_instance *instance, gl_status status, const char *category, const char *text)
 {
-    const fmi2CallbackFunctions *calls = instance->calls;
-    calls->logger(instance->host, instance->name, answer(status), category, "%s", text);
+    log_text((fmi2CallbackLogger)instance->logger, instance->host, instance->name, status, category,
+             text);
 }
 
 const char *fmi2GetTypesPlatform(void)
@@ -51,11 +69,11 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     }
     if (why) {
         gl_say_no_instance(name, why);
-        calls->logger(calls->componentEnvironment, name ? name : GL_MODEL_NAME, fmi2Error,
-                      gl_log_names[GL_LOG_ERROR], "%s", why);
+        log_text(calls->logger, calls->componentEnvironment, name ? name : GL_MODEL_NAME, GL_ERROR,
+                 gl_log_names[GL_LOG_ERROR], why);
         return NULL;
     }
-    return gl_make(name, tell, calls->componentEnvironment, calls, logging);
+    return gl_make(name, tell, calls->componentEnvironment, (uintptr_t)calls->logger, logging);
 }
 
 void fmi2FreeInstance(fmi2Component c)
@@ -68,9 +86,8 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, f
 {
     (void)tolerance_defined;
     (void)tolerance; /* the step follows from the frequencies of the model */
-    (void)stop_defined;
-    (void)stop;
-    return gl_is_instance(c) ? answer(gl_set_start_time(c, start)) : fmi2Error;
+    return gl_is_instance(c) ? answer(gl_set_times(c, start, stop_defined ? stop : INFINITY))
+                             : fmi2Error;
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
@@ -116,7 +133,7 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 {
     const double *from = read_values(c, GL_INTEGER, vr, n, value);
     for (size_t i = 0; from && i < n; i++) {
-        value[i] = (fmi2Integer)from[vr[i]];
+        value[i] = (fmi2Integer)gl_whole(from[vr[i]], INT32_MIN, INT32_MAX);
     }
     return from ? fmi2OK : fmi2Error;
 }
@@ -211,7 +228,7 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
-    return gl_is_instance(c) ? answer(gl_forget(state)) : fmi2Error;
+    return gl_is_instance(c) ? answer(gl_forget(c, state)) : fmi2Error;
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
@@ -284,18 +301,28 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
     return unsupported(c, "directional derivatives");
 }
 
+/* Discard says that the FMU has not the information that is asked for (FMI 2.0.4, 2.1.3). */
+static fmi2Status no_information(gl_instance *instance, const char *what)
+{
+    if (!gl_is_instance(instance)) {
+        return fmi2Error;
+    }
+    gl_say(instance, GL_DISCARD, "This FMU has no %s.", what);
+    return fmi2Discard;
+}
+
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
 {
     (void)kind;
     (void)value;
-    return unsupported(c, "step that runs in the background");
+    return no_information(c, "step that runs in the background");
 }
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
 {
     const gl_instance *instance = c;
     if (!gl_is_instance(c) || !value || kind != fmi2LastSuccessfulTime) {
-        return fmi2Error;
+        return no_information(c, "status of this kind that is a Real");
     }
     *value = instance->now.time;
     return fmi2OK;
@@ -305,13 +332,13 @@ fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 {
     (void)kind;
     (void)value;
-    return unsupported(c, "status that is an integer");
+    return no_information(c, "status that is an Integer");
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
 {
     if (!gl_is_instance(c) || !value || kind != fmi2Terminated) {
-        return fmi2Error;
+        return no_information(c, "status of this kind that is a Boolean");
     }
     *value = fmi2False; /* the model never ends a simulation by itself */
     return fmi2OK;
@@ -321,5 +348,5 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2S
 {
     (void)kind;
     (void)value;
-    return unsupported(c, "status that is a text");
+    return no_information(c, "status that is a String");
 }

@@ -3,10 +3,12 @@
 
 #include "instance.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { TIME = GL_VARIABLES }; /* reference of the independent variable */
 
+static const char *const type_names[] = {"Float64", "Int32", "Boolean"}; /* by gl_kind */
 static const fmi3Status statuses[] = {fmi3OK, fmi3Warning, fmi3Discard, fmi3Error};
 
 static fmi3Status answer(gl_status status)
@@ -16,7 +18,7 @@ static fmi3Status answer(gl_status status)
 
 static void tell(gl_instance *instance, gl_status status, const char *category, const char *text)
 {
-    fmi3LogMessageCallback log = (fmi3LogMessageCallback)(uintptr_t)instance->calls;
+    fmi3LogMessageCallback log = (fmi3LogMessageCallback)instance->logger;
     if (log) {
         log(instance->host, answer(status), category, text);
     }
@@ -63,7 +65,7 @@ fmi3Instance fmi3InstantiateCoSimulation(
         return no_instance(name, host, log,
                            "This FMU has neither event mode nor intermediate variables.");
     }
-    return gl_make(name, tell, host, (const void *)(uintptr_t)log, logging);
+    return gl_make(name, tell, host, (uintptr_t)log, logging);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
@@ -104,12 +106,10 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_def
 {
     (void)tolerance_defined;
     (void)tolerance; /* the step follows from the frequencies of the model */
-    (void)stop_defined;
-    (void)stop;
     if (!gl_is_instance(c)) {
         return fmi3Error;
     }
-    gl_status status = gl_set_start_time(c, start);
+    gl_status status = gl_set_times(c, start, stop_defined ? stop : INFINITY);
     return answer(status == GL_OK ? gl_enter_initialisation(c) : status);
 }
 
@@ -146,17 +146,18 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Bo
     return answer(status);
 }
 
-/* Checks references, types and the number of values of a call; for an enumeration `enumeration`. */
-static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int setting,
-                       const fmi3ValueReference refs[], size_t n, const void *values,
-                       size_t n_values)
+static int is_time(fmi3ValueReference reference, gl_kind kind, int setting)
+{
+    return reference == TIME && kind == GL_REAL && !setting;
+}
+
+/* Checks that references are of this type, as many as there are values. */
+static gl_status check_types(gl_instance *instance, gl_kind kind, int enumeration, int setting,
+                             const fmi3ValueReference refs[], size_t n, size_t n_values)
 {
     size_t expected = 0;
-    if (n && (!refs || !values)) {
-        return gl_refuse(instance, "References or values are missing: a null pointer.");
-    }
     for (size_t i = 0; i < n; i++) {
-        if (refs[i] == TIME && kind == GL_REAL && !setting) {
+        if (is_time(refs[i], kind, setting)) {
             expected++;
             continue;
         }
@@ -164,25 +165,38 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
             return gl_refuse(instance, "No variable of this FMU has the value reference %u.",
                              refs[i]);
         }
-        if (kind == GL_INTEGER && enumeration != (gl_variables[refs[i]].literals != NULL)) {
-            return gl_refuse(instance, "%s must be accessed as %s.", gl_variables[refs[i]].name,
-                             enumeration ? "Int32" : "Int64");
+        const gl_variable *variable = &gl_variables[refs[i]];
+        if (variable->kind != kind ||
+            (kind == GL_INTEGER && enumeration != (variable->literals != NULL))) {
+            return gl_refuse(instance, "%s must be accessed as %s.", variable->name,
+                             variable->literals ? "Int64" : type_names[variable->kind]);
         }
-        const gl_array *array = &gl_arrays[refs[i]];
-        gl_status status =
-            setting
-                ? gl_check_set(instance, kind, (size_t)array->count, array->members, values)
-                : gl_check_read(instance, kind, (size_t)array->count, array->members, values);
-        if (status != GL_OK) {
-            return status;
-        }
-        expected += (size_t)array->count;
+        expected += (size_t)gl_arrays[refs[i]].count;
     }
     if (expected != n_values) {
-        return gl_refuse(instance, "The call must bring room for %lu values, got %lu.",
-                         (unsigned long)expected, (unsigned long)n_values);
+        return gl_refuse(instance, "The call must bring room for %llu values, got %llu.",
+                         (unsigned long long)expected, (unsigned long long)n_values);
     }
     return GL_OK;
+}
+
+/* Checks the whole call before anything is computed for it; for an enumeration `enumeration`. */
+static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int setting,
+                       const fmi3ValueReference refs[], size_t n, const void *values,
+                       size_t n_values)
+{
+    if (n && (!refs || !values)) {
+        return gl_refuse(instance, "References or values are missing: a null pointer.");
+    }
+    gl_status status = check_types(instance, kind, enumeration, setting, refs, n, n_values);
+    for (size_t i = 0; status == GL_OK && i < n; i++) {
+        if (!is_time(refs[i], kind, setting)) {
+            const gl_array *array = &gl_arrays[refs[i]];
+            status = (setting ? gl_check_set : gl_check_read)(
+                instance, kind, (size_t)array->count, array->members, values);
+        }
+    }
+    return status;
 }
 
 /* Reads and sets the values of one FMI type, `kind` in our table. */
@@ -228,8 +242,8 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
     }
 
 ACCESS(Float64, fmi3Float64, GL_REAL, 0, value)
-ACCESS(Int32, fmi3Int32, GL_INTEGER, 0, (fmi3Int32)value)
-ACCESS(Int64, fmi3Int64, GL_INTEGER, 1, (fmi3Int64)value)
+ACCESS(Int32, fmi3Int32, GL_INTEGER, 0, (fmi3Int32)gl_whole(value, INT32_MIN, INT32_MAX))
+ACCESS(Int64, fmi3Int64, GL_INTEGER, 1, gl_whole(value, INT64_MIN, INT64_MAX))
 ACCESS(Boolean, fmi3Boolean, GL_BOOLEAN, 0, value != 0.0)
 
 static fmi3Status unsupported(gl_instance *instance, size_t asked, const char *what)
@@ -290,7 +304,7 @@ fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state)
 
 fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state)
 {
-    return gl_is_instance(c) ? answer(gl_forget(state)) : fmi3Error;
+    return gl_is_instance(c) ? answer(gl_forget(c, state)) : fmi3Error;
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size)

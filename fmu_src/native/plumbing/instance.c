@@ -15,7 +15,9 @@ static void set_to_start(gl_instance *instance)
     memset(&instance->now, 0, sizeof instance->now);
     memset(instance->refused, 0, sizeof instance->refused);
     memset(instance->outside, 0, sizeof instance->outside);
+    memcpy(instance->now.owner, GL_GUID, strlen(GL_GUID));
     instance->points = 0;
+    instance->stop = INFINITY;
     instance->refusals = 0;
     instance->stale = 1;
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
@@ -23,7 +25,7 @@ static void set_to_start(gl_instance *instance)
     }
 }
 
-gl_instance *gl_make(const char *name, gl_listener listener, void *host, const void *calls,
+gl_instance *gl_make(const char *name, gl_listener listener, void *host, uintptr_t logger,
                      int logging)
 {
     const char *given = name && *name ? name : GL_MODEL_NAME;
@@ -41,7 +43,7 @@ gl_instance *gl_make(const char *name, gl_listener listener, void *host, const v
     instance->name = copy;
     instance->listener = listener;
     instance->host = host;
-    instance->calls = calls;
+    instance->logger = logger;
     instance->logs = logging ? GL_ALL_LOGS : 0;
     set_to_start(instance);
     return instance;
@@ -70,14 +72,19 @@ static gl_status expect(gl_instance *instance, gl_phase phase)
                      phase_names[instance->now.phase]);
 }
 
-gl_status gl_set_start_time(gl_instance *instance, double start)
+gl_status gl_set_times(gl_instance *instance, double start, double stop)
 {
     gl_status status = expect(instance, GL_INSTANTIATED);
     if (status == GL_OK && !isfinite(start)) {
         status = gl_refuse(instance, "The start time must be finite, got %g s.", start);
     }
+    if (status == GL_OK && !(start <= stop)) {
+        status = gl_refuse(instance, "The stop time must not be before the start, %g s, got %g s.",
+                           start, stop);
+    }
     if (status == GL_OK) {
         instance->now.time = start;
+        instance->stop = stop;
     }
     return status;
 }
@@ -94,7 +101,7 @@ gl_status gl_enter_initialisation(gl_instance *instance)
 static const char *refusal_text(int64_t status)
 {
     for (int i = 0; i < GL_REFUSALS; i++) {
-        if (gl_refusals[i].status == (int)status) {
+        if (gl_refusals[i].status == status) {
             return gl_refusals[i].text;
         }
     }
@@ -126,14 +133,26 @@ static void take_outputs(gl_instance *instance)
     }
 }
 
-static int outputs_are_finite(const gl_instance *instance)
+int gl_all_finite(const double *values, int count)
 {
-    for (int i = 0; i < GL_OUTPUTS; i++) {
-        if (!isfinite(instance->outputs[i])) {
+    for (int i = 0; i < count; i++) {
+        if (!isfinite(values[i])) {
             return 0;
         }
     }
     return 1;
+}
+
+/* Why an operation of the model gives no result; NULL where it does. */
+static const char *why_not(int64_t status, const double *outputs, const double *state)
+{
+    if (status != 0) {
+        return refusal_text(status);
+    }
+    if (!gl_all_finite(outputs, GL_OUTPUTS)) {
+        return "an output is not finite";
+    }
+    return gl_all_finite(state, GL_STATE) ? NULL : "a state is not finite";
 }
 
 gl_status gl_start(gl_instance *instance)
@@ -154,11 +173,9 @@ gl_status gl_start(gl_instance *instance)
         status = gearlube_entry(GL_START, 0.0, gl_data, instance->parameters, inputs, state,
                                 instance->work, instance->outputs);
     }
-    if (status != 0) {
-        return gl_refuse(instance, "The start was refused: %s.", refusal_text(status));
-    }
-    if (!outputs_are_finite(instance)) {
-        return gl_refuse(instance, "The start was refused: an output is not finite.");
+    const char *why = why_not(status, instance->outputs, state);
+    if (why) {
+        return gl_refuse(instance, "The start was refused: %s.", why);
     }
     memcpy(instance->now.state, state, sizeof state);
     take_outputs(instance);
@@ -201,8 +218,8 @@ gl_status gl_exit_initialisation(gl_instance *instance)
     watch_ranges(instance);
     gl_say(instance, GL_OK, "initialised at t = %g s", instance->now.time);
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
-        if (gl_variables[i].causality == GL_PARAMETER) {
-            double value = instance->now.values[i];
+        if (gl_variables[i].causality == GL_PARAMETER && gl_variables[i].place >= 0) {
+            double value = instance->parameters[gl_variables[i].place]; /* also if by number */
             const char *const *literals = gl_variables[i].literals;
             gl_say(instance, GL_OK, "%s = %g%s%s", gl_variables[i].name, value,
                    literals ? " " : "", literals ? literals[(int)value - 1] : "");
@@ -255,6 +272,10 @@ static gl_status check_step(gl_instance *instance, double time, double step)
                time, last);
         return GL_DISCARD;
     }
+    if (time + step > instance->stop + allowed) {
+        return gl_refuse(instance, "The step to %g s goes beyond the stop time, %g s.",
+                         time + step, instance->stop);
+    }
     if (gl_say_refused(instance, GL_DISCARD, "step refused. ") ||
         say_input_beyond(instance, GL_DISCARD, "step refused. ")) {
         return GL_DISCARD;
@@ -273,13 +294,10 @@ gl_status gl_step(gl_instance *instance, double time, double step)
     memcpy(before, instance->now.state, sizeof before);
     int64_t status = gearlube_entry(GL_STEP, step, gl_data, instance->parameters, inputs,
                                     instance->now.state, instance->work, instance->outputs);
-    if (status == 0 && !outputs_are_finite(instance)) {
-        status = -1;
-    }
-    if (status != 0) {
+    const char *why = why_not(status, instance->outputs, instance->now.state);
+    if (why) {
         memcpy(instance->now.state, before, sizeof before);
-        gl_say(instance, GL_DISCARD, "step of %g s at t = %g s refused: %s.", step, time,
-               status == -1 ? "an output is not finite" : refusal_text(status));
+        gl_say(instance, GL_DISCARD, "step of %g s at t = %g s refused: %s.", step, time, why);
         return GL_DISCARD;
     }
     take_outputs(instance);

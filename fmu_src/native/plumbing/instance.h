@@ -19,12 +19,15 @@ extern const char *const gl_log_names[GL_LOGS];
 
 typedef struct gl_instance gl_instance;
 
+enum { GL_LONGEST_MESSAGE = 1024, GL_OWNER_SIZE = 40 };
+
 /* Passes a message on to the host. */
 typedef void (*gl_listener)(gl_instance *instance, gl_status status, const char *category,
                             const char *text);
 
 /* Everything that a host may save and restore. */
 typedef struct {
+    char owner[GL_OWNER_SIZE]; /* GUID of the FMU: tells a state of it from other memory */
     gl_phase phase;
     double time;                 /* last communication point [s] */
     double values[GL_VARIABLES]; /* of every variable, in its FMI unit */
@@ -34,7 +37,8 @@ typedef struct {
 struct gl_instance {
     uint64_t mark; /* tells an instance from other memory */
     gl_snapshot now;
-    int stale; /* outputs wait for a start with the present values */
+    double stop; /* no step goes beyond it [s] */
+    int stale;   /* outputs wait for a start with the present values */
     int refusals;                        /* values outside their range: how many, */
     unsigned char refused[GL_VARIABLES]; /* and which */
     double parameters[GL_PARAMETERS];    /* what `work` was made of */
@@ -43,12 +47,12 @@ struct gl_instance {
     uint64_t points, outside[GL_RANGES + 1]; /* communication points, and those outside a range */
     unsigned logs;                           /* categories that the host wants, as bits */
     gl_listener listener;
-    void *host;        /* what the listener needs of the host */
-    const void *calls; /* functions of the host */
+    void *host;       /* what the listener needs of the host */
+    uintptr_t logger; /* function of the host */
     char *name;
 };
 
-gl_instance *gl_make(const char *name, gl_listener listener, void *host, const void *calls,
+gl_instance *gl_make(const char *name, gl_listener listener, void *host, uintptr_t logger,
                      int logging);
 void gl_free(gl_instance *instance);
 int gl_is_instance(const gl_instance *instance);
@@ -57,9 +61,10 @@ int gl_is_instance(const gl_instance *instance);
 void gl_say_no_instance(const char *name, const char *text);
 
 gl_status gl_choose_logs(gl_instance *instance, int on, size_t count, const char *const names[]);
+void gl_say(gl_instance *instance, gl_status status, const char *text, ...);
 gl_status gl_refuse(gl_instance *instance, const char *text, ...);
 
-gl_status gl_set_start_time(gl_instance *instance, double start);
+gl_status gl_set_times(gl_instance *instance, double start, double stop);
 gl_status gl_enter_initialisation(gl_instance *instance);
 gl_status gl_exit_initialisation(gl_instance *instance);
 gl_status gl_terminate(gl_instance *instance);
@@ -71,13 +76,15 @@ gl_status gl_check_read(gl_instance *instance, gl_kind kind, size_t count, const
                         const void *values);
 gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
                        const void *values);
+/* A value as a whole number of a type with this range; a model or a host may hold any double. */
+int64_t gl_whole(double value, int64_t low, int64_t high);
 /* Only after the check; returns GL_WARNING where the value lies outside its range. */
 gl_status gl_set(gl_instance *instance, unsigned reference, double value);
 
 /* States of the host: `place` points at null or at a state that is written over. */
 gl_status gl_save(gl_instance *instance, void **place);
 gl_status gl_restore(gl_instance *instance, const void *state);
-gl_status gl_forget(void **place);
+gl_status gl_forget(gl_instance *instance, void **place);
 gl_status gl_state_size(gl_instance *instance, const void *state, size_t *size); /* as bytes */
 gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *bytes, size_t size);
 gl_status gl_deserialise(gl_instance *instance, const unsigned char *bytes, size_t size,

@@ -4,9 +4,7 @@
 
 #include "instance.h"
 
-enum { GL_LONGEST_MESSAGE = 1024, GL_LONGEST_LIMITS = 512 };
-
-void gl_say(gl_instance *instance, gl_status status, const char *text, ...);
+enum { GL_LONGEST_LIMITS = 512 };
 
 /* Writes the range of a variable as words: "within 0 to 1 m", or the names of an option. */
 void gl_limits_text(const gl_variable *variable, char *text, size_t size);
@@ -18,6 +16,8 @@ void gl_find_refused(gl_instance *instance);
 /* Parameters of the model, options by number in the place of their enumeration. */
 void gl_gather_parameters(const double *values, double *parameters);
 void gl_gather_inputs(const double *values, double *inputs);
+
+int gl_all_finite(const double *values, int count);
 
 /* Starts the model unless its outputs belong to the present values. */
 gl_status gl_start(gl_instance *instance);

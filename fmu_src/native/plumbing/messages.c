@@ -66,6 +66,6 @@ gl_status gl_choose_logs(gl_instance *instance, int on, size_t count, const char
         }
         chosen |= found;
     }
-    instance->logs = on ? instance->logs | chosen : instance->logs & ~chosen;
+    instance->logs = on ? chosen : instance->logs & ~chosen;
     return GL_OK;
 }

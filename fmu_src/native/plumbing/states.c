@@ -10,15 +10,14 @@
    what follows, time, values, state. */
 enum {
     MARK_SIZE = 8,
-    GUID_SIZE = 40,
-    HEADER_SIZE = MARK_SIZE + GUID_SIZE + 4 + 4,
+    HEADER_SIZE = MARK_SIZE + GL_OWNER_SIZE + 4 + 4,
     NUMBERS_SIZE = 8 * (1 + GL_VARIABLES + GL_STATE)
 };
 static const char MARK[MARK_SIZE + 1] = "gearlub2";
 
-static uint32_t checksum(const unsigned char *bytes, size_t size)
+static uint32_t checksum(uint32_t phase, const unsigned char *bytes, size_t size)
 {
-    uint32_t crc = 0xffffffffu; /* CRC-32 */
+    uint32_t crc = ~phase; /* CRC-32 */
     for (size_t i = 0; i < size; i++) {
         crc ^= bytes[i];
         for (int k = 0; k < 8; k++) {
@@ -33,9 +32,23 @@ static gl_status check_pointers(gl_instance *instance, const void *one, const vo
     return one && other ? GL_OK : gl_refuse(instance, "A pointer of the call is null.");
 }
 
+static gl_status check_state(gl_instance *instance, const void *state)
+{
+    if (!state) {
+        return gl_refuse(instance, "The state is missing: a null pointer.");
+    }
+    if (memcmp(state, instance->now.owner, GL_OWNER_SIZE)) {
+        return gl_refuse(instance, "The state is none of this FMU, or has been freed.");
+    }
+    return GL_OK;
+}
+
 /* Keeps a snapshot where the host has one, or in new memory. */
 static gl_status keep(gl_instance *instance, const gl_snapshot *snapshot, void **place)
 {
+    if (*place && check_state(instance, *place) != GL_OK) {
+        return GL_ERROR;
+    }
     gl_snapshot *kept = *place ? *place : malloc(sizeof *kept);
     if (!kept) {
         return gl_refuse(instance, "There is not enough memory for a state.");
@@ -51,18 +64,26 @@ gl_status gl_save(gl_instance *instance, void **place)
     return status == GL_OK ? keep(instance, &instance->now, place) : status;
 }
 
-gl_status gl_forget(void **place)
+gl_status gl_forget(gl_instance *instance, void **place)
 {
-    if (place) {
+    if (!place || !*place) {
+        return GL_OK;
+    }
+    gl_status status = check_state(instance, *place);
+    if (status == GL_OK) {
+        memset(*place, 0, GL_OWNER_SIZE);
         free(*place);
         *place = NULL;
     }
-    return GL_OK;
+    return status;
 }
 
 gl_status gl_state_size(gl_instance *instance, const void *state, size_t *size)
 {
     gl_status status = check_pointers(instance, state, size);
+    if (status == GL_OK) {
+        status = check_state(instance, state);
+    }
     if (status == GL_OK) {
         *size = HEADER_SIZE + NUMBERS_SIZE;
     }
@@ -73,6 +94,9 @@ gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *
 {
     const gl_snapshot *snapshot = state;
     gl_status status = check_pointers(instance, state, bytes);
+    if (status == GL_OK) {
+        status = check_state(instance, state);
+    }
     if (status == GL_OK && size < HEADER_SIZE + NUMBERS_SIZE) {
         status = gl_refuse(instance, "A state needs %d bytes, got room for %lu.",
                            HEADER_SIZE + NUMBERS_SIZE, (unsigned long)size);
@@ -84,42 +108,66 @@ gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *
     uint32_t phase = (uint32_t)snapshot->phase;
     memset(bytes, 0, HEADER_SIZE);
     memcpy(bytes, MARK, MARK_SIZE);
-    memcpy(bytes + MARK_SIZE, GL_GUID, strlen(GL_GUID));
-    memcpy(bytes + MARK_SIZE + GUID_SIZE, &phase, 4);
+    memcpy(bytes + MARK_SIZE, snapshot->owner, GL_OWNER_SIZE);
+    memcpy(bytes + MARK_SIZE + GL_OWNER_SIZE, &phase, 4);
     memcpy(numbers, &snapshot->time, 8);
     memcpy(numbers + 8, snapshot->values, sizeof snapshot->values);
     memcpy(numbers + 8 + sizeof snapshot->values, snapshot->state, sizeof snapshot->state);
-    uint32_t sum = checksum(numbers, NUMBERS_SIZE) ^ phase;
+    uint32_t sum = checksum(phase, numbers, NUMBERS_SIZE);
     memcpy(bytes + HEADER_SIZE - 4, &sum, 4);
     return GL_OK;
+}
+
+static int is_sound(const gl_snapshot *snapshot)
+{
+    int started = snapshot->phase >= GL_STEPPING;
+    int sound = isfinite(snapshot->time);
+    for (int i = 0; i < GL_VARIABLES; i++) {
+        const gl_variable *variable = &gl_variables[i];
+        double value = snapshot->values[i];
+        int may_be_refused = variable->causality == GL_INPUT ||
+                             (variable->causality == GL_PARAMETER && !started);
+        sound = sound && (may_be_refused || (variable->low <= value && value <= variable->high)) &&
+                (may_be_refused || isfinite(value)) &&
+                (variable->kind == GL_REAL || value == floor(value));
+    }
+    if (started) {
+        sound = sound && gl_all_finite(snapshot->state, GL_STATE);
+        for (int i = GL_CONTROL_AT; i < GL_STATE; i++) {
+            sound = sound && snapshot->state[i] > 0.0;
+        }
+    }
+    return sound;
 }
 
 static gl_status from_bytes(gl_instance *instance, const unsigned char *bytes, size_t size,
                             gl_snapshot *snapshot)
 {
-    char owner[GUID_SIZE + 1] = {0};
     uint32_t phase, sum;
     if (size < HEADER_SIZE || memcmp(bytes, MARK, MARK_SIZE)) {
         return gl_refuse(instance, "The FMU state was not written by a native gearlube FMU.");
     }
-    memcpy(owner, bytes + MARK_SIZE, GUID_SIZE);
-    if (strcmp(owner, GL_GUID)) {
+    if (memcmp(bytes + MARK_SIZE, instance->now.owner, GL_OWNER_SIZE)) {
         return gl_refuse(instance,
                          "The FMU state must come from the FMU with GUID %s. Restore it in the "
                          "FMU that wrote it.",
                          GL_GUID);
     }
-    memcpy(&phase, bytes + MARK_SIZE + GUID_SIZE, 4);
+    memcpy(&phase, bytes + MARK_SIZE + GL_OWNER_SIZE, 4);
     memcpy(&sum, bytes + HEADER_SIZE - 4, 4);
     const unsigned char *numbers = bytes + HEADER_SIZE;
     if (size != HEADER_SIZE + NUMBERS_SIZE || phase > GL_TERMINATED ||
-        (checksum(numbers, NUMBERS_SIZE) ^ phase) != sum) {
+        checksum(phase, numbers, NUMBERS_SIZE) != sum) {
         return gl_refuse(instance, "The FMU state is damaged: length or checksum do not agree.");
     }
+    memcpy(snapshot->owner, instance->now.owner, GL_OWNER_SIZE);
     snapshot->phase = (gl_phase)phase;
     memcpy(&snapshot->time, numbers, 8);
     memcpy(snapshot->values, numbers + 8, sizeof snapshot->values);
     memcpy(snapshot->state, numbers + 8 + sizeof snapshot->values, sizeof snapshot->state);
+    if (!is_sound(snapshot)) {
+        return gl_refuse(instance, "The FMU state holds numbers that no run of it leaves.");
+    }
     return GL_OK;
 }
 
@@ -134,33 +182,14 @@ gl_status gl_deserialise(gl_instance *instance, const unsigned char *bytes, size
     return status == GL_OK ? keep(instance, &read, place) : status;
 }
 
-static int is_sound(const gl_snapshot *snapshot)
-{
-    int sound = isfinite(snapshot->time);
-    for (int i = 0; i < GL_STATE; i++) {
-        sound = sound && isfinite(snapshot->state[i]) &&
-                (i < GL_CONTROL_AT || snapshot->state[i] > 0.0);
-    }
-    for (int i = 0; i < GL_VARIABLES; i++) {
-        const gl_variable *variable = &gl_variables[i];
-        double value = snapshot->values[i];
-        sound = sound && (variable->causality != GL_PARAMETER ||
-                          (variable->low <= value && value <= variable->high));
-    }
-    return sound;
-}
-
 gl_status gl_restore(gl_instance *instance, const void *state)
 {
     const gl_snapshot *snapshot = state;
-    if (!state) {
-        return gl_refuse(instance, "The state is missing: a null pointer.");
+    if (check_state(instance, state) != GL_OK) {
+        return GL_ERROR;
     }
     if (snapshot->phase >= GL_STEPPING) {
         double parameters[GL_PARAMETERS], inputs[GL_INPUTS], of_model[GL_STATE];
-        if (!is_sound(snapshot)) {
-            return gl_refuse(instance, "The FMU state holds numbers that no run of it leaves.");
-        }
         gl_gather_parameters(snapshot->values, parameters);
         gl_gather_inputs(snapshot->values, inputs);
         memcpy(of_model, snapshot->state, sizeof of_model);

@@ -76,6 +76,14 @@ void gl_gather_inputs(const double *values, double *inputs)
     }
 }
 
+int64_t gl_whole(double value, int64_t low, int64_t high)
+{
+    if (!(value > (double)low)) {
+        return low;
+    }
+    return value < (double)high ? (int64_t)value : high;
+}
+
 static gl_status check(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
                        const void *values)
 {

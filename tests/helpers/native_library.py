@@ -1,0 +1,232 @@
+"""Calls a native FMU library by FMI 2 and FMI 3 alike: every status and message kept."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int64, c_size_t, c_uint32
+from ctypes import c_void_p as pointer
+from pathlib import Path
+from typing import Any
+
+from fmu_src.native.array_variables import array_variables
+from fmu_src.native.model import NativeModel
+
+OK, WARNING, DISCARD, ERROR, FATAL = range(5)
+
+_LOGGER_2 = ctypes.CFUNCTYPE(None, pointer, c_char_p, c_int, c_char_p, c_char_p)
+_LOGGER_3 = ctypes.CFUNCTYPE(None, pointer, c_int, c_char_p, c_char_p)
+# kind of a variable -> (name in the calls, type) by version
+_CALLS = {
+    2: {
+        "Real": ("Real", c_double),
+        "Integer": ("Integer", c_int),
+        "Enumeration": ("Integer", c_int),
+        "Boolean": ("Boolean", c_int),
+    },
+    3: {
+        "Real": ("Float64", c_double),
+        "Integer": ("Int32", c_int),
+        "Enumeration": ("Int64", c_int64),
+        "Boolean": ("Boolean", c_bool),
+    },
+}
+_STATES = {
+    2: ("GetFMUstate", "SetFMUstate", "FreeFMUstate", "SerializedFMUstateSize",
+        "SerializeFMUstate", "DeSerializeFMUstate"),
+    3: ("GetFMUState", "SetFMUState", "FreeFMUState", "SerializedFMUStateSize",
+        "SerializeFMUState", "DeserializeFMUState"),
+}  # fmt: skip
+
+
+class Callbacks(ctypes.Structure):
+    """fmi2CallbackFunctions, with a logger that reads no further arguments."""
+
+    _fields_ = (
+        ("logger", _LOGGER_2),
+        ("allocate", pointer),
+        ("free", pointer),
+        ("step_finished", pointer),
+        ("environment", pointer),
+    )
+
+
+class NativeLibrary:
+    """A loaded library; `call` takes a function's name without fmi2 or fmi3."""
+
+    def __init__(self, path: Path, model: NativeModel, guid: str, version: int) -> None:
+        self.version, self.guid = version, guid
+        self.variables = {v.name: v for v in model.definition.variables}
+        self.references = dict(model.definition.references)
+        self.counts = dict.fromkeys(self.references, 1)
+        if version == 3:
+            arrays = array_variables(model.definition.variables)
+            self.variables = {one.variable.name: one.variable for one in arrays}
+            self.references = {one.variable.name: one.references[0] for one in arrays}
+            self.counts = {one.variable.name: len(one.references) for one in arrays}
+        self._functions = ctypes.CDLL(str(path))
+
+    def function(self, name: str) -> Any:
+        return getattr(self._functions, f"fmi{self.version}{name}")
+
+    def names(self, *causalities: str) -> list[str]:
+        return [name for name, v in self.variables.items() if v.causality in causalities]
+
+
+class NativeInstance:
+    """An instance, or None in `address` if it was refused."""
+
+    def __init__(
+        self,
+        library: NativeLibrary,
+        *,
+        guid: str | None = None,
+        logging: bool = True,
+        resources: bytes | None = None,
+        name: bytes | None = b"mass",
+    ) -> None:
+        self.library = library
+        self.log: list[tuple[int, str, str]] = []
+        self.time = 0.0
+        token = library.guid.encode() if guid is None else guid.encode()
+        make = library.function(
+            "Instantiate" if library.version == 2 else "InstantiateCoSimulation"
+        )
+        make.restype = pointer
+        if library.version == 2:
+            self.callbacks = Callbacks(logger=_LOGGER_2(self._on_message_2))
+            self.logger = self.callbacks.logger
+            self.address = make(name, 1, token, resources, byref(self.callbacks), 0, int(logging))
+        else:
+            self.logger = _LOGGER_3(self._on_message_3)
+            self.address = make(
+                name, token, resources, c_bool(False), c_bool(logging), c_bool(False),
+                c_bool(False), None, c_size_t(0), None, self.logger, None,
+            )  # fmt: skip
+
+    def _on_message_2(self, _host: Any, _name: Any, status: int, category: Any, text: Any) -> None:
+        self.log.append((status, category.decode(), text.decode()))
+
+    def _on_message_3(self, _host: Any, status: int, category: Any, text: Any) -> None:
+        self.log.append((status, category.decode(), text.decode()))
+
+    def call(self, name: str, *arguments: Any) -> int:
+        status = self.library.function(name)(pointer(self.address), *arguments)
+        assert status in range(FATAL), (name, status)
+        return int(status)
+
+    def messages(self, category: str = "") -> str:
+        return "\n".join(text for _, found, text in self.log if category in ("", found))
+
+    def access(self, action: str, kind: str, refs: Sequence[int], values: Any, count: int) -> int:
+        """Call Get or Set of a kind with raw references and an array of `count` values."""
+        name, _ = _CALLS[self.library.version][kind]
+        raw = (c_uint32 * max(1, len(refs)))(*refs)
+        counts = [c_size_t(count)] if self.library.version == 3 else []
+        return self.call(action + name, raw, c_size_t(len(refs)), values, *counts)
+
+    def get_raw(self, kind: str, refs: Sequence[int], count: int) -> tuple[int, list[Any]]:
+        _, type_ = _CALLS[self.library.version][kind]
+        values = (type_ * max(1, count))()
+        return self.access("Get", kind, refs, values, count), list(values)[:count]
+
+    def set_raw(self, kind: str, refs: Sequence[int], values: Sequence[Any]) -> int:
+        _, type_ = _CALLS[self.library.version][kind]
+        array = (type_ * max(1, len(values)))(
+            *(value if type_ is c_double else int(value) for value in values)
+        )
+        return self.access("Set", kind, refs, array, len(values))
+
+    def get(self, name: str) -> Any:
+        """Return the value of a variable, a list if it is an array."""
+        count = self.library.counts[name]
+        kind = self.library.variables[name].type
+        status, values = self.get_raw(kind, [self.library.references[name]], count)
+        assert status == OK, self.log[-1:]
+        return values if count > 1 else values[0]
+
+    def outputs(self) -> dict[str, Any]:
+        return {name: self.get(name) for name in self.library.names("output")}
+
+    def set(self, **values: float) -> int:
+        """Set variables, with __ for the dot of their names; return the worst status."""
+        worst = OK
+        for key, value in values.items():
+            name = key.replace("__", ".")
+            kind = self.library.variables[name].type
+            worst = max(worst, self.set_raw(kind, [self.library.references[name]], [value]))
+        return worst
+
+    def enter(self, start: float = 0.0, stop: float | None = None) -> int:
+        """Set the times and enter initialisation mode."""
+        self.time = start
+        times = (c_double(0.0), c_double(start), int(stop is not None), c_double(stop or 0.0))
+        if self.library.version == 3:
+            return self.call("EnterInitializationMode", c_bool(False), times[0], times[1],
+                             c_bool(stop is not None), times[3])  # fmt: skip
+        return self.call("SetupExperiment", 0, *times) or self.call("EnterInitializationMode")
+
+    def leave(self) -> int:
+        return self.call("ExitInitializationMode")
+
+    def start(self, start: float = 0.0, stop: float | None = None, **values: float) -> int:
+        return max(self.set(**values), self.enter(start, stop) or self.leave())
+
+    def step(self, h: float = 2.0**-10, time: float | None = None) -> int:
+        """Take a step; the last argument of FMI 3 must agree with our time."""
+        at = self.time if time is None else time
+        if self.library.version == 2:
+            status = self.call("DoStep", c_double(at), c_double(h), 1)
+        else:
+            flags, last = (c_bool * 3)(True, True, True), c_double()
+            ends = [byref(flags, i) for i in range(3)]
+            status = self.call(
+                "DoStep", c_double(at), c_double(h), c_bool(True), *ends, byref(last)
+            )
+            if status <= DISCARD:
+                assert list(flags) == [False] * 3
+                assert last.value == (at + h if status == OK else self.time)
+        if status == OK:
+            self.time = at + h
+        return status
+
+    def save(self, place: Any = None) -> Any:
+        state = pointer() if place is None else place
+        assert self.call(_STATES[self.library.version][0], byref(state)) == OK
+        return state
+
+    def restore(self, state: Any, time: float | None = None) -> int:
+        """Restore a state, saved at `time` if that is not ours."""
+        self.time = self.time if time is None else time
+        return self.call(_STATES[self.library.version][1], state)
+
+    def free_state(self, state: Any) -> int:
+        return self.call(_STATES[self.library.version][2], byref(state))
+
+    def serialise(self, state: Any) -> bytes:
+        _, _, _, size_call, call, _ = _STATES[self.library.version]
+        size = c_size_t()
+        assert self.call(size_call, state, byref(size)) == OK
+        content = (ctypes.c_ubyte * size.value)()
+        assert self.call(call, state, content, size) == OK
+        return bytes(content)
+
+    def deserialise(self, content: bytes) -> tuple[int, Any]:
+        state = pointer()
+        call = _STATES[self.library.version][5]
+        status = self.call(call, content, c_size_t(len(content)), byref(state))
+        return status, state
+
+    def content(self) -> bytes:
+        """Return all that can be saved of the instance now, as bytes."""
+        state = self.save()
+        content = self.serialise(state)
+        assert self.free_state(state) == OK
+        return content
+
+    def close(self) -> None:
+        if self.address:
+            free = self.library.function("FreeInstance")
+            free.restype = None
+            free(pointer(self.address))
+            self.address = None
