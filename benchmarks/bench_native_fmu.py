@@ -1,7 +1,7 @@
-"""Cost of the FMUs in a program that is not Python: `python -m benchmarks.bench_native_fmu`.
+"""Cost of native and Python FMUs in a C program: `python -m benchmarks.bench_native_fmu`.
 
 Compiles tests/fmu/native_host.c, which steps two instances, reads one output after each step and
-says how much CPU time that took. Linux, with a C compiler.
+says how much CPU time that took. Linux.
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ import fmpy
 from fmpy import extract, read_model_description
 
 from fmu_src.build import build_models
+from fmu_src.native.build import NativeOptions
+from fmu_src.native.platforms import platform_of_this_machine
 from fmu_src.native_host import native_environment
 
 _LOGGER = logging.getLogger("bench_native_fmu")
@@ -32,7 +34,19 @@ _TURNS = 3
 def compiled(folder: Path) -> Path:
     host = folder / "native_host"
     headers = Path(fmpy.__file__).parent / "c-code"
-    command = ["cc", "-std=c99", "-O2", f"-I{headers}", str(_SOURCE), "-o", str(host), "-ldl"]
+    command = [
+        sys.executable,
+        "-m",
+        "ziglang",
+        "cc",
+        "-std=c99",
+        "-O2",
+        f"-I{headers}",
+        str(_SOURCE),
+        "-o",
+        str(host),
+        "-ldl",
+    ]
     subprocess.run(command, check=True)
     return host
 
@@ -58,18 +72,27 @@ def cpu_time(command: Sequence[str]) -> float:
     return float(re.findall(r"^steps: (\S+) s$", done.stderr, re.MULTILINE)[-1])
 
 
+def rate(host: Path, of_fmu: Sequence[str], h: float) -> float:
+    """Return the simulated seconds a second of CPU time, in steps of `h` [s]."""
+    command = [str(host), "free", str(round(_SIMULATED / h)), str(h), *of_fmu]
+    return _INSTANCES * _SIMULATED / statistics.median(cpu_time(command) for _ in range(_TURNS))
+
+
 def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         host = compiled(folder)
-        for fmu in build_models(folder):
-            of_fmu = arguments(fmu, folder)
+        of_this_machine = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
+        native = build_models(folder / "native", native=of_this_machine)
+        for of_native, of_python in zip(native, build_models(folder / "python"), strict=True):
             for h in (1e-4, 1e-3, 1e-2):
-                steps = round(_SIMULATED / h)
-                command = [str(host), "free", str(steps), str(h), *of_fmu]
-                took = statistics.median(cpu_time(command) for _ in range(_TURNS))
-                rate = _INSTANCES * _SIMULATED / took
-                _LOGGER.info("%s, %g s: %.1f simulated seconds a second", fmu.stem, h, rate)
+                rates = [
+                    rate(host, arguments(fmu, fmu.parent), h) for fmu in (of_native, of_python)
+                ]
+                _LOGGER.info(
+                    "%s, %g s: %.1f simulated seconds a second native, %.1f in Python, ratio %.2f",
+                    of_native.stem, h, *rates, rates[0] / rates[1],
+                )  # fmt: skip
 
 
 if __name__ == "__main__":
