@@ -178,6 +178,12 @@ def test_a_range_is_said_once_and_counted(mass: NativeInstance) -> None:
     assert mass.call("Terminate") == OK
     counted = "range.torque was outside its range at 3 of 6 communication points"
     assert counted in mass.messages("logEvents")
+    mass.call("Reset")
+    mass.log.clear()
+    mass.start(pinion__torque=31.0)
+    mass.call("Terminate")
+    assert len(mass.messages("logStatusWarning").splitlines()) == 1
+    assert "at 1 of 1 communication points" in mass.messages("logEvents")
 
 
 def test_time_can_be_read_in_fmi_3(mass: NativeInstance) -> None:
