@@ -98,9 +98,21 @@ class Workplace:
         while True:
             with self._changed(file, content):
                 result = self._run(plan, self._environment("changed_compiled", stored))
-            if result.ended != "failed" or self.try_unchanged(result.test, plan.compiled):
+            if result.ended != "failed":
+                return result
+            if not result.test:  # pytest gave up: the change hurts what a conftest.py imports
+                self._check_collection(plan)
+                return result
+            if self.try_unchanged(result.test, plan.compiled):
                 return result
             plan = replace(plan, left_out=plan.left_out | {result.test})
+
+    def _check_collection(self, plan: Plan) -> None:
+        """Raise where pytest cannot even collect the tests of the unchanged tree."""
+        nothing = replace(plan, budget=-1.0)
+        if self._run(nothing, self._environment("compiled", "stored")).ended != "passed":
+            log = (self.folder / "log.txt").read_text()
+            raise RuntimeError(f"pytest cannot run in the unchanged copy:\n{log}")
 
     def copy_caches(self) -> None:
         """Give the next mutant caches that nothing else sees."""

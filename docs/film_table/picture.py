@@ -29,8 +29,14 @@ def draw(rows: Sequence[Row]) -> Any:
             axes[0].plot([], [], marker, color=colour, label=f"L = {L:g}")[0]
             for L, marker, colour in zip(MATERIALS, MARKERS, SERIES, strict=False)
         ]
-        handles.append(axes[0].plot([], [], color=GREY, label="Nijenbanning et al. 1994")[0])
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+        for label, style in (
+            ("central film $H_c$", {"color": "k", "marker": "o", "linestyle": "-"}),
+            ("smallest film $H_{min}$",
+             {"color": "k", "marker": "o", "linestyle": "--", "markerfacecolor": "w"}),
+            ("formula for $H_c$, Nijenbanning et al. 1994", {"color": GREY}),
+        ):  # fmt: skip
+            handles.append(axes[0].plot([], [], label=label, **style)[0])
+        figure.legend(handles=handles, loc="outside lower center", ncols=4)
         return figure
 
 
