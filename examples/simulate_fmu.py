@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
 import numpy as np
 from fmpy import simulate_fmu
 from numpy.typing import NDArray
 
-from fmu_src.build import build_hypoid_axle
+from fmu_src.fmu_cache import cached_hypoid_axle
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 STEP = 1e-3  # s, communication step
@@ -36,9 +35,8 @@ def simulate(fmu: Path) -> NDArray[np.void]:
 
 
 def main() -> NDArray[np.void]:
-    """Build the FMU in a temporary folder and run it."""
-    with tempfile.TemporaryDirectory() as folder:
-        return simulate(build_hypoid_axle(folder))
+    """Run the axle FMU of this installation; the first time it is built."""
+    return simulate(cached_hypoid_axle())
 
 
 if __name__ == "__main__":
