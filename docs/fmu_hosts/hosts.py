@@ -17,6 +17,8 @@ from typing import Any
 
 import fmpy
 
+from fmu_src.definition import Definition
+
 HERE = Path(__file__).parent
 
 
@@ -61,7 +63,9 @@ class Job:
         return self.steps * self.step_size
 
 
-def output_of(command: Sequence[str | Path], environment: Mapping[str, str], given: str = "") -> str:
+def output_of(
+    command: Sequence[str | Path], environment: Mapping[str, str], given: str = ""
+) -> str:
     """Run a program and return what it wrote; raise a RuntimeError with its last words."""
     done = subprocess.run(
         [str(word) for word in command],
@@ -74,6 +78,25 @@ def output_of(command: Sequence[str | Path], environment: Mapping[str, str], giv
     if done.returncode != 0:
         raise RuntimeError(f"{command[0]}: exit status {done.returncode}\n{done.stderr[-2000:]}")
     return done.stdout
+
+
+def in_python(job: Job, definition: Definition) -> list[float]:
+    """Run the model in Python, without FMI."""
+    values = job.start_values
+    parameters = {}
+    for variable in definition.variables:
+        if variable.is_model_parameter:
+            number = values.get(f"{variable.name}.number", 0)
+            value = values.get(variable.name, variable.start or 0.0)
+            parameters[variable.name] = variable.decoded(number or value)
+    inputs = [
+        values.get(v.name, v.start or 0.0) for v in definition.variables if v.causality == "input"
+    ]
+    model = definition.start_model(parameters, inputs)
+    for _ in range(job.steps):
+        model.step(job.step_size, *inputs)
+    outputs = dict(zip(definition.output_names, model.outputs.tolist(), strict=True))
+    return [outputs[name] for name in job.names]
 
 
 def in_fmpy(job: Job) -> list[float]:
@@ -120,7 +143,9 @@ def in_ecos(job: Job) -> list[float]:
 
 def run_ecos(content: Mapping[str, Any]) -> list[float]:
     """Run Ecos, which looks for a library of another package."""
-    found = {Path(str(f.locate())).resolve() for f in files("tbb") or () if f.name == "libtbb.so.12"}
+    found = {
+        Path(str(f.locate())).resolve() for f in files("tbb") or () if f.name == "libtbb.so.12"
+    }
     search = f"{found.pop().parent}{os.pathsep}{os.environ.get('LD_LIBRARY_PATH', '')}"
     return _in_own_process("run_ecos.py", content, {"LD_LIBRARY_PATH": search})
 
@@ -181,11 +206,12 @@ def in_fmusim(job: Job, program: Path, folder: Path) -> list[float]:
 
 def c_host(folder: Path, target: str = "") -> Path:
     """Compile `host.c`: for this machine, or for a target of zig."""
-    suffix = ".exe" if "windows" in target else ""
-    path = folder / f"host{suffix}"
+    path = folder / ("host.exe" if "windows" in target else "host")
     headers = Path(fmpy.__file__).parent / "c-code"
-    command = [sys.executable, "-m", "ziglang", "cc", *(["-target", target] if target else [])]
-    output_of([*command, "-std=c99", "-O1", f"-I{headers}", HERE / "host.c", "-o", path], {})
+    own = shutil.which("cc") if not target else None
+    zig = [sys.executable, "-m", "ziglang", "cc", *(["-target", target] if target else [])]
+    command = [*([own] if own else zig), "-std=c99", "-O1", f"-I{headers}", HERE / "host.c"]
+    output_of([*command, "-o", path, *([] if "windows" in target else ["-ldl"])], {})
     return path
 
 
