@@ -47,6 +47,7 @@ class Job:
 
     @cached_property
     def description(self) -> Any:
+        """Model description as FMPy reads it."""
         return fmpy.read_model_description(str(self.fmu))
 
     @cached_property
@@ -56,10 +57,12 @@ class Job:
 
     @property
     def start_values(self) -> dict[str, float]:
+        """All start values by name."""
         return {**self.reals, **self.integers}
 
     @property
     def stop_time(self) -> float:
+        """End of the last step [s]."""
         return self.steps * self.step_size
 
 
@@ -100,6 +103,7 @@ def in_python(job: Job, definition: Definition) -> list[float]:
 
 
 def in_fmpy(job: Job) -> list[float]:
+    """Run FMPy, which loads the library into Python."""
     result = fmpy.simulate_fmu(
         str(job.fmu),
         stop_time=job.stop_time,
@@ -111,6 +115,7 @@ def in_fmpy(job: Job) -> list[float]:
 
 
 def in_libcosim(job: Job) -> list[float]:
+    """Run libcosim, FMI 2.0 only."""
     references = job.references
     return run_libcosim(
         {
@@ -125,10 +130,12 @@ def in_libcosim(job: Job) -> list[float]:
 
 
 def run_libcosim(content: Mapping[str, Any]) -> list[float]:
+    """Run `run_libcosim.py` in a process of its own."""
     return _in_own_process("run_libcosim.py", content, {})
 
 
 def in_ecos(job: Job) -> list[float]:
+    """Run Ecos, FMI 2.0 or 3.0."""
     return run_ecos(
         {
             "fmu": str(job.fmu),

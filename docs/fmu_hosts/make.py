@@ -1,7 +1,7 @@
 """Rewrite docs/fmu_hosts.md: python -m docs.fmu_hosts.make [--fmus DIR] [--fmusim PROGRAM].
 
-Builds the native FMUs for Linux and Windows (two minutes) unless DIR holds them. Without the program
-fmusim, and without wine on the search path, their rows say so.
+Builds the native FMUs for Linux and Windows (two minutes) unless DIR holds them. Without the
+program fmusim, and without wine on the search path, their rows say so.
 """
 
 from __future__ import annotations

@@ -8,6 +8,7 @@ from ecospy.EcosParameterSet import EcosParameterSet
 
 
 def main(job: dict) -> list[float]:
+    """Run the job and return the values asked for."""
     if job.get("ssp"):
         settings = {"ssp_path": job["ssp"]}
     else:

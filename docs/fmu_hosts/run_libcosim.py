@@ -10,6 +10,7 @@ from libcosimpy.CosimSlave import CosimLocalSlave
 
 
 def main(job: dict) -> list[float]:
+    """Run the job and return the values asked for."""
     nanoseconds = round(job["step_size"] * 1e9)
     if job.get("ssp"):
         execution = CosimExecution.from_ssp_file(ssp_path=job["ssp"], step_size=nanoseconds)

@@ -1,4 +1,4 @@
-"""Driveline.fmu: engine, shafts, wheels and vehicle around the axle, native, from casadi's C code."""
+"""Driveline.fmu: engine, shafts, wheels and vehicle, native, from casadi's C code."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ import numpy as np
 
 from drivetrain.driveline.equations import INDEX, STATES
 from drivetrain.driveline.model import Driveline
-from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.driveline.stepper import LONGEST_INNER_STEP, MEMORY, SLOT, driveline_stepper
 from fmu_src.archive import write_archive
 from fmu_src.definition import Definition, Model, Value

@@ -1,4 +1,4 @@
-"""The SSP archive of a car and its axle: SystemStructure.ssd around Driveline.fmu and HypoidAxle.fmu."""
+"""The SSP archive of a car and its axle: SystemStructure.ssd around two FMUs."""
 
 from __future__ import annotations
 
