@@ -45,15 +45,17 @@ def write_units(root: ElementTree.Element, definition: Definition) -> None:
 
 
 def _types(root: ElementTree.Element, definition: Definition) -> None:
+    enumerations = [v for v in definition.variables if v.type == "Enumeration"]
+    if not enumerations:
+        return  # the element must not be empty
     parent = ElementTree.SubElement(root, "TypeDefinitions")
-    for variable in definition.variables:
-        if variable.type == "Enumeration":
-            simple = ElementTree.SubElement(
-                parent, "SimpleType", name=type_name(variable), description=variable.description
-            )
-            enumeration = ElementTree.SubElement(simple, "Enumeration")
-            for value, literal in enumerate(variable.literals, start=1):
-                ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
+    for variable in enumerations:
+        simple = ElementTree.SubElement(
+            parent, "SimpleType", name=type_name(variable), description=variable.description
+        )
+        enumeration = ElementTree.SubElement(simple, "Enumeration")
+        for value, literal in enumerate(variable.literals, start=1):
+            ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
 
 
 def attributes_of(variable: Variable) -> dict[str, str]:

@@ -12,9 +12,8 @@ from hypothesis import settings
 
 from tests.helpers.session_folder import open_session_folder
 
-# importers are started by tests in processes of their own, in an environment made for them;
 # helpers hold no tests and no examples
-collect_ignore = ["fmu/importer_ecos.py", "fmu/importer_libcosim.py", "helpers"]
+collect_ignore = ["helpers"]
 
 # the first call of a kernel compiles it, however fast it is afterwards
 settings.register_profile("compiled kernels", deadline=None)
