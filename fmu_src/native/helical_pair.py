@@ -20,7 +20,8 @@ from fmu_src.native.model import OK, NativeModel, Operation
 from fmu_src.object_code import array_at, matrix_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march import equilibrium, integrate
-from gearlube_core.dynamics.helical_pair.march.communication import communication_step
+from gearlube_core.dynamics.helical_pair.march.communication import step_without_outputs
+from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
 from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     EQUILIBRIUM_WORK,
     highest_frequency,
@@ -47,7 +48,12 @@ from gearlube_core.dynamics.helical_pair.march.model import (
     NO_FREQUENCIES_WORDS,
     WORDS,
 )
-from gearlube_core.dynamics.helical_pair.march.outputs import N_OUTPUTS, write_outputs
+from gearlube_core.dynamics.helical_pair.march.outputs import (
+    MOTION_OUTPUTS,
+    N_OUTPUTS,
+    write_motion,
+    write_outputs,
+)
 from gearlube_core.dynamics.helical_pair.march.parameters import (
     FRICTION_FORMS,
     HELD,
@@ -121,7 +127,9 @@ DENSITY_WITH_LINE_MESH = 7
 COUPLING_TOO_LARGE = 8
 MISSING_CASE = 10  # and its number
 
-_START, _STEP, _RESUME = int(Operation.START), int(Operation.STEP), int(Operation.RESUME)
+_START, _STEP, _RESUME, _MOTION = (
+    int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME, Operation.MOTION)
+)
 
 
 @kernel
@@ -283,8 +291,8 @@ def entry(
         return INPUT_OUT_OF_RANGE
     if operation == _STEP:
         control = own[CONTROL_AT:]
-        status = communication_step(
-            own[:N_STATE], trial, step, wanted, mesh, pair_data, bearings, control, scratch, out
+        status = step_without_outputs(
+            own[:N_STATE], trial, step, wanted, mesh, pair_data, control, scratch
         )
         if status == integrate.OK:
             for i in range(N_INPUTS):
@@ -294,6 +302,10 @@ def entry(
         status = start(given, wanted, mesh, pair_data, trial, scratch, own)
         if status != OK:
             return status
+    if operation == _MOTION:  # after a step, where no rates are read
+        constants: MarchConstants = tuple_from_array(pair_data, MarchConstants)
+        write_motion(own[:N_STATE], scratch, constants.teeth, bearings, out)
+        return OK
     write_outputs(own[:N_STATE], own[INPUTS_AT:CONTROL_AT], mesh, pair_data, bearings, scratch, out)
     return OK
 
@@ -328,4 +340,5 @@ def native_model(definition: Definition) -> NativeModel:
         ranges_at=RANGES_AT,
         ranges=cases.ranges,
         refusals=refusals,
+        motion=frozenset(MOTION_OUTPUTS),
     )

@@ -28,7 +28,7 @@ from gearlube_core.dynamics.hypoid_axle.model import (
     STEP_REFUSALS,
     torque_limits,
 )
-from gearlube_core.dynamics.hypoid_axle.outputs import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.outputs import MOTION_OUTPUTS, N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     NO_MODAL_LOSS,
     HypoidAxleParameters,
@@ -58,7 +58,9 @@ REFUSALS: Mapping[int, str] = {
     NO_MODES: NO_MODES_WORDS,
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
 }
-_START, _STEP, _RESUME = (int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME))
+_START, _STEP, _RESUME, _MOTION = (
+    int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME, Operation.MOTION)
+)
 _N_INPUTS = 3
 _N_CONTROL = count_floats(StepControl)
 _CONTROL_AT = N_STATE + _N_INPUTS
@@ -195,7 +197,8 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
     """Return the entry of a model whose data and work are laid out so."""
     kernels = axle_kernels(*_KINDS)
     static_state, step_control = kernels.static_state, kernels.step_control
-    communication_step, write_outputs = kernels.communication_step, kernels.outputs
+    step_without_outputs, write_outputs = kernels.step_without_outputs, kernels.outputs
+    motion_outputs = kernels.motion_outputs
 
     def entry(
         operation: int,
@@ -224,9 +227,7 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
         scratch = values[at.scratch : at.work_end]
         if operation == _STEP:
             control = kept[_CONTROL_AT:_STATE_SIZE]
-            status = communication_step(
-                s, trial, step, given, mesh, packed, control, scratch, rollers, out
-            )
+            status = step_without_outputs(s, trial, step, given, mesh, packed, control, scratch)
             if status == OK:
                 for i in range(_N_INPUTS):
                     kept[N_STATE + i] = given[i]
@@ -258,7 +259,10 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
                 last[i] = given[i]
             for i in range(_N_CONTROL):
                 kept[_CONTROL_AT + i] = control[i]
-        write_outputs(s, last, mesh, packed, scratch, rollers, out)
+        if operation == _MOTION:
+            motion_outputs(s, mesh, packed, scratch, out)
+        else:
+            write_outputs(s, last, mesh, packed, scratch, rollers, out)
         return OK
 
     return entry
@@ -375,4 +379,5 @@ def native_model(definition: Definition) -> NativeModel:
         ranges_at=int(_AT.ranges.torque_low),
         ranges=unnamed.ranges,
         refusals=REFUSALS,
+        motion=frozenset(MOTION_OUTPUTS),
     )

@@ -22,9 +22,10 @@ class Operation(IntEnum):
     """What the entry of a model is asked to do."""
 
     START = 0  # parameters and inputs -> work, state in static equilibrium, outputs
-    STEP = 1  # state and inputs -> state one communication step later, outputs
+    STEP = 1  # state and inputs -> state one communication step later, outputs unless lazy
     OUTPUTS = 2  # state and its own inputs -> outputs
     RESUME = 3  # parameters -> work; the state comes from elsewhere
+    MOTION = 4  # state after a step -> the outputs named in `motion`
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,6 +59,9 @@ class NativeModel:
         those in `work`.
     refusals : mapping of int to str
         Why an operation was refused, by status.
+    motion : frozenset of str
+        Outputs that cost next to nothing. With any, STEP writes no outputs: MOTION writes these and
+        OUTPUTS all of them, when the host reads one.
     """
 
     definition: Definition
@@ -70,3 +74,4 @@ class NativeModel:
     ranges_at: int
     ranges: tuple[Range, ...]
     refusals: Mapping[int, str]
+    motion: frozenset[str] = frozenset()

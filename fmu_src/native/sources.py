@@ -66,6 +66,13 @@ def _places(variables: Sequence[Variable], output_names: Sequence[str]) -> list[
     return places
 
 
+def _needs(variable: Variable, motion: frozenset[str]) -> int:
+    """Return what has to be computed before a variable is read: 0 nothing, 1 motion, 2 all."""
+    if variable.causality != "output":
+        return 0
+    return 1 if variable.name in motion else 2
+
+
 def model_sizes(model: NativeModel, guid: str) -> str:
     """Return `model_sizes.h`."""
     definition = model.definition
@@ -81,6 +88,7 @@ def model_sizes(model: NativeModel, guid: str) -> str:
         "RANGES_AT": model.ranges_at,
         "RANGES": len(model.ranges),
         "REFUSALS": len(model.refusals),
+        "LAZY": int(bool(model.motion)),
         "EXCEEDED": definition.references[RANGE_EXCEEDED],
     }
     lines = [f"#define GL_{name} {size}" for name, size in sizes.items()]
@@ -118,7 +126,8 @@ def model_tables(model: NativeModel) -> str:
             f"{{{text_literal(variable.name)}, {text_literal(unit)}, {names}, "
             f"{number_literal(variable.start or 0.0)}, {number_literal(low)}, "
             f"{number_literal(high)}, {_KINDS[variable.type]}, "
-            f"{_CAUSALITIES[variable.causality]}, {place}, {option}}}"
+            f"{_CAUSALITIES[variable.causality]}, {place}, {option}, "
+            f"{_needs(variable, model.motion)}}}"
         )
     arrays = {one.references[0]: one.references for one in array_variables(variables)}
     members = [

@@ -7,6 +7,8 @@
 #include <string.h>
 
 static const uint64_t INSTANCE_MARK = 0x6c756265696e7374u;
+/* Ranges are looked at where outputs are read, at latest so long after the last time [s]. */
+static const double LONGEST_UNWATCHED = 0.01;
 static const char *const phase_names[] = {"instantiated", "initialising", "stepping",
                                           "terminated"};
 
@@ -126,11 +128,14 @@ static int say_input_beyond(gl_instance *instance, gl_status status, const char 
     return 0;
 }
 
-static void take_outputs(gl_instance *instance)
+static void take_outputs(gl_instance *instance, int computed)
 {
     for (int i = 0; i < GL_OUTPUTS; i++) {
-        instance->now.values[gl_outputs[i]] = instance->outputs[i];
+        if (gl_variables[gl_outputs[i]].needs <= computed) {
+            instance->now.values[gl_outputs[i]] = instance->outputs[i];
+        }
     }
+    instance->fresh = computed;
 }
 
 int gl_all_finite(const double *values, int count)
@@ -143,13 +148,14 @@ int gl_all_finite(const double *values, int count)
     return 1;
 }
 
-/* Why an operation of the model gives no result; NULL where it does. */
+/* Why an operation of the model gives no result; NULL where it does. Without `outputs` it gives
+   none. */
 static const char *why_not(int64_t status, const double *outputs, const double *state)
 {
     if (status != 0) {
         return refusal_text(status);
     }
-    if (!gl_all_finite(outputs, GL_OUTPUTS)) {
+    if (outputs && !gl_all_finite(outputs, GL_OUTPUTS)) {
         return "an output is not finite";
     }
     return gl_all_finite(state, GL_STATE) ? NULL : "a state is not finite";
@@ -178,7 +184,7 @@ gl_status gl_start(gl_instance *instance)
         return gl_refuse(instance, "The start was refused: %s.", why);
     }
     memcpy(instance->now.state, state, sizeof state);
-    take_outputs(instance);
+    take_outputs(instance, 2);
     instance->stale = 0;
     return GL_OK;
 }
@@ -186,6 +192,7 @@ gl_status gl_start(gl_instance *instance)
 static void watch_ranges(gl_instance *instance)
 {
     instance->points++;
+    instance->watched = instance->now.time;
     if (GL_RANGES == 0) {
         return;
     }
@@ -203,6 +210,30 @@ static void watch_ranges(gl_instance *instance)
                range->unit, instance->now.values[range->reference], range->beyond,
                instance->now.time);
     }
+}
+
+gl_status gl_refresh(gl_instance *instance, int needed)
+{
+    double inputs[GL_INPUTS] = {0.0}; /* those of the last step stand in the state */
+    if (needed <= instance->fresh) {
+        return GL_OK;
+    }
+    int64_t status = gearlube_entry(needed == 1 ? GL_MOTION : GL_WRITE_OUTPUTS, 0.0, gl_data,
+                                    instance->parameters, inputs, instance->now.state,
+                                    instance->work, instance->outputs);
+    for (int i = 0; status == 0 && i < GL_OUTPUTS; i++) {
+        if (gl_variables[gl_outputs[i]].needs <= needed && !isfinite(instance->outputs[i])) {
+            return gl_refuse(instance, "%s is not finite.", gl_variables[gl_outputs[i]].name);
+        }
+    }
+    if (status != 0) {
+        return gl_refuse(instance, "The outputs cannot be computed: %s.", refusal_text(status));
+    }
+    take_outputs(instance, needed);
+    if (needed == 2) {
+        watch_ranges(instance);
+    }
+    return GL_OK;
 }
 
 gl_status gl_exit_initialisation(gl_instance *instance)
@@ -234,6 +265,7 @@ gl_status gl_terminate(gl_instance *instance)
     if (status != GL_OK) {
         return status;
     }
+    gl_refresh(instance, 2); /* so that the ranges are looked at where the run ends */
     instance->now.phase = GL_TERMINATED;
     for (int i = 0; i < GL_RANGES; i++) {
         if (instance->outside[i]) {
@@ -294,14 +326,21 @@ gl_status gl_step(gl_instance *instance, double time, double step)
     memcpy(before, instance->now.state, sizeof before);
     int64_t status = gearlube_entry(GL_STEP, step, gl_data, instance->parameters, inputs,
                                     instance->now.state, instance->work, instance->outputs);
-    const char *why = why_not(status, instance->outputs, instance->now.state);
+    const char *why = why_not(status, GL_LAZY ? NULL : instance->outputs, instance->now.state);
     if (why) {
         memcpy(instance->now.state, before, sizeof before);
         gl_say(instance, GL_DISCARD, "step of %g s at t = %g s refused: %s.", step, time, why);
         return GL_DISCARD;
     }
-    take_outputs(instance);
     instance->now.time = time + step;
-    watch_ranges(instance);
+    if (!GL_LAZY) {
+        take_outputs(instance, 2);
+        watch_ranges(instance);
+        return GL_OK;
+    }
+    instance->fresh = 0;
+    if (instance->now.time - instance->watched >= LONGEST_UNWATCHED) {
+        gl_refresh(instance, 2);
+    }
     return GL_OK;
 }

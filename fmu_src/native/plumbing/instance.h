@@ -39,6 +39,8 @@ struct gl_instance {
     gl_snapshot now;
     double stop; /* no step goes beyond it [s] */
     int stale;   /* outputs wait for a start with the present values */
+    int fresh;      /* outputs of the present state: 0 none, 1 those of the motion, 2 all */
+    double watched; /* time at which the ranges were looked at last [s] */
     int refusals;                        /* values outside their range: how many, */
     unsigned char refused[GL_VARIABLES]; /* and which */
     double parameters[GL_PARAMETERS];    /* what `work` was made of */

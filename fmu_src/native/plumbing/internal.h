@@ -22,4 +22,7 @@ int gl_all_finite(const double *values, int count);
 /* Starts the model unless its outputs belong to the present values. */
 gl_status gl_start(gl_instance *instance);
 
+/* Computes the outputs of the present state: 1 those of the motion, 2 all. */
+gl_status gl_refresh(gl_instance *instance, int needed);
+
 #endif

@@ -20,6 +20,7 @@ typedef struct {
     gl_causality causality;
     int place; /* among parameters, inputs or outputs of the model; -1: an option by number */
     int option; /* of an option by number: reference of the enumeration it stands for; else -1 */
+    int needs;  /* before it is read: 0 nothing, 1 the outputs of the motion, 2 all outputs */
 } gl_variable;
 
 /* A variable of FMI 3: an array where FMI 2 has one variable for each element. */
@@ -49,7 +50,7 @@ extern const gl_refusal gl_refusals[GL_REFUSALS];
 extern const gl_range gl_ranges[GL_RANGES];
 extern const double gl_data[]; /* what only a table or a gear decides */
 
-enum { GL_START, GL_STEP, GL_WRITE_OUTPUTS, GL_RESUME }; /* operations of the entry */
+enum { GL_START, GL_STEP, GL_WRITE_OUTPUTS, GL_RESUME, GL_MOTION }; /* operations of the entry */
 
 /* The physics: compiled from the same kernels as the Python models. Returns 0 or the status of a
    refusal, with `state` unchanged. It allocates nothing and takes no lock. */

@@ -61,6 +61,9 @@ static gl_status keep(gl_instance *instance, const gl_snapshot *snapshot, void *
 gl_status gl_save(gl_instance *instance, void **place)
 {
     gl_status status = check_pointers(instance, place, instance);
+    if (status == GL_OK && instance->now.phase >= GL_STEPPING) {
+        status = gl_refresh(instance, 2); /* a state holds all outputs */
+    }
     return status == GL_OK ? keep(instance, &instance->now, place) : status;
 }
 
@@ -205,6 +208,8 @@ gl_status gl_restore(gl_instance *instance, const void *state)
         memcpy(instance->parameters, parameters, sizeof parameters);
     }
     instance->now = *snapshot;
+    instance->fresh = 2;
+    instance->watched = snapshot->time;
     instance->stale = snapshot->phase < GL_STEPPING;
     gl_find_refused(instance);
     return GL_OK;

@@ -104,25 +104,24 @@ static gl_status check(gl_instance *instance, gl_kind kind, size_t count, const 
     return GL_OK;
 }
 
-static int asks_for_output(size_t count, const unsigned *refs)
+static int needed_by(size_t count, const unsigned *refs)
 {
+    int most = 0;
     for (size_t i = 0; i < count; i++) {
-        if (gl_variables[refs[i]].causality == GL_OUTPUT) {
-            return 1;
-        }
+        most = gl_variables[refs[i]].needs > most ? gl_variables[refs[i]].needs : most;
     }
-    return 0;
+    return most;
 }
 
 gl_status gl_check_read(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
                         const void *values)
 {
     gl_status status = check(instance, kind, count, refs, values);
-    if (status == GL_OK && instance->stale && instance->now.phase < GL_STEPPING &&
-        asks_for_output(count, refs)) {
-        status = gl_start(instance);
+    int needed = status == GL_OK ? needed_by(count, refs) : 0;
+    if (needed && instance->now.phase >= GL_STEPPING) {
+        return gl_refresh(instance, needed);
     }
-    return status;
+    return needed && instance->stale ? gl_start(instance) : status;
 }
 
 static int can_be_set(const gl_instance *instance, const gl_variable *variable)

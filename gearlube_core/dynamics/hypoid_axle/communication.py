@@ -17,7 +17,7 @@ from gearlube_core.dynamics.hypoid_axle.force_derivatives import force_derivativ
 from gearlube_core.dynamics.hypoid_axle.integrate import OK, StepControl, advance
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields, MeshLevels
-from gearlube_core.dynamics.hypoid_axle.outputs import write_outputs
+from gearlube_core.dynamics.hypoid_axle.outputs import write_motion_after_step, write_outputs
 from gearlube_core.dynamics.hypoid_axle.start import rest
 from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.hypoid_axle.step_control import write_step_control
@@ -33,6 +33,8 @@ class AxleKernels(NamedTuple):
     step_control: Callable[..., int]
     derivatives: Callable[..., None]
     communication_step: Callable[..., int]
+    step_without_outputs: Callable[..., int]
+    motion_outputs: Callable[..., None]
     outputs: Callable[..., None]
 
 
@@ -114,6 +116,46 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         force_derivatives(s, of_speeds, torque, oil_temperature, table, p, work, matrix)
 
     @kernel
+    def step_without_outputs(
+        s: Array,
+        trial: Array,
+        duration: float,
+        inputs: Array,
+        mesh: MeshFields,
+        parameters: Array,
+        control_values: Array,
+        work: Array,
+    ) -> int:
+        """Advance the axle by `duration` [s]; arguments and status as in `communication_step`."""
+        table = MeshLevels(*mesh)
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        control: StepControl = tuple_from_array(control_values, StepControl)
+        torques = (inputs[0], inputs[1])
+        for i in range(N_STATE):
+            trial[i] = s[i]
+        status = advance(trial, duration, torques, inputs[2], table, p, control, work)
+        if status == OK:
+            for i in range(N_STATE):
+                s[i] = trial[i]
+        return status
+
+    @kernel
+    def outputs(
+        s: Array,
+        inputs: Array,
+        mesh: MeshFields,
+        parameters: Array,
+        work: Array,
+        rollers: Array,
+        out: Array,
+    ) -> None:
+        """Write the outputs of the state `s`; arguments as in `communication_step`."""
+        table = MeshLevels(*mesh)
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        torques = (inputs[0], inputs[1])
+        write_outputs(s, torques, inputs[2], table, p, work, rollers, out)
+
+    @kernel
     def communication_step(
         s: Array,
         trial: Array,
@@ -141,33 +183,27 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
 
         Others as in `advance` and `write_outputs`.
         """
-        table = MeshLevels(*mesh)
-        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        control: StepControl = tuple_from_array(control_values, StepControl)
-        torques = (inputs[0], inputs[1])
-        for i in range(N_STATE):
-            trial[i] = s[i]
-        status = advance(trial, duration, torques, inputs[2], table, p, control, work)
+        status = step_without_outputs(
+            s, trial, duration, inputs, mesh, parameters, control_values, work
+        )
         if status == OK:
-            for i in range(N_STATE):
-                s[i] = trial[i]
-            write_outputs(s, torques, inputs[2], table, p, work, rollers, out)
+            outputs(s, inputs, mesh, parameters, work, rollers, out)
         return status
 
     @kernel
-    def outputs(
-        s: Array,
-        inputs: Array,
-        mesh: MeshFields,
-        parameters: Array,
-        work: Array,
-        rollers: Array,
-        out: Array,
+    def motion_outputs(
+        s: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
     ) -> None:
-        """Write the outputs of the state `s`; arguments as in `communication_step`."""
-        table = MeshLevels(*mesh)
+        """Write `MOTION_OUTPUTS` of the state that a step has left, as in `outputs`."""
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
-        torques = (inputs[0], inputs[1])
-        write_outputs(s, torques, inputs[2], table, p, work, rollers, out)
+        write_motion_after_step(s, MeshLevels(*mesh), p, work, out)
 
-    return AxleKernels(static_state, step_control, derivatives, communication_step, outputs)
+    return AxleKernels(
+        static_state,
+        step_control,
+        derivatives,
+        communication_step,
+        step_without_outputs,
+        motion_outputs,
+        outputs,
+    )

@@ -16,6 +16,7 @@ from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
+    MeshForce,
     backlash_deflection,
     mesh_force,
     reference_frequency,
@@ -58,7 +59,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS, write_ranges
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import N_SERIES, R_P
+from gearlube_core.mesh_table.kernels import N_SERIES, R_P, blend_levels, load_bracket
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 OUTPUT_NAMES: tuple[str, ...] = (
@@ -130,6 +131,17 @@ GEAR_BEARINGS = PINION_BEARINGS + 2 * N_BEARING_QUANTITIES
 ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
 RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
 
+# what follows from the state and the mean mesh data alone
+MOTION_OUTPUTS: tuple[str, ...] = (
+    *OUTPUT_NAMES[:PINION_ACCELERATION],
+    *OUTPUT_NAMES[DTE:FLANKS],
+    *OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY + 1],
+    *OUTPUT_NAMES[PINION_DISPLACEMENT : WHEEL_DISPLACEMENT + 3],
+    OUTPUT_NAMES[PINION_CAGE],
+    OUTPUT_NAMES[GEAR_CAGE],
+    *OUTPUT_NAMES[ENERGIES : ENERGIES + N_ENERGIES],
+)
+
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
 
@@ -185,6 +197,54 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
 
 
 @kernel
+def write_motion(
+    s: Array, rates: Array, series: Array, n_orders: int, p: AxleParameters, out: Array
+) -> MeshForce:
+    """Write `MOTION_OUTPUTS`; return the mesh force.
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+    rates : ndarray of shape (N_ODE,)
+        Its rates; read before the first step only.
+    series : ndarray of shape (N_SERIES * (2 n_orders + 1),)
+        Of the mesh table at the present load.
+    """
+    mesh = mesh_force(s, series, n_orders, p.mesh)
+    x = s[X] * UM
+    out[PINION_ANGLE] = s[PHI_P]
+    out[WHEEL_ANGLE] = s[PHI_G]
+    out[PINION_SPEED] = s[W_P]
+    out[WHEEL_SPEED] = s[W_G]
+    out[DTE] = x
+    out[MESH_FORCE] = mesh.force
+    out[SEPARATED] = 1.0 if -p.mesh.backlash < x < 0.0 else 0.0
+    out[MESH_STIFFNESS] = mesh.stiffness
+    out[MESH_FREQUENCY] = p.mesh.z_p * s[W_P] / (2.0 * math.pi)
+    write_losses(s, rates, out)
+    for i in range(3):
+        out[PINION_DISPLACEMENT + i] = s[U_P + i] * UM
+        out[WHEEL_DISPLACEMENT + i] = s[U_G + i] * UM
+    out[PINION_CAGE] = s[CAGE_P]
+    out[GEAR_CAGE] = s[CAGE_G]
+    for i in range(N_ENERGIES):
+        out[ENERGIES + i] = s[PINION_WORK + i]
+    return mesh
+
+
+@kernel
+def write_motion_after_step(
+    s: Array, table: MeshLevels, p: AxleParameters, work: Array, out: Array
+) -> None:
+    """Write `MOTION_OUTPUTS` of a state that a step has left; arguments as in `write_outputs`."""
+    size = N_SERIES * (2 * table.n_orders + 1)
+    series = work[N_ODE : N_ODE + size]
+    bracket = load_bracket(s[LOAD_TORQUE], s[SIDE], table.levels, table.levels.size)
+    blend_levels(table.series, size, bracket, series)
+    write_motion(s, work[0:N_ODE], series, table.n_orders, p, out)
+
+
+@kernel
 def write_outputs(
     s: Array,
     torques: tuple[float, float],
@@ -208,19 +268,9 @@ def write_outputs(
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
     inputs = step_inputs(s, torques[0], torques[1], oil, p)
     axle_rhs(s, inputs, data, oil, p, 1.0, 1.0, scratch, rates)
-    mesh = mesh_force(s, data.series, data.n_orders, p.mesh)
-    x = s[X] * UM
-    out[PINION_ANGLE] = s[PHI_P]
-    out[WHEEL_ANGLE] = s[PHI_G]
-    out[PINION_SPEED] = s[W_P]
-    out[WHEEL_SPEED] = s[W_G]
+    mesh = write_motion(s, rates, data.series, data.n_orders, p, out)
     out[PINION_ACCELERATION] = rates[W_P]
     out[WHEEL_ACCELERATION] = rates[W_G]
-    out[DTE] = x
-    out[MESH_FORCE] = mesh.force
-    out[SEPARATED] = 1.0 if -p.mesh.backlash < x < 0.0 else 0.0
-    out[MESH_STIFFNESS] = mesh.stiffness
-    out[MESH_FREQUENCY] = p.mesh.z_p * s[W_P] / (2.0 * math.pi)
     channels = scratch[N_FRICTION:AT_EXPANSION]
     most_loaded = write_flanks(
         s, mesh.force, data.window, data.n_nodes, oil_temperature, oil, p, FLANKS, channels, out
@@ -237,17 +287,9 @@ def write_outputs(
         RANGES,
         out,
     )
-    write_losses(s, rates, out)
-    for i in range(3):
-        out[PINION_DISPLACEMENT + i] = s[U_P + i] * UM
-        out[WHEEL_DISPLACEMENT + i] = s[U_G + i] * UM
     f_ref = reference_frequency(p.mesh, s[W_P])
     out[FIRST_ROLLER] = write_shaft(
         pinion_motion(s), f_ref, oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0), rollers, out
     )
     write_shaft(gear_motion(s), f_ref, oil, p.bearing_g, GEAR_BEARINGS, (0, 1, 2), rollers, out)
-    out[PINION_CAGE] = s[CAGE_P]
-    out[GEAR_CAGE] = s[CAGE_G]
-    for i in range(N_ENERGIES):
-        out[ENERGIES + i] = s[PINION_WORK + i]
     out[STORED_ENERGY] = stored_energy(s, mesh.stiffness, oil, p)

@@ -11,6 +11,27 @@ from gearlube_core.kernels.jit import kernel
 
 
 @kernel
+def step_without_outputs(
+    s: Array,
+    trial: Array,
+    duration: float,
+    inputs: Array,
+    mesh: MeshFields,
+    data: Array,
+    control: Array,
+    work: Array,
+) -> int:
+    """Advance the pair by `duration` [s]; arguments and status as in `communication_step`."""
+    for i in range(N_STATE):
+        trial[i] = s[i]
+    status = advance(trial, duration, inputs, mesh, data, control, work)
+    if status == OK:
+        for i in range(N_STATE):
+            s[i] = trial[i]
+    return status
+
+
+@kernel
 def communication_step(
     s: Array,
     trial: Array,
@@ -32,11 +53,7 @@ def communication_step(
 
     Others as in `advance` and `write_outputs`.
     """
-    for i in range(N_STATE):
-        trial[i] = s[i]
-    status = advance(trial, duration, inputs, mesh, data, control, work)
+    status = step_without_outputs(s, trial, duration, inputs, mesh, data, control, work)
     if status == OK:
-        for i in range(N_STATE):
-            s[i] = trial[i]
         write_outputs(s, inputs, mesh, data, bearings, work, out)
     return status

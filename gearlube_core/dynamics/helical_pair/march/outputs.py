@@ -116,6 +116,17 @@ ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
 RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
 N_BEARING_QUANTITIES = len(BEARING_QUANTITIES)
 
+# what follows from the state alone
+MOTION_OUTPUTS: tuple[str, ...] = (
+    *OUTPUT_NAMES[:PINION_ACCELERATION],
+    OUTPUT_NAMES[DTE],
+    OUTPUT_NAMES[MESH_FREQUENCY],
+    *OUTPUT_NAMES[FRICTION_LOSS : PAIR_EFFICIENCY + 1],
+    *OUTPUT_NAMES[DISPLACEMENTS : DISPLACEMENTS + N_LATERAL],
+    *OUTPUT_NAMES[BEARINGS : BEARINGS + N_BEARINGS * N_BEARING_QUANTITIES],
+    *OUTPUT_NAMES[ENERGIES : ENERGIES + N_ENERGIES],
+)
+
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
 
@@ -171,6 +182,34 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
 
 
 @kernel
+def write_motion(s: Array, rates: Array, teeth: float, bearings: Array, out: Array) -> None:
+    """Write `MOTION_OUTPUTS`.
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+    rates : ndarray of shape (N_ODE,)
+        Its rates; read before the first step only.
+    teeth : float
+        Of the pinion.
+    bearings : ndarray
+        As in `write_outputs`.
+    """
+    out[PINION_ANGLE] = s[PHI_P]
+    out[WHEEL_ANGLE] = s[PHI_G]
+    out[PINION_SPEED] = s[W_P]
+    out[WHEEL_SPEED] = s[W_G]
+    out[DTE] = s[PSI] + s[U_P] - s[U_G]
+    out[MESH_FREQUENCY] = teeth * s[W_P] / (2.0 * math.pi)
+    write_losses(s, rates, out)
+    for i in range(N_LATERAL):
+        out[DISPLACEMENTS + i] = s[U_P + i]
+    write_bearings(s, bearings, out)
+    for i in range(N_ENERGIES):
+        out[ENERGIES + i] = s[PINION_WORK + i]
+
+
+@kernel
 def write_outputs(
     s: Array,
     inputs: Array,
@@ -199,13 +238,9 @@ def write_outputs(
     direction = friction_direction(s[W_P])
     force = flank_wrench(on_drive, direction, plane)
     back = turned_wrench(flank_wrench(on_coast, -direction, plane), flanks)
-    out[PINION_ANGLE] = s[PHI_P]
-    out[WHEEL_ANGLE] = s[PHI_G]
-    out[PINION_SPEED] = s[W_P]
-    out[WHEEL_SPEED] = s[W_G]
+    write_motion(s, rates, p.teeth, bearings, out)
     out[PINION_ACCELERATION] = rates[W_P]
     out[WHEEL_ACCELERATION] = rates[W_G]
-    out[DTE] = s[PSI] + s[U_P] - s[U_G]
     out[MESH_LOAD] = on_drive.N - on_coast.N
     out[MESH_FORCE] = force.F_x + back.F_x
     out[MESH_FORCE + 1] = force.F_y + back.F_y
@@ -214,7 +249,6 @@ def write_outputs(
     out[COAST_CONTACT] = 1.0 if on_coast.N > 0.0 else 0.0
     touching = on_drive.stiffness + on_coast.stiffness
     out[MESH_STIFFNESS] = plane.cos_b * plane.cos_b * touching
-    out[MESH_FREQUENCY] = p.teeth * s[W_P] / (2.0 * math.pi)
     oil = lubricant_state(p.oil, oil_temperature)
     view = drive if on_drive.N >= on_coast.N else coast
     mu_at = MU if on_drive.N >= on_coast.N else MU + FLANK_POINTS
@@ -232,12 +266,6 @@ def write_outputs(
         RANGES,
         out,
     )
-    write_losses(s, rates, out)
-    for i in range(N_LATERAL):
-        out[DISPLACEMENTS + i] = s[U_P + i]
-    write_bearings(s, bearings, out)
-    for i in range(N_ENERGIES):
-        out[ENERGIES + i] = s[PINION_WORK + i]
     stored = 0.5 * s[W_P] * s[W_P] / p.motion.pinion.mobility_r
     stored += 0.5 * s[W_G] * s[W_G] / p.motion.gear.mobility_r
     stored += member_energy(s, U_P, V_P, p.motion.pinion) + member_energy(
