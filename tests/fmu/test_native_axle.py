@@ -156,7 +156,7 @@ def test_steps_continue_as_in_python_and_outputs_of_a_restored_state_are_the_sam
     for k in range(20):
         torque = 60.0 + k
         run.inputs[0] = torque
-        assert run(Operation.STEP, 1e-3) == OK
+        assert run.step(1e-3) == OK
         axle.step(1e-3, torque, *CURRENT[1:])
     # other instructions on another processor type: roundings grow over 20 ms to below 1e-9
     assert_outputs_agree(run, axle, 1e-9)
@@ -169,6 +169,17 @@ def test_steps_continue_as_in_python_and_outputs_of_a_restored_state_are_the_sam
     run.inputs[:] = other.inputs[:] = CURRENT
     assert run(Operation.STEP, 1e-3) == other(Operation.STEP, 1e-3) == OK
     np.testing.assert_array_equal(other.state, run.state)
+
+
+def test_outputs_of_the_motion_are_those_among_all_outputs(native):
+    run = native.instance({"pinion_speed": 150.0}, CURRENT)
+    assert run(Operation.START) == OK
+    for torque in (60.0, 90.0, -40.0):
+        run.inputs[0] = torque
+        assert run.step(1e-3) == OK
+        of_all = dict(zip(DEFINITION.output_names, run.outputs.tolist(), strict=True))
+        motion = run.motion()
+        assert motion == {name: of_all[name] for name in motion}
 
 
 def test_what_is_refused_leaves_the_state_as_it_was(native):

@@ -175,7 +175,7 @@ def check_starts(loaded: LoadedModel, seed: int, count: int) -> None:
         assert_close(native, pair)
         for _ in range(3):
             pair.step(STEP, *inputs)
-            assert native(Operation.STEP, STEP) == OK
+            assert native.step(STEP) == OK
             assert_close(native, pair)
     assert refused < count / 2
 
@@ -224,7 +224,7 @@ def test_a_state_of_python_continues_natively(shipped: LoadedModel) -> None:
     assert native(Operation.OUTPUTS) == OK
     assert_close(native, pair)
     pair.step(STEP, *INPUTS)
-    assert native(Operation.STEP, STEP) == OK
+    assert native.step(STEP) == OK
     assert_close(native, pair)
 
 

@@ -49,6 +49,19 @@ class NativeRun:
         pointers = [array.ctypes.data for array in (*arrays, self.outputs)]
         return self.entry(int(operation), step, *pointers)
 
+    def step(self, h: float) -> int:
+        """Take a step of `h` [s] and write the outputs."""
+        return self(Operation.STEP, h) or self(Operation.OUTPUTS)
+
+    def motion(self) -> dict[str, float]:
+        """Write the outputs of the motion alone and return them."""
+        self.outputs[:] = np.nan
+        assert self(Operation.MOTION) == 0
+        names = self.model.definition.output_names
+        written = dict(zip(names, self.outputs.tolist(), strict=True))
+        assert {name for name, value in written.items() if value == value} == self.model.motion
+        return {name: written[name] for name in self.model.motion}
+
 
 class LoadedModel:
     """The object code of a model in this process."""

@@ -9,12 +9,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from fmu_src.native.build import libraries, native_guid
+from fmu_src.native.model import NativeModel
 from fmu_src.native.platforms import PLATFORMS
 from tests.helpers.native_library import NativeLibrary
 from tests.helpers.session_folder import shared_folder
 from tests.helpers.small_native_model import small_native_model
 
 MODEL = small_native_model()
+LAZY_MODEL = small_native_model(motion=frozenset({"pinion.speed"}))
 LINUX = PLATFORMS[0]
 
 
@@ -34,16 +36,16 @@ def _alone(folder: Path) -> Iterator[None]:
         lock.unlink()
 
 
-def linux_library() -> Path:
-    """Return the path of the library for the machines that run the tests."""
-    folder = shared_folder("small_native_model")
+def linux_library(model: NativeModel = MODEL) -> Path:
+    """Return the path of a model's library for the machines that run the tests."""
+    folder = shared_folder("lazy_native_model" if model.motion else "small_native_model")
     path = folder / "RotatingMass.so"
     with _alone(folder):
         if not path.is_file():
-            path.write_bytes(libraries(MODEL, [LINUX])[LINUX.name])
+            path.write_bytes(libraries(model, [LINUX])[LINUX.name])
     return path
 
 
-def loaded(version: int, path: Path | None = None) -> NativeLibrary:
+def loaded(version: int, path: Path | None = None, model: NativeModel = MODEL) -> NativeLibrary:
     """Return the library for calls by a version of FMI."""
-    return NativeLibrary(path or linux_library(), MODEL, str(native_guid(MODEL)), version)
+    return NativeLibrary(path or linux_library(model), model, str(native_guid(model)), version)

@@ -15,7 +15,7 @@ from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS, Range
 
-START, STEP, RESUME = 0, 1, 3
+START, STEP, RESUME, MOTION = 0, 1, 3, 4
 TURNED, SPEED, TORQUE, LOAD, OIL, LIMIT, N_STATE = range(7)
 INERTIA, DRAG, SPEED_START, LAW, SUBSTEPS, BRAKED, N_PARAMETERS = range(7)
 N_RANGES = len(RANGE_OUTPUTS) - 1
@@ -116,6 +116,9 @@ def entry(operation, step, data, parameters, inputs, state, work, outputs):  # t
             s[TURNED] = math.inf
     if operation in (START, STEP):
         s[TORQUE], s[LOAD], s[OIL] = u[0], u[1], u[2]
+    if operation == MOTION:
+        out[1] = s[SPEED]
+        return 0
     angle = min(s[TURNED], 1e9)
     out[0], out[1], out[2], out[3] = angle, s[SPEED], -0.5 * angle, -0.5 * s[SPEED]
     out[4] = 1.0 if s[SPEED] > 0.0 else 0.0
@@ -136,9 +139,14 @@ def _no_python_model(parameters: Mapping[str, Value], inputs: Sequence[float]) -
 
 
 def small_native_model(
-    entry: Callable[..., int] = entry, variables: Sequence[Variable] = VARIABLES
+    entry: Callable[..., int] = entry,
+    variables: Sequence[Variable] = VARIABLES,
+    motion: frozenset[str] = frozenset(),
 ) -> NativeModel:
-    """Return the model; torques beyond 40 N.m are refused although the table allows 50."""
+    """Return the model; torques beyond 40 N.m are refused although the table allows 50.
+
+    With `motion` outputs are computed when they are read.
+    """
     return NativeModel(
         definition=Definition(
             name="RotatingMass",
@@ -160,6 +168,7 @@ def small_native_model(
         ranges_at=RANGES_AT,
         ranges=RANGES,
         refusals=REFUSALS,
+        motion=motion,
     )
 
 
