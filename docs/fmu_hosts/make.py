@@ -172,7 +172,11 @@ def page(fmus: Path, fmusim: Path | None, folder: Path) -> str:
         section(definition, job, rows_of(job, own, fmusim, folder))
         for definition, job, own in zip(definitions, (axle, pair), packed[1:], strict=True)
     ]
-    return head + "".join(tables) + _text("notes").format(dlls=named_dlls(axle.fmu))
+    return (
+        head
+        + "".join(tables)
+        + _text("notes").format(dlls=named_dlls(axle.fmu), fmpy=version("fmpy"))
+    )
 
 
 def _text(name: str) -> str:

@@ -24,7 +24,8 @@ def main(job: dict) -> list[float]:
             execution.integer_initial_value(slave, reference, value)
     observer = CosimObserver.create_last_value()
     execution.add_observer(observer)
-    execution.step(job["steps"])
+    if not execution.step(job["steps"]):
+        raise SystemExit("libcosim: a step was refused")
     values = []
     for name, references in job["references"].items():
         slave = execution.slave_index_from_instance_name(name)

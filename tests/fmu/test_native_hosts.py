@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from fmpy.fmi1 import FMICallException
 
 from docs.fmu_hosts import hosts
 from docs.fmu_hosts.hosts import Job
@@ -109,3 +110,17 @@ def test_the_windows_library_runs_in_a_host_in_c(
     found = hosts.in_c_host(replace(job, fmu=windows.fmi2), program, tmp_path)
     # another C library: its exp and log differ in the last bit
     assert found == pytest.approx(in_fmpy, rel=1e-9, abs=1e-12)
+
+
+def test_a_step_that_the_model_refuses_ends_the_run(job: Job, tmp_path: Path) -> None:
+    # Ecos goes on, FMPy and fmusim repeat the step with FMI 2: docs/fmu_hosts.md
+    beyond = replace(job, step_size=0.125, steps=2)
+    with pytest.raises(RuntimeError, match="a step was refused"):
+        hosts.in_libcosim(beyond)
+    with pytest.raises(RuntimeError, match=r"must be above 0 and at most 0\.1 s, got 0\.125 s"):
+        hosts.in_c_host(beyond, hosts.c_host(tmp_path), tmp_path)
+
+
+def test_fmpy_ends_with_fmi_3_at_a_step_that_the_model_refuses(fmus: NativeFmus, job: Job) -> None:
+    with pytest.raises(FMICallException, match="fmi3DoStep"):
+        hosts.in_fmpy(replace(job, fmu=fmus.fmi3, step_size=0.125, steps=2))
