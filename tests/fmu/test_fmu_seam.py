@@ -52,11 +52,7 @@ EXTENDED = replace(
 
 
 def defaults(definition: Definition) -> dict[str, object]:
-    return {
-        v.name: v.decoded(v.start or 0.0)
-        for v in definition.variables
-        if v.is_model_parameter
-    }
+    return {v.name: v.decoded(v.start or 0.0) for v in definition.variables if v.is_model_parameter}
 
 
 def test_the_description_has_the_new_variables_behind_the_released_ones() -> None:
