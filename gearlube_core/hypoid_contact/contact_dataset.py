@@ -140,8 +140,7 @@ def _side(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, 
             f"The {pair.side} flanks close by {np.min(closing):.3g} rad under load, less than "
             "nothing: unloaded and loaded contact disagree. Use more cells or higher torques."
         )
-    share = cycle["pair_torque"] / torque[None, :, None]
-    share /= share.sum(axis=-1, keepdims=True)
+    pair_torque = cycle["pair_torque"]
     result = {
         "rotation": cycle["rotation"],
         "gear_torque": cycle["gear_torque"],
@@ -151,7 +150,7 @@ def _side(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, 
         "R_p": R_p,
         "R_g": cycle["gear_torque"] / force,
         "n": pair.touching_sign * cycle["force"] / force[..., None],
-        "share": share,
+        "share": pair_torque / pair_torque.sum(axis=-1, keepdims=True),
         "pressure_max": cycle["pressure_max"],
         "gear_s": cycle["gear_position"][..., 0],
         "gear_t": cycle["gear_position"][..., 1],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from operator import attrgetter
 
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
@@ -54,10 +55,8 @@ class Change:
 
 def setting(file: HypoidGearFile, field: str) -> float | None:
     """Return the value of a dotted field; None where it is absent."""
-    value: object = file
-    for name in field.split("."):
-        value = getattr(value, name)
-    return value if value is None else float(value)  # type: ignore[arg-type]
+    value = attrgetter(field)(file)
+    return None if value is None else float(value)
 
 
 def slips(file: HypoidGearFile, fields: tuple[str, ...]) -> Iterator[Change]:
@@ -83,8 +82,7 @@ def _whole(file: HypoidGearFile, field: str, now: int) -> Iterator[tuple[int, st
         yield now // 10, "a digit too many"
     if field.endswith("blade_groups"):
         role = "gear" if field.startswith("pinion") else "pinion"
-        mate = setting(file, f"{role}.cutter.blade_groups")
-        yield int(mate or 0), "the groups of the mate"
+        yield attrgetter(f"{role}.cutter.blade_groups")(file), "the groups of the mate"
 
 
 def _real(file: HypoidGearFile, field: str, now: float) -> Iterator[tuple[float, str]]:
@@ -109,18 +107,13 @@ def _exchanges(file: HypoidGearFile, fields: tuple[str, ...]) -> Iterator[Change
         pairs += [(f"{section}.{a}", f"{section}.{b}") for a, b in _SWAPS]
     for first, second in pairs:
         if first in fields and second in fields:
-            now = {field: setting(file, field) for field in (first, second)}
-            a, b = now[first], now[second]
-            if a is None or b is None or a == b:
-                continue
-            kept = {first: a, second: b}
-            yield Change({first: b, second: a}, kept, "exchanged")
-    groups = [(field, setting(file, field)) for field in _GROUPS]
-    if any(field in fields for field, _ in groups) and all(now for _, now in groups):
-        unlike = {now for _, now in groups}
-        for count in (k for k in range(_MOST_GROUPS) if k not in unlike):
-            both = dict.fromkeys(_GROUPS, count)
-            yield Change(dict(both), {field: int(now or 0) for field, now in groups}, "both heads")
+            a, b = (float(attrgetter(field)(file)) for field in (first, second))  # never absent
+            if a != b:
+                yield Change({first: b, second: a}, {first: a, second: b}, "exchanged")
+    groups: dict[str, float] = {field: attrgetter(field)(file) for field in _GROUPS}
+    if any(field in fields for field in _GROUPS) and all(groups.values()):
+        for count in (k for k in range(_MOST_GROUPS) if k not in groups.values()):
+            yield Change(dict.fromkeys(_GROUPS, count), dict(groups), "both heads")
 
 
 def _text(value: float) -> str:

@@ -106,6 +106,28 @@ def test_extremes_between_samples_come_within_the_crest_of_a_coarsely_sampled_si
     assert refined.peak_to_peak == pytest.approx(2.0, abs=12e-3)
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize(("first", "counts"), [(5, False), (6, True), (12, True), (13, False)])
+def test_extremes_between_samples_count_from_the_seventh_to_the_last_but_six(sign, first, counts):
+    """The cubic spline through two equal samples among zeros, midway between them.
+
+    Cardinal spline: sqrt(3) sum z^|k| B(x - k), z = sqrt(3) - 2, B(1/2) = 23/48, B(3/2) = 1/48.
+    """
+    signal = np.zeros(20)
+    signal[[first, first + 1]] = sign
+    found = extremes(signal, refine=2)
+    crest = found.maximum if sign > 0.0 else -found.minimum
+    if counts:
+        z = math.sqrt(3.0) - 2.0
+        exact = 2.0 * math.sqrt(3.0) * (1.0 + z) * (23.0 + z) / 48.0
+        assert crest == pytest.approx(exact, rel=z**6)  # the ends are six samples away
+    else:
+        assert crest == 1.0
+    assert found.mean == pytest.approx(0.1 * sign, rel=1e-14)
+    plain = extremes(signal)
+    assert (plain.minimum, plain.maximum) == (min(sign, 0.0), max(sign, 0.0))
+
+
 def test_a_window_longer_than_the_record_is_refused_with_the_cure():
     time, angle = drifting_record(seconds=0.1)
     with pytest.raises(ParameterError, match=r"at most 1\.9.* got 3 rev\. Record for longer"):

@@ -55,6 +55,18 @@ def test_rigid_motions_store_no_energy(tooth):
         assert abs(energy) < 1e-10 * reference  # round-off
 
 
+def test_unknowns_couple_to_their_own_and_the_next_of_layers_counted_from_zero(tooth):
+    model = tooth_model(tooth[0], STEEL)
+    # six elements along the tooth: a layer is a plane of nodes with the mid-side nodes behind it
+    assert list(np.unique(model.layer)) == list(range(7))
+    entries = model.stiffness.tocoo()
+    apart = np.abs(model.layer[entries.row] - model.layer[entries.col])
+    assert apart.max() == 1
+    sizes = np.bincount(model.layer)
+    assert np.all(sizes[:6] == sizes[0])
+    assert sizes[6] < sizes[0]  # the last plane has none behind it
+
+
 def test_cantilever_prism_bends_as_a_timoshenko_beam():
     L, h, b = 80e-3, 10e-3, 10e-3
     mesh = box_mesh(

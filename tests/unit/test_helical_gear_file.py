@@ -204,6 +204,12 @@ def test_thesis_data_arrive_in_si():
     assert power.pinion.tip_relief == PowerTipRelief(amount=70e-6, extent=2e-3, beta=4.0)
 
 
+def test_depth_without_an_amount_is_no_relief():
+    plain = JAMALI.varied({"gear.flank.tip_relief_um": 0.0}).modified_pair()
+    assert plain.gear.tip_relief is None
+    assert plain.pinion.tip_relief is not None
+
+
 def test_bodies_the_thesis_lacks_are_steel_discs_of_the_root_diameter():
     pair, body = JAMALI.helical_pair(), JAMALI.body("pinion")
     root = 0.5 * 166.61e-3 - 2.25 * 4.5e-3

@@ -107,8 +107,7 @@ def part_of_step(
         width = high - low
         if width < _CLOSE:
             break
-        span = margin_low - margin_high
-        tried = low + (width * margin_low / span if span > 0.0 else 0.5 * width)
+        tried = low + width * margin_low / (margin_low - margin_high)  # of either sign
         tried = min(max(tried, low + 1e-3 * width), high - 1e-3 * width)
         rows_between(rows, first, start, tried, between)
         for n in range(N_Y):

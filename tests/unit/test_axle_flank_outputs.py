@@ -1,0 +1,199 @@
+"""Outputs and friction of the axle's flanks against sums by hand over three tooth pairs."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from gearlube_core.dynamics.hypoid_axle import flank_outputs, flanks
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE, V_G, V_P, W_G, W_P
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS
+from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
+from gearlube_core.film.groups import point_contact_groups
+from gearlube_core.friction.flank_data import FlankState
+from gearlube_core.oil.lubricant_state import LubricantState
+from tests.helpers.source_of import source_of
+
+OIL = LubricantState(0.02, 1.8e-8, 0.04, 2.5e-5, 3e6, 0.0, 0.07, 0.14)
+OIL_TEMPERATURE = 350.0
+FORCE = -2000.0  # N, on the coast flanks
+SHARES = np.array([0.3, 0.0, 0.7])
+FIRST = 4  # place of the first output
+# the rows are share, R_e, side flow, pressure, entrainment arm, arms, direction of sliding
+PAIRS = np.array(
+    [
+        [0.3, 0.011, 0.9, 2.1e7, -0.021, 0.012, 0.035, 0.6, -0.48, 0.64],
+        [0.0, 0.013, 0.7, 2.3e7, 0.023, 0.017, 0.031, 0.8, 0.36, 0.48],
+        [0.7, 0.017, 0.8, 2.7e7, 0.029, -0.019, 0.041, -0.36, 0.8, 0.48],
+    ]
+)
+WINDOW = np.concatenate([PAIRS, PAIRS[:1]]).ravel()
+
+
+def moving():
+    """A state at pinion angle zero, where pair i is at node i of the window."""
+    s = np.zeros(N_STATE)
+    s[[W_P, W_G]] = 150.0, 60.0
+    s[V_P : V_P + 3] = 0.4, -0.7, 1.1
+    s[V_G : V_G + 3] = -0.3, 0.5, 0.2
+    return s
+
+
+def parameters(friction=1.0):
+    return SimpleNamespace(
+        mesh=SimpleNamespace(z_p=13.0), friction=friction, reduced_modulus=2.3e11, flank_law="law"
+    )
+
+
+def sliding_of(row):
+    """Speed of the pinion's surface over the gear's along xi."""
+    return row[5] * 150.0 - row[6] * 60.0 + row[7:] @ np.array([0.7, -1.2, 0.9])
+
+
+def flank_under(load, film_ratio=2.0):
+    """Made-up film and friction that tell the loads apart; f = 0.05 F viscous, 0.01 F boundary."""
+    return FlankState(
+        3e-10 * load, film_ratio, 0.05 * load, 0.01 * load, 0.06, 0.01 * load, 5e5 * load
+    )
+
+
+def written(monkeypatch, friction=1.0, film_ratio=2.0, shares=SHARES, force=FORCE):
+    """Outputs behind and before the flanks', and the most loaded flank."""
+
+    def pair_friction(s, load, sliding, channels, oil, p):
+        i = int(np.argmin(np.abs(PAIRS[:, 1] - channels[1])))
+        assert load == pytest.approx(abs(force) * shares[i], rel=1e-14)
+        assert sliding == pytest.approx(sliding_of(PAIRS[i]), rel=1e-12)
+        return flank_under(load, film_ratio)
+
+    monkeypatch.setattr(flank_outputs, "pair_friction", pair_friction)
+    out = np.full(FIRST + 16, -7.0)
+    window = np.concatenate([PAIRS, PAIRS[:1]])
+    window[:3, 0], window[3, 0] = shares, shares[0]
+    found = source_of(flank_outputs.write_flanks)(
+        moving(), force, window.ravel(), 3, OIL_TEMPERATURE, OIL, parameters(friction), FIRST,
+        np.zeros(N_CHANNELS), out,
+    )  # fmt: skip
+    assert np.all(out[:FIRST] == -7.0)
+    assert out[FIRST + 15] == -7.0
+    return out[FIRST : FIRST + 15].reshape(3, 5), found
+
+
+def test_outputs_of_every_flank(monkeypatch):
+    names = [name for name in flank_outputs.FLANK_OUTPUTS if name.endswith("].load")]
+    assert names == ["flank[1].load", "flank[2].load", "flank[3].load"]
+    rows, found = written(monkeypatch)
+    for row, load in zip(rows, (600.0, 0.0, 1400.0), strict=True):
+        on = load > 0.0
+        temperature = OIL_TEMPERATURE + 0.01 * load
+        np.testing.assert_allclose(
+            row, [load, 3e-10 * load, 2.0 * on, 0.06 * on, temperature], rtol=1e-14
+        )
+    assert found.temperature == pytest.approx(OIL_TEMPERATURE + 14.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("shares", [SHARES, np.array([0.6, 0.4, 0.0]), np.array([0.2, 0.5, 0.3])])
+def test_ranges_are_those_of_the_flank_with_most_load(monkeypatch, shares):
+    rows, found = written(monkeypatch, shares=shares)
+    most = int(np.argmax(shares))
+    load = 2000.0 * shares[most]
+    groups = point_contact_groups(
+        viscosity=OIL.eta0,
+        pressure_viscosity=OIL.alpha,
+        entrainment_speed=abs(PAIRS[most, 4]) * 150.0,
+        load=load,
+        radius=PAIRS[most, 1],
+        reduced_modulus=2.3e11,
+    )
+    assert found.film_load == pytest.approx(groups.M, rel=1e-12)
+    assert found.film_material == pytest.approx(groups.L, rel=1e-12)
+    film, pressure = 3e-10 * load, 5e5 * load
+    # L of Evans and Johnson: alpha p + ln 2 K eta0/(beta (tau0 h)^2)
+    traction = 1.8e-8 * pressure + np.log(2.0 * 0.14 * 0.02 / (0.04 * (3e6 * film) ** 2))
+    assert found.traction == pytest.approx(traction, rel=1e-12)
+    assert found.pressure == pytest.approx(1.5 * pressure, rel=1e-14)  # of Hertz' ellipse
+    assert found.temperature == rows[most, 4]
+
+
+def test_axle_without_friction_has_films_at_the_oil_temperature(monkeypatch):
+    rows, found = written(monkeypatch, friction=0.0)
+    np.testing.assert_allclose(rows[:, 1], [1.8e-7, 0.0, 4.2e-7], rtol=1e-14)
+    assert np.all(rows[:, 3] == 0.0)
+    assert np.all(rows[:, 4] == OIL_TEMPERATURE)
+    assert found.traction == 0.0
+    assert found.temperature == OIL_TEMPERATURE
+    assert found.film_load > 0.0
+
+
+def test_film_formulas_are_out_of_use_where_roughness_carries(monkeypatch):
+    found = written(monkeypatch, film_ratio=0.9 * LEAST_FILM_RATIO)[1]
+    assert found[:3] == (0.0, 0.0, 0.0)
+    assert found.pressure == pytest.approx(1.5 * 5e5 * 1400.0, rel=1e-14)
+
+
+def test_flanks_that_hardly_touch_have_films_and_ranges_too(monkeypatch):
+    rows, found = written(monkeypatch, force=-0.1)
+    np.testing.assert_allclose(rows[:, 1], [9e-12, 0.0, 2.1e-11], rtol=1e-14)
+    assert found.pressure == pytest.approx(1.5 * 5e5 * 0.07, rel=1e-14)
+
+
+def test_no_flank_stands_out_without_load(monkeypatch):
+    rows, found = written(monkeypatch, shares=np.zeros(3))
+    assert found == (0.0, 0.0, 0.0, 0.0, 0.0)
+    np.testing.assert_array_equal(rows, [[0.0, 0.0, 0.0, 0.0, OIL_TEMPERATURE]] * 3)
+
+
+def test_law_meets_load_speeds_and_geometry_of_its_flank(monkeypatch):
+    met = []
+    monkeypatch.setattr(flanks, "flank_state", lambda *arguments: met.append(arguments))
+    source_of(flanks.pair_friction)(moving(), 600.0, -0.7, PAIRS[0], OIL, parameters())
+    law, load, entrainment, sliding, geometry, oil = met[0]
+    assert (law, load, sliding, oil) == ("law", 600.0, -0.7, OIL)
+    assert entrainment == pytest.approx(-0.021 * 150.0, rel=1e-14)
+    assert tuple(geometry) == (0.011, 0.9, 2.1e7)
+
+
+@pytest.mark.parametrize("force", [FORCE, 0.1])
+@pytest.mark.parametrize("fresh", [1.0, 0.0])
+def test_friction_of_all_flanks_is_the_sum_of_forces_against_sliding(monkeypatch, fresh, force):
+    monkeypatch.setattr(flanks, "pair_friction", lambda s, load, *_: flank_under(load))
+    kept = np.array([0.02, 0.04, 0.03, 0.05, 0.07, 0.11])  # viscous and boundary of each flank
+    mu = kept.reshape(3, 2) if fresh == 0.0 else np.array([[0.05, 0.01]] * 3)
+    s = moving()
+    found = source_of(flanks.flank_sum)(
+        s, force, WINDOW, 3, OIL, parameters(), fresh, kept, np.zeros(N_CHANNELS)
+    )
+    expected = np.zeros(7)
+    for row, load, coefficients in zip(PAIRS, abs(force) * SHARES, mu, strict=True):
+        sliding = sliding_of(row)
+        f = np.sign(sliding) * coefficients.sum() * load
+        expected[:2] += -f * row[5], f * row[6]
+        expected[2:5] -= f * row[7:]
+        expected[5:] += coefficients * load * abs(sliding)
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    # the work of torques and forces is what is lost
+    given = found.torque_p * 150.0 + found.torque_g * 60.0
+    given += np.array(found[2:5]) @ np.array([0.7, -1.2, 0.9])
+    assert given == pytest.approx(-found.viscous_power - found.boundary_power, rel=1e-12)
+    # one flank slides forward and one backward, or the signs would not count
+    assert sliding_of(PAIRS[0]) * sliding_of(PAIRS[2]) < 0.0
+    if fresh != 0.0:
+        np.testing.assert_allclose(kept, [0.05, 0.01, 0.0, 0.0, 0.05, 0.01], rtol=1e-14)
+
+
+@pytest.mark.parametrize(("force", "friction"), [(0.0, 1.0), (FORCE, 0.0)])
+@pytest.mark.parametrize("fresh", [1.0, 0.0])
+def test_no_friction_without_force_or_with_friction_off(force, friction, fresh):
+    kept = np.full(6, 0.05)
+    found = source_of(flanks.flank_sum)(
+        moving(), force, WINDOW, 3, OIL, parameters(friction), fresh, kept, np.zeros(N_CHANNELS)
+    )
+    assert found == (0.0,) * 7
+    # a touch before the next refresh uses what stands there
+    np.testing.assert_array_equal(kept, 0.0 if fresh else 0.05)
+
+
+def test_sliding_speed_has_the_relative_velocity_along_the_direction_of_sliding():
+    for row in PAIRS:
+        found = source_of(flanks.sliding_speed)(moving(), row)
+        assert found == pytest.approx(sliding_of(row), rel=1e-13)
