@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 
 from docs.fmu_hosts import hosts
@@ -113,12 +114,17 @@ def test_the_windows_library_runs_in_a_host_in_c(
 
 
 def test_a_step_that_the_model_refuses_ends_the_run(job: Job, tmp_path: Path) -> None:
-    # Ecos goes on, FMPy and fmusim repeat the step with FMI 2: docs/fmu_hosts.md
+    # Ecos goes on: docs/fmu_hosts.md
     beyond = replace(job, step_size=0.125, steps=2)
     with pytest.raises(RuntimeError, match="a step was refused"):
         hosts.in_libcosim(beyond)
     with pytest.raises(RuntimeError, match=r"must be above 0 and at most 0\.1 s, got 0\.125 s"):
         hosts.in_c_host(beyond, hosts.c_host(tmp_path), tmp_path)
+
+
+def test_fmpy_ends_with_fmi_2_where_the_last_step_ended(fmus: NativeFmus) -> None:
+    result = simulate_fmu(str(fmus.fmi2), stop_time=0.5, output_interval=0.125, timeout=20.0)
+    assert set(result["time"].tolist()) == {0.0}
 
 
 def test_fmpy_ends_with_fmi_3_at_a_step_that_the_model_refuses(fmus: NativeFmus, job: Job) -> None:

@@ -340,7 +340,9 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
     if (!gl_is_instance(c) || !value || kind != fmi2Terminated) {
         return no_information(c, "status of this kind that is a Boolean");
     }
-    *value = fmi2False; /* the model never ends a simulation by itself */
+    /* a host that would repeat a refused step for ever ends the run here */
+    const gl_instance *instance = c;
+    *value = instance->step_refused ? fmi2True : fmi2False;
     return fmi2OK;
 }
 

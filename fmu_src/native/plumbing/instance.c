@@ -21,6 +21,7 @@ static void set_to_start(gl_instance *instance)
     instance->points = 0;
     instance->stop = INFINITY;
     instance->refusals = 0;
+    instance->step_refused = 0;
     instance->stale = 1;
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
         instance->now.values[i] = gl_variables[i].start;
@@ -315,7 +316,7 @@ static gl_status check_step(gl_instance *instance, double time, double step)
     return GL_OK;
 }
 
-gl_status gl_step(gl_instance *instance, double time, double step)
+static gl_status step_to(gl_instance *instance, double time, double step)
 {
     gl_status checked = check_step(instance, time, step);
     if (checked != GL_OK) {
@@ -343,4 +344,11 @@ gl_status gl_step(gl_instance *instance, double time, double step)
         gl_refresh(instance, 2);
     }
     return GL_OK;
+}
+
+gl_status gl_step(gl_instance *instance, double time, double step)
+{
+    gl_status status = step_to(instance, time, step);
+    instance->step_refused = status == GL_DISCARD;
+    return status;
 }

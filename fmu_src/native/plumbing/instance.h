@@ -39,6 +39,7 @@ struct gl_instance {
     gl_snapshot now;
     double stop; /* no step goes beyond it [s] */
     int stale;   /* outputs wait for a start with the present values */
+    int step_refused; /* the last one; nothing has been restored since */
     int fresh;      /* outputs of the present state: 0 none, 1 those of the motion, 2 all */
     double watched; /* time at which the ranges were looked at last [s] */
     int refusals;                        /* values outside their range: how many, */

@@ -209,6 +209,7 @@ gl_status gl_restore(gl_instance *instance, const void *state)
     }
     instance->now = *snapshot;
     instance->fresh = 2;
+    instance->step_refused = 0;
     instance->watched = snapshot->time;
     instance->stale = snapshot->phase < GL_STEPPING;
     gl_find_refused(instance);
