@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
-import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,7 +9,7 @@ from fmu_src.native.build import NativeOptions, build_native
 from fmu_src.native.models import native_model
 from fmu_src.native.platforms import platform_of_this_machine
 from tests.helpers.fmu_cases import Case
-from tests.helpers.session_folder import shared_folder
+from tests.helpers.session_folder import alone, shared_folder
 
 
 class NativeFmus(NamedTuple):
@@ -23,27 +19,12 @@ class NativeFmus(NamedTuple):
     fmi3: Path
 
 
-@contextlib.contextmanager
-def _alone(lock: Path) -> Iterator[None]:
-    """Let one process at a time in."""
-    while True:
-        try:
-            os.close(os.open(lock, os.O_CREAT | os.O_EXCL))
-            break
-        except FileExistsError:
-            time.sleep(0.05)
-    try:
-        yield
-    finally:
-        lock.unlink()
-
-
 def native_fmus(case: Case, platform: str = "") -> NativeFmus:
     """Return the FMUs of a case for a platform, by default this machine's; half a minute."""
     platform = platform or platform_of_this_machine()
     folder = shared_folder(f"native_fmus_{platform}")
     fmus = NativeFmus(*(folder / f"{case.name}{ending}.fmu" for ending in ("", "_FMI3")))
-    with _alone(folder / f"{case.name}.lock"):
+    with alone(folder / f"{case.name}.lock"):
         if not fmus.fmi3.is_file():
             options = NativeOptions(platforms=[platform])
             build_native(native_model(case.definition), folder, options)
