@@ -59,7 +59,7 @@ def test_start_leaves_the_film_that_is_expected(load):
 
 
 def test_flow_that_is_unbalanced_counts_where_the_oil_is_free_over_that_through_the_dry_width():
-    pressure = np.array([[0.0, 0.5, 0.0], [0.1, 1.0, 0.85], [0.0, 0.7, 0.0]])
+    pressure = np.array([[0.0, 1.0, 0.0], [0.2, 2.0, 1.7], [0.0, 1.4, 0.0]])
     state = SimpleNamespace(
         pressure=pressure,
         residual=np.array([[9.0, -0.2, 0.3], [0.1, 0.4, -0.1], [9.0, 0.2, 9.0]]),
