@@ -204,6 +204,23 @@ def test_thesis_data_arrive_in_si():
     assert power.pinion.tip_relief == PowerTipRelief(amount=70e-6, extent=2e-3, beta=4.0)
 
 
+def test_small_and_given_values_arrive_in_si():
+    file = JAMALI.varied(
+        {
+            "gear.flank.tip_relief_um": 0.5, "pinion.flank.crown_um": 0.5,
+            "pinion.flank.crown_start_mm": 3.0, "pair.backlash_mm": 0.12,
+            "gear.body.diametral_inertia_kg_mm2": 4321.0, "gear.body.polar_inertia_kg_mm2": 8000.0,
+        }
+    )  # fmt: skip
+    flanks = file.modified_pair()
+    assert flanks.gear.tip_relief.amount == pytest.approx(5e-7, rel=1e-12)
+    assert flanks.pinion.crown.amount == pytest.approx(5e-7, rel=1e-12)
+    assert flanks.pinion.crown.start == pytest.approx(3e-3, rel=1e-12)
+    assert file.helical_pair().backlash == pytest.approx(1.2e-4, rel=1e-12)
+    assert file.body("gear").diametral_inertia == pytest.approx(4.321e-3, rel=1e-12)
+    assert file.body("gear").polar_inertia == pytest.approx(8e-3, rel=1e-12)
+
+
 def test_depth_without_an_amount_is_no_relief():
     plain = JAMALI.varied({"gear.flank.tip_relief_um": 0.0}).modified_pair()
     assert plain.gear.tip_relief is None

@@ -1,0 +1,75 @@
+"""Start of a point contact's film, and the measure of what flow is unbalanced, by hand."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from gearlube_core.ehl.point.grid_film import _hertz_start
+from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.newton.newton import flow_residual
+from gearlube_core.ehl.point.problem import expected_film
+from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.start.nested import zero_border
+from tests.helpers.ehl_point_cases import RADIUS, moes_contact
+
+
+def level_of(problem, nodes):
+    scales = PointScales.of(problem)
+    shape = nodes if scales.swap else nodes[::-1]
+    return PointLevel(problem, scales, shape, "upwind-1")
+
+
+def widened(problem):
+    """Semi-axes of the dry ellipse, widened to where a rigid film of that height carries."""
+    a_x, a_y, _ = problem.hertz_contact
+    film = expected_film(problem)
+    return math.sqrt(a_x**2 + RADIUS * film), math.sqrt(a_y**2 + 3.0 * RADIUS * film)
+
+
+@pytest.mark.parametrize("nodes", [(33, 33), (9, 33), (33, 9)])
+@pytest.mark.parametrize("load", [3.0, 300.0])
+def test_start_is_an_ellipse_of_pressure_that_carries_the_load(load, nodes):
+    """As wide as a rigid film asks for, and as the grid can show."""
+    problem = moes_contact(load, 5.0, nodes=(33, 33), radius_ratio=3.0)
+    level = level_of(problem, nodes)
+    state = _hertz_start(problem, level)
+    inner = zero_border(state.pressure)  # the border has the pressure of the oil beyond it
+    assert level.grid.integral(inner) == pytest.approx(level.load, rel=1e-12)
+    squares = np.zeros(nodes)
+    for axis, (at, semi_axis) in enumerate(
+        zip((level.grid.x, level.grid.y), widened(problem), strict=True)
+    ):
+        width = max(semi_axis, 2.5 * (at[1] - at[0]))
+        assert (width > semi_axis) == (nodes[axis] == 9)
+        squares += np.expand_dims(at / width, 1 - axis) ** 2
+    ellipse = zero_border(np.sqrt(np.maximum(0.0, 1.0 - squares)))
+    largest = level.scales.outward(inner).max() / ellipse.max()
+    np.testing.assert_allclose(level.scales.outward(inner), largest * ellipse, atol=1e-9 * largest)
+
+
+@pytest.mark.parametrize("load", [30.0, 300.0])
+def test_start_leaves_the_film_that_is_expected(load):
+    problem = moes_contact(load, 5.0, nodes=(33, 33), radius_ratio=3.0)
+    level = level_of(problem, (33, 33))
+    film = _hertz_start(problem, level).film.min() * level.scales.film
+    # the pressure of the oil beyond the border adds a little where the load is small
+    assert film == pytest.approx(expected_film(problem), rel=1e-3)
+
+
+def test_flow_that_is_unbalanced_counts_where_the_oil_is_free_over_that_through_the_dry_width():
+    pressure = np.array([[0.0, 1.0, 0.0], [0.2, 2.0, 1.7], [0.0, 1.4, 0.0]])
+    state = SimpleNamespace(
+        pressure=pressure,
+        residual=np.array([[9.0, -0.2, 0.3], [0.1, 0.4, -0.1], [9.0, 0.2, 9.0]]),
+        free=np.array([[False, True, True], [True, True, True], [False, True, False]]),
+        film=np.array([[5.0, 2.0, 5.0], [2.0, 0.6, 0.8], [5.0, 1.5, 5.0]]),
+        contact=SimpleNamespace(unbalanced=lambda residual, grid: 0.25),
+    )
+    grid = SimpleNamespace(integral=lambda values: 0.5 * values.sum())
+    level = SimpleNamespace(grid=grid, half_width=0.4)
+    # 0.5 x 1.3 and 0.25 of solids; nodes above 0.8 of the largest pressure have films 0.6 and 0.8
+    assert flow_residual(level, state) == pytest.approx(0.9 / (0.8 * 0.7), rel=1e-14)
+    state.film = -state.film
+    assert flow_residual(level, state) == math.inf
