@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -41,7 +42,7 @@ def _pieces(phase: float) -> list[tuple[float, float, float]]:
         X = START + (phase + number) * PITCH
         low, high = max(START, X - WIDTH * TAN_B), min(X, END)
         cuts = sorted({low, high, min(max(PITCH_LINE, low), high)})
-        found += [(X, a, b) for a, b in zip(cuts[:-1], cuts[1:], strict=True) if high > low]
+        found += [(X, a, b) for a, b in pairwise(cuts) if high > low]
     return found
 
 
