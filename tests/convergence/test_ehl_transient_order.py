@@ -84,8 +84,8 @@ def test_half_the_time_step_leaves_a_quarter_of_the_error(scheme: str) -> None:
 def test_the_first_step_is_of_the_order_of_its_own_rule(scheme: str, order: float) -> None:
     """A single step from rest against eight in the same time, under a load that rises at once.
 
-    The pressure answers at once and its film enters in a layer of the same width as the step, so
-    that one step is of the order of its rule, not of one above.
+    The local error is of the order of the rule, not of one above: most of the film answers much
+    faster than a step.
     """
     errors = []
     for duration in (0.2 * A / SPEED, 0.1 * A / SPEED):
