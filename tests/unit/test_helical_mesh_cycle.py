@@ -89,6 +89,13 @@ def test_settings_out_of_range_are_refused(bad):
         StripSettings(cells_across=20)
 
 
+def test_torques_are_within_a_thousandth_and_a_million():
+    assert CycleSettings(torques=(0.001, 1e6)).torques == (0.001, 1e6)
+    for torque in (0.00099, 1.001e6):
+        with pytest.raises(ParameterError, match=r"torques must be within 0\.001 to 1e\+06 N\.m"):
+            CycleSettings(torques=(torque,))
+
+
 def test_the_dataset_is_labelled_and_adds_up(store):
     cycle = run_cycle(PLAIN, TEETH, SMALL, store=store, jobs=1)
     dataset = contact_dataset(PLAIN, SMALL, cycle)

@@ -84,3 +84,10 @@ def test_a_damaged_position_is_computed_again(tmp_path, store):
 def test_settings_out_of_range_are_refused(bad):
     with pytest.raises(ParameterError, match=next(iter(bad))):
         CycleSettings(**bad)
+
+
+def test_torques_are_within_a_hundredth_and_a_hundred_thousand():
+    assert CycleSettings(torques=(0.01, 1e5)).torques == (0.01, 1e5)
+    for torque in (0.0099, 1.001e5):
+        with pytest.raises(ParameterError, match=r"torques must be within 0\.01 to 100000 N\.m"):
+            CycleSettings(torques=(torque,))
