@@ -32,6 +32,25 @@ def test_steady_film_stays(scheme, cavitation):
     assert later.pressure == pytest.approx(film.pressure, abs=1e-6 * film.maximum_pressure)
 
 
+def test_error_in_time_is_told_how_far_the_film_moves_in_a_step(monkeypatch):
+    film = solve_line(THESIS, LineSettings(nodes=101))
+    march = LineMarch(film, LineHistory(), 1e-6)
+    seen = []
+    follow = march._time_error.step
+    monkeypatch.setattr(
+        march._time_error, "step", lambda *given: (seen.append(given), follow(*given))
+    )
+    march.step()
+    stored, pressure, way = seen[0]
+    system = march._system
+    moved = 0.5 * (THESIS.speed_1 + THESIS.speed_2) * 1e-6
+    assert way * system.scales.length == pytest.approx([moved], rel=1e-12)
+    np.testing.assert_allclose(pressure[0] * system.scales.pressure, film.pressure, atol=1e3)
+    filled = film.pressure > 0.0
+    mass = (film.density * film.film)[filled] / (film.density[0] * system.scales.film)
+    np.testing.assert_allclose(stored[0][filled], mass, rtol=1e-6)
+
+
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
 def test_rigid_cylinder_falls_through_oil_as_the_integral_says(scheme):
     # Reynolds with speeds 0: dp/dx = 12 eta (dh0/dt) x/h^3

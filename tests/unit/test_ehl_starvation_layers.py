@@ -39,7 +39,7 @@ def part(*levels):
 
 def state_with(mass=1.0):
     pressure = np.array([[0.1, 1.0], [0.85, 0.3]])
-    values = np.array([[9.0, 1.2], [0.8, 9.0]])  # of the two nodes that carry most: mean 1.0
+    values = np.array([[9.0, 2.3], [1.7, 9.0]])  # of the two nodes that carry most: mean 2.0
     return SimpleNamespace(pressure=pressure, approach=-0.5, mass=mass * values)
 
 
@@ -61,7 +61,7 @@ def calls(monkeypatch):
     return made
 
 
-@pytest.mark.parametrize(("layer", "nested"), [(0.1, 0.5), (0.7, 0.7)])
+@pytest.mark.parametrize(("layer", "nested"), [(0.1, 1.0), (1.3, 1.3)])
 def test_coarse_grids_keep_half_the_flooded_film_and_the_finest_gets_the_layer(
     calls, layer, nested
 ):

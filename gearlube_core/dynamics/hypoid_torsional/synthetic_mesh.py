@@ -62,7 +62,7 @@ def synthetic_mesh(
     radius_modulation : float
         m, of both radii together [-].
     contact_ratio : float
-        Length of contact in mesh periods, for the load shares [-].
+        Length of contact in mesh periods, for the load shares [-]; 1.01 to 3.
     torque : float
         Of the one load level [N.m].
 
@@ -78,7 +78,7 @@ def synthetic_mesh(
     check_positive("pinion_radius", pinion_radius, "m")
     check_within("radius_mismatch", radius_mismatch, -0.5, 0.5, "", "0.2 % is 0.002.")
     check_within("radius_modulation", radius_modulation, -0.5, 0.5, "", "1 % is 0.01.")
-    check_within("contact_ratio", contact_ratio, 1.0, float(PAIRS))
+    check_within("contact_ratio", contact_ratio, 1.01, float(PAIRS))  # at 1 no pair may carry
     orders = max(len(stiffness_harmonics), len(error_harmonics), 1)
     gear_radius = pinion_radius * gear_teeth / pinion_teeth
     k = stiffness * _series(1.0, stiffness_harmonics, orders)
