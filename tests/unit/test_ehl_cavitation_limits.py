@@ -1,0 +1,52 @@
+"""Which point contacts mass-conserving cavitation refuses."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from gearlube_core.ehl.point.cavitation import check_cavitation, refuse_rupture
+from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.errors import ParameterError
+from gearlube_core.oil.film_oil_data import film_oil
+from tests.helpers.ehl_point_cases import moes_contact
+
+EYRING = film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6)
+NEWTONIAN = film_oil(eta0=0.04, alpha=2e-8)
+CONTACT = moes_contact(50.0, 10.0, nodes=(33, 33), lubricant=EYRING)
+CONSERVING = PointSolverSettings(cavitation="mass_conserving")
+REYNOLDS = PointSolverSettings()
+
+
+@pytest.mark.parametrize("sliding", [(1e-3, 2e-3), (-3.0, 4.0), (1.0, 1e-3)])
+def test_eyring_oil_that_is_sheared_askew_is_refused(sliding):
+    with pytest.raises(ParameterError, match="needs sliding along x or y, got"):
+        check_cavitation(replace(CONTACT, sliding=sliding), CONSERVING)
+    # neither a Newtonian oil nor the other cavitation minds
+    check_cavitation(replace(CONTACT, sliding=sliding, lubricant=NEWTONIAN), CONSERVING)
+    check_cavitation(replace(CONTACT, sliding=sliding), REYNOLDS)
+
+
+@pytest.mark.parametrize("sliding", [(2.0, 0.0), (0.0, -2.0), (0.0, 0.0), (3.0, 1e-13), None])
+def test_sliding_along_an_axis_is_allowed(sliding):
+    check_cavitation(replace(CONTACT, sliding=sliding), CONSERVING)
+
+
+def test_starved_inlets_need_mass_conservation():
+    starved = replace(CONTACT, inlet_layer=1e-7)
+    check_cavitation(starved, CONSERVING)
+    with pytest.raises(ParameterError, match="inlet_layer is 1e-07 m: a starved inlet needs"):
+        check_cavitation(starved, REYNOLDS)
+
+
+def test_touching_solids_go_with_the_other_cavitation_alone():
+    contact = SimpleNamespace(solids=object(), lubricant=NEWTONIAN, sliding=None, inlet_layer=None)
+    check_cavitation(contact, REYNOLDS)
+    with pytest.raises(ParameterError, match="solids that touch"):
+        check_cavitation(contact, CONSERVING)
+
+
+def test_films_that_change_take_the_other_cavitation():
+    refuse_rupture(REYNOLDS, "in time")
+    with pytest.raises(ParameterError, match="got it for a film in time"):
+        refuse_rupture(CONSERVING, "in time")
