@@ -127,7 +127,7 @@ def test_voids_stay_between_nothing_and_all_and_close_where_the_film_is_full():
 
 def test_solids_meet_below_the_least_film_and_part_where_they_would_suck():
     given = system(least=0.55)
-    given.touching[:] = [False, True, False, True, False]
+    given.touching[:] = [False, False, False, True, False]
     # films 0.5 + P/10 are 0.50, 0.52, 0.60, 0.58 and 0.50
     _, full = advanced(given, np.zeros(5))
     # 1 meets; 3 has pressure and gains oil: it stays; the ends never touch
