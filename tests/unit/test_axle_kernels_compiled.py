@@ -52,6 +52,7 @@ from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table import kernels
 from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with, running_axle, with_coast_flanks
+from tests.helpers.kernel_results import everything, own_arrays
 
 
 def kernels_of_these_modules():
@@ -274,6 +275,11 @@ def all_cases():
             (integrate.advance, (state, duration, torques, OIL, table, p, control, work))
             for duration in (1e-4, 1e9)
         ),
+        *(
+            (outputs.write_motion, (one, slope, series, mesh.orders, p, zeros(N_OUTPUTS)))
+            for one in (state, at_start, separated)
+        ),
+        (outputs.write_motion_after_step, (state, table, p, work, zeros(N_OUTPUTS))),
         (
             outputs.write_outputs,
             (state, torques, OIL, table, p, work, zeros(ROLLERS_MAX), zeros(N_OUTPUTS)),
@@ -304,6 +310,17 @@ def all_cases():
             ),
         ),
         (
+            COMPILED.step_without_outputs,
+            (
+                state, zeros(N_STATE), 1e-4, np.array([*torques, OIL]), tuple(table), flatten(p),
+                flatten(control), work,
+            ),
+        ),
+        (
+            COMPILED.motion_outputs,
+            (state, tuple(table), flatten(p), work, zeros(N_OUTPUTS)),
+        ),
+        (
             COMPILED.outputs,
             (
                 state, np.array([*torques, OIL]), tuple(table), flatten(p), work,
@@ -314,45 +331,12 @@ def all_cases():
     return found
 
 
-def numbers(value):
-    return np.ravel(flatten(value) if isinstance(value, tuple) else value)
-
-
-def own_arrays(value):
-    """The value with its arrays copied, also those in a tuple."""
-    if isinstance(value, tuple):
-        parts = [own_arrays(part) for part in value]
-        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
-    if not isinstance(value, np.ndarray):
-        return value
-    own = value.copy()
-    own.flags.writeable = value.flags.writeable  # a kernel is compiled for either
-    return own
-
-
-def arrays_in(values):
-    """All arrays in nested tuples."""
-    for value in values:
-        if isinstance(value, tuple):
-            yield from arrays_in(value)
-        elif isinstance(value, np.ndarray):
-            yield value
-
-
-def everything(function, args):
-    """What a function returns or writes, as arrays."""
-    own = tuple(own_arrays(a) for a in args)
-    returned = function(*own)
-    written = list(arrays_in(own))
-    return written if returned is None else [*written, numbers(returned)]
-
-
 # sums over 24 rollers that may be taken in any order: 1e-12 of the largest
 SUMMING = {"_sums_line", "_sums_general", "expand_shaft_bearings"}
 SUMMING |= {"expanded_shaft_forces"}
 # the same sums, 24 rollers of 1 kN that cancel to a few 1e-16 each, over a pinion of 12 kg
 ACCELERATING = {"axle_rhs", "rk4_step", "advance", "write_outputs"}
-ACCELERATING |= {"communication_step", "outputs"}
+ACCELERATING |= {"communication_step", "step_without_outputs", "outputs"}
 
 
 def same(kernel, compiled, source, case):
