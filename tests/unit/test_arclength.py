@@ -85,7 +85,7 @@ def test_point_at_a_parameter_is_the_one_between(branch):
 
 
 def test_point_that_is_not_found_or_far_away_is_none(branch, monkeypatch):
-    far = SimpleNamespace(evaluation=evaluation_at([-0.6, 0.5]), evaluations=1, converged=True)
+    far = SimpleNamespace(evaluation=evaluation_at([0.3, 0.5]), evaluations=1, converged=True)
     monkeypatch.setattr(module, "correct", lambda *_: far)
     assert branch.at_parameter(node_at(0.3), node_at(0.7), 0.5) is None
     far.evaluation, far.converged = evaluation_at([math.sqrt(0.75), 0.5]), False
@@ -101,4 +101,8 @@ def test_branch_turns_by_the_angle_of_the_arc(angle):
     a = Node(np.zeros(2), np.array([0.0, 1.0]), np.zeros(1), 1.0)
     b = a._replace(place=np.array([math.sin(angle), math.cos(angle)]))
     assert turning_angle(a, b) == pytest.approx(2.0 * angle, rel=1e-9)
-    assert turning_angle(a, a._replace(place=np.array([0.0, 2.0]))) == 0.0
+    # and from the tangents where the chord says nothing
+    tangent = np.array([math.sin(angle), math.cos(angle)])
+    b = Node(np.array([0.0, 2.0]), tangent, np.zeros(1), 1.0)
+    assert turning_angle(a, b) == pytest.approx(angle, rel=1e-9)
+    assert turning_angle(a, b._replace(tangent=a.tangent)) == 0.0
