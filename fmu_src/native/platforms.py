@@ -91,7 +91,7 @@ def check_linker() -> None:
     if find_spec("ziglang") is None:
         raise GearLubeError(
             "Building a native FMU needs the compiler package ziglang, not found. Install it with "
-            "`pip install 'gearlube[native]'`, or build an FMU that runs in Python with --python."
+            "`pip install ziglang`, or build an FMU that runs in Python with --python."
         )
 
 

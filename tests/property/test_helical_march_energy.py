@@ -67,7 +67,7 @@ def test_the_pair_slows_down_by_what_friction_takes() -> None:
     lost = 0.5 * inertia * (SPEED**2 - speed**2)
     assert lost == pytest.approx(np.sum((after - before)[2:5]), rel=0.02)
     # mu T_p times mean sliding over rolling: He's pair loses 1.78 % of the torque at mu = 0.1
-    # (digest of a direct integration: 4.03 N.m)
+    # (from a direct integration: 4.03 N.m)
     angle = output(model, "pinion.angle")
     assert (after[2] - before[2]) / angle == pytest.approx(4.03, rel=0.01)
 
