@@ -12,7 +12,6 @@ from scipy.signal import convolve2d
 
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.line import energy as line_energy
-from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.thermal import energy, surfaces
 from gearlube_core.ehl.point.thermal.moving_heat import moving_heat_coefficients
@@ -48,7 +47,8 @@ def temperatures(oil_heat: OilHeat, slide_roll: float = 0.4) -> FilmTemperature:
         # not along entrainment
         sliding=(slide_roll * SPEED[0], -0.5 * slide_roll * SPEED[1]),
     )
-    level = PointLevel(problem, PointScales.of(problem), NODES[::-1], "upwind-1")
+    spacing = SimpleNamespace(dx=0.41, dy=0.37)
+    level = SimpleNamespace(scales=PointScales.of(problem), shape=NODES[::-1], grid=spacing)
     return FilmTemperature(problem, (STEEL, GLASS), level, HEIGHTS)
 
 
