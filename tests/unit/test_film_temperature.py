@@ -36,7 +36,7 @@ def uncompiled(monkeypatch):
     interpret(monkeypatch, surfaces, energy, line_energy)
 
 
-def temperatures(oil_heat: OilHeat, slide_roll: float = 0.4) -> FilmTemperature:
+def temperatures(oil_heat: OilHeat, slide_roll: float | None = 0.4) -> FilmTemperature:
     oil = film_oil(
         eta0=0.04, alpha=1.5e-8, law="houpert", temperature=T0, temperature_exponent=1.1,
         heat=oil_heat,
@@ -45,7 +45,7 @@ def temperatures(oil_heat: OilHeat, slide_roll: float = 0.4) -> FilmTemperature:
         moes_contact(50.0, 8.0, nodes=(17, 17), lubricant=oil),
         entrainment=SPEED,
         # not along entrainment
-        sliding=(slide_roll * SPEED[0], -0.5 * slide_roll * SPEED[1]),
+        sliding=slide_roll and (slide_roll * SPEED[0], -0.5 * slide_roll * SPEED[1]),
     )
     spacing = SimpleNamespace(dx=0.41, dy=0.37)
     level = SimpleNamespace(scales=PointScales.of(problem), shape=NODES[::-1], grid=spacing)
@@ -122,7 +122,9 @@ def test_surfaces_move_with_half_the_sliding_less_and_more():
     assert (m.u_2, m.v_2) == pytest.approx((1.2 * SPEED[0], 0.9 * SPEED[1]))
     assert (m.dx, m.dy, m.temperature) == (*one.steps, T0)
     assert (T0 == one.T).all()
-    rolling = temperatures(OilHeat(), slide_roll=0.0)
+    rolling = temperatures(OilHeat(), slide_roll=None)
+    m = rolling.motion
+    assert (m.u_1, m.v_1, m.u_2, m.v_2) == pytest.approx((*SPEED, *SPEED))
     assert rolling.direction == pytest.approx(np.array(SPEED) / np.hypot(*SPEED))
     film = rolling.film(state_of(rolling, np.full((7, 9), 5e8), np.full((7, 9), 4e-7)))
     rolling.judge(film)
