@@ -89,7 +89,7 @@ def test_places_must_rise_and_numbers_be_finite():
         MeasuredProfile(four[:3], four[:3])
     with pytest.raises(ParameterError, match="along x"):
         MeasuredProfile(four.reshape(1, 4), four)
-    with pytest.raises(ParameterError, match="got 2 mm and then 1.5 mm"):
+    with pytest.raises(ParameterError, match=r"got 2 mm and then 1\.5 mm"):
         MeasuredProfile(np.array([0.0, 1.0, 2.0, 1.5, 3.0]) * 1e-3, np.zeros(5))
     with pytest.raises(ParameterError, match=r"shape \(4,\) of their places, got \(5,\)"):
         MeasuredProfile(four, np.zeros(5))

@@ -1,0 +1,144 @@
+"""Grids of a point contact from coarse to fine, and its rows and columns solved one by one."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+
+from gearlube_core.ehl.point.newton import hierarchy, smoother
+from gearlube_core.ehl.point.newton.galerkin import SparseOperator
+from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
+from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
+from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection
+from gearlube_core.ehl.point.terms.differences import Differences
+from gearlube_core.ehl.point.terms.elements import Elements
+from tests.helpers.source_of import interpret
+
+
+@pytest.mark.parametrize(
+    ("nodes", "steps", "coarser"),
+    [
+        # up to 1300 nodes are solved directly
+        ((26, 50), (1.0, 1.0), []),
+        ((27, 49), (1.0, 1.0), [(14, 25)]),
+        ((1, 1301), (1.0, 1.0), [(1, 651)]),
+        # spacings within a ratio of 1.5 are halved together, else the smaller one first
+        ((65, 65), (1.45, 1.0), [(33, 33)]),
+        ((65, 65), (1.0, 1.45), [(33, 33)]),
+        ((65, 65), (1.55, 1.0), [(33, 17), (65, 33)]),
+        ((65, 65), (1.0, 1.55), [(17, 33), (33, 65)]),
+        # 129 steps become 64 and their ratio 1.493; 128 become 64 and the ratio 1.505
+        ((40, 130), (3.01, 1.0), [(20, 33), (40, 65)]),
+        ((40, 129), (3.01, 1.0), [(20, 17), (40, 33), (40, 65)]),
+        # sides of 12 nodes are not halved, also where theirs is the smaller spacing
+        ((13, 401), (1.0, 0.9), [(7, 101), (7, 201)]),
+        ((12, 401), (1.0, 0.9), [(12, 101), (12, 201)]),
+        ((401, 12), (0.9, 1.0), [(101, 12), (201, 12)]),
+        ((12, 200), (0.5, 1.0), [(12, 100)]),
+        ((200, 12), (1.0, 0.5), [(100, 12)]),
+    ],
+)
+def test_sides_are_halved_until_the_grid_is_solved_directly(nodes, steps, coarser):
+    assert grid_shapes(nodes, steps) == [*coarser, nodes]
+
+
+@pytest.mark.parametrize("swap", [False, True])
+def test_grids_of_a_problem_are_those_of_its_limits(monkeypatch, swap: bool):
+    made = []
+    monkeypatch.setattr(hierarchy, "PointLevel", lambda *given, **more: made.append((given, more)))
+    monkeypatch.setattr(hierarchy, "Transfer", lambda fine, coarse: (fine, coarse))
+    # steps (dx, dy) = (1, 1.55), then halves along x alone; 1.03 and 1.5 with a node more or less
+    problem = SimpleNamespace(nodes=(65, 60), x_limits=(-24.0, 40.0), y_limits=(-21.45, 70.0))
+    scales = SimpleNamespace(swap=swap)
+    grids = hierarchy.build_hierarchy(problem, scales, "quick", "elements", "jfo")
+    shapes = [(30, 17), (60, 33), (60, 65)]
+    if swap:
+        shapes = [shape[::-1] for shape in shapes]
+    assert [given for given, _ in made] == [(problem, scales, shape, "quick") for shape in shapes]
+    assert made[0][1] == {"scheme": Elements, "cavitation": "jfo"}
+    assert grids.transfers == [(shapes[1], shapes[0]), (shapes[2], shapes[1])]
+    hierarchy.build_hierarchy(problem, scales, "quick")
+    assert made[-1][1] == {"scheme": Differences, "cavitation": "reynolds"}
+
+
+def test_grids_below_keep_the_transfers_between_them():
+    levels, transfers = list("abcd"), ["a-b", "b-c", "c-d"]
+    below = Hierarchy(levels, transfers).below(3)
+    assert (below.levels, below.transfers) == (["a", "b", "c"], ["a-b", "b-c"])
+    assert Hierarchy(levels, transfers).below(1).transfers == []
+
+
+SHAPE = (7, 16)
+GRID = SimpleNamespace(shape=SHAPE, modulus=3.0, graded=False)
+
+
+def operator_and_entries() -> tuple[SparseOperator, dict]:
+    """Return an operator of neighbours up to two columns away, and some beyond the band."""
+    rng = np.random.default_rng(9)
+    ny, nx = SHAPE
+    free = rng.random(SHAPE) < 0.85
+    entries = {}
+    for j, i in np.argwhere(free):
+        near = [(b, a) for b in range(-6, 7) for a in range(-3, 4) if abs(a) + abs(b) <= 6]
+        for b, a in near:
+            jj, ii = j + b, i + a
+            if 0 <= jj < ny and 0 <= ii < nx and (rng.random() < 0.5 or (a, b) == (0, 0)):
+                by_pressure = rng.normal() + 9.0 * ((a, b) == (0, 0))
+                if not free[jj, ii]:
+                    by_pressure = 0.0
+                entries[j, i, jj, ii] = complex(by_pressure, rng.normal())
+    rows = [j * nx + i for j, i, _, _ in entries]
+    columns = [jj * nx + ii for _, _, jj, ii in entries]
+    matrix = csr_matrix((list(entries.values()), (rows, columns)), shape=(free.size, free.size))
+    matrix.sort_indices()
+    return SparseOperator(matrix, free, np.zeros(SHAPE)), entries
+
+
+def dense_row(entries: dict, free: np.ndarray, local: np.ndarray, across: np.ndarray, j: int):
+    """Return the matrix (nx, nx) of one row of nodes; its neighbours alternate with it."""
+    matrix = np.diag(np.where(free[j], 0.0, 1.0))
+    for (row, i, jj, ii), entry in entries.items():
+        if row != j or abs(ii - i) > 2:
+            continue
+        if jj == j:
+            matrix[i, ii] += entry.real
+        felt = np.where(np.abs(np.arange(free.shape[1]) - ii) <= 4, local[ii], 0.0) * free[j]
+        matrix[i] += entry.imag * across[min(abs(jj - j), 4)] * felt
+    return matrix
+
+
+def solved(entries, free, residual, halved, spacing) -> np.ndarray:
+    """Solve rows one by one, at 0.55 of the shortest wave across them and 0.35 of that along."""
+    dy, dx = spacing
+    wave = max(halved[0] * 0.55 * np.pi / dy, halved[1] * 0.35 * np.pi / dx)
+    local = uniform_wave_deflection(free.shape[1], dx, GRID.modulus, wave)
+    across = np.cos(np.arange(5) * min(wave * dy, 0.55 * np.pi))
+    return np.array(
+        [
+            np.linalg.solve(dense_row(entries, free, local, across, j), row * free[j])
+            for j, row in enumerate(residual)
+        ]
+    )
+
+
+@pytest.mark.parametrize("halved", [(True, False), (False, True), (True, True)])
+@pytest.mark.parametrize("spacing", [(0.02, 0.05), (0.05, 0.02)])
+def test_rows_and_columns_are_solved_as_dense_matrices_say(monkeypatch, halved, spacing):
+    interpret(monkeypatch, smoother)
+    operator, entries = operator_and_entries()
+    dy, dx = spacing
+    grid = SimpleNamespace(**vars(GRID) | {"dx": dx, "dy": dy})
+    residual = np.random.default_rng(1).normal(size=SHAPE)
+    found = RowSmoother(grid, operator, halved, 0.7)(residual)
+    expected = 0.7 * solved(entries, operator.free, residual, halved, spacing)
+    # factors of single precision
+    assert found == pytest.approx(expected, rel=1e-3, abs=1e-4 * np.abs(expected).max())
+
+    found = ColumnSmoother(grid, operator, halved, 0.7)(residual)
+    turned = {(i, j, ii, jj): entry for (j, i, jj, ii), entry in entries.items()}
+    free = operator.free.T
+    expected = 0.7 * solved(turned, free, residual.T, halved[::-1], spacing[::-1]).T
+    assert found == pytest.approx(expected, rel=1e-3, abs=1e-4 * np.abs(expected).max())
