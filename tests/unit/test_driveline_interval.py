@@ -30,6 +30,11 @@ def interval() -> ca.Function:
     return driveline_stepper(linear, INNER, PROPSHAFT, HALF_SHAFT)
 
 
+def curved(x: ca.SX, u: ca.SX, p: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
+    """Return the same with rates that depend on every state in a bent way."""
+    return tuple(part + ca.sum1(ca.sin(x)) * ca.sin(part) for part in linear(x, u, p))
+
+
 def step_matrix() -> np.ndarray:
     """Return the map of an interval on (states, speeds, p, integrals): RK4, order by order."""
     size = N + 5 + COUNT + 2
@@ -94,3 +99,23 @@ def test_derivatives_of_an_interval_are_parts_of_its_matrix(interval: ca.Functio
     free = slice(1, N + 2)
     assert np.asarray(states) == pytest.approx(matrix[1:N, free])
     assert np.asarray(torques) == pytest.approx(matrix[-2:, free] / H)
+
+
+def test_derivatives_are_taken_at_crank_angle_zero_with_the_angles_expected():
+    interval = driveline_stepper(curved, INNER, PROPSHAFT, HALF_SHAFT)
+    y, step = RNG.uniform(-1.0, 1.0, N + 1), 1e-5
+
+    def outcome(y: np.ndarray) -> np.ndarray:
+        memory = dict.fromkeys(MEMORY, 0.0) | dict(zip(STATES[1:], y, strict=False))
+        z_end, torques = interval(list(memory.values()), [H, 0.0, y[-2], 0.0, y[-1]], P)
+        return np.concatenate((np.ravel(z_end)[1:N], np.ravel(torques)[:2]))
+
+    differences = np.array(
+        [
+            (outcome(y + step * one) - outcome(y - step * one)) / (2.0 * step)
+            for one in np.eye(N + 1)
+        ]
+    ).T
+    found = np.vstack(interval_jacobian(interval)(y, H, P))
+    # third derivatives times 1e-10
+    assert found == pytest.approx(differences, abs=1e-6 * np.abs(differences).max())

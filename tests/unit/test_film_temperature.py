@@ -99,8 +99,9 @@ def test_a_plane_of_pressure_pumps_oil_by_its_slopes():
 
 def test_oil_is_not_pumped_faster_than_it_is_carried_and_films_are_never_closed():
     one = temperatures(OilHeat())
-    _, i = np.indices(one.level.shape)
-    found = one.film(state_of(one, 5e8 + 4e13 * one.steps[0] * i, np.full(i.shape, 4e-7)))
+    j, i = np.indices(one.level.shape)
+    steep = 5e8 + 4e13 * (one.steps[0] * i + one.steps[1] * j)
+    found = one.film(state_of(one, steep, np.full(i.shape, 4e-7)))
     assert np.hypot(found.pumped_x, found.pumped_y) == pytest.approx(math.hypot(*SPEED))
     closed = one.film(state_of(one, np.full(i.shape, 5e8), np.zeros(i.shape)))
     assert (closed.along.h == 1e-12).all()

@@ -6,15 +6,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_matrix
 
 from gearlube_core.ehl.point.newton import hierarchy, smoother
-from gearlube_core.ehl.point.newton.galerkin import SparseOperator
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection
 from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.elements import Elements
+from tests.helpers.row_operators import dense_row, operator_of, some_entries
 from tests.helpers.source_of import interpret
 
 
@@ -75,41 +74,6 @@ SHAPE = (7, 16)
 GRID = SimpleNamespace(shape=SHAPE, modulus=3.0, graded=False)
 
 
-def operator_and_entries() -> tuple[SparseOperator, dict]:
-    """Return an operator of neighbours up to two columns away, and some beyond the band."""
-    rng = np.random.default_rng(9)
-    ny, nx = SHAPE
-    free = rng.random(SHAPE) < 0.85
-    entries = {}
-    for j, i in np.argwhere(free):
-        near = [(b, a) for b in range(-6, 7) for a in range(-3, 4) if abs(a) + abs(b) <= 6]
-        for b, a in near:
-            jj, ii = j + b, i + a
-            if 0 <= jj < ny and 0 <= ii < nx and (rng.random() < 0.5 or (a, b) == (0, 0)):
-                by_pressure = rng.normal() + 9.0 * ((a, b) == (0, 0))
-                if not free[jj, ii]:
-                    by_pressure = 0.0
-                entries[j, i, jj, ii] = complex(by_pressure, rng.normal())
-    rows = [j * nx + i for j, i, _, _ in entries]
-    columns = [jj * nx + ii for _, _, jj, ii in entries]
-    matrix = csr_matrix((list(entries.values()), (rows, columns)), shape=(free.size, free.size))
-    matrix.sort_indices()
-    return SparseOperator(matrix, free, np.zeros(SHAPE)), entries
-
-
-def dense_row(entries: dict, free: np.ndarray, local: np.ndarray, across: np.ndarray, j: int):
-    """Return the matrix (nx, nx) of one row of nodes; its neighbours alternate with it."""
-    matrix = np.diag(np.where(free[j], 0.0, 1.0))
-    for (row, i, jj, ii), entry in entries.items():
-        if row != j or abs(ii - i) > 2:
-            continue
-        if jj == j:
-            matrix[i, ii] += entry.real
-        felt = np.where(np.abs(np.arange(free.shape[1]) - ii) <= 4, local[ii], 0.0) * free[j]
-        matrix[i] += entry.imag * across[min(abs(jj - j), 4)] * felt
-    return matrix
-
-
 def solved(entries, free, residual, halved, spacing) -> np.ndarray:
     """Solve rows one by one, at 0.55 of the shortest wave across them and 0.35 of that along."""
     dy, dx = spacing
@@ -118,7 +82,7 @@ def solved(entries, free, residual, halved, spacing) -> np.ndarray:
     across = np.cos(np.arange(5) * min(wave * dy, 0.55 * np.pi))
     return np.array(
         [
-            np.linalg.solve(dense_row(entries, free, local, across, j), row * free[j])
+            np.linalg.solve(dense_row(entries, free, local, across, j, 2, 4), row * free[j])
             for j, row in enumerate(residual)
         ]
     )
@@ -128,17 +92,18 @@ def solved(entries, free, residual, halved, spacing) -> np.ndarray:
 @pytest.mark.parametrize("spacing", [(0.02, 0.05), (0.05, 0.02)])
 def test_rows_and_columns_are_solved_as_dense_matrices_say(monkeypatch, halved, spacing):
     interpret(monkeypatch, smoother)
-    operator, entries = operator_and_entries()
+    free = np.random.default_rng(9).random(SHAPE) < 0.85
+    entries = some_entries(free)
+    operator = operator_of(entries, free)
     dy, dx = spacing
     grid = SimpleNamespace(**vars(GRID) | {"dx": dx, "dy": dy})
     residual = np.random.default_rng(1).normal(size=SHAPE)
     found = RowSmoother(grid, operator, halved, 0.7)(residual)
-    expected = 0.7 * solved(entries, operator.free, residual, halved, spacing)
+    expected = 0.7 * solved(entries, free, residual, halved, spacing)
     # factors of single precision
     assert found == pytest.approx(expected, rel=1e-3, abs=1e-4 * np.abs(expected).max())
 
     found = ColumnSmoother(grid, operator, halved, 0.7)(residual)
     turned = {(i, j, ii, jj): entry for (j, i, jj, ii), entry in entries.items()}
-    free = operator.free.T
-    expected = 0.7 * solved(turned, free, residual.T, halved[::-1], spacing[::-1]).T
+    expected = 0.7 * solved(turned, free.T, residual.T, halved[::-1], spacing[::-1]).T
     assert found == pytest.approx(expected, rel=1e-3, abs=1e-4 * np.abs(expected).max())
