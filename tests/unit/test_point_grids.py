@@ -71,7 +71,7 @@ def test_grids_below_keep_the_transfers_between_them():
 
 
 SHAPE = (7, 16)
-GRID = SimpleNamespace(shape=SHAPE, modulus=3.0, graded=False)
+GRID = SimpleNamespace(shape=SHAPE, modulus=0.02, graded=False)
 
 
 def solved(entries, free, residual, halved, spacing) -> np.ndarray:
