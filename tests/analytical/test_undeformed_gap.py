@@ -226,3 +226,34 @@ def test_facets_end_at_the_base_circle():
     assert first == pytest.approx([0.0, flank.roll_low, flank.roll_low + arc], rel=1e-12)
     assert second[0] == pytest.approx(flank.roll_low - arc, rel=1e-12)
     assert second[1:] == pytest.approx(first[1:] + arc, rel=1e-12)
+
+
+def test_line_tells_the_crowns_of_both_teeth_and_where_their_reliefs_begin():
+    pair = named_pair("jamali_2015_a")
+    crowns = Crown(amount=8e-6, start=1e-3), Crown(amount=3e-6, start=2e-3)
+    flanks = [FlankModification(crown=one) for one in crowns]
+    modified = ModifiedPair(pair=pair, pinion=flanks[0], gear=flanks[1])
+    y = np.linspace(-0.9, 0.9, 7) * half_length(pair)
+    X = full_line(pair) + 1e-3
+    line = contact_line_gap(modified, X, y)
+    cos_b = math.cos(pair.base_helix_angle)
+    expected = sum(
+        one.amount
+        * (np.maximum(np.abs(y * cos_b) - one.start, 0.0) / (0.5 * pair.face_width - one.start))
+        ** 2
+        for one in crowns
+    )
+    assert line.crown == pytest.approx(expected * cos_b)
+    # removal of 10 um shifts the section by a few um, along which the crowns change by 0.1 %
+    assert line.gap == pytest.approx(expected * cos_b, rel=1e-2, abs=1e-12)
+    for one in (flanks[0], FlankModification()):
+        alone = ModifiedPair(pair=pair, pinion=FlankModification(), gear=one)
+        crown = contact_line_gap(alone, X, y).crown
+        assert (crown.max() > 0.0) == (one is flanks[0])
+    # where the line, mid-face at X less half the face's advance, crosses the starts
+    advance = 0.5 * pair.face_width * math.tan(pair.base_helix_angle)
+    for start, contact in (
+        (line.pinion_relief_start, modified.contact_end),
+        (line.gear_relief_start, modified.contact_start),
+    ):
+        assert X - advance + start * math.sin(pair.base_helix_angle) == pytest.approx(contact)
