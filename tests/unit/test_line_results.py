@@ -41,6 +41,13 @@ def test_central_film_takes_two_nodes_on_each_side():
     assert result(x, film=film).central_film == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.parametrize(("first", "node"), [(0.0, 0), (-1.0, 1), (-4.0, 4), (-5.0, 5)])
+def test_central_film_of_a_node_at_the_middle_is_its_own_also_near_a_border(first, node):
+    x = np.linspace(first, first + 5.0, 6) * 1e-4
+    film = np.array([2.0, 9.0, 4.0, 7.0, 3.0, 8.0]) * 1e-7
+    assert result(x, film=film).central_film == pytest.approx(film[node], rel=1e-9)
+
+
 def test_extremes_are_those_of_parabolas_and_of_borders():
     x = np.linspace(-1.0, 1.0, 9)
     pressure = 6e8 - 3e8 * (x - 0.07) ** 2

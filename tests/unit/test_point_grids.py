@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -45,20 +46,28 @@ def test_sides_are_halved_until_the_grid_is_solved_directly(nodes, steps, coarse
 
 
 @pytest.mark.parametrize("swap", [False, True])
-def test_grids_of_a_problem_are_those_of_its_limits(monkeypatch, swap: bool):
+@pytest.mark.parametrize(
+    ("ratio", "shapes"),
+    [
+        # dy/dx of 64 and 59 steps; with a node more or less on either side it is beyond 1.5
+        (1.505, [(30, 17), (60, 33), (60, 65)]),
+        (1.495, [(30, 33), (60, 65)]),
+    ],
+)
+def test_grids_of_a_problem_are_those_of_its_limits(monkeypatch, swap: bool, ratio, shapes):
     made = []
     monkeypatch.setattr(hierarchy, "PointLevel", lambda *given, **more: made.append((given, more)))
     monkeypatch.setattr(hierarchy, "Transfer", lambda fine, coarse: (fine, coarse))
-    # steps (dx, dy) = (1, 1.55), then halves along x alone; 1.03 and 1.5 with a node more or less
-    problem = SimpleNamespace(nodes=(65, 60), x_limits=(-24.0, 40.0), y_limits=(-21.45, 70.0))
+    problem = SimpleNamespace(
+        nodes=(65, 60), x_limits=(-24.0, 40.0), y_limits=(-20.0, 59.0 * ratio - 20.0)
+    )
     scales = SimpleNamespace(swap=swap)
     grids = hierarchy.build_hierarchy(problem, scales, "quick", "elements", "jfo")
-    shapes = [(30, 17), (60, 33), (60, 65)]
     if swap:
         shapes = [shape[::-1] for shape in shapes]
     assert [given for given, _ in made] == [(problem, scales, shape, "quick") for shape in shapes]
     assert made[0][1] == {"scheme": Elements, "cavitation": "jfo"}
-    assert grids.transfers == [(shapes[1], shapes[0]), (shapes[2], shapes[1])]
+    assert grids.transfers == [(fine, coarse) for coarse, fine in pairwise(shapes)]
     hierarchy.build_hierarchy(problem, scales, "quick")
     assert made[-1][1] == {"scheme": Differences, "cavitation": "reynolds"}
 

@@ -94,9 +94,9 @@ def test_jump_is_told_from_a_zero():
         assert small_from[0].determinant == -1.0
         assert search(small, 0.3, 1.0)[2] == expected
     # between points that lie closer than a hundred tolerances nothing is told
-    near = 0.3 - 40.0 * TOLERANCE, 0.3 + 40.0 * TOLERANCE
+    near = 0.3 - 49.0 * TOLERANCE, 0.3 + 49.0 * TOLERANCE
     assert search(branch, *near)[2]
-    far = 0.3 - 60.0 * TOLERANCE, 0.3 + 60.0 * TOLERANCE
+    far = 0.3 - 51.0 * TOLERANCE, 0.3 + 51.0 * TOLERANCE
     assert not search(branch, *far)[2]
 
 
