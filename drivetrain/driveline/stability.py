@@ -135,9 +135,9 @@ def largest_stable_step(
         )
     high = low
     while stable(high):
-        low, high = high, 1.05 * high
-        if high > longest:
+        if high >= longest:
             return longest
+        low, high = high, min(1.05 * high, longest)
     while high - low > 1e-3 * low:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if stable(middle) else (low, middle)
