@@ -89,6 +89,45 @@ def test_slips_that_fit_best_come_first_one_for_each_setting(monkeypatch):
     assert all(known == {"pinion": 1, "gear": 2} or known == {} for known in checks.known)
 
 
+@pytest.mark.parametrize(
+    ("better", "worse"),
+    [
+        ((0.9, 0.1), (0.7, 0.65)),  # squares 0.82 and 0.91; cubes the other way round
+        ((0.5, 0.5), (0.9, 0.0)),  # squares 0.5 and 0.81; sums the other way round
+    ],
+)
+def test_the_sum_of_squares_decides(monkeypatch, better, worse):
+    scores = {1.0: worse, 2.0: better}
+
+    def groups(file):
+        yield [Fit(str(k), share) for k, share in enumerate(scores[file.values["x"]])]
+
+    offered = [change("x", 1.0), change("x", 2.0)]
+    Checks(monkeypatch, groups, offered)
+    assert likely_changes(File(), [Fit("a", 3.0, fields=("x",))]) == [offered[1]]
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_the_first_step_brings_the_worst_misfit_to_zero(monkeypatch, known: bool):
+    seen = []
+
+    def groups(file):
+        x = file.values[FIRST]
+        seen.append(x)
+        a, b, c = Fit("a", 1.0 * (x - 4.0)), Fit("b", 2.0 * (x - 6.0)), Fit("c", 0.1)
+        yield [a, b, c]
+        assert a.is_sound  # what comes later is not looked at before
+        assert b.is_sound
+
+    Checks(monkeypatch, groups)
+    misfits = [Fit("a", 5.0, fields=(FIRST,)), Fit("b", 6.0 if known else math.inf)]
+    if not known:
+        misfits[0] = Fit("a", math.inf, fields=(FIRST,))
+    likely_changes(File({FIRST: 9.0}), misfits)
+    # the value, one beside it for the slope, the step; where nothing is known a start before
+    assert seen[2 if known else 3] == pytest.approx(6.0, abs=1e-6)
+
+
 def test_at_most_three_are_offered_of_six_that_are_tried(monkeypatch):
     offered = [change(f"s{k}", float(k)) for k in range(9)]
     scores = {float(k): 0.05 * k for k in range(9)}
@@ -109,6 +148,12 @@ def test_cuts_that_a_change_leaves_as_they_are_serve_again(monkeypatch):
     def groups(file):
         yield [Fit("a", 0.0)]
 
+    both = Change({FIRST: 1.0, SECOND: 2.0}, {FIRST: 2.0, SECOND: 1.0})
+    mixed = Change({FIRST: 1.0, TEETH: 2.0}, {FIRST: 2.0, TEETH: 1.0})
+    for one in (both, mixed):
+        checks = Checks(monkeypatch, groups, [one])
+        likely_changes(File(), [Fit("a", 2.0, fields=one.fields)])
+        assert checks.known == [{}]
     for name, known in ((FIRST, {"gear": 2}), (SECOND, {"pinion": 1}), (TEETH, {})):
         checks = Checks(monkeypatch, groups, [change(name, 1.0)])
         likely_changes(File(), [Fit("a", 2.0, fields=(name,))])

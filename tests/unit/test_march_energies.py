@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,9 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import BEARING_FIELDS,
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums
 from gearlube_core.dynamics.helical_pair.march.outputs import MOTION_OUTPUTS
 from gearlube_core.dynamics.helical_pair.march.state import (
+    FLANK_POINTS,
+    LOAD_TORQUE,
+    MU,
     N_ENERGIES,
     N_ODE,
     N_STATE,
@@ -131,6 +135,81 @@ def test_motion_and_bearing_forces_are_told():
         force = -(stiffness @ s[u : u + 5] + one[5:] * s[v : v + 3])
         told = [found[f"bearing[{j + 1}].force.{axis}"] for axis in "xyz"]
         assert told == pytest.approx(force)
+
+
+@pytest.mark.parametrize(
+    ("on_drive", "on_coast"), [(300.0, 0.0), (300.0, 40.0), (0.0, 250.0), (0.0, 0.0)]
+)
+def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_coast):
+    loads, calls = {MU: on_drive, MU + FLANK_POINTS: on_coast}, {}
+    member = SupportConstants(*RNG.uniform(1.0, 2.0, len(SupportConstants._fields)))
+    ranges, teeth = object(), 23.0
+    p = SimpleNamespace(
+        motion=SimpleNamespace(flanks=FLANKS, pinion=member, gear=member._replace(mobility_r=3.0)),
+        teeth=teeth, oil="oil", ranges=ranges,
+    )  # fmt: skip
+    rates = RNG.normal(size=N_ODE)
+
+    def line_sums(a, tilt, phase, data, s, mu_at):
+        load = loads[mu_at]
+        return LineSums(load, 0.01 * load, -0.02 * load, 0.3 * load, 0.1, 0.2, 1e-3 * load, 0.0,
+                        1e6 * (load > 0.0), 0.0, 0.0)  # fmt: skip
+
+    def march_rates(s, pinion_torque, wheel_torque, data, out):
+        assert (pinion_torque, wheel_torque) == (50.0, 120.0)
+        out[:] = rates
+
+    def write_lines(view, mu_at, s, temperature, data, oil, constants, first, out):
+        calls["lines"] = (mu_at, temperature, oil, first)
+        return SimpleNamespace(
+            thinnest_film=2e-7, film_load=1.0, film_material=2.0, traction=3.0, temperature=4.0,
+            pressure=5.0,
+        )  # fmt: skip
+
+    for name, stand_in in {
+        "tuple_from_array": lambda data, kind: p,
+        "mesh_at_torque": lambda torque, mesh, data: calls.setdefault("torque", torque),
+        "march_rates": march_rates,
+        "line_sums": line_sums,
+        "lubricant_state": lambda oil, temperature: (oil, temperature),
+        "write_lines": write_lines,
+        "write_ranges": lambda *given: calls.setdefault("ranges", given[:7]),
+    }.items():
+        monkeypatch.setattr(outputs, name, stand_in)
+    s = STATE.copy()
+    s[TIME_IN_STEP], s[LOAD_TORQUE] = 0.0, 0.8
+    out = np.full(len(outputs.OUTPUT_NAMES), np.nan)
+    inputs, bearings = np.array([50.0, 120.0, 340.0]), np.zeros(N_BEARINGS * BEARING_FIELDS)
+    outputs.write_outputs(s, inputs, "mesh", "data", bearings, np.empty(N_ODE), out)
+    told = dict(zip(outputs.OUTPUT_NAMES, out, strict=True))
+
+    assert told["pinion.acceleration"] == rates[W_P]
+    assert told["wheel.acceleration"] == rates[W_G]
+    assert told["mesh.load"] == on_drive - on_coast
+    assert told["mesh.separated"] == (on_drive == on_coast == 0.0)
+    assert told["mesh.coast_contact"] == (on_coast > 0.0)
+    touching = 1e6 * ((on_drive > 0.0) + (on_coast > 0.0))
+    assert told["mesh.stiffness"] == pytest.approx(math.cos(0.35) ** 2 * touching)
+    direction = outputs.friction_direction(s[W_P])
+    sums = [line_sums(0, 0, 0, 0, 0, at) for at in loads]
+    drive = flank_wrench.flank_wrench(sums[0], direction, PLANE)
+    back = flank_wrench.turned_wrench(flank_wrench.flank_wrench(sums[1], -direction, PLANE), FLANKS)
+    for k, axis in enumerate("xyz"):
+        assert told[f"mesh.force.{axis}"] == pytest.approx(drive[k] + back[k])
+    # lines and ranges are those of the flank that carries more
+    leads = on_drive >= on_coast
+    assert calls["lines"] == (
+        MU if leads else MU + FLANK_POINTS, 340.0, ("oil", 340.0), outputs.LINES
+    )  # fmt: skip
+    torque = max(0.8, max(on_drive, on_coast) * PLANE.r_bp * PLANE.cos_b)
+    assert calls["ranges"][0] == pytest.approx(torque if leads else -torque)
+    assert calls["ranges"][1:] == (1.0, 2.0, 3.0, 4.0, 5.0, ranges)
+    assert calls["torque"] == 0.8
+    assert told["mesh.film_thickness_min"] == 2e-7
+    stored = 0.5 * s[W_P] ** 2 / member.mobility_r + 0.5 * s[W_G] ** 2 / 3.0
+    stored += outputs.member_energy(s, U_P, V_P, member)
+    stored += outputs.member_energy(s, U_G, V_G, member)
+    assert told["energy.stored"] == pytest.approx(stored + 1e-3 * (on_drive + on_coast))
 
 
 @pytest.mark.parametrize("duration", [0.0, 0.004])

@@ -136,6 +136,7 @@ def test_ridge_is_half_as_high_half_a_width_from_its_crest():
     assert lies(np.zeros(3), y) == pytest.approx(2e-6)  # across x through the middle
     assert lies(np.full(3, 2e-5), y) == pytest.approx(1e-6)
     assert lies(np.full(3, -4e-5), y) == pytest.approx(2e-6 / 16.0)
+    assert Ridge(height=2e-6, width=4e-5, direction=0.0)(0.7, 0.0) == pytest.approx(2e-6)
     angle = 0.3
     along = np.array([math.cos(angle), math.sin(angle)])
     normal = np.array([math.sin(angle), -math.cos(angle)])
