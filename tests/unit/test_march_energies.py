@@ -138,7 +138,7 @@ def test_motion_and_bearing_forces_are_told():
 
 
 @pytest.mark.parametrize(
-    ("on_drive", "on_coast"), [(300.0, 0.0), (300.0, 40.0), (0.0, 250.0), (0.0, 0.0)]
+    ("on_drive", "on_coast"), [(300.0, 0.0), (300.0, 0.5), (0.5, 250.0), (0.0, 0.0)]
 )
 def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_coast):
     loads, calls = {MU: on_drive, MU + FLANK_POINTS: on_coast}, {}
