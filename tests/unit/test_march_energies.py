@@ -198,9 +198,9 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
         assert told[f"mesh.force.{axis}"] == pytest.approx(drive[k] + back[k])
     # lines and ranges are those of the flank that carries more
     leads = on_drive >= on_coast
-    assert calls["lines"] == (
-        MU if leads else MU + FLANK_POINTS, 340.0, ("oil", 340.0), outputs.OUTPUT_NAMES.index("line[1].load")
-    )  # fmt: skip
+    mu_at = MU if leads else MU + FLANK_POINTS
+    first_line = outputs.OUTPUT_NAMES.index("line[1].load")
+    assert calls["lines"] == (mu_at, 340.0, ("oil", 340.0), first_line)
     torque = max(0.8, max(on_drive, on_coast) * PLANE.r_bp * PLANE.cos_b)
     assert calls["ranges"][0] == pytest.approx(torque if leads else -torque)
     assert calls["ranges"][1:] == (1.0, 2.0, 3.0, 4.0, 5.0, ranges)
