@@ -231,6 +231,47 @@ def test_series_of_small_stress_meet_the_factors():
         assert high == pytest.approx(low * (1.001 / 0.999) ** 2, abs=1e-7)
 
 
+def test_border_and_nodes_without_film_are_newtonian():
+    oil = film_oil(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
+    x, y, pressure, film, eta = grid()
+    film[6, 9] = 0.0
+    plain = np.ones(film.shape, dtype=bool)
+    plain[1:-1, 1:-1] = False
+    plain[6, 9] = True
+    found = shear_of(oil, (0.5, 0.0), x, y).factors(pressure, film, 1.0 / eta)
+    for name in ("xx", "yy", "slope_xx", "slope_yy", "stiffness"):
+        assert np.all(getattr(found, name)[plain] == 1.0)
+    assert np.all(found.film_power[plain] == 3.0)  # h^3
+    assert np.all(found.xx[~plain] > 1.0)
+
+
+@pytest.mark.parametrize("law", [{}, {"limiting_shear": (1e4, 0.02)}])
+@pytest.mark.parametrize(("size", "a"), [(0.004, 0.006), (0.5, 0.7), (1.5, 3.0)])
+def test_powers_of_the_flow_are_its_logarithmic_derivatives(size, a, law):
+    """Flow along sliding goes as G(s, a) s/eta with a as eta: steepness and stiffness."""
+    oil = film_oil(eta0=0.01, alpha=2e-8, eyring_stress=1e4, **law)
+
+    def factors(slope=1.0, viscosity=1.0):
+        shear = FilmShear.of(oil, (1.0, 0.0), (0.25, 0.25), 3, pressure=1e4)
+        shear.couette[:] = a
+        pressure = 1.0 + slope * size * np.array([[-0.5, 0.0, 0.5]] * 3)
+        return shear.factors(pressure, np.ones((3, 3)), np.full((3, 3), 1.0 / viscosity))
+
+    def power(**given):
+        name, step = next(iter(given)), 1e-3
+        low, high = (math.log(factors(**{name: 1.0 + s}).xx[1, 1]) for s in (-step, step))
+        return (high - low) / (math.log1p(step) - math.log1p(-step))
+
+    found = factors()
+    # differences over 1e-3 are right to 1e-6; the series of small stress leaves out 1e-8
+    steepness, stiffness = 1.0 + power(slope=1.0), 1.0 - power(viscosity=1.0)
+    assert found.slope_xx[1, 1] / found.xx[1, 1] == pytest.approx(steepness, abs=3e-6)
+    assert found.stiffness[1, 1] == pytest.approx(stiffness, abs=3e-6)
+    assert found.film_power[1, 1] == pytest.approx(1.0 + steepness + stiffness, abs=6e-6)
+    slips = bool(law) and a > 1.0
+    assert (abs(stiffness - 1.0) < 1e-9) == slips
+
+
 def test_units_of_the_arrays_do_not_matter():
     oil = film_oil(eta0=0.01, alpha=2e-8, eyring_stress=6e6)
     x, y, pressure, film, eta = grid()

@@ -18,7 +18,7 @@ CONSERVING = PointSolverSettings(cavitation="mass_conserving")
 REYNOLDS = PointSolverSettings()
 
 
-@pytest.mark.parametrize("sliding", [(1e-3, 2e-3), (-3.0, 4.0), (1.0, 1e-3)])
+@pytest.mark.parametrize("sliding", [(1e-3, 2e-3), (-3.0, 4.0), (1.0, 1e-3), (3e-9, 4e-9)])
 def test_eyring_oil_that_is_sheared_askew_is_refused(sliding):
     with pytest.raises(ParameterError, match="needs sliding along x or y, got"):
         check_cavitation(replace(CONTACT, sliding=sliding), CONSERVING)
@@ -27,7 +27,9 @@ def test_eyring_oil_that_is_sheared_askew_is_refused(sliding):
     check_cavitation(replace(CONTACT, sliding=sliding), REYNOLDS)
 
 
-@pytest.mark.parametrize("sliding", [(2.0, 0.0), (0.0, -2.0), (0.0, 0.0), (3.0, 1e-13), None])
+@pytest.mark.parametrize(
+    "sliding", [(2.0, 0.0), (0.0, -2.0), (0.0, 0.0), (3.0, 1e-13), (300.0, 1e-10), None]
+)
 def test_sliding_along_an_axis_is_allowed(sliding):
     check_cavitation(replace(CONTACT, sliding=sliding), CONSERVING)
 
