@@ -140,37 +140,3 @@ def test_solids_meet_below_the_least_film_and_part_where_they_would_suck():
     film_only.touching[1] = True
     advanced(film_only, np.zeros(5), dH0=-1.0)
     assert not film_only.touching.any()
-
-
-def factors(**given):
-    n = module._LARGE
-    fields = {
-        "nodes": np.arange(1, n + 1),
-        "voids": np.zeros(n, dtype=bool),
-        "touching": np.zeros(n, dtype=bool),
-    }
-    return SimpleNamespace(**{**fields, **given})
-
-
-def kept(old, now, residuals, loads):
-    return module._still_good(old, now.nodes, now.voids, now.touching, residuals, loads)
-
-
-def test_factors_are_kept_while_residual_and_load_error_fall_to_a_quarter_together():
-    same = factors()
-    assert kept(same, same, [9.0, 3.0, 0.9], [9.0, 1.0, 0.05])
-    assert not kept(same, same, [9.0, 3.0, 0.9], [9.0, 1.0, 0.15])
-    # the load error before may be most of what was wrong, and that of now too
-    assert kept(same, same, [0.1, 0.1], [4.0, 0.9])
-    assert not kept(same, same, [4.0, 0.1], [0.1, 0.95])
-    # one residual tells nothing of how it falls
-    assert not kept(same, same, [1e-9], [1e-9])
-
-
-def test_factors_are_not_kept_for_other_unknowns_or_few_of_them():
-    same, n = factors(), module._LARGE
-    other = np.arange(n) == 7
-    for change in ({"nodes": np.arange(n)}, {"voids": other}, {"touching": other}):
-        assert not kept(same, factors(**change), [1.0, 0.1], [1.0, 0.1])
-    few = factors(nodes=np.arange(n - 1), voids=other[1:], touching=other[1:])
-    assert not kept(few, few, [1.0, 0.1], [1.0, 0.1])
