@@ -153,6 +153,40 @@ def test_spur_pair_is_unstable_at_twice_its_mesh_mode_and_damping_closes_the_ton
     assert away.min(axis=0).max() < _first_harmonic(spur) / 4.0 + 0.015
 
 
+def test_map_of_a_constant_mesh_has_growth_and_frequencies_of_its_matrix() -> None:
+    parameters = replace(he_2007_pair(0.0), form="six_dof")
+    system = linear_system(parameters, variation=0.0)
+    result = instability_map(parameters, [2300.0, 900.0], "stiffness_variation", [0.0])
+    slowest = np.linalg.eigvals(_state_matrix(system, system.mean)).real.max()
+    # 20 Runge-Kutta steps an oscillation of the fastest mode, more of the slowest
+    assert result.growth == pytest.approx(np.full((1, 2), slowest), rel=1e-3)
+    stiffness = system.K - system.W @ system.mean[:, :2] @ system.E
+    hertz = np.sqrt(np.sort(np.linalg.eigvals(stiffness).real)) / (2.0 * math.pi)
+    assert result.natural_frequencies == pytest.approx(hertz, rel=1e-9)
+    assert np.array_equal(result.mesh_frequency, [2300.0, 900.0])
+
+
+def test_axes_of_the_map_change_what_they_name() -> None:
+    base, at = replace(spur_pair(0.1), form="six_dof"), [7000.0]
+    as_it_is = ("stiffness_variation", [1.0])
+    for axis, changes in (
+        ("damping_ratio", {"support_damping_ratio": 0.03, "mesh_damping_ratio": 0.03}),
+        ("mu", {"mu": 0.03}),
+    ):
+        found = instability_map(base, at, axis, [0.03, 0.2]).multiplier[0, 0]
+        other = spur_pair(0.03) if axis == "mu" else replace(base, **changes)
+        expected = instability_map(replace(other, form="six_dof"), at, *as_it_is).multiplier[0, 0]
+        assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_principal_frequencies_are_sums_of_two_over_whole_numbers() -> None:
+    spur = replace(spur_pair(0.0), form="six_dof")
+    result = instability_map(spur, [7000.0], "stiffness_variation", [0.0])
+    result = replace(result, natural_frequencies=np.array([300.0, 700.0]))
+    expected = [300.0, 500.0, 600.0, 700.0, 1000.0, 1400.0]
+    assert result.principal_frequencies(2) == pytest.approx(expected, rel=1e-14)
+
+
 def test_constant_stiffness_is_stable_at_every_frequency() -> None:
     spur = replace(spur_pair(0.0), support_damping_ratio=0.002, mesh_damping_ratio=0.002)
     frequency = np.linspace(4000.0, 16000.0, 25)
