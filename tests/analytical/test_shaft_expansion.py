@@ -94,6 +94,18 @@ def test_turning_of_the_cage_is_followed_exactly_on_a_linear_spring():
         )
 
 
+@pytest.mark.parametrize("place", range(6))
+def test_power_lost_in_linear_dampers_is_followed_exactly(place):
+    """With n = 1 a roller loses the same d g'^2 at any approach: a quadratic form of the rates."""
+    p = DRY._replace(n=1.0, kn=5e7, clip=0.0)
+    e = expansion(BASE, ANGLE, p)
+    q = BASE + np.array([4e-7, -3e-7, 2e-7, 5e-3, -4e-3, 6e-3]) * (np.arange(6) == place)
+    for angle in (ANGLE, ANGLE + 0.02):
+        power = forces(q, angle, p)[3]
+        # rounding of the approaches, and the series of the turn as above
+        assert expanded(q, angle, p, e)[3] == pytest.approx(power, rel=1e-9)
+
+
 def test_error_falls_with_the_square_of_the_distance():
     e = expansion(BASE, ANGLE, DRY)
     direction = np.array([1e-6, 0.7e-6, -0.4e-6, 2e-4, -1e-4, 3e-4])

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from gearlube_core.contact import unilateral_kernels as kernels
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.contact.strip_compliance import StripCompliance
-from gearlube_core.contact.unilateral import solve_rotation, solve_torque
+from gearlube_core.contact.unilateral import _winkler_forces, solve_rotation, solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem
 from gearlube_core.contact.unilateral_stiffness import tangent_stiffness
 from gearlube_core.errors import ConvergenceError, ParameterError
@@ -101,6 +102,27 @@ def test_iteration_limit_raises_or_reports() -> None:
     assert solution.outcome.residual == solution.outcome.history[-1] > 1e-6
     # even then the torque balances
     assert solution.torque == pytest.approx(5.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("torque", [0.4, 3.0, 40.0])
+def test_a_torque_starts_from_springs_on_their_own(torque: float) -> None:
+    """Forces max(R delta - g, 0)/softness at the rotation that SciPy finds for the torque."""
+    softness, masked = 2e-8, 4
+    arm = np.array([0.02, 0.03, 0.025, 0.022, 0.05, 0.028])
+    gap = np.array([3e-6, 1e-6, 2e-6, 9e-6, math.inf, -1e-6])
+    problem = UnilateralProblem(
+        compliance=lambda forces: softness * forces, gap=gap, arm=arm, cell_area=np.ones(6)
+    )
+
+    def forces(rotation: float) -> np.ndarray:
+        return np.maximum(arm * rotation - gap, 0.0) / softness
+
+    rotation = brentq(lambda delta: arm @ forces(delta) - torque, -1e-3, 1.0, xtol=1e-16)
+    found = _winkler_forces(problem, torque, softness)
+    assert found == pytest.approx(forces(rotation), rel=1e-9, abs=1e-9)
+    assert found[masked] == 0.0
+    # such springs are solved by their start
+    assert solve_torque(problem, torque).outcome.iterations == 0
 
 
 def test_operations_count_calls_of_the_compliance() -> None:
