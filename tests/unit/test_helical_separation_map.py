@@ -29,7 +29,13 @@ from gearlube_core.dynamics.helical_pair.separation.march import (
     march_work,
     separating_rates,
 )
-from gearlube_core.dynamics.helical_pair.separation.points import StagePoints
+from gearlube_core.dynamics.helical_pair.separation.points import (
+    OFFSET,
+    OFFSET_RATE,
+    STIFFNESS,
+    STIFFNESS_RATE,
+    StagePoints,
+)
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.errors import ParameterError
 from tests.helpers.separation_cases import crowned_mesh, separating_pair
@@ -70,6 +76,31 @@ def test_derivatives_are_those_of_the_map():
             numeric = (up - down) / (2.0 * step) / problem.scales
             # rounding gives 1e-7; a kink within the step would show as 1e-3
             assert np.abs(numeric - slope).max() < 1e-6 * max(1.0, np.abs(slope).max())
+
+
+@pytest.mark.parametrize("torque", [20.0, 95.0, 105.0, 290.0, 300.0])
+def test_points_near_a_level_of_the_mesh_follow_the_torque_on_their_side_of_it(torque):
+    """Slopes of stiffness and offset with the torque are those between the levels around it."""
+    pair = separating_pair().pair
+    mesh = crowned_mesh(pair, crown=4e-6, torque=(20.0, 100.0, 300.0))
+    parameters = separating_pair(mesh=mesh, pinion_torque=torque, line_divisions=3)
+    table = SeparationProblem(parameters, **COARSE).table
+    low, high = (20.0, 100.0) if torque < 100.0 else (100.0, 300.0)
+    here, there = (
+        SeparationProblem(replace(parameters, pinion_torque=end), **COARSE).table
+        for end in (low, high)
+    )
+    slope = (there.points - here.points) / (high - low)
+    # data that are linear in the torque: rounding over 1e-4 of it
+    for column, rate in ((STIFFNESS, STIFFNESS_RATE), (OFFSET, OFFSET_RATE)):
+        wanted = slope[..., column]
+        limit = 1e-10 * np.abs(here.points[..., column]).max() + 1e-9 * np.abs(wanted).max()
+        assert np.abs(wanted).max() > 100.0 * limit
+        np.testing.assert_allclose(table.points[..., rate], wanted, rtol=0.0, atol=limit)
+    total = (there.total[..., 0] - here.total[..., 0]) / (high - low)
+    np.testing.assert_allclose(table.total[..., 1], total, rtol=1e-7)
+    at_torque = here.total[..., 0] + (torque - low) * total
+    np.testing.assert_allclose(table.total[..., 0], at_torque, rtol=1e-12)
 
 
 def test_accelerations_are_those_of_the_twelve_coordinates():
