@@ -126,6 +126,19 @@ def test_every_variable_is_described_and_every_physical_range_is_closed(case: Ca
             assert high < float("inf")
 
 
+def test_sizes_and_the_default_run_are_round_numbers(case: Case) -> None:
+    """One digit and a power of ten: sizes to scale with, a run to begin with."""
+    definition = case.definition
+    shown = {v.name: v.nominal for v in definition.variables if v.nominal is not None}
+    shown |= {"stop time": definition.stop_time, "step size": definition.step_size}
+    digits = {name: f"{value:.11e}".partition("e")[0] for name, value in shown.items()}
+    rough = {name: text for name, text in digits.items() if float(text) not in (1, 2, 3, 5)}
+    assert rough == {}
+    # each output has a size above zero, in its own unit
+    assert min(shown.values()) > 0.0
+    assert definition.step_size < definition.stop_time
+
+
 def test_outputs_do_not_feed_through_and_start_from_inputs_and_parameters(
     description: ElementTree.Element,
 ) -> None:
