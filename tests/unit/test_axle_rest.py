@@ -26,7 +26,11 @@ FORCE = 60.0 / RADIUS  # N, of the mesh
 NEEDED = 10.0 ** np.arange(3, -7, -1)  # N/um: from stiff as a bearing to nothing that counts
 
 
-def searched(monkeypatch, left, torque=60.0, moved=1.0):
+STEP = np.array([1.0, -2.0, 3.0, -4.0, 5.0, -6.0])  # um, of the made-up solver
+OPEN = np.array([0.1, -0.2, 0.3, -0.4, 0.5, -1.0])
+
+
+def searched(monkeypatch, left, torque=60.0, balance=OPEN):
     """Search where the balance of an attempt without springs is open by `left(attempt)` [N]."""
     interpret(monkeypatch, module)
     springs, starts = [], []
@@ -35,10 +39,15 @@ def searched(monkeypatch, left, torque=60.0, moved=1.0):
         assert np.all(scale == 1.0)
         springs.append(problem.soft[0])
         starts.append(u.copy())
-        u += moved
+        u += STEP
 
     def rest_forces(u, problem, out):
-        out[:] = left(len(springs)) * np.array([0.1, -0.2, 0.3, -1.0, 0.5, 0.4])
+        assert tuple(problem.inputs) == (torque, 0.0, 0.0, 0.0)
+        found = {place: value for place, value in enumerate(problem.s) if value != 0.0}
+        side = -1.0 if torque < 0.0 else 1.0
+        expected = {LOAD_TORQUE: abs(torque), SIDE: side, X: s[X]}
+        assert found == {place: value for place, value in expected.items() if value != 0.0}
+        out[:] = left(len(springs)) * balance
 
     means = np.full(N_SERIES, np.nan)
     means[[R_P, K_M]] = RADIUS, STIFFNESS
@@ -59,7 +68,7 @@ def test_a_balance_that_closes_at_once_takes_no_springs(monkeypatch):
     assert worst == pytest.approx(0.99e-4 * FORCE, rel=1e-14)
     assert not starts[0].any()
     places = [*range(U_P, U_P + 3), *range(U_G, U_G + 3)]
-    assert np.all(s[places] == 1.0)
+    np.testing.assert_array_equal(s[places], STEP)
     assert (s[W_P], s[W_G]) == (200.0, pytest.approx(200.0 / RATIO, rel=1e-14))
     assert (s[LOAD_TORQUE], s[SIDE]) == (60.0, 1.0)
     assert s[X] == pytest.approx(1e6 * FORCE / STIFFNESS, rel=1e-14)
@@ -75,7 +84,7 @@ def test_springs_soften_tenfold_from_those_of_a_bearing_and_are_taken_away(monke
     # the first springs start anew, each search after them where the last one ended
     assert [found[0] for found in starts] == [0.0, 0.0, *range(1, 11)]
     assert worst == 0.0
-    assert np.all(s[U_P : U_P + 3] == 11.0)
+    np.testing.assert_array_equal(s[U_P : U_P + 3], 11.0 * STEP[:3])
 
 
 @pytest.mark.parametrize("left", [1.0, math.nan, math.inf])
@@ -84,6 +93,14 @@ def test_what_stays_open_is_no_equilibrium(monkeypatch, left):
     assert status == module.NO_EQUILIBRIUM
     assert worst == (left if left == 1.0 else math.inf)
     assert len(springs) == 12
+
+
+@pytest.mark.parametrize("place", range(6))
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_every_balance_counts(monkeypatch, place, sense):
+    balance = sense * (np.arange(6) == place)
+    _, status, worst, *_ = searched(monkeypatch, lambda attempt: 1.01e-4 * FORCE, balance=balance)
+    assert (status, worst) == (module.NO_EQUILIBRIUM, 1.01e-4 * FORCE)
 
 
 def test_coast_flanks_lie_behind_the_backlash_and_no_torque_between(monkeypatch):
