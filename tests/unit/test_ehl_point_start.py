@@ -101,9 +101,7 @@ def test_expected_film_of_a_piezoviscous_oil_is_that_of_chittenden(angle, turned
     problem = moes_contact(100.0, 12.0, nodes=(33, 33), radius_ratio=2.0, angle=angle)
     if turned:  # the same contact with its axes exchanged
         shape = EllipticParaboloid(2.0 * RADIUS, RADIUS)
-        problem = replace(
-            problem, gap=shape, hertz=shape, entrainment=problem.entrainment[::-1]
-        )
+        problem = replace(problem, gap=shape, hertz=shape, entrainment=problem.entrainment[::-1])
     cos, sin = math.cos(angle) ** 2, math.sin(angle) ** 2
     R_e, R_s = RADIUS / (cos + 0.5 * sin), RADIUS / (sin + 0.5 * cos)
     E, oil = REDUCED_MODULUS, problem.lubricant
