@@ -1,6 +1,7 @@
 """Curves of a marched film: rows, kept films, checkpoints, repeats; the march is a stand-in."""
 
 from types import SimpleNamespace
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ COLUMNS = ("step", "time", "minimum_film", "pressure_max", "time_error", "time_e
 class MadeUpMarch:
     """A film of 1 + t dt^2 and a pressure of 2 - t dt at time t."""
 
-    saved: list[tuple[str, int, list[int]]] = []
+    saved: ClassVar[list[tuple[str, int, list[int]]]] = []
     fails_at = np.inf
 
     def __init__(self, film, time_step, *, start_time, scheme, settings, record, throw):
