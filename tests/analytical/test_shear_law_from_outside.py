@@ -92,10 +92,11 @@ def test_layers_of_uneven_viscosity_meet_eyrings_closed_form():
 @pytest.mark.parametrize("law", [PLAIN, Rabinowitsch(TAU0)], ids=["eyring", "rabinowitsch"])
 @pytest.mark.parametrize("sliding", [0.0, 1e-3, -4.0])
 @pytest.mark.parametrize("slope", [0.0, 1e13, -2e15, 4e15])
-@pytest.mark.parametrize("steepness", [0.0, 3.0, -30.0])
+@pytest.mark.parametrize("steepness", [0.0, 2.0, 30.0, -30.0])
 def test_layers_of_any_law_shear_as_far_as_the_walls_slide(law, sliding, slope, steepness):
     """Drops of stress up to 240 tau0, where Newton's method alone swings about the root."""
-    eta, h, z = 4.0 * np.exp(steepness * np.linspace(0.0, 1.0, 9) ** 2), 3e-7, np.linspace(0, 1, 9)
+    h, z = 3e-7, np.linspace(0.0, 1.0, 9)
+    eta = 4.0 * np.exp(steepness * z)
     middle = source_of(_layered_stress)(law, eta, h, slope, sliding)
 
     def slid(stress):
