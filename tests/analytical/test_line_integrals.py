@@ -90,6 +90,25 @@ def test_points_measure_the_lines() -> None:
     assert slope == pytest.approx(math.tan(HE.base_helix_angle), rel=1e-9)
 
 
+@pytest.mark.parametrize("name", ["he_2007", "jamali_2015_a"])
+def test_stations_run_evenly_along_every_line(name: str) -> None:
+    pair = named_pair(name)
+    points = line_points(pair, 7, 3)
+    length = points.length.sum(axis=2)
+    filled = length > 0.0
+    assert not filled.all()
+    # moments of an even share from 0 to 1: Gauss's rule is exact
+    for power in (1, 2):
+        moment = (points.length * points.station**power).sum(axis=2)
+        assert moment == pytest.approx(length / (1.0 + power), abs=1e-15)
+    assert not points.station[~filled].any()
+    # from one point to the next: as far along the axis, by the line's slant
+    z, x, station = (np.diff(a[filled]) for a in (points.z, points.x, points.station))
+    along = length[filled][:, None] * station
+    assert z == pytest.approx(along * math.cos(pair.base_helix_angle), abs=1e-15)
+    assert x == pytest.approx(along * math.sin(pair.base_helix_angle), abs=1e-15)
+
+
 def test_uniform_loads_carry_the_torque_at_every_phase() -> None:
     points = line_points(HE)
     load = uniform_line_load(points, TORQUE)

@@ -16,6 +16,8 @@ from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.film_oil_data import film_oil
 from gearlube_core.oil.shear_flow import shear_flow
 from gearlube_core.oil.sheared_film import (
+    _layered_stress,
+    _shear_rate,
     flow_factor,
     layered_stress,
     mid_stress,
@@ -23,6 +25,7 @@ from gearlube_core.oil.sheared_film import (
     stress_share,
 )
 from tests.helpers.small_films import SLIP, SPEED, films_in_time, line_film, point_film
+from tests.helpers.source_of import source_of
 
 TAU0 = 5e6
 
@@ -84,6 +87,26 @@ def test_layers_of_uneven_viscosity_meet_eyrings_closed_form():
     for stress in (1e4, 8e6, 3e7):
         assert shear_rate(PLAIN, stress, 2.0) == pytest.approx(shear_rate(CLOSED, stress, 2.0))
         assert stress_share(PLAIN, stress) == pytest.approx(stress_share(CLOSED, stress), rel=1e-6)
+
+
+@pytest.mark.parametrize("law", [PLAIN, Rabinowitsch(TAU0)], ids=["eyring", "rabinowitsch"])
+@pytest.mark.parametrize("sliding", [0.0, 1e-3, -4.0])
+@pytest.mark.parametrize("slope", [0.0, 1e13, -2e15, 4e15])
+@pytest.mark.parametrize("steepness", [0.0, 2.0, 30.0, -30.0])
+def test_layers_of_any_law_shear_as_far_as_the_walls_slide(law, sliding, slope, steepness):
+    """Drops of stress up to 240 tau0, where Newton's method alone swings about the root."""
+    h, z = 3e-7, np.linspace(0.0, 1.0, 9)
+    eta = 4.0 * np.exp(steepness * z)
+    middle = source_of(_layered_stress)(law, eta, h, slope, sliding)
+
+    def slid(stress):
+        local = stress + slope * h * (z - 0.5)
+        rates = [source_of(_shear_rate)(law, *of) for of in zip(local, eta, strict=True)]
+        return h * np.trapezoid(rates, z)
+
+    # it rises with the stress: the root lies within 1e-9 of the largest stress there is
+    near = 1e-9 * (abs(middle) + abs(slope) * h + TAU0)
+    assert slid(middle - near) < sliding < slid(middle + near)
 
 
 @pytest.mark.parametrize("slope", [-1e15, 1e13, 1e15])

@@ -62,6 +62,14 @@ def test_largest_stress_is_the_maximum_over_sliding_speeds(map_number: float) ->
     )
 
 
+@pytest.mark.parametrize("over", [-30.0, -3.0, -1e-12, 0.0, 1e-12, 1e-3, 1.0, 4.0, 200.0])
+def test_largest_stress_solves_its_equation_on_the_boundary_too(over: float) -> None:
+    # s sinh s = 4 X*^2 exp(L), which is 1 on the boundary
+    s = largest_stress_ratio(NEWTONIAN_LIMIT + over)
+    # the iteration ends at steps of 1e-8, and converges with their square
+    assert math.log(s) + math.log(math.sinh(s)) == pytest.approx(over, abs=1e-13, rel=1e-13)
+
+
 def test_newtonian_boundary_is_where_heat_keeps_the_stress_at_the_eyring_stress() -> None:
     log_eta = NEWTONIAN_LIMIT - FILM_NUMBER_OF_UNIT_VISCOSITY
     slips = np.geomspace(1e-3, 1e5, 20001)

@@ -26,7 +26,12 @@ from gearlube_core.oil.film_oil import (
     viscosity_slope,
 )
 from gearlube_core.oil.film_oil_data import film_oil
-from gearlube_core.oil.viscosity_law import cooling_at, cooling_factor
+from gearlube_core.oil.viscosity_law import (
+    cooling_at,
+    cooling_factor,
+    log_viscosity,
+    viscosity_decline,
+)
 from tests.helpers.foreign_laws import FOREIGN_OIL, T0
 from tests.helpers.small_films import (
     SPEED,
@@ -57,6 +62,15 @@ def test_barus_written_anew_gives_the_numbers_of_the_built_in_law():
         assert viscosity(PLAIN, p) == pytest.approx(viscosity(BUILT_IN, p), rel=1e-13)
         assert viscosity_slope(PLAIN, p) == pytest.approx(viscosity_slope(BUILT_IN, p), rel=1e-13)
     assert pressure_viscosity(PLAIN) == ALPHA
+
+
+def test_law_without_a_temperature_is_isothermal():
+    law = PlainBarus(ALPHA)
+    for temperature in (250.0, T0, 400.0):
+        cooling = cooling_factor(law, temperature, T0)
+        assert cooling == cooling_at(law, 1e9, ALPHA * 1e9) == 1.0
+        assert log_viscosity(law, 1e9, cooling)[0] == ALPHA * 1e9
+        assert viscosity_decline(law, 1e9, temperature, T0) == 0.0
 
 
 def test_film_formulas_take_alpha_of_the_law():

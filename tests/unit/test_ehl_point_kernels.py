@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -139,6 +140,47 @@ def test_gmres_solves_a_bordered_system() -> None:
     assert count <= 13
     assert residual < 1e-11
     assert np.abs(matrix @ np.append(field.ravel(), number) - right).max() < 1e-10
+
+
+def test_cycle_is_exact_where_lines_and_the_coarse_grid_share_the_solution() -> None:
+    """Twice the pressure and a column by approach: lines solve what pairs of nodes differ by."""
+    rng = np.random.default_rng(5)
+    shape, share = (3, 8), 0.3
+    by_approach = rng.standard_normal(shape)
+    free = np.ones(shape, dtype=np.bool_)
+
+    def down(field: np.ndarray) -> np.ndarray:
+        return 0.5 * (field[:, ::2] + field[:, 1::2])
+
+    def up(field: np.ndarray) -> np.ndarray:
+        return np.repeat(field, 2, axis=1)
+
+    def direct(residual: np.ndarray, load: float) -> tuple[np.ndarray, float]:
+        # 2 c + (column) a = residual, and twice the sum of c times the share is the load
+        column = down(by_approach)
+        approach = (residual.sum() - load / share) / column.sum()
+        return 0.5 * (residual - column * approach), float(approach)
+
+    grid = SimpleNamespace(integral=lambda field: share * field.sum())
+    operator = SimpleNamespace(free=free, apply=lambda grid, p, h: 2.0 * p + by_approach * h)
+    cycle = object.__new__(MultigridCycle)
+    cycle._levels = (None, SimpleNamespace(shape=shape, grid=grid, load=1.0))
+    cycle._operators, cycle._direct = [None, operator], direct
+    cycle._transfers = (SimpleNamespace(down=down, up=up),)
+    expected, approach = rng.standard_normal(shape), 0.7
+    residual = operator.apply(grid, expected, approach)
+    load = grid.integral(expected)
+    # lines along rows alone, and lines both ways: the second ones find what the first have left
+    for lines in ([lambda r: 0.5 * r], [lambda r: 0.2 * r, lambda r: 0.5 * r]):
+        cycle._smoothers = [lines]
+        found, found_approach = cycle(residual, load)
+        np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-13)
+        assert found_approach == pytest.approx(approach, rel=1e-12)
+    # nodes that are not free keep no pressure
+    free[1, 2:5] = False
+    found, _ = cycle(residual, load)
+    assert not found[1, 2:5].any()
+    assert found[0].all()
 
 
 def test_one_cycle_removes_half_of_a_rough_residual() -> None:

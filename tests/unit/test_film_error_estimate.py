@@ -173,3 +173,44 @@ def test_a_film_error_is_a_share_or_per_cent(text, share):
 def test_a_film_error_that_is_none_is_refused(text):
     with pytest.raises(ParameterError, match="--film-error"):
         film_error_of(text)
+
+
+def _place(scheme, masses):
+    """A march whose error is 1, 2, ... from left to right; its nodes are 1 apart."""
+    rows, nodes = np.shape(masses[0])
+    error = np.tile(np.arange(1.0, nodes + 1.0), (rows, 1))
+    return TimeError(scheme, np.arange(float(nodes)), np.array(masses), error)
+
+
+def test_oil_brings_its_error_along_and_forgets_it_where_the_film_follows_the_gap():
+    nodes = 9
+    masses = 3 * [np.ones((2, nodes))]
+    estimate = _place("bdf2", masses)
+    # the peak is at node 5 and above a tenth of it node 3 carries oil; then no pressure from 8 on
+    row = np.array([0.0, 0.05, 0.09, 0.2, 0.7, 1.0, 0.08, 0.02, 0.0])
+    # the second row goes the other way
+    estimate.step(masses[0], np.array([row, row[::-1]]), np.array([0.5, -0.5]))
+    expected = np.arange(1.0, nodes + 1.0) - 0.5
+    expected[[0, 1, 2, 8]] = 0.0
+    np.testing.assert_allclose(estimate.error[0], expected, atol=1e-13)
+    expected = np.arange(1.0, nodes + 1.0) + 0.5
+    expected[[0, 6, 7, 8]] = 0.0
+    np.testing.assert_allclose(estimate.error[1], expected, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "shares"),
+    # of the first step's first difference, the second's second one, then third ones
+    [("bdf2", (0.5, 1.0 / 3.0, 1.0 / 3.0)), ("crank_nicolson", (-1 / 12, -1 / 12, -1 / 12))],
+)
+def test_every_step_adds_a_share_of_the_last_difference_it_knows(scheme, shares):
+    # m = t^3 at t = 0, 1, ...: first differences 1, 7, 19; second 6, 12; third 6
+    masses = [np.full((1, 5), float(n) ** 3) for n in range(6)]
+    estimate = TimeError(scheme, np.arange(5.0), masses[0][None])
+    added = (1.0 * shares[0], 6.0 * shares[1], *(3 * [6.0 * shares[2]]))
+    total = 0.0
+    for n, one in enumerate(added, 1):
+        estimate.step(masses[n], np.ones((1, 5)), np.zeros(1))
+        total += one
+        np.testing.assert_allclose(estimate.error, total, rtol=1e-13)
+        np.testing.assert_array_equal(estimate.masses, masses[n::-1][:3])

@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 
 from gearlube_core.errors import ConvergenceError
+from gearlube_core.storage import process_pool
 from gearlube_core.storage.atomic_file import atomic_write, read_arrays, write_arrays
 from gearlube_core.storage.process_pool import ProcessPool
 from gearlube_core.storage.result_store import ARRAYS, DATASETS, ResultStore
@@ -128,3 +129,50 @@ def test_without_a_folder_nothing_is_kept():
     store = ResultStore(None, ARRAYS)
     store.keep("a", ONE)
     assert store.read("a") is None
+
+
+class _Executor:
+    """Takes down what an executor of processes is asked for."""
+
+    def __init__(self, workers, *, mp_context, initializer, initargs):
+        self.workers, self.initargs, self.closed = workers, initargs, None
+        self.start = mp_context.get_start_method()
+
+    def shutdown(self, *, wait, cancel_futures):
+        self.closed = (wait, cancel_futures)
+
+
+@pytest.mark.parametrize(
+    ("given", "tasks", "workers"),
+    [
+        ({"jobs": 3}, 8, 3),
+        ({"jobs": 3}, 2, 2),
+        ({"jobs": 3}, 1, None),
+        ({"jobs": 1}, 8, None),
+        ({"jobs": 1, "always_spawn": True}, 8, 1),
+        ({"jobs": 3, "always_spawn": True}, 0, 1),
+        ({}, 9, 5),
+        ({}, 2, 2),
+    ],
+)
+def test_pool_has_as_many_processes_as_jobs_and_no_more_than_tasks(
+    monkeypatch, given, tasks, workers
+):
+    monkeypatch.setattr(process_pool, "ProcessPoolExecutor", _Executor)
+    monkeypatch.setattr(process_pool, "processors", lambda: 5)
+    told = []
+    pool = ProcessPool(
+        prepare=told.append, arguments=("ready",), before=lambda: told.append("first"), **given
+    )
+    with pool.open(tasks) as executor:
+        if workers is None:
+            assert executor is None
+            assert told == ["first", "ready"]
+        else:
+            assert executor.workers == workers
+            assert executor.start == "spawn"
+            assert executor.initargs == (pool.prepare, ("ready",))
+            # others are prepared in their own process
+            assert told == ["first"]
+            assert executor.closed is None
+    assert workers is None or executor.closed == (True, True)
