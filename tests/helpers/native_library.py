@@ -185,8 +185,8 @@ class NativeInstance:
             )
             if status <= DISCARD:
                 assert list(flags) == [False] * 3
-                assert last.value == (at + h if status == OK else self.time)
-        if status == OK:
+                assert last.value == (at + h if status <= WARNING else self.time)
+        if status <= WARNING:
             self.time = at + h
         return status
 

@@ -40,7 +40,7 @@ NOT_FINITE = 1
 TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
-MAX_STEPS = 1_000_000  # in one communication interval
+MAX_STEPS = 200_000  # in one communication interval; half a second of computing
 STEPS_PER_EXPANSION = 2  # integrator steps that share an expansion of the bearing forces
 LOAD_FILTER_TIME = 0.02  # s, load level follows the torque below the driveline's shuffle
 REAL_AXIS_LIMIT = 2.0  # RK4 is stable to 2.78 on the negative real axis
