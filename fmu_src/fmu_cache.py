@@ -53,7 +53,9 @@ def cached_hypoid_axle(mesh_table: Path | None = None, *, native: bool | None = 
         options = None
         if native:
             _LOGGER.info("building the native FMU of this machine, once")
-            options = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
+            options = NativeOptions(
+                platforms=[platform_of_this_machine()], fmi=["2"], reference=False
+            )
         build_models(folder, "hypoid-axle", mesh_table, native=options)
     return path
 

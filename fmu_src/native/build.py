@@ -29,6 +29,7 @@ from fmu_src.native.platforms import (
 )
 from fmu_src.native.sources import c_sources
 from fmu_src.object_code import intermediate_code, object_code
+from fmu_src.reference_results import reference_results
 from gearlube_core.checks import check_option
 from gearlube_core.kernels.source_code import code_of
 from gearlube_core.kernels.source_files import source_files
@@ -48,6 +49,8 @@ class NativeOptions:
         Names in PLATFORMS.
     fmi : sequence of {"2", "3"}
         Versions of the standard, an archive for each.
+    reference : bool
+        Whether results of the Python model go into the archives, for hosts to compare with.
     report : callable
         Called with each line of progress.
 
@@ -59,6 +62,7 @@ class NativeOptions:
 
     platforms: Sequence[str] = PLATFORM_NAMES
     fmi: Sequence[str] = FMI_VERSIONS
+    reference: bool = True
     report: Callable[[str], None] = lambda text: None
 
     def __post_init__(self) -> None:
@@ -118,7 +122,8 @@ def libraries(
 
 def _common_content(model: NativeModel) -> dict[str, bytes]:
     definition = model.definition
-    content = {"documentation/index.html": index_html(definition, native=True).encode()}
+    page = index_html(definition, model.ranges, native=True)
+    content = {"documentation/index.html": page.encode()}
     for licence in sorted((_PACKAGE / "licences").glob("gearlube*.txt")):
         content[f"documentation/licenses/{licence.name}"] = licence.read_bytes()
     for name, text in c_sources(model, str(native_guid(model))).items():
@@ -170,10 +175,14 @@ def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> l
     """
     platforms = [one for one in PLATFORMS if one.name in options.platforms]
     built = libraries(model, platforms, options.report)
+    results = {}
+    if options.reference:
+        options.report(f"{model.definition.name}: reference results")
+        results = reference_results(model.definition)
     contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}
     paths = []
     for version in options.fmi:
         ending, content = contents[version]
         paths.append(out_dir / f"{model.definition.name}{ending}.fmu")
-        write_archive(paths[-1], content(model, built))
+        write_archive(paths[-1], content(model, built) | results)
     return paths
