@@ -236,6 +236,11 @@ def all_cases():
         ),
         (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p)),
         (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p._replace(drag=0.0))),
+        (integrate.displacements, (state, 1e-5)),
+        (
+            integrate.largest_change,
+            ((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), (1.5, 2.0, 0.0, 4.0, 5.0, 7.0)),
+        ),
         (
             mesh_at_load.blend_mesh,
             (33.0, -1.0, both_sides, mesh_data),
