@@ -36,7 +36,11 @@ _ALL = (
         exponents={"m": 1},
         display=(DisplayUnit(name="um", factor=1e6), DisplayUnit(name="mm", factor=1e3)),
     ),
-    Unit(name="m/s", exponents={"m": 1, "s": -1}),
+    Unit(
+        name="m/s",
+        exponents={"m": 1, "s": -1},
+        display=(DisplayUnit(name="km/h", factor=3.6),),
+    ),
     Unit(
         name="rad",
         exponents={"rad": 1},

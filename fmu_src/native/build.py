@@ -22,6 +22,7 @@ from fmu_src.native.platforms import (
     PLATFORM_NAMES,
     PLATFORMS,
     Platform,
+    c_object,
     check_linker,
     fmi_headers,
     shared_library,
@@ -79,7 +80,10 @@ def native_guid(model: NativeModel) -> UUID:
     digest = hashlib.sha256(model_description(model.definition, "", native=True))
     for name, text in sorted(c_sources(model, "").items()):
         digest.update(f"{name}\0{text}\0".encode())
-    digest.update(source_digest(model.definition) + _entry_digest(model.entry))
+    for name, text in model.c_code.items():
+        digest.update(f"{name}\0{text}\0".encode())
+    if model.entry is not None:
+        digest.update(source_digest(model.definition) + _entry_digest(model.entry))
     return UUID(bytes=digest.digest()[:16])
 
 
@@ -111,11 +115,15 @@ def libraries(
     name = model.definition.name
     sources = c_sources(model, str(native_guid(model))) | fmi_headers()
     report(f"{name}: compiling the kernels")
-    code = intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
+    code = model.entry and intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
+    headers = {file: text for file, text in sources.items() if file.endswith(".h")}
     built = {}
     for platform in platforms:
         report(f"{name}: linking for {platform.name}")
-        kernels, _ = object_code(code, platform.target)
+        if code:
+            kernels, _ = object_code(code, platform.target)
+        else:
+            kernels = c_object(platform, model.c_code, headers)
         built[platform.name] = shared_library(platform, sources, kernels, name)
     return built
 
@@ -176,7 +184,7 @@ def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> l
     platforms = [one for one in PLATFORMS if one.name in options.platforms]
     built = libraries(model, platforms, options.report)
     results = {}
-    if options.reference:
+    if options.reference and model.entry is not None:
         options.report(f"{model.definition.name}: reference results")
         results = reference_results(model.definition)
     contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}

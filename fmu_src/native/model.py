@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 from numba import types
@@ -36,7 +36,7 @@ class NativeModel:
     ----------
     definition : Definition
         Variables and names.
-    entry : callable
+    entry : callable, optional
         Plain Python function over kernels, to be compiled with ENTRY_SIGNATURE:
         `entry(operation, step, data, parameters, inputs, state, work, outputs) -> status`.
         `parameters` are the values of the FMI parameters and `inputs` those of the inputs, both
@@ -59,13 +59,15 @@ class NativeModel:
         those in `work`.
     refusals : mapping of int to str
         Why an operation was refused, by status.
+    c_code : mapping of str to str
+        Instead of `entry`: C files by name, of which the first defines `gearlube_entry` and
+        includes the others.
     motion : frozenset of str
         Outputs that cost next to nothing. With any, STEP writes no outputs: MOTION writes these and
         OUTPUTS all of them, when the host reads one.
     """
 
     definition: Definition
-    entry: Callable[..., int]
     data: Array
     state_size: int
     control_at: int
@@ -74,4 +76,6 @@ class NativeModel:
     ranges_at: int
     ranges: tuple[Range, ...]
     refusals: Mapping[int, str]
+    entry: Callable[..., int] | None = None
+    c_code: Mapping[str, str] = field(default_factory=dict)
     motion: frozenset[str] = frozenset()

@@ -47,17 +47,16 @@ def _variable(parent: ElementTree.Element, array: ArrayVariable) -> None:
 
 
 def _types(root: ElementTree.Element, definition: Definition) -> None:
+    enumerations = [variable for variable in definition.variables if variable.literals]
+    if not enumerations:  # an empty element is no valid one
+        return
     parent = ElementTree.SubElement(root, "TypeDefinitions")
-    for variable in definition.variables:
-        if variable.literals:
-            enumeration = ElementTree.SubElement(
-                parent,
-                "EnumerationType",
-                name=type_name(variable),
-                description=variable.description,
-            )
-            for value, literal in enumerate(variable.literals, start=1):
-                ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
+    for variable in enumerations:
+        enumeration = ElementTree.SubElement(
+            parent, "EnumerationType", name=type_name(variable), description=variable.description
+        )
+        for value, literal in enumerate(variable.literals, start=1):
+            ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
 
 
 def model_description_3(definition: Definition, token: str) -> bytes:
