@@ -11,10 +11,13 @@ import pytest
 from docs.fmu_hosts.hosts import Job, c_host, in_c_host, in_fmpy
 from drivetrain.driveline.model import Driveline
 from drivetrain.engine import Gearbox
+from fmu_src import build
 from fmu_src.check import problems
-from fmu_src.native.build import NativeOptions, build_native
+from fmu_src.native.build import NativeOptions, build_native, native_guid
 from fmu_src.native.driveline import default_car, driveline_model
+from fmu_src.native.model import NativeModel
 from fmu_src.native.platforms import platform_of_this_machine
+from gearlube_core.errors import ParameterError
 
 OUTPUTS = ("pinion.torque", "wheel.torque", "vehicle.speed", "engine.speed", "start.pinion_speed",
            "start.gear")  # fmt: skip
@@ -133,3 +136,32 @@ def test_a_start_speed_without_a_gear_is_refused(fmus: list[Path], tmp_path: Pat
     job = Job(fmu=fmus[0], reals=reals, integers={"gearbox.gear": 1}, names=OUTPUTS)
     with pytest.raises(RuntimeError, match=r"keep the engine within its speeds in gearbox\.gear"):
         in_c_host(job, c_host(tmp_path), tmp_path)
+
+
+def test_the_car_of_an_axle_file_is_built_beside_its_axle(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "light.toml"
+    file.write_text('[gear_set]\nmesh_table = "mohammadpour_2015"\n[vehicle]\nmass_kg = 900.0\n')
+    made: list[NativeModel] = []
+
+    def kept(model: NativeModel, folder: Path, options: NativeOptions) -> list[Path]:
+        made.append(model)
+        return []
+
+    monkeypatch.setattr(build, "build_native", kept)
+    build.build_models(tmp_path, axle=file, native=NativeOptions())
+    assert [one.definition.name for one in made] == ["HypoidAxle", "Driveline"]
+    shipped = driveline_model()
+    assert native_guid(made[1]) != native_guid(shipped)
+    torque = [car.definition.variables[1].start for car in (made[1], shipped)]
+    assert torque[0] == pytest.approx(torque[1], rel=1e-2)
+    # a row of the first gear: the engine's torque at idle pulls less of a lighter car
+    first = 5 + 2 * 10
+    assert made[1].data[first] < shipped.data[first]
+
+
+def test_the_driveline_has_no_fmu_that_computes_in_python(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="--model driveline must come without --python"):
+        build.build_models(tmp_path, "driveline")
+    assert list(tmp_path.iterdir()) == []
