@@ -12,7 +12,8 @@ from fmu_src.variable import Variable
 from gearlube_core.errors import ParameterError
 
 HEADINGS = ("Name", "Unit", "Shown in", "Start", "Range", "Description")
-_TITLES = {"input": "Inputs", "parameter": "Parameters", "output": "Outputs"}
+_TITLES = {"input": "Inputs", "parameter": "Parameters", "output": "Outputs",
+           "local": "Locals: states, rates and events of model exchange"}  # fmt: skip
 
 
 def _shown(variable: Variable, value: float) -> str:

@@ -6,9 +6,27 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
-from fmu_src.common_outputs import MEMBERS, displacements, energies, motion, ranges
+from fmu_src.common_outputs import (
+    MEMBERS,
+    displacements,
+    energies,
+    load_level,
+    motion,
+    ranges,
+    velocities,
+)
 from fmu_src.variable import Variable
-from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
+from fmu_src.variable_kinds import (
+    count,
+    input_,
+    local,
+    option,
+    options_by_number,
+    output,
+    parameter,
+    rates,
+)
+from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
 
 _INPUTS = (
     input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives; refused "
@@ -127,7 +145,7 @@ _LATER_PARAMETERS = (
            "tangent", "secant", start="tangent", argument="mesh_stiffness"),
 )  # fmt: skip
 
-HYPOID_AXLE: tuple[Variable, ...] = (
+_FIRST: tuple[Variable, ...] = (
     *_INPUTS,
     *_PARAMETERS,
     *motion(),
@@ -141,4 +159,23 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *_LATER_PARAMETERS,
     *ranges(),
     *options_by_number(_PARAMETERS + _LATER_PARAMETERS),
+)
+
+# what model exchange needs besides
+_STATES = (*(one for member in MEMBERS for one in velocities(*member)), load_level())
+_BY_NAME = {variable.name: variable for variable in _FIRST + _STATES}
+_EVENTS = (
+    local("event.drive_flank", "1", "Drive flanks touch where it is not below 0: transmission "
+          "error over 1 um"),
+    local("event.coast_flank", "1", "Coast flanks touch where it is not above 0: transmission "
+          "error and backlash over 1 um"),
+    local("event.side", "1", "The mesh data are those of the coast flanks from the event at which "
+          "it falls below 0: place within the gap over 1 um"),
+)  # fmt: skip
+
+HYPOID_AXLE: tuple[Variable, ...] = (
+    *_FIRST,
+    *_STATES,
+    *rates([_BY_NAME[name] for name in STATE_NAMES]),
+    *_EVENTS,
 )

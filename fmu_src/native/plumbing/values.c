@@ -106,22 +106,18 @@ static gl_status check(gl_instance *instance, gl_kind kind, size_t count, const 
 
 static int needed_by(size_t count, const unsigned *refs)
 {
-    int most = 0;
+    int needs = GL_NOTHING;
     for (size_t i = 0; i < count; i++) {
-        most = gl_variables[refs[i]].needs > most ? gl_variables[refs[i]].needs : most;
+        needs |= gl_variables[refs[i]].needs;
     }
-    return most;
+    return needs;
 }
 
 gl_status gl_check_read(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
                         const void *values)
 {
     gl_status status = check(instance, kind, count, refs, values);
-    int needed = status == GL_OK ? needed_by(count, refs) : 0;
-    if (needed && instance->now.phase >= GL_STEPPING) {
-        return gl_refresh(instance, needed);
-    }
-    return needed && instance->stale ? gl_start(instance) : status;
+    return status == GL_OK ? gl_compute(instance, needed_by(count, refs)) : status;
 }
 
 static int can_be_set(const gl_instance *instance, const gl_variable *variable)
@@ -151,6 +147,9 @@ gl_status gl_set(gl_instance *instance, unsigned reference, double value)
     const gl_variable *variable = &gl_variables[reference];
     instance->now.values[reference] = value;
     instance->stale = 1;
+    if (instance->now.exchange) {
+        instance->fresh = 0; /* an input counts at once */
+    }
     note(instance, reference, !is_legal(variable, value));
     if (!instance->refused[reference]) {
         return GL_OK;
