@@ -35,6 +35,15 @@ def velocities(member: str, word: str) -> tuple[Variable, ...]:
     )
 
 
+def tilt_speeds(member: str, word: str) -> tuple[Variable, ...]:
+    """Return the speeds at which a member tilts."""
+    return tuple(
+        local(f"{member}.tilt_speed.{axis}", "rad/s", f"Tilting speed of the {word} about {axis}",
+              0.1)
+        for axis in "xy"
+    )  # fmt: skip
+
+
 def load_level() -> Variable:
     """Return the state by which the load level of the mesh data follows the pinion torque."""
     return local("mesh.load_torque", "N.m", "Pinion torque at which the mesh data are taken: its "
