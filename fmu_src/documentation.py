@@ -12,8 +12,12 @@ from fmu_src.variable import Variable
 from gearlube_core.errors import ParameterError
 
 HEADINGS = ("Name", "Unit", "Shown in", "Start", "Range", "Description")
-_TITLES = {"input": "Inputs", "parameter": "Parameters", "output": "Outputs",
-           "local": "Locals: states, rates and events of model exchange"}  # fmt: skip
+_TITLES = {
+    "input": "Inputs",
+    "parameter": "Parameters",
+    "output": "Outputs",
+    "local": "Locals: what model exchange needs besides",
+}
 
 
 def _shown(variable: Variable, value: float) -> str:

@@ -149,8 +149,8 @@ def model_tables(model: NativeModel) -> str:
         rows.append(
             f"{{{text_literal(variable.name)}, {text_literal(unit)}, {names}, "
             f"{number_literal(variable.start or 0.0)}, {number_literal(low)}, "
-            f"{number_literal(high)}, {number_literal(variable.nominal or 1.0)}, {_KINDS[variable.type]}, "
-            f"{_CAUSALITIES[variable.causality]}, {place}, {option}, "
+            f"{number_literal(high)}, {number_literal(variable.nominal or 1.0)}, "
+            f"{_KINDS[variable.type]}, {_CAUSALITIES[variable.causality]}, {place}, {option}, "
             f"{_needs(variable, model)}}}"
         )
     arrays = {one.references[0]: one.references for one in array_variables(variables)}

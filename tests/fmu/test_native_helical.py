@@ -40,7 +40,7 @@ from tests.helpers.object_code import (
 )
 
 PARAMETERS = tuple(v for v in HELICAL_PAIR if v.is_model_parameter)
-OUTPUTS = {v.name: v for v in HELICAL_PAIR if v.causality == "output"}
+OUTPUTS = {v.name: v for v in HELICAL_PAIR if v.is_computed}
 NOMINAL = np.array([OUTPUTS[name].nominal or 1.0 for name in DEFINITION.output_names])
 NOT_GIVEN_IF_0 = {
     "mesh.stiffness_density",
