@@ -17,9 +17,9 @@ from tests.helpers.native_library import (
     NativeInstance,
     NativeLibrary,
 )
-from tests.helpers.small_native_model import HIDDEN_OIL, SINGULAR_OIL
+from tests.helpers.small_native_model import FASTEST, HIDDEN_OIL, SINGULAR_OIL
 
-INSTANTIATED, INITIALISING, STEPPING, TERMINATED = range(4)
+INSTANTIATED, INITIALISING, STEPPING, EVENTS, CONTINUOUS, TERMINATED = range(6)
 LARGEST = 2**40  # of the number that decides the arguments of a call
 _STEPS = (
     2.0**-10,
@@ -49,18 +49,18 @@ _VALUES = {
 _LOGS = (b"logAll", b"logEvents", b"logStatusError", b"logStatusFatal", b"nothing", b"", None)
 _NOT_THERE = {
     2: "GetString SetString SetRealInputDerivatives GetRealOutputDerivatives CancelStep GetStatus "
-    "GetRealStatus GetIntegerStatus GetBooleanStatus GetStringStatus GetDirectionalDerivative",
-    3: "EnterEventMode EnterStepMode EnterConfigurationMode ExitConfigurationMode GetFloat32 "
+    "GetRealStatus GetIntegerStatus GetBooleanStatus GetStringStatus",
+    3: "EnterStepMode EnterConfigurationMode ExitConfigurationMode GetFloat32 "
     "SetFloat32 GetInt8 SetInt8 GetUInt8 SetUInt8 GetInt16 SetInt16 GetUInt16 SetUInt16 GetUInt32 "
     "SetUInt32 GetUInt64 SetUInt64 GetString SetString GetBinary SetBinary GetClock SetClock "
-    "GetNumberOfVariableDependencies GetVariableDependencies GetDirectionalDerivative "
-    "GetAdjointDerivative GetIntervalDecimal GetIntervalFraction GetShiftDecimal GetShiftFraction "
+    "GetNumberOfVariableDependencies GetVariableDependencies GetAdjointDerivative GetIntervalDecimal GetIntervalFraction GetShiftDecimal GetShiftFraction "
     "SetIntervalDecimal SetIntervalFraction SetShiftDecimal SetShiftFraction "
-    "EvaluateDiscreteStates UpdateDiscreteStates EnterContinuousTimeMode CompletedIntegratorStep "
-    "SetTime SetContinuousStates GetContinuousStateDerivatives GetEventIndicators "
-    "GetContinuousStates GetNominalsOfContinuousStates GetNumberOfEventIndicators "
-    "GetNumberOfContinuousStates GetOutputDerivatives ActivateModelPartition",
+    "EvaluateDiscreteStates GetOutputDerivatives ActivateModelPartition",
 }
+
+
+_RATES = ("der(pinion.angle)", "der(pinion.speed)", "event.wall")
+_STATES = (0.0, 1.0, 19.0, 20.0, 25.0, -3.0, 999.0, 1001.0, -1e300, math.nan, math.inf)
 
 
 class Saved(NamedTuple):
@@ -87,10 +87,11 @@ class Arguments:
 class Calls:
     """One instance under random calls, and what is expected of it."""
 
-    def __init__(self, library: NativeLibrary) -> None:
-        self.library = library
+    def __init__(self, library: NativeLibrary, exchange: bool) -> None:
+        self.library, self.exchange = library, exchange
         self.saved: list[Saved] = []
         names = {reference: name for name, reference in library.references.items()}
+        self.library_names = names
         self.variables: dict[int, Variable] = {
             reference: library.variables[name] for reference, name in names.items()
         }
@@ -108,14 +109,14 @@ class Calls:
         return "Integer" if is_old else variable.type
 
     def _make(self) -> None:
-        self.instance = NativeInstance(self.library)
+        self.instance = NativeInstance(self.library, exchange=self.exchange)
         self._set_to_start()
 
     def _set_to_start(self) -> None:
         self.phase, self.time, self.stop, self.stale = INSTANTIATED, 0.0, math.inf, True
         self.instance.time = 0.0
         self.values = {
-            r: float(v.start or 0.0) for r, v in self.variables.items() if v.causality != "output"
+            r: float(v.start or 0.0) for r, v in self.variables.items() if not v.is_computed
         }
 
     def close(self) -> None:
@@ -143,6 +144,21 @@ class Calls:
             or abs(self._value("pinion.torque") - self._value("wheel.torque")) > 60.0
             or self._value("oil.temperature") == SINGULAR_OIL
         )
+
+    def _refused(self, status: int, rates: bool) -> set[int]:
+        """Return the status of what is computed in model exchange, if it must be refused."""
+        if self.phase == TERMINATED:  # inputs of the last evaluation count, which we do not know
+            return {DISCARD} if status == DISCARD else set()
+        oil = self._value("oil.temperature")
+        refused = self._inputs_are_refused() or oil == HIDDEN_OIL
+        refused = refused or (oil == SINGULAR_OIL and not rates)
+        _, state = self.instance.get_array("GetContinuousStates", 2)
+        return {DISCARD} if refused or abs(state[1]) > FASTEST else set()
+
+    def _inputs_are_refused(self) -> bool:
+        """Whether an input is outside its range, or the limits of the model."""
+        illegal = [r for r, v in self.variables.items() if v.causality == "input"]
+        return any(map(self._illegal, illegal)) or self._is_beyond()
 
     def _starts(self) -> bool:
         if self.stale and self._start_is_refused():
@@ -184,9 +200,14 @@ class Calls:
         status, values = self.instance.get_raw(kind, references, count + error)
         if error:
             return status, {ERROR}
-        outputs = [r for r in references if self.variables[r].causality == "output"]
+        outputs = [r for r in references if self.variables[r].is_computed]
         if outputs and self.phase < STEPPING and not self._starts():
             return status, {ERROR}
+        if outputs and self.exchange and self.phase >= STEPPING:
+            rates = all(self.library_names[r] in _RATES for r in outputs)
+            refused = self._refused(status, rates)
+            if refused:
+                return status, refused
         k = 0
         for reference in references:
             for value in values[k : k + self.counts[reference]]:
@@ -202,7 +223,7 @@ class Calls:
         kind = arguments.one_of(tuple(_VALUES))
         references = self._references(arguments, kind)
         allowed = {INSTANTIATED: ("input", "parameter"), INITIALISING: ("input", "parameter"),
-                   STEPPING: ("input",), TERMINATED: ()}[self.phase]  # fmt: skip
+                   TERMINATED: ()}.get(self.phase, ("input",))  # fmt: skip
         fits = self._fit(kind, references)
         count = sum(self.counts[r] for r in references) if fits else len(references)
         choices = _VALUES[kind]
@@ -262,12 +283,12 @@ class Calls:
         status = self.instance.leave()
         if self.phase != INITIALISING or not self._starts():
             return status, {ERROR}
-        self.phase = STEPPING
+        self.phase = EVENTS if self.exchange else STEPPING
         return status, {OK}
 
     def terminate(self, arguments: Arguments) -> tuple[int, set[int]]:
         status = self.instance.call("Terminate")
-        if self.phase != STEPPING:
+        if self.phase not in (STEPPING, EVENTS, CONTINUOUS):
             return status, {ERROR}
         self.phase = TERMINATED
         return status, {OK}
@@ -275,7 +296,7 @@ class Calls:
     def reset(self, arguments: Arguments) -> tuple[int, set[int]]:
         status = self.instance.call("Reset")
         self._set_to_start()
-        fresh = NativeInstance(self.library)
+        fresh = NativeInstance(self.library, exchange=self.exchange)
         assert fresh.content() == self.instance.content()
         fresh.close()
         return status, {OK}
@@ -290,19 +311,114 @@ class Calls:
             return status, {DISCARD}
         if self.time + offset + h > self.stop + allowed:
             return status, {ERROR}
-        inputs = [r for r, v in self.variables.items() if v.causality == "input"]
         oil = self._value("oil.temperature")
-        if (
-            any(map(self._illegal, inputs))
-            or self._is_beyond()
-            or oil in (SINGULAR_OIL, HIDDEN_OIL)
-        ):
+        if self._inputs_are_refused() or oil in (SINGULAR_OIL, HIDDEN_OIL):
             return status, {DISCARD}
         if status == DISCARD:
             assert "the speed would leave the range" in self.instance.log[-1][2]
             return status, {DISCARD}
         self.time = self.instance.time
         return status, {OK}
+
+    def enter_events(self, arguments: Arguments) -> tuple[int, set[int]]:
+        status = self.instance.call("EnterEventMode")
+        if self.phase not in (EVENTS, CONTINUOUS):
+            return status, {ERROR}
+        self.phase = EVENTS
+        return status, {OK}
+
+    def enter_continuous_time(self, arguments: Arguments) -> tuple[int, set[int]]:
+        status = self.instance.call("EnterContinuousTimeMode")
+        if self.phase != EVENTS:
+            return status, {ERROR}
+        self.phase = CONTINUOUS
+        return status, {OK}
+
+    def update(self, arguments: Arguments) -> tuple[int, set[int]]:
+        if self.phase != EVENTS:
+            return self.instance.update()[0], {ERROR}
+        _, (angle, speed) = self.instance.get_array("GetContinuousStates", 2)
+        status, changed = self.instance.update()
+        if self._inputs_are_refused():
+            return status, {DISCARD}
+        assert changed == (angle >= 20.0 and speed > 0.0)
+        _, after = self.instance.get_array("GetContinuousStates", 2)
+        assert after == [angle, -speed if changed else speed]
+        return status, {OK}
+
+    def complete(self, arguments: Arguments) -> tuple[int, set[int]]:
+        status, event = self.instance.complete()
+        if self.phase != CONTINUOUS:
+            return status, {ERROR}
+        if self._inputs_are_refused():
+            return status, {DISCARD}
+        _, (angle, speed) = self.instance.get_array("GetContinuousStates", 2)
+        assert event == (angle >= 20.0 and speed > 0.0)
+        return status, {OK}
+
+    def set_time(self, arguments: Arguments) -> tuple[int, set[int]]:
+        time = arguments.one_of((0.5, 1e9, -1.0, math.nan, math.inf))
+        status = self.instance.call("SetTime", ctypes.c_double(time))
+        if self.phase not in (EVENTS, CONTINUOUS) or not math.isfinite(time):
+            return status, {ERROR}
+        self.time = self.instance.time = time
+        return status, {OK}
+
+    def set_states(self, arguments: Arguments) -> tuple[int, set[int]]:
+        count = arguments.one_of((2, 2, 2, 2, 1, 0))
+        values = [arguments.one_of(_STATES) for _ in range(count)]
+        status = self.instance.set_states(values)
+        if self.phase != CONTINUOUS or count != 2:
+            return status, {ERROR}
+        if not all(map(math.isfinite, values)):
+            return status, {DISCARD}
+        assert self.instance.get_array("GetContinuousStates", 2) == (OK, values)
+        return status, {OK}
+
+    def get_array(self, arguments: Arguments) -> tuple[int, set[int]]:
+        name, expected = arguments.one_of(
+            (
+                ("GetContinuousStates", 2),
+                ("GetNominalsOfContinuousStates", 2),
+                ("GetDerivatives", 2),
+                ("GetEventIndicators", 1),
+            )
+        )
+        count = arguments.one_of((expected, expected, expected, expected + 1, 0))
+        status, values = self.instance.get_array(name, count)
+        if not self.exchange or self.phase == INSTANTIATED or count != expected:
+            return status, {ERROR}
+        if self.phase == INITIALISING and "Nominals" not in name and not self._starts():
+            return status, {ERROR}
+        if self.phase >= STEPPING and name in ("GetDerivatives", "GetEventIndicators"):
+            refused = self._refused(status, rates=True)
+            if refused:
+                return status, refused
+        assert all(map(math.isfinite, values))
+        return status, {OK}
+
+    def differentiate(self, arguments: Arguments) -> tuple[int, set[int]]:
+        reals = self.references["Real"]
+        computed = [r for r in reals if self.variables[r].is_computed]
+        names = {name: r for r, name in self.library_names.items()}
+        known = [names[n] for n in ("pinion.angle", "pinion.speed", "pinion.torque")]
+        unknowns = [arguments.one_of([*computed, *computed, 0, 4, 10_000]) for _ in range(2)]
+        knowns = [arguments.one_of([*known, *known, known[0] + 2, 3, 10_000]) for _ in range(2)]
+        seed = [arguments.one_of((1.0, -2.0, 0.0, math.nan)) for _ in range(2)]
+        count = sum(self.counts.get(r, 1) for r in unknowns)
+        status, values = self.instance.differentiate_raw(unknowns, knowns, seed, count)
+        legal = set(unknowns) <= set(computed) and set(knowns) <= set(known)
+        if self.phase not in (EVENTS, CONTINUOUS) or not legal or not all(map(math.isfinite, seed)):
+            return status, {ERROR}
+        rates = all(self.library_names[r] in _RATES for r in unknowns)
+        _, state = self.instance.get_array("GetContinuousStates", 2)
+        if rates and abs(abs(state[1]) - FASTEST) < 1.0:
+            return status, {OK, DISCARD}
+        refused = self._refused(status, rates)
+        if refused and (rates or abs(state[1]) <= FASTEST):
+            return status, refused
+        assert status == DISCARD or all(map(math.isfinite, values))
+        return status, {status} & {OK, DISCARD}
 
     def save(self, arguments: Arguments) -> tuple[int, set[int]]:
         old = self.saved.pop() if len(self.saved) > 2 else None
@@ -370,12 +486,21 @@ NAMES = (
     *4 * ("start", "step", "step", "set", "step", "step", "get"), "enter", "leave", "save",
     "restore", "setup", "null", "terminate", "reset", "restore_damaged", "forget", "choose_logs",
     "not_there", "make_anew",
+    *2 * ("enter_events", "enter_continuous_time", "update", "complete", "set_states", "get_array",
+          "set_time", "differentiate"),
 )  # fmt: skip
+# a run of model exchange is moved on by other calls
+OF_EXCHANGE = (
+    *4 * ("start", "enter_continuous_time", "set_states", "complete", "get_array", "set", "get"),
+    *NAMES,
+)
 
 
-def run_calls(library: NativeLibrary, calls: Iterable[tuple[str, int]]) -> None:
+def run_calls(
+    library: NativeLibrary, calls: Iterable[tuple[str, int]], exchange: bool = False
+) -> None:
     """Do the calls, each a name with the number of its arguments, on a new instance."""
-    machine = Calls(library)
+    machine = Calls(library, exchange)
     try:
         for name, number in calls:
             machine.check(name, number)
@@ -383,9 +508,17 @@ def run_calls(library: NativeLibrary, calls: Iterable[tuple[str, int]]) -> None:
         machine.close()
 
 
-def run_random(library: NativeLibrary, sequences: int, seed: int, longest: int = 40) -> None:
+def run_random(
+    library: NativeLibrary,
+    sequences: int,
+    seed: int,
+    longest: int = 40,
+    exchange: bool = False,
+) -> None:
     """Run sequences that a seed decides."""
+    names = OF_EXCHANGE if exchange else NAMES
     rng = random.Random(seed)
     for _ in range(sequences):
         count = rng.randrange(longest)
-        run_calls(library, [(rng.choice(NAMES), rng.randrange(LARGEST)) for _ in range(count)])
+        calls = [(rng.choice(names), rng.randrange(LARGEST)) for _ in range(count)]
+        run_calls(library, calls, exchange)

@@ -266,6 +266,9 @@ gl_status gl_refresh(gl_instance *instance, int needed)
         return GL_OK;
     }
     gl_status status = gl_take_inputs(instance);
+    if (status == GL_OK && instance->now.exchange && missing != GL_OF_RATES) {
+        status = gl_refresh(instance, GL_OF_RATES); /* a state without rates has no outputs */
+    }
     if (status != GL_OK) {
         return status;
     }
