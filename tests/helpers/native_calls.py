@@ -231,8 +231,14 @@ class Calls:
             choices = (*choices, 2**63 - 1, -(2**63))
         values = [arguments.one_of(choices) for _ in range(count)]
         status = self.instance.set_raw(kind, references, values)
-        if not (fits and all(self.variables[r].causality in allowed for r in references)):
+        states = self._state_references() if self.phase in (EVENTS, CONTINUOUS) else []
+        if not (
+            fits
+            and all(self.variables[r].causality in allowed or r in states for r in references)
+        ):
             return status, {ERROR}
+        if any(reference in states for reference in references):
+            return self._after_setting_states(status, references, values)
         for reference, value in zip(references, values, strict=True):
             self.values[reference] = float(value)
         worst = OK
@@ -241,6 +247,29 @@ class Calls:
             worst = worst if low <= value <= high else WARNING
         self.stale = self.stale or bool(references)
         return status, {worst}
+
+    def _state_references(self) -> list[int]:
+        return [self.library.references[name] for name in ("pinion.angle", "pinion.speed")]
+
+    def _after_setting_states(
+        self, status: int, references: list[int], values: list[float]
+    ) -> tuple[int, set[int]]:
+        """Take inputs among them and look at the states."""
+        states = self._state_references()
+        given = list(zip(references, values, strict=True))
+        if any(r in states and not math.isfinite(value) for r, value in given):
+            return status, {DISCARD}
+        self.values |= {r: float(value) for r, value in given if r not in states}
+        _, present = self.instance.get_array("GetContinuousStates", 2)
+        wanted = {r: float(value) for r, value in given if r in states}
+        assert {r: present[states.index(r)] for r in wanted} == wanted
+        inputs = [r for r in references if r not in states]
+        refused = [
+            r
+            for r, value in given
+            if r in inputs and not self.variables[r].range[0] <= value <= self.variables[r].range[1]
+        ]
+        return status, {WARNING if refused else OK}
 
     def null(self, arguments: Arguments) -> tuple[int, set[int]]:
         kind = arguments.one_of(tuple(_VALUES))

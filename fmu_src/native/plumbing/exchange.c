@@ -172,16 +172,24 @@ gl_status gl_get_indicators(gl_instance *instance, double *values, size_t count)
     return status;
 }
 
-/* Place in the state of what a direction changes, with the size of one there; -1: none such. */
-static int place_of(unsigned reference, double *unit)
+int gl_state_place(unsigned reference)
 {
     for (int i = 0; i < GL_CONTINUOUS; i++) {
         if (gl_states[i].reference == (int)reference) {
-            *unit = gl_states[i].unit;
             return i;
         }
     }
-    *unit = 1.0;
+    return -1;
+}
+
+/* Place in the state of what a direction changes, with the size of one there; -1: none such. */
+static int place_of(unsigned reference, double *unit)
+{
+    int place = gl_state_place(reference);
+    *unit = place >= 0 ? gl_states[place].unit : 1.0;
+    if (place >= 0) {
+        return place;
+    }
     return gl_variables[reference].causality == GL_INPUT
                ? GL_INPUTS_AT + gl_variables[reference].place
                : -1;

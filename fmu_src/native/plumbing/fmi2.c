@@ -190,10 +190,13 @@ static fmi2Status worse(fmi2Status status, gl_status other)
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                        const fmi2Real value[])
 {
-    if (!gl_is_instance(c) || gl_check_set(c, GL_REAL, n, vr, value) != GL_OK) {
+    if (!gl_is_instance(c)) {
         return fmi2Error;
     }
-    fmi2Status status = fmi2OK;
+    fmi2Status status = answer(gl_check_set(c, GL_REAL, n, vr, value));
+    if (status != fmi2OK) {
+        return status;
+    }
     for (size_t i = 0; i < n; i++) {
         status = worse(status, gl_set(c, vr[i], value[i]));
     }

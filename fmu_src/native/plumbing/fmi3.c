@@ -194,11 +194,16 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
         return gl_refuse(instance, "References or values are missing: a null pointer.");
     }
     gl_status status = check_types(instance, kind, enumeration, setting, refs, n, n_values);
+    const double *reals = kind == GL_REAL ? values : NULL;
     for (size_t i = 0; status == GL_OK && i < n; i++) {
         if (!is_time(refs[i], kind, setting)) {
             const gl_array *array = &gl_arrays[refs[i]];
+            const void *own = reals ? reals : values;
             status = (setting ? gl_check_set : gl_check_read)(
-                instance, kind, (size_t)array->count, array->members, values);
+                instance, kind, (size_t)array->count, array->members, own);
+            reals = reals ? reals + array->count : NULL;
+        } else {
+            reals++;
         }
     }
     return status;
@@ -235,9 +240,12 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
     {                                                                                             \
         fmi3Status worst = fmi3OK;                                                                \
         size_t k = 0;                                                                             \
-        if (!gl_is_instance(c) ||                                                                 \
-            check(c, kind, enumeration, 1, refs, n, values, n_values) != GL_OK) {                 \
+        if (!gl_is_instance(c)) {                                                                 \
             return fmi3Error;                                                                     \
+        }                                                                                         \
+        gl_status status = check(c, kind, enumeration, 1, refs, n, values, n_values);             \
+        if (status != GL_OK) {                                                                    \
+            return answer(status);                                                                \
         }                                                                                         \
         for (size_t i = 0; i < n; i++) {                                                          \
             for (int j = 0; j < gl_arrays[refs[i]].count; j++) {                                  \

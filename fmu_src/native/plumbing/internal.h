@@ -38,6 +38,9 @@ const char *gl_refusal_text(int64_t status);
 /* In model exchange: puts the present inputs into the state, unless they are refused. */
 gl_status gl_take_inputs(gl_instance *instance);
 
+/* Place of a continuous state by the reference of its variable; -1: none such. */
+int gl_state_place(unsigned reference);
+
 /* Counts and says what is outside its range; all outputs must be those of now. */
 void gl_watch_ranges(gl_instance *instance);
 /* Whether it is time to do so. */
