@@ -145,10 +145,8 @@ class Calls:
             or self._value("oil.temperature") == SINGULAR_OIL
         )
 
-    def _refused(self, status: int, rates: bool) -> set[int]:
+    def _refused(self, rates: bool) -> set[int]:
         """Return the status of what is computed in model exchange, if it must be refused."""
-        if self.phase == TERMINATED:  # inputs of the last evaluation count, which we do not know
-            return {DISCARD} if status == DISCARD else set()
         oil = self._value("oil.temperature")
         refused = self._inputs_are_refused() or oil == HIDDEN_OIL
         refused = refused or (oil == SINGULAR_OIL and not rates)
@@ -205,7 +203,7 @@ class Calls:
             return status, {ERROR}
         if outputs and self.exchange and self.phase >= STEPPING:
             rates = all(self.library_names[r] in _RATES for r in outputs)
-            refused = self._refused(status, rates)
+            refused = self._refused(rates)
             if refused:
                 return status, refused
         k = 0
@@ -236,7 +234,11 @@ class Calls:
             fits
             and all(self.variables[r].causality in allowed or r in states for r in references)
         ):
-            return status, {ERROR}
+            not_finite = fits and any(
+                r in states and not math.isfinite(value)
+                for r, value in zip(references, values, strict=False)
+            )
+            return status, {ERROR, DISCARD} if not_finite else {ERROR}
         if any(reference in states for reference in references):
             return self._after_setting_states(status, references, values)
         for reference, value in zip(references, values, strict=True):
@@ -420,7 +422,7 @@ class Calls:
         if self.phase == INITIALISING and "Nominals" not in name and not self._starts():
             return status, {ERROR}
         if self.phase >= STEPPING and name in ("GetDerivatives", "GetEventIndicators"):
-            refused = self._refused(status, rates=True)
+            refused = self._refused(rates=True)
             if refused:
                 return status, refused
         assert all(map(math.isfinite, values))
@@ -443,11 +445,11 @@ class Calls:
         _, state = self.instance.get_array("GetContinuousStates", 2)
         if rates and abs(abs(state[1]) - FASTEST) < 1.0:
             return status, {OK, DISCARD}
-        refused = self._refused(status, rates)
-        if refused and (rates or abs(state[1]) <= FASTEST):
+        refused = self._refused(rates=True)
+        if refused and (rates or self._inputs_are_refused()):
             return status, refused
-        assert status == DISCARD or all(map(math.isfinite, values))
-        return status, {status} & {OK, DISCARD}
+        assert status != OK or all(map(math.isfinite, values))
+        return status, {OK} if rates else {OK, DISCARD}
 
     def save(self, arguments: Arguments) -> tuple[int, set[int]]:
         old = self.saved.pop() if len(self.saved) > 2 else None

@@ -230,8 +230,8 @@ void gl_watch_ranges(gl_instance *instance)
 
 gl_status gl_take_inputs(gl_instance *instance)
 {
-    if (!instance->now.exchange || instance->now.phase == GL_TERMINATED) {
-        return GL_OK; /* those of the last step or evaluation stand in the state */
+    if (!instance->now.exchange) {
+        return GL_OK; /* those of the last step stand in the state */
     }
     if (gl_say_refused(instance, GL_DISCARD, "") || say_input_beyond(instance, GL_DISCARD, "")) {
         return GL_DISCARD;

@@ -59,10 +59,28 @@ static gl_status keep(gl_instance *instance, const gl_snapshot *snapshot, void *
     return GL_OK;
 }
 
+/* In model exchange outputs follow from states and inputs: a state holds no trace of what the host
+   has read. */
+static gl_status keep_of_exchange(gl_instance *instance, void **place)
+{
+    gl_snapshot snapshot = instance->now;
+    for (int i = 0; i < GL_OUTPUTS; i++) {
+        snapshot.values[gl_outputs[i]] = 0.0;
+    }
+    for (int i = 0; i < GL_INPUTS; i++) {
+        snapshot.state[GL_INPUTS_AT + i] = 0.0;
+    }
+    return keep(instance, &snapshot, place);
+}
+
 gl_status gl_save(gl_instance *instance, void **place)
 {
+    int started = instance->now.phase >= GL_STEPPING;
     gl_status status = check_pointers(instance, place, instance);
-    if (status == GL_OK && instance->now.phase >= GL_STEPPING && !instance->now.exchange) {
+    if (status == GL_OK && started && instance->now.exchange) {
+        return keep_of_exchange(instance, place);
+    }
+    if (status == GL_OK && started) {
         status = gl_refresh(instance, GL_ALL); /* a state of co-simulation holds all outputs */
     }
     return status == GL_OK ? keep(instance, &instance->now, place) : status;
