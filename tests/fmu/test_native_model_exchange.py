@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
@@ -66,15 +67,11 @@ def test_the_checkers_find_no_problem(fmus: NativeFmus) -> None:
                 str(Path(fmpy.__file__).parent / f"schema/{schema}/{schema}ModelDescription.xsd")
             )
         )
-        content = fmpy.util.read_zipfile(path) if hasattr(fmpy.util, "read_zipfile") else None
-        document = etree.fromstring(content or description_of(path))
-        validator.validate(document)
+        validator.validate(etree.fromstring(description_of(path)))
         assert list(validator.error_log) == []
 
 
 def description_of(path: Path) -> bytes:
-    import zipfile
-
     with zipfile.ZipFile(path) as archive:
         return archive.read("modelDescription.xml")
 
@@ -127,7 +124,7 @@ def test_a_solver_gives_what_co_simulation_gives(
 ) -> None:
     times = np.linspace(0.0, END, 151)
     signal = signal_of(native_case) if reversal else None
-    found = exchanged(fmus.fmi2, OUTPUTS, times, signal, 1e-7)
+    found = exchanged(fmus.fmi2, OUTPUTS, times, signal, 1e-8)
     wanted = co_simulated(
         fmu,
         FINE,
@@ -137,10 +134,13 @@ def test_a_solver_gives_what_co_simulation_gives(
         *OUTPUTS,
     )
     size = np.maximum(np.ptp(wanted, axis=0), 1e-12)
-    # Steady: 5e-5 is the error of co-simulation's default step; this one is finer. Lost contacts and
-    # impacts amplify what the step, and the load level that waits for its end, leave.
-    # HelicalPair: friction is renewed up to an integrator step later
-    limit = 4e-4 if reversal or native_case is PAIR else 5e-5
+    # 5e-5 of the transmission error is allowed to co-simulation at its default step, which is
+    # coarser than this one. The displacement hardly moves when all is steady: an eighth of a
+    # micrometre. Impacts amplify what the step leaves, and the load level, which in co-simulation
+    # waits for the end of the step. In HelicalPair friction is renewed up to a step later
+    limit = np.array([1e-4, 3e-4, 5e-4, 1e-6] if reversal else [5e-5, 5e-5, 2e-4, 1e-6])
+    if native_case is PAIR:
+        limit[2] = 2e-3
     assert np.all(np.abs(found - wanted).max(axis=0) < limit * size)
     if reversal:
         dte = found[:, 0]
@@ -174,19 +174,13 @@ def test_fmi_3_gives_the_numbers_of_fmi_2(fmus: NativeFmus, native_case: Case) -
     np.testing.assert_array_equal(three, two)
 
 
-def test_rates_are_how_the_states_change_in_co_simulation(
-    fmu: Unpacked, native_case: Case, turning: Exchange
-) -> None:
+def test_rates_are_how_the_states_change_in_co_simulation(fmu: Unpacked, native_case: Case) -> None:
+    # friction of the film belongs to the last update, which is no continuous state
+    values = {"friction.model": 2} if native_case is PAIR else {}
     h = 1e-7
-    moved = co_simulated(
-        fmu,
-        {},
-        lambda time: native_case.torques,
-        np.arange(3) * h,
-        h,
-        *fmu.states,
-    )
-    instance = Exchange(fmu, {})
+    times = 0.005 + np.arange(3) * h
+    moved = co_simulated(fmu, values, lambda time: native_case.torques, times, 1e-3, *fmu.states)
+    instance = Exchange(fmu, values)
     rates = instance.rates_at(moved[0])
     instance.close()
     slope = (4.0 * (moved[1] - moved[0]) - (moved[2] - moved[0])) / (2.0 * h)
@@ -241,8 +235,7 @@ def test_outputs_declared_without_feed_through_have_none(fmu: Unpacked, turning:
     free = [
         one.variable.name
         for one in fmu.description.outputs
-        if not inputs & {known.name for known in one.dependencies}
-        and one.variable.type == "Real"
+        if not inputs & {known.name for known in one.dependencies} and one.variable.type == "Real"
     ]
     assert {"mesh.dte", "pinion.speed", "wheel.angle"} <= set(free)
     for name in inputs:
@@ -267,8 +260,10 @@ def test_work_put_in_is_heat_and_stored_energy(fmus: NativeFmus, native_case: Ca
     first, last = exchanged(fmus.fmi2, energies, np.array([0.0, 0.01]), None, 1e-8)
     change = dict(zip(energies, last - first, strict=True))
     put_in = change.pop("energy.pinion_work")
-    # what 1e-8 in each step leaves over some thousand steps
-    assert sum(change.values()) == pytest.approx(put_in, rel=1e-6)
+    # The axle's roller films breathe with the speed, which no work is counted for: 1e-6 of the
+    # work, whatever the tolerance. Else what 1e-8 in each of some thousand steps leaves
+    limit = 1e-7 if native_case is PAIR else 2e-6
+    assert sum(change.values()) == pytest.approx(put_in, rel=limit)
 
 
 def test_casadi_takes_the_fmu_for_its_equations(fmu: Unpacked, turning: Exchange) -> None:

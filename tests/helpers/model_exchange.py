@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -101,20 +103,21 @@ class Exchange:
 def co_simulated(
     fmu: Unpacked, values: dict[str, float], torques: Torques, times: Array, h: float, *names: str
 ) -> Array:
-    """Return outputs at times, multiples of the communication step h, shape (times, names)."""
+    """Return outputs at times, shape (times, names), by communication steps of at most h."""
     slave = fmu.instance(FMU2Slave)
     fmu.set(slave, values)
     slave.enterInitializationMode()
     slave.exitInitializationMode()
     references = [fmu.references[name] for name in names]
     rows = []
-    step = 0
-    for wanted in np.rint(times / h).astype(int).tolist():
-        for at in range(step, wanted):
-            pinion, wheel = torques((at + 0.5) * h)
+    last = 0.0
+    for wanted in times.tolist():
+        ends = np.linspace(last, wanted, 1 + math.ceil((wanted - last) / h - 1e-6))
+        for begin, end in pairwise(ends.tolist()):
+            pinion, wheel = torques(0.5 * (begin + end))
             fmu.set(slave, {"pinion.torque": pinion, "wheel.torque": wheel})
-            slave.doStep(at * h, h)
-        step = wanted
+            slave.doStep(begin, end - begin)
+        last = wanted
         rows.append(slave.getReal(references))
     slave.terminate()
     slave.freeInstance()

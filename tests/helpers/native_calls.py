@@ -231,8 +231,7 @@ class Calls:
         status = self.instance.set_raw(kind, references, values)
         states = self._state_references() if self.phase in (EVENTS, CONTINUOUS) else []
         if not (
-            fits
-            and all(self.variables[r].causality in allowed or r in states for r in references)
+            fits and all(self.variables[r].causality in allowed or r in states for r in references)
         ):
             not_finite = fits and any(
                 r in states and not math.isfinite(value)

@@ -363,9 +363,7 @@ def test_what_the_fmu_has_not_is_refused_by_fmi_2(mass: NativeInstance, kind: st
     assert mass.content() == before
 
 
-def test_fmi_2_needs_a_logger(
-    library: NativeLibrary, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_fmi_2_needs_a_logger(library: NativeLibrary, capfd: pytest.CaptureFixture[str]) -> None:
     if library.version == 3:
         return
     make = library.function("Instantiate")
