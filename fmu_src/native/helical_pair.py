@@ -141,11 +141,7 @@ DENSITY_WITH_LINE_MESH = 7
 COUPLING_TOO_LARGE = 8
 MISSING_CASE = 10  # and its number
 
-_START, _STEP, _RESUME, _MOTION = (
-    int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME, Operation.MOTION)
-)
-
-_DERIVATIVES, _EVENT = int(Operation.DERIVATIVES), int(Operation.EVENT)
+_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, Operation)
 
 
 @kernel

@@ -63,10 +63,7 @@ REFUSALS: Mapping[int, str] = {
     NO_MODES: NO_MODES_WORDS,
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
 }
-_START, _STEP, _RESUME, _MOTION = (
-    int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME, Operation.MOTION)
-)
-_DERIVATIVES, _EVENT = int(Operation.DERIVATIVES), int(Operation.EVENT)
+_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, Operation)
 _N_INPUTS = 3
 _N_CONTROL = count_floats(StepControl)
 _CONTROL_AT = N_STATE + _N_INPUTS

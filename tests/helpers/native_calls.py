@@ -9,6 +9,25 @@ from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 from fmu_src.variable import Variable
+from tests.helpers.native_call_arguments import (
+    CONTINUOUS,
+    EVENTS,
+    INITIALISING,
+    INSTANTIATED,
+    LARGEST,
+    LOGS,
+    NOT_THERE,
+    RATES,
+    STARTS,
+    STEPPING,
+    STEPS,
+    STOPS,
+    TERMINATED,
+    TIMES,
+    VALUES,
+    Arguments,
+)
+from tests.helpers.native_exchange_calls import ExchangeCalls
 from tests.helpers.native_library import (
     DISCARD,
     ERROR,
@@ -17,51 +36,7 @@ from tests.helpers.native_library import (
     NativeInstance,
     NativeLibrary,
 )
-from tests.helpers.small_native_model import FASTEST, HIDDEN_OIL, SINGULAR_OIL
-
-INSTANTIATED, INITIALISING, STEPPING, EVENTS, CONTINUOUS, TERMINATED = range(6)
-LARGEST = 2**40  # of the number that decides the arguments of a call
-_STEPS = (
-    2.0**-10,
-    2.0**-10,
-    1e-3,
-    1e-3,
-    2.0**-10,
-    0.1,
-    1e-300,
-    0.0,
-    -1e-3,
-    0.2,
-    math.nan,
-    math.inf,
-    1e300,
-)
-_TIMES = (*8 * [0.0], 1e-12, 0.5, -0.5, math.nan, -math.inf)
-_STARTS = (0.0, 0.0, 2.5, -1.0, math.nan, math.inf)
-_STOPS = (None, None, 10.0, 0.2, -5.0, math.nan, math.inf)
-_VALUES = {
-    "Real": (1.0, 3.0, -3.0, 0.0, 31.0, 39.0, -39.0, 45.0, 51.0, 300.0, 1e300, 5e-324, -math.inf,
-             math.nan, math.inf, SINGULAR_OIL, HIDDEN_OIL, 313.15, 500.0),
-    "Integer": (1, 2, 0, 3, 16, -1, 2**31 - 1, -(2**31)),
-    "Enumeration": (1, 2, 0, 3, -1, 2**31 - 1, -(2**31)),
-    "Boolean": (0, 1),
-}  # fmt: skip
-_LOGS = (b"logAll", b"logEvents", b"logStatusError", b"logStatusFatal", b"nothing", b"", None)
-_NOT_THERE = {
-    2: "GetString SetString SetRealInputDerivatives GetRealOutputDerivatives CancelStep GetStatus "
-    "GetRealStatus GetIntegerStatus GetBooleanStatus GetStringStatus",
-    3: "EnterStepMode EnterConfigurationMode ExitConfigurationMode GetFloat32 "
-    "SetFloat32 GetInt8 SetInt8 GetUInt8 SetUInt8 GetInt16 SetInt16 GetUInt16 SetUInt16 GetUInt32 "
-    "SetUInt32 GetUInt64 SetUInt64 GetString SetString GetBinary SetBinary GetClock SetClock "
-    "GetNumberOfVariableDependencies GetVariableDependencies GetAdjointDerivative "
-    "GetIntervalDecimal GetIntervalFraction GetShiftDecimal GetShiftFraction "
-    "SetIntervalDecimal SetIntervalFraction SetShiftDecimal SetShiftFraction "
-    "EvaluateDiscreteStates GetOutputDerivatives ActivateModelPartition",
-}
-
-
-_RATES = ("der(pinion.angle)", "der(pinion.speed)", "event.wall")
-_STATES = (0.0, 1.0, 19.0, 20.0, 25.0, -3.0, 999.0, 1001.0, -1e300, math.nan, math.inf)
+from tests.helpers.small_native_model import HIDDEN_OIL, SINGULAR_OIL
 
 
 class Saved(NamedTuple):
@@ -74,18 +49,7 @@ class Saved(NamedTuple):
     values: dict[int, float]
 
 
-class Arguments:
-    """Arguments taken one after the other from a number; 0 takes the first of each choice."""
-
-    def __init__(self, number: int) -> None:
-        self._rest = number
-
-    def one_of(self, choices: Any) -> Any:
-        self._rest, place = divmod(self._rest, len(choices))
-        return choices[place]
-
-
-class Calls:
+class Calls(ExchangeCalls):
     """One instance under random calls, and what is expected of it."""
 
     def __init__(self, library: NativeLibrary, exchange: bool) -> None:
@@ -98,8 +62,7 @@ class Calls:
         }
         self.counts = {reference: library.counts[name] for reference, name in names.items()}
         self.references = {
-            kind: [r for r, v in self.variables.items() if self._kind(v) == kind]
-            for kind in _VALUES
+            kind: [r for r, v in self.variables.items() if self._kind(v) == kind] for kind in VALUES
         }
         if library.version == 2:
             self.references["Enumeration"] = self.references["Integer"]
@@ -146,14 +109,6 @@ class Calls:
             or self._value("oil.temperature") == SINGULAR_OIL
         )
 
-    def _refused(self, rates: bool) -> set[int]:
-        """Return the status of what is computed in model exchange, if it must be refused."""
-        oil = self._value("oil.temperature")
-        refused = self._inputs_are_refused() or oil == HIDDEN_OIL
-        refused = refused or (oil == SINGULAR_OIL and not rates)
-        _, state = self.instance.get_array("GetContinuousStates", 2)
-        return {DISCARD} if refused or abs(state[1]) > FASTEST else set()
-
     def _inputs_are_refused(self) -> bool:
         """Whether an input is outside its range, or the limits of the model."""
         illegal = [r for r, v in self.variables.items() if v.causality == "input"]
@@ -190,7 +145,7 @@ class Calls:
         return all(reference in self.references[kind] for reference in references)
 
     def get(self, arguments: Arguments) -> tuple[int, set[int]]:
-        kind = arguments.one_of(tuple(_VALUES))
+        kind = arguments.one_of(tuple(VALUES))
         references = self._references(arguments, kind)
         if not self._fit(kind, references):
             return self.instance.get_raw(kind, references, 8)[0], {ERROR}
@@ -203,8 +158,8 @@ class Calls:
         if outputs and self.phase < STEPPING and not self._starts():
             return status, {ERROR}
         if outputs and self.exchange and self.phase >= STEPPING:
-            rates = all(self.library_names[r] in _RATES for r in outputs)
-            refused = self._refused(rates)
+            rates = all(self.library_names[r] in RATES for r in outputs)
+            refused = self.refused(rates)
             if refused:
                 return status, refused
         k = 0
@@ -219,18 +174,18 @@ class Calls:
         return status, {OK}
 
     def set(self, arguments: Arguments) -> tuple[int, set[int]]:
-        kind = arguments.one_of(tuple(_VALUES))
+        kind = arguments.one_of(tuple(VALUES))
         references = self._references(arguments, kind)
         allowed = {INSTANTIATED: ("input", "parameter"), INITIALISING: ("input", "parameter"),
                    TERMINATED: ()}.get(self.phase, ("input",))  # fmt: skip
         fits = self._fit(kind, references)
         count = sum(self.counts[r] for r in references) if fits else len(references)
-        choices = _VALUES[kind]
+        choices = VALUES[kind]
         if kind == "Enumeration" and self.library.version == 3:
             choices = (*choices, 2**63 - 1, -(2**63))
         values = [arguments.one_of(choices) for _ in range(count)]
         status = self.instance.set_raw(kind, references, values)
-        states = self._state_references() if self.phase in (EVENTS, CONTINUOUS) else []
+        states = self.state_references() if self.phase in (EVENTS, CONTINUOUS) else []
         if not (
             fits and all(self.variables[r].causality in allowed or r in states for r in references)
         ):
@@ -240,7 +195,7 @@ class Calls:
             )
             return status, {ERROR, DISCARD} if not_finite else {ERROR}
         if any(reference in states for reference in references):
-            return self._after_setting_states(status, references, values)
+            return self.after_setting_states(status, references, values)
         for reference, value in zip(references, values, strict=True):
             self.values[reference] = float(value)
         worst = OK
@@ -250,37 +205,14 @@ class Calls:
         self.stale = self.stale or bool(references)
         return status, {worst}
 
-    def _state_references(self) -> list[int]:
-        return [self.library.references[name] for name in ("pinion.angle", "pinion.speed")]
-
-    def _after_setting_states(
-        self, status: int, references: list[int], values: list[float]
-    ) -> tuple[int, set[int]]:
-        """Take inputs among them and look at the states."""
-        states = self._state_references()
-        given = list(zip(references, values, strict=True))
-        if any(r in states and not math.isfinite(value) for r, value in given):
-            return status, {DISCARD}
-        self.values |= {r: float(value) for r, value in given if r not in states}
-        _, present = self.instance.get_array("GetContinuousStates", 2)
-        wanted = {r: float(value) for r, value in given if r in states}
-        assert {r: present[states.index(r)] for r in wanted} == wanted
-        inputs = [r for r in references if r not in states]
-        refused = [
-            r
-            for r, value in given
-            if r in inputs and not self.variables[r].range[0] <= value <= self.variables[r].range[1]
-        ]
-        return status, {WARNING if refused else OK}
-
     def null(self, arguments: Arguments) -> tuple[int, set[int]]:
-        kind = arguments.one_of(tuple(_VALUES))
+        kind = arguments.one_of(tuple(VALUES))
         action = arguments.one_of(("Get", "Set"))
         return self.instance.access(action, kind, [0], None, 1), {ERROR}
 
     def setup(self, arguments: Arguments) -> tuple[int, set[int]]:
         """Set the times; in FMI 3 that is one call with the entry into initialisation."""
-        start, stop = arguments.one_of(_STARTS), arguments.one_of(_STOPS)
+        start, stop = arguments.one_of(STARTS), arguments.one_of(STOPS)
         last = math.inf if stop is None else stop
         legal = self.phase == INSTANTIATED and math.isfinite(start) and start <= last
         numbers = ctypes.c_double(0.0), ctypes.c_double(start), ctypes.c_double(stop or 0.0)
@@ -333,7 +265,7 @@ class Calls:
         return status, {OK}
 
     def step(self, arguments: Arguments) -> tuple[int, set[int]]:
-        h, offset = arguments.one_of(_STEPS), arguments.one_of(_TIMES)
+        h, offset = arguments.one_of(STEPS), arguments.one_of(TIMES)
         status = self.instance.step(h, self.time + offset)
         allowed = 1e-3 * h + 1e-9 * max(1.0, abs(self.time))
         if self.phase != STEPPING:
@@ -350,106 +282,6 @@ class Calls:
             return status, {DISCARD}
         self.time = self.instance.time
         return status, {OK}
-
-    def enter_events(self, arguments: Arguments) -> tuple[int, set[int]]:
-        status = self.instance.call("EnterEventMode")
-        if self.phase not in (EVENTS, CONTINUOUS):
-            return status, {ERROR}
-        self.phase = EVENTS
-        return status, {OK}
-
-    def enter_continuous_time(self, arguments: Arguments) -> tuple[int, set[int]]:
-        status = self.instance.call("EnterContinuousTimeMode")
-        if self.phase != EVENTS:
-            return status, {ERROR}
-        self.phase = CONTINUOUS
-        return status, {OK}
-
-    def update(self, arguments: Arguments) -> tuple[int, set[int]]:
-        if self.phase != EVENTS:
-            return self.instance.update()[0], {ERROR}
-        _, (angle, speed) = self.instance.get_array("GetContinuousStates", 2)
-        status, changed = self.instance.update()
-        if self._inputs_are_refused():
-            return status, {DISCARD}
-        assert changed == (angle >= 20.0 and speed > 0.0)
-        _, after = self.instance.get_array("GetContinuousStates", 2)
-        assert after == [angle, -speed if changed else speed]
-        return status, {OK}
-
-    def complete(self, arguments: Arguments) -> tuple[int, set[int]]:
-        status, event = self.instance.complete()
-        if self.phase != CONTINUOUS:
-            return status, {ERROR}
-        if self._inputs_are_refused():
-            return status, {DISCARD}
-        _, (angle, speed) = self.instance.get_array("GetContinuousStates", 2)
-        assert event == (angle >= 20.0 and speed > 0.0)
-        return status, {OK}
-
-    def set_time(self, arguments: Arguments) -> tuple[int, set[int]]:
-        time = arguments.one_of((0.5, 1e9, -1.0, math.nan, math.inf))
-        status = self.instance.call("SetTime", ctypes.c_double(time))
-        if self.phase not in (EVENTS, CONTINUOUS) or not math.isfinite(time):
-            return status, {ERROR}
-        self.time = self.instance.time = time
-        return status, {OK}
-
-    def set_states(self, arguments: Arguments) -> tuple[int, set[int]]:
-        count = arguments.one_of((2, 2, 2, 2, 1, 0))
-        values = [arguments.one_of(_STATES) for _ in range(count)]
-        status = self.instance.set_states(values)
-        if self.phase != CONTINUOUS or count != 2:
-            return status, {ERROR}
-        if not all(map(math.isfinite, values)):
-            return status, {DISCARD}
-        assert self.instance.get_array("GetContinuousStates", 2) == (OK, values)
-        return status, {OK}
-
-    def get_array(self, arguments: Arguments) -> tuple[int, set[int]]:
-        name, expected = arguments.one_of(
-            (
-                ("GetContinuousStates", 2),
-                ("GetNominalsOfContinuousStates", 2),
-                ("GetDerivatives", 2),
-                ("GetEventIndicators", 1),
-            )
-        )
-        count = arguments.one_of((expected, expected, expected, expected + 1, 0))
-        status, values = self.instance.get_array(name, count)
-        if not self.exchange or self.phase == INSTANTIATED or count != expected:
-            return status, {ERROR}
-        if self.phase == INITIALISING and "Nominals" not in name and not self._starts():
-            return status, {ERROR}
-        if self.phase >= STEPPING and name in ("GetDerivatives", "GetEventIndicators"):
-            refused = self._refused(rates=True)
-            if refused:
-                return status, refused
-        assert all(map(math.isfinite, values))
-        return status, {OK}
-
-    def differentiate(self, arguments: Arguments) -> tuple[int, set[int]]:
-        reals = self.references["Real"]
-        computed = [r for r in reals if self.variables[r].is_computed]
-        names = {name: r for r, name in self.library_names.items()}
-        known = [names[n] for n in ("pinion.angle", "pinion.speed", "pinion.torque")]
-        unknowns = [arguments.one_of([*computed, *computed, 0, 4, 10_000]) for _ in range(2)]
-        knowns = [arguments.one_of([*known, *known, known[0] + 2, 3, 10_000]) for _ in range(2)]
-        seed = [arguments.one_of((1.0, -2.0, 0.0, math.nan)) for _ in range(2)]
-        count = sum(self.counts.get(r, 1) for r in unknowns)
-        status, values = self.instance.differentiate_raw(unknowns, knowns, seed, count)
-        legal = set(unknowns) <= set(computed) and set(knowns) <= set(known)
-        if self.phase not in (EVENTS, CONTINUOUS) or not legal or not all(map(math.isfinite, seed)):
-            return status, {ERROR}
-        rates = all(self.library_names[r] in _RATES for r in unknowns)
-        _, state = self.instance.get_array("GetContinuousStates", 2)
-        if rates and abs(abs(state[1]) - FASTEST) < 1.0:
-            return status, {OK, DISCARD}
-        refused = self._refused(rates=True)
-        if refused and (rates or self._inputs_are_refused()):
-            return status, refused
-        assert status != OK or all(map(math.isfinite, values))
-        return status, {OK} if rates else {OK, DISCARD}
 
     def save(self, arguments: Arguments) -> tuple[int, set[int]]:
         old = self.saved.pop() if len(self.saved) > 2 else None
@@ -491,7 +323,7 @@ class Calls:
         return self.instance.free_state(state), {OK}
 
     def choose_logs(self, arguments: Arguments) -> tuple[int, set[int]]:
-        names = [arguments.one_of(_LOGS) for _ in range(arguments.one_of((0, 1, 2)))]
+        names = [arguments.one_of(LOGS) for _ in range(arguments.one_of((0, 1, 2)))]
         array = (ctypes.c_char_p * max(1, len(names)))(*names)
         status = self.instance.call("SetDebugLogging", ctypes.c_bool(True), len(names), array)
         legal = all(name and name.startswith(b"log") for name in names)
@@ -500,7 +332,7 @@ class Calls:
         return status, {OK if legal else ERROR}
 
     def not_there(self, arguments: Arguments) -> tuple[int, set[int]]:
-        name = arguments.one_of(_NOT_THERE[self.library.version].split())
+        name = arguments.one_of(NOT_THERE[self.library.version].split())
         references = (ctypes.c_uint32 * 1)(0)
         pointers = [ctypes.byref(references), ctypes.c_size_t(1)] + 8 * [ctypes.c_void_p()]
         return self.instance.call(name, *pointers), {DISCARD, ERROR}

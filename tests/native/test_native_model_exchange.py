@@ -143,6 +143,9 @@ def test_what_is_no_derivative_is_refused(free: NativeInstance) -> None:
         (rate, angle, math.nan),
     ):
         assert free.differentiate_raw([unknown], [known], [seed], 1)[0] == ERROR
+    if free.library.version == 3:
+        assert free.differentiate_raw([rate], [angle], [1.0], 2)[0] == ERROR
+        assert free.differentiate_raw([rate], [angle], [1.0, 1.0], 1)[0] == ERROR
     assert free.content() == before
 
 

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.helpers.native_calls import LARGEST, NAMES, OF_EXCHANGE, run_calls, run_random
+from tests.helpers.native_call_arguments import LARGEST
+from tests.helpers.native_calls import NAMES, OF_EXCHANGE, run_calls, run_random
 from tests.helpers.native_library import NativeLibrary
 
 CALLS = st.lists(st.tuples(st.sampled_from(NAMES), st.integers(0, LARGEST)), max_size=40)

@@ -22,6 +22,12 @@ int gl_all_finite(const double *values, int count);
 /* Starts the model unless its outputs belong to the present values. */
 gl_status gl_start(gl_instance *instance);
 
+/* Says of an input beyond the limits of the model why it is refused; returns 0 if none is. */
+int gl_say_input_beyond(gl_instance *instance, gl_status status, const char *before);
+
+/* Takes over what the model has computed, as bits. */
+void gl_take_outputs(gl_instance *instance, int computed);
+
 /* Computes what is needed of the present state, as bits. */
 gl_status gl_refresh(gl_instance *instance, int needed);
 
