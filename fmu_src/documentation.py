@@ -14,7 +14,12 @@ from gearlube_core.errors import ParameterError
 
 HEADINGS = ("Name", "Unit", "Shown in", "Start", "Range", "Description")
 _PAGES = Path(__file__).parent / "pages"
-_TITLES = {"input": "Inputs", "parameter": "Parameters", "output": "Outputs"}
+_TITLES = {
+    "input": "Inputs",
+    "parameter": "Parameters",
+    "output": "Outputs",
+    "local": "Locals: what model exchange needs besides",
+}
 
 
 def _shown(variable: Variable, value: float) -> str:

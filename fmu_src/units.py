@@ -52,6 +52,7 @@ _ALL = (
         display=(DisplayUnit(name="rpm", factor=30.0 / math.pi),),
     ),
     Unit(name="rad/s2", exponents={"s": -2, "rad": 1}),
+    Unit(name="m/s2", exponents={"m": 1, "s": -2}),
     Unit(name="Hz", exponents={"s": -1}),
     Unit(name="kg", exponents={"kg": 1}),
     Unit(name="kg.m2", exponents={"kg": 1, "m": 2}),
@@ -72,6 +73,7 @@ _ALL = (
         display=(DisplayUnit(name="GPa", factor=1e-9),),
     ),
     Unit(name="N.m", exponents={"kg": 1, "m": 2, "s": -2}),
+    Unit(name="N.m/s", exponents={"kg": 1, "m": 2, "s": -3}),
     Unit(name="J", exponents={"kg": 1, "m": 2, "s": -2}),
     Unit(name="W", exponents={"kg": 1, "m": 2, "s": -3}),
     Unit(

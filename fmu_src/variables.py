@@ -8,9 +8,27 @@ from __future__ import annotations
 
 import math
 
-from fmu_src.common_outputs import MEMBERS, displacements, energies, motion, ranges
+from fmu_src.common_outputs import (
+    MEMBERS,
+    displacements,
+    energies,
+    load_level,
+    motion,
+    ranges,
+    velocities,
+)
 from fmu_src.variable import Variable
-from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
+from fmu_src.variable_kinds import (
+    count,
+    input_,
+    local,
+    option,
+    options_by_number,
+    output,
+    parameter,
+    rates,
+)
+from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
 
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
 
@@ -157,7 +175,7 @@ _AXLE_NUMBERS = (
       for name, word in MEMBERS),
 )  # fmt: skip
 
-HYPOID_AXLE: tuple[Variable, ...] = (
+_FIRST: tuple[Variable, ...] = (
     *_INPUTS,
     *_PARAMETERS,
     *motion(),
@@ -172,4 +190,23 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *ranges(),
     *options_by_number(_PARAMETERS + _LATER_PARAMETERS),
     *_AXLE_NUMBERS,
+)
+
+# what model exchange needs besides
+_STATES = (*(one for member in MEMBERS for one in velocities(*member)), load_level())
+_BY_NAME = {variable.name: variable for variable in _FIRST + _STATES}
+_EVENTS = (
+    local("event.drive_flank", "1", "Drive flanks touch where it is not below 0: transmission "
+          "error over 1 um"),
+    local("event.coast_flank", "1", "Coast flanks touch where it is not above 0: transmission "
+          "error and backlash over 1 um"),
+    local("event.side", "1", "The mesh data are those of the coast flanks from the event at which "
+          "it falls below 0: place within the gap over 1 um"),
+)  # fmt: skip
+
+HYPOID_AXLE: tuple[Variable, ...] = (
+    *_FIRST,
+    *_STATES,
+    *rates([_BY_NAME[name] for name in STATE_NAMES]),
+    *_EVENTS,
 )

@@ -75,9 +75,14 @@ class NativeOptions:
                 check_option(name, one, known)
 
 
+def _description(model: NativeModel, guid: str) -> bytes:
+    """Return modelDescription.xml of FMI 2.0."""
+    return model_description(model.definition, guid, native=True, exchange=model.exchange)
+
+
 def native_guid(model: NativeModel) -> UUID:
     """Return the GUID: equal code and data have an equal GUID, on every machine."""
-    digest = hashlib.sha256(model_description(model.definition, "", native=True))
+    digest = hashlib.sha256(_description(model, ""))
     for name, text in sorted(c_sources(model, "").items()):
         digest.update(f"{name}\0{text}\0".encode())
     for name, text in model.c_code.items():
@@ -145,7 +150,7 @@ def fmi2_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
     definition, guid = model.definition, str(native_guid(model))
     suffixes = {platform.name: platform.suffix for platform in PLATFORMS}
     content = _common_content(model)
-    content["modelDescription.xml"] = model_description(definition, guid, native=True)
+    content["modelDescription.xml"] = _description(model, guid)
     content["model.png"] = (_PACKAGE / "model.png").read_bytes()
     for folder, platforms in FMI2_FOLDERS.items():
         there = {name: built[name] for name in platforms if name in built}
@@ -160,7 +165,7 @@ def fmi3_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
     """Return the files of the FMI 3.0 archive around the libraries of `libraries`."""
     definition, guid = model.definition, str(native_guid(model))
     content = _common_content(model)
-    content["modelDescription.xml"] = model_description_3(definition, guid)
+    content["modelDescription.xml"] = model_description_3(definition, guid, model.exchange)
     content["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(definition)
     content[ICON] = (_PACKAGE / "model.png").read_bytes()
     content["sources/buildDescription.xml"] = build_description(definition.name)

@@ -11,7 +11,7 @@ import numpy as np
 from fmu_src.axle_arguments import axle_parameters, tapered_bearings
 from fmu_src.definition import Definition, Value
 from fmu_src.hypoid_axle import car_axle_in
-from fmu_src.native.model import NativeModel, Operation
+from fmu_src.native.model import Exchange, NativeModel, Operation
 from fmu_src.native.parameter_map import ParameterMap, parameter_map, write_packed
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
@@ -20,6 +20,11 @@ from gearlube_core.bearings.roller_contact import contact_angle_terms, preload_a
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
+from gearlube_core.dynamics.hypoid_axle.continuous import (
+    EVENT_INDICATORS,
+    STATE_NAMES,
+    UNITS_OF_STATES,
+)
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields
@@ -29,7 +34,7 @@ from gearlube_core.dynamics.hypoid_axle.model import (
     STEP_REFUSALS,
     torque_limits,
 )
-from gearlube_core.dynamics.hypoid_axle.outputs import MOTION_OUTPUTS, N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.outputs import MOTION_OUTPUTS, N_OUTPUTS, POWERS
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     NO_MODAL_LOSS,
     HypoidAxleParameters,
@@ -56,9 +61,7 @@ REFUSALS: Mapping[int, str] = {
     NO_MODES: NO_MODES_WORDS,
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
 }
-_START, _STEP, _RESUME, _MOTION = (
-    int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME, Operation.MOTION)
-)
+_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, Operation)
 _N_INPUTS = 3
 _N_CONTROL = count_floats(StepControl)
 _CONTROL_AT = N_STATE + _N_INPUTS
@@ -226,7 +229,8 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
     kernels = axle_kernels(*_KINDS)
     static_state, step_control = kernels.static_state, kernels.step_control
     step_without_outputs, write_outputs = kernels.step_without_outputs, kernels.outputs
-    motion_outputs = kernels.motion_outputs
+    motion_outputs, event = kernels.motion_outputs, kernels.event
+    continuous_rates = kernels.continuous_rates
 
     def entry(
         operation: int,
@@ -261,6 +265,11 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
                     kept[N_STATE + i] = given[i]
             return status
         last = kept[N_STATE:_CONTROL_AT]
+        if operation == _DERIVATIVES:
+            return continuous_rates(s, last, mesh, packed, scratch, out)
+        if operation == _EVENT:
+            event(s, mesh, packed, scratch)
+            return OK
         if operation == _START:
             settings: AxleSettings = tuple_from_array(values[at.settings :], AxleSettings)
             lossless = values[at.without_losses : at.trial]
@@ -392,4 +401,11 @@ def native_model(definition: Definition) -> NativeModel:
         ranges=unnamed.ranges,
         refusals=REFUSALS,
         motion=frozenset(MOTION_OUTPUTS),
+        exchange=Exchange(
+            states=STATE_NAMES,
+            units=UNITS_OF_STATES,
+            indicators=EVENT_INDICATORS,
+            inputs_at=N_STATE,
+            of_states=frozenset(MOTION_OUTPUTS) - POWERS,
+        ),
     )

@@ -19,6 +19,7 @@ from gearlube_core.dynamics import flank_force, hypoid_axle, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
     bearing_outputs,
+    continuous,
     flank_outputs,
     flanks,
     force_derivatives,
@@ -37,12 +38,14 @@ from gearlube_core.dynamics.hypoid_axle.model import START_WORK
 from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, N_OUTPUTS, PINION_BEARINGS
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
+    N_CONTINUOUS,
     N_ODE,
     N_STATE,
     PHI_P,
     PINION_WORK,
     SIDE,
     TIME_IN_STEP,
+    W_G,
     WORK_MARK,
     X,
 )
@@ -255,6 +258,31 @@ def all_cases():
             for state in (state, separated, coasting, crossed, crossed_back)
             for parameters in (p.mesh, p.mesh._replace(backlash=0.0))
         ),
+        *(
+            (
+                mesh_at_load.gap_rotation,
+                (
+                    one,
+                    kernels.mesh_series(series, mesh.orders, 13.0, one[PHI_P]),
+                    p.mesh,
+                    series,
+                    mesh.orders,
+                ),
+            )
+            for one in (state, separated, coasting)
+        ),
+        (continuous.write_rates, (state, slope, -60.0, zeros(N_CONTINUOUS))),
+        *(
+            (continuous.write_event_indicators, (one, levels, mesh_data, p.mesh, zeros(3)))
+            for one in (state, separated, coasting)
+            for levels in (table, both_sides)
+        ),
+        *(
+            (continuous.change_side, (one, levels, p.mesh, work))
+            for one in (state, crossed, crossed_back)
+            for levels in (table, both_sides)
+        ),
+        (outputs.write_derivatives, (state, torques, OIL, table, p, work, zeros(N_OUTPUTS))),
         (outputs.stored_energy, (state, 5e8, state_of_oil, p)),
         (
             flank_outputs.write_flanks,
@@ -292,6 +320,9 @@ def all_cases():
         ),
     ]
     inputs_now = np.array([*torques, OIL])
+    too_fast, broken = state.copy(), state.copy()
+    too_fast[W_G] = -5001.0
+    broken[X] = -2e5
     found += [
         (
             COMPILED.static_state,
@@ -322,6 +353,17 @@ def all_cases():
                 flatten(control), work,
             ),
         ),
+        *(
+            (
+                COMPILED.continuous_rates,
+                (
+                    one, np.array([*torques, OIL]), tuple(table), flatten(p), work,
+                    zeros(N_OUTPUTS),
+                ),
+            )
+            for one in (state, too_fast, broken)
+        ),
+        (COMPILED.event, (crossed, tuple(both_sides), flatten(p), work)),
         (
             COMPILED.motion_outputs,
             (state, tuple(table), flatten(p), work, zeros(N_OUTPUTS)),
@@ -342,7 +384,8 @@ SUMMING = {"_sums_line", "_sums_general", "expand_shaft_bearings"}
 SUMMING |= {"expanded_shaft_forces"}
 # the same sums, 24 rollers of 1 kN that cancel to a few 1e-16 each, over a pinion of 12 kg
 ACCELERATING = {"axle_rhs", "rk4_step", "advance", "write_outputs"}
-ACCELERATING |= {"communication_step", "step_without_outputs", "outputs"}
+ACCELERATING |= {"communication_step", "step_without_outputs", "outputs", "write_derivatives"}
+ACCELERATING |= {"continuous_rates"}
 
 
 def same(kernel, compiled, source, case):
