@@ -31,18 +31,19 @@ _SIMULATED = 0.5  # s
 _TURNS = 3
 
 
-def compiled(folder: Path) -> Path:
-    host = folder / "native_host"
+def compiled(folder: Path, source: Path = _SOURCE) -> Path:
+    """Return the program that a C file becomes."""
+    host = folder / source.stem
     headers = Path(fmpy.__file__).parent / "c-code"
     command = [
         sys.executable,
         "-m",
         "ziglang",
         "cc",
-        "-std=c99",
+        "-std=gnu99",
         "-O2",
         f"-I{headers}",
-        str(_SOURCE),
+        str(source),
         "-o",
         str(host),
         "-ldl",

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from drivetrain.driveline.parameters import DrivelineParameters
 from fmu_src import helical_pair, hypoid_axle
 from fmu_src.archive import write_archive
 from fmu_src.definition import Definition
@@ -20,7 +21,7 @@ from fmu_src.native.build import NativeOptions, build_native
 from gearlube_core.checks import check_option
 from gearlube_core.errors import GearLubeError, ParameterError
 
-MODELS = ("hypoid-axle", "helical-pair")
+MODELS = ("hypoid-axle", "helical-pair", "driveline")
 DEFINITIONS = (hypoid_axle.DEFINITION, helical_pair.DEFINITION)
 _HERE = Path(__file__).parent
 
@@ -70,7 +71,11 @@ def _build(definition: Definition, out_dir: Path) -> Path:
     return path
 
 
-def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None) -> Path:
+def build_hypoid_axle(
+    out_dir: str | Path,
+    mesh_table: str | Path | None = None,
+    axle: str | Path | None = None,
+) -> Path:
     """Build HypoidAxle.fmu that computes in Python in `out_dir`, and return its path.
 
     Parameters
@@ -78,11 +83,15 @@ def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None)
     out_dir : path
     mesh_table : path, optional
         Mesh table of another gear pair, which the FMU then carries.
+    axle : path, optional
+        Axle file (TOML), which the FMU then carries with its mesh table.
 
     Raises
     ------
     TableError
-        When `mesh_table` is missing, no mesh table, or of another format.
+        When the mesh table is missing, no mesh table, or of another format.
+    ParameterError
+        The axle file is missing or wrong, or both are given.
 
     Notes
     -----
@@ -95,7 +104,7 @@ def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None)
     ...     build_hypoid_axle(folder).name
     'HypoidAxle.fmu'
     """
-    return _build(_axle_definition(mesh_table), Path(out_dir))
+    return _build(axle_definition(mesh_table, axle), Path(out_dir))
 
 
 def build_helical_pair(
@@ -136,6 +145,7 @@ def build_models(
     gear: Path | None = None,
     line_mesh: Path | None = None,
     *,
+    axle: str | Path | None = None,
     native: NativeOptions | None = None,
 ) -> list[Path]:
     """Build the FMUs asked for and return their paths.
@@ -143,48 +153,69 @@ def build_models(
     Parameters
     ----------
     out_dir : path
-    model : {"hypoid-axle", "helical-pair"}, optional
-        By default the one that a file is given for; without files both.
+    model : {"hypoid-axle", "helical-pair", "driveline"}, optional
+        By default those that a file is given for; without files all. The driveline is native.
     mesh_table : path, optional
         Goes into HypoidAxle.fmu.
     gear, line_mesh : path, optional
         Go into HelicalPair.fmu.
+    axle : path, optional
+        Axle file of HypoidAxle.fmu and of the car, or the name of a shipped one.
     native : NativeOptions, optional
         Of native FMUs; by default FMUs that compute in the installed package.
 
     Raises
     ------
     ParameterError
-        A file for a model that is not built.
+        A file for a model that is not built, or a mesh table beside an axle file.
     GearLubeError
         A file is wrong, or a native FMU cannot be linked.
     """
     if model is not None:
         check_option("--model", model, MODELS)
     needs = {
-        "--mesh-table": (mesh_table, "hypoid-axle"),
-        "--gear": (gear, "helical-pair"),
-        "--line-mesh": (line_mesh, "helical-pair"),
+        "--mesh-table": (mesh_table, ("hypoid-axle",)),
+        "--axle": (axle, ("hypoid-axle", "driveline")),
+        "--gear": (gear, ("helical-pair",)),
+        "--line-mesh": (line_mesh, ("helical-pair",)),
     }
-    given = {name: owner for name, (path, owner) in needs.items() if path is not None}
-    wanted = {model} if model else set(given.values()) or set(MODELS)
-    for name, owner in given.items():
-        if owner not in wanted:
-            raise ParameterError(f"{name} must come with --model {owner}, got {model}.")
+    given = {name: owners for name, (path, owners) in needs.items() if path is not None}
+    of_files = {owner for owners in given.values() for owner in owners}
+    wanted = {model} if model else of_files or set(MODELS)
+    for name, owners in given.items():
+        if not wanted & set(owners):
+            raise ParameterError(f"{name} must come with --model {owners[0]}, got {model}.")
+    if native is None and model == "driveline":
+        raise ParameterError("--model driveline must come without --python: it is native only.")
     definitions = []
     if "hypoid-axle" in wanted:
-        definitions.append(_axle_definition(mesh_table))
+        definitions.append(axle_definition(mesh_table, axle))
     if "helical-pair" in wanted:
         definitions.append(helical_pair.definition_with(gear, line_mesh))
     if native is None:
         return [_build(definition, out_dir) for definition in definitions]
+    from fmu_src.native.driveline import driveline_model
     from fmu_src.native.models import native_model
 
     models = [native_model(definition) for definition in definitions]
+    if "driveline" in wanted:
+        models.append(driveline_model(_car(axle)))
     return [path for one in models for path in build_native(one, out_dir, native)]
 
 
-def _axle_definition(mesh_table: str | Path | None) -> Definition:
+def _car(axle: str | Path | None) -> DrivelineParameters | None:
+    """Return the car of an axle file."""
+    if axle is None:
+        return None
+    resources = hypoid_axle.definition_with_axle(axle).resources
+    return hypoid_axle.car_axle_in(resources).driveline
+
+
+def axle_definition(mesh_table: str | Path | None, axle: str | Path | None) -> Definition:
+    """Return the definition of HypoidAxle.fmu with a mesh table, an axle file or neither."""
+    if axle is not None:
+        hypoid_axle.check_one_table(mesh_table)
+        return hypoid_axle.definition_with_axle(axle)
     if mesh_table is None:
         return hypoid_axle.DEFINITION
     return hypoid_axle.definition_with_table(mesh_table)

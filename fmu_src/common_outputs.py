@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fmu_src.variable import Variable
-from fmu_src.variable_kinds import output
+from fmu_src.variable_kinds import local, output
 
 MEMBERS = (("pinion", "pinion"), ("wheel", "gear"))  # in names, in words
 
@@ -25,6 +25,29 @@ def displacements(member: str, word: str) -> tuple[Variable, ...]:
                1e-5, "um")
         for axis in "xyz"
     )  # fmt: skip
+
+
+def velocities(member: str, word: str) -> tuple[Variable, ...]:
+    """Return the velocities of a member."""
+    return tuple(
+        local(f"{member}.velocity.{axis}", "m/s", f"Velocity of the {word} along {axis}", 0.01)
+        for axis in "xyz"
+    )
+
+
+def tilt_speeds(member: str, word: str) -> tuple[Variable, ...]:
+    """Return the speeds at which a member tilts."""
+    return tuple(
+        local(f"{member}.tilt_speed.{axis}", "rad/s", f"Tilting speed of the {word} about {axis}",
+              0.1)
+        for axis in "xy"
+    )  # fmt: skip
+
+
+def load_level() -> Variable:
+    """Return the state by which the load level of the mesh data follows the pinion torque."""
+    return local("mesh.load_torque", "N.m", "Pinion torque at which the mesh data are taken: its "
+                 "size, filtered with 20 ms", 100.0)  # fmt: skip
 
 
 def energies(words: dict[str, str]) -> tuple[Variable, ...]:

@@ -9,10 +9,17 @@ from pathlib import Path
 from fmu_src.definition import Definition
 from fmu_src.units import UNITS
 from fmu_src.variable import Variable
+from gearlube_core.dynamics.ranges import Range
 from gearlube_core.errors import ParameterError
 
 HEADINGS = ("Name", "Unit", "Shown in", "Start", "Range", "Description")
-_TITLES = {"input": "Inputs", "parameter": "Parameters", "output": "Outputs"}
+_PAGES = Path(__file__).parent / "pages"
+_TITLES = {
+    "input": "Inputs",
+    "parameter": "Parameters",
+    "output": "Outputs",
+    "local": "Locals: what model exchange needs besides",
+}
 
 
 def _shown(variable: Variable, value: float) -> str:
@@ -64,21 +71,56 @@ _NEEDS = {
 }
 
 
-def index_html(definition: Definition, *, native: bool = False) -> str:
-    """Return documentation/index.html of the FMU."""
+def _table(headings: Iterable[str], rows: Iterable[tuple[str, ...]]) -> str:
+    """Return a table of HTML; its cells are text."""
+    head = "".join(f"<th>{heading}</th>" for heading in headings)
+    cells = "\n".join(
+        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row_) + "</tr>" for row_ in rows
+    )
+    return f"<table>\n<tr>{head}</tr>\n{cells}\n</table>"
+
+
+def _page(name: str) -> list[str]:
+    """Return the written part of a page, if there is one."""
+    path = _PAGES / f"{name}.html"
+    return [path.read_text("utf-8")] if path.is_file() else []
+
+
+def index_html(
+    definition: Definition, ranges: Iterable[Range] = (), *, native: bool = False
+) -> str:
+    """Return documentation/index.html of the FMU.
+
+    Parameters
+    ----------
+    definition : Definition
+    ranges : iterable of Range
+        Outside of which the FMU warns; for a native FMU.
+    native : bool
+        Whether the FMU computes by itself.
+    """
     body = [
         f"<h1>{escape(definition.name)}</h1>",
         f"<p>{escape(definition.description)}.</p>",
         f"<p>{_NEEDS[native]} Communication steps are above 0 and at most 0.1 s; outputs hold the "
         "end of the last step.</p>",
+        *_page(definition.name),
     ]
-    for title, rows in _sections(definition):
-        head = "".join(f"<th>{heading}</th>" for heading in HEADINGS)
-        cells = "\n".join(
-            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row_) + "</tr>" for row_ in rows
-        )
-        body.append(f"<h2>{title}</h2>\n<table>\n<tr>{head}</tr>\n{cells}\n</table>")
-    style = "body{font-family:sans-serif}td,th{text-align:left;padding:0 1em 0 0}"
+    if native:
+        body += _page("native")
+    rows = [
+        (one.output, one.what, f"{one.low:g} to {one.high:g}", one.unit, one.beyond)
+        for one in ranges
+    ]
+    if rows:
+        headings = ("Output", "Quantity", "Range", "Unit", "Beyond")
+        body.append(f"<h2>Ranges</h2>\n{_table(headings, rows)}")
+    for title, cells in _sections(definition):
+        body.append(f"<h2>{title}</h2>\n{_table(HEADINGS, cells)}")
+    style = (
+        "body{font-family:sans-serif;max-width:70em;margin:auto;padding:1em}"
+        "td,th{text-align:left;vertical-align:top;padding:0 1em 0 0}pre{overflow-x:auto}"
+    )
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         f"<title>{escape(definition.name)}</title><style>{style}</style></head>\n<body>\n"

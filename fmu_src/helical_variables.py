@@ -6,9 +6,28 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
-from fmu_src.common_outputs import MEMBERS, displacements, energies, motion, ranges
+from fmu_src.common_outputs import (
+    MEMBERS,
+    displacements,
+    energies,
+    load_level,
+    motion,
+    ranges,
+    tilt_speeds,
+    velocities,
+)
 from fmu_src.variable import Variable
-from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
+from fmu_src.variable_kinds import (
+    count,
+    input_,
+    local,
+    option,
+    options_by_number,
+    output,
+    parameter,
+    rates,
+)
+from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
 
 CUSTOM, LINE_MESH = "custom", "line_mesh"  # literals with a meaning to the model's start
 
@@ -145,7 +164,7 @@ _ENERGIES = energies(
     }
 )
 
-HELICAL_PAIR: tuple[Variable, ...] = (
+_FIRST: tuple[Variable, ...] = (
     *_INPUTS,
     *_PARAMETERS,
     *motion(),
@@ -157,4 +176,28 @@ HELICAL_PAIR: tuple[Variable, ...] = (
     *_ENERGIES,
     *ranges(),
     *options_by_number(_PARAMETERS),
+)
+
+# what model exchange needs besides
+_STATES = (
+    local("mesh.rotation", "m", "Base radius times rotation of the pinion less that of the gear",
+          1e-5, "um"),
+    *(one for member in MEMBERS for one in (*velocities(*member), *tilt_speeds(*member))),
+    load_level(),
+)  # fmt: skip
+_BY_NAME = {variable.name: variable for variable in _FIRST + _STATES}
+_EVENTS = (
+    local("event.drive_flank", "1", "Drive flanks may touch where it is above 0: bound of their "
+          "deflection over 1 um"),
+    local("event.coast_flank", "1", "Coast flanks may touch where it is above 0: bound of their "
+          "deflection over 1 um"),
+    local("event.friction_update", "1", "Friction of the film is computed anew where its sign "
+          "changes: sine of pi times the updates since phase zero"),
+)  # fmt: skip
+
+HELICAL_PAIR: tuple[Variable, ...] = (
+    *_FIRST,
+    *_STATES,
+    *rates([_BY_NAME[name] for name in STATE_NAMES]),
+    *_EVENTS,
 )

@@ -1,12 +1,14 @@
-"""modelDescription.xml of FMI 2.0 co-simulation, written from the table of variables."""
+"""modelDescription.xml of FMI 2.0, written from the table of variables."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from importlib.metadata import version
 from xml.etree import ElementTree
 
 from fmu_src.definition import Definition
+from fmu_src.native.model import Exchange
 from fmu_src.units import units_of
 from fmu_src.variable import Variable
 
@@ -77,7 +79,9 @@ def attributes_of(variable: Variable) -> dict[str, str]:
     return attributes
 
 
-def _variables(root: ElementTree.Element, definition: Definition) -> None:
+def _variables(
+    root: ElementTree.Element, definition: Definition, exchange: Exchange | None
+) -> None:
     parent = ElementTree.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(definition.variables):
         attributes = {
@@ -90,19 +94,56 @@ def _variables(root: ElementTree.Element, definition: Definition) -> None:
         if variable.initial is not None:
             attributes["initial"] = variable.initial
         scalar = ElementTree.SubElement(parent, "ScalarVariable", attributes)
-        ElementTree.SubElement(scalar, variable.type, attributes_of(variable))
+        of_type = attributes_of(variable)
+        if exchange and variable.rate_of:
+            of_type["derivative"] = str(definition.references[variable.rate_of] + 1)
+        ElementTree.SubElement(scalar, variable.type, of_type)
 
 
-def _structure(root: ElementTree.Element, definition: Definition) -> None:
+def dependencies_of(
+    references: Iterable[int], definition: Definition, exchange: Exchange | None
+) -> dict[int, list[int]]:
+    """Return the references of the inputs and states that each computed variable depends on.
+
+    Without model exchange nothing: outputs hold the end of the last step, and setting an input
+    changes none of them by itself.
+    """
+    if not exchange:
+        return {reference: [] for reference in references}
+    states = sorted(definition.references[name] for name in exchange.states)
+    found = {}
+    for reference in references:
+        name = definition.variables[reference].name
+        if name in exchange.states:
+            found[reference] = [reference]
+        elif name in exchange.of_states:
+            found[reference] = states
+        else:
+            found[reference] = sorted(states + definition.references_of("input"))
+    return found
+
+
+def _structure(
+    root: ElementTree.Element, definition: Definition, exchange: Exchange | None
+) -> None:
     parent = ElementTree.SubElement(root, "ModelStructure")
     known = definition.references_of("input") + definition.references_of("parameter")
-    initial_dependencies = " ".join(str(reference + 1) for reference in sorted(known))
-    # Outputs hold the end of the last step: setting an input changes none of them by itself.
-    for section, dependencies in (("Outputs", ""), ("InitialUnknowns", initial_dependencies)):
+    outputs = definition.references_of("output")
+    sections = {"Outputs": dependencies_of(outputs, definition, exchange)}
+    if exchange:
+        rates = [definition.references[name] for name in exchange.rates(definition)]
+        states = [definition.references[name] for name in exchange.states]
+        sections["Derivatives"] = dependencies_of(rates, definition, exchange)
+        outputs = sorted({*outputs, *rates, *states})
+    sections["InitialUnknowns"] = dict.fromkeys(outputs, sorted(known))
+    for section, unknowns in sections.items():
         element = ElementTree.SubElement(parent, section)
-        for reference in definition.references_of("output"):
+        for reference, dependencies in unknowns.items():
             ElementTree.SubElement(
-                element, "Unknown", index=str(reference + 1), dependencies=dependencies
+                element,
+                "Unknown",
+                index=str(reference + 1),
+                dependencies=" ".join(str(one + 1) for one in dependencies),
             )
 
 
@@ -130,7 +171,9 @@ def xml_bytes(root: ElementTree.Element) -> bytes:
     return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
 
 
-def model_description(definition: Definition, guid: str, *, native: bool = False) -> bytes:
+def model_description(
+    definition: Definition, guid: str, *, native: bool = False, exchange: Exchange | None = None
+) -> bytes:
     """Return modelDescription.xml as UTF-8 bytes; the same input gives the same bytes.
 
     Parameters
@@ -141,6 +184,8 @@ def model_description(definition: Definition, guid: str, *, native: bool = False
         Identifier of its content.
     native : bool
         Whether the FMU computes by itself, or in the installed package gearlube.
+    exchange : Exchange, optional
+        Of an FMU that is for model exchange too.
 
     Notes
     -----
@@ -163,9 +208,27 @@ def model_description(definition: Definition, guid: str, *, native: bool = False
             "license": "MIT",
             "generationTool": tool,
             "variableNamingConvention": "structured",
-            "numberOfEventIndicators": "0",
+            "numberOfEventIndicators": str(len(exchange.indicators) if exchange else 0),
         },
     )
+    common = {
+        "canBeInstantiatedOnlyOncePerProcess": "false",
+        "canNotUseMemoryManagementFunctions": "true",
+        "canGetAndSetFMUstate": "true",
+        "canSerializeFMUstate": "true",
+    }
+    if exchange:
+        ElementTree.SubElement(
+            root,
+            "ModelExchange",
+            {
+                "modelIdentifier": definition.name,
+                "needsExecutionTool": "false",
+                "completedIntegratorStepNotNeeded": "false",
+                **common,
+                "providesDirectionalDerivative": "true",
+            },
+        )
     ElementTree.SubElement(
         root,
         "CoSimulation",
@@ -176,10 +239,7 @@ def model_description(definition: Definition, guid: str, *, native: bool = False
             "canInterpolateInputs": "false",
             "maxOutputDerivativeOrder": "0",
             "canRunAsynchronuously": "false",
-            "canBeInstantiatedOnlyOncePerProcess": "false",
-            "canNotUseMemoryManagementFunctions": "true",
-            "canGetAndSetFMUstate": "true",
-            "canSerializeFMUstate": "true",
+            **common,
             "providesDirectionalDerivative": "false",
         },
     )
@@ -187,6 +247,6 @@ def model_description(definition: Definition, guid: str, *, native: bool = False
     _types(root, definition)
     write_log_categories(root)
     write_default_experiment(root, definition)
-    _variables(root, definition)
-    _structure(root, definition)
+    _variables(root, definition, exchange)
+    _structure(root, definition, exchange)
     return xml_bytes(root)

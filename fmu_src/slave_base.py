@@ -215,7 +215,7 @@ class CoSimulationSlave(Fmi2Slave):
         return self._values.array[index]
 
     def _asks_for_output(self, vrs: Sequence[int]) -> bool:
-        return any(self.definition.variables[vr].causality == "output" for vr in vrs)
+        return any(self.definition.variables[vr].is_computed for vr in vrs)
 
     @guarded
     def get_real(self, vrs: Sequence[int]) -> list[float]:

@@ -36,7 +36,11 @@ _ALL = (
         exponents={"m": 1},
         display=(DisplayUnit(name="um", factor=1e6), DisplayUnit(name="mm", factor=1e3)),
     ),
-    Unit(name="m/s", exponents={"m": 1, "s": -1}),
+    Unit(
+        name="m/s",
+        exponents={"m": 1, "s": -1},
+        display=(DisplayUnit(name="km/h", factor=3.6),),
+    ),
     Unit(
         name="rad",
         exponents={"rad": 1},
@@ -48,7 +52,10 @@ _ALL = (
         display=(DisplayUnit(name="rpm", factor=30.0 / math.pi),),
     ),
     Unit(name="rad/s2", exponents={"s": -2, "rad": 1}),
+    Unit(name="m/s2", exponents={"m": 1, "s": -2}),
     Unit(name="Hz", exponents={"s": -1}),
+    Unit(name="kg", exponents={"kg": 1}),
+    Unit(name="kg.m2", exponents={"kg": 1, "m": 2}),
     Unit(
         name="N",
         exponents={"kg": 1, "m": 1, "s": -2},
@@ -66,6 +73,7 @@ _ALL = (
         display=(DisplayUnit(name="GPa", factor=1e-9),),
     ),
     Unit(name="N.m", exponents={"kg": 1, "m": 2, "s": -2}),
+    Unit(name="N.m/s", exponents={"kg": 1, "m": 2, "s": -3}),
     Unit(name="J", exponents={"kg": 1, "m": 2, "s": -2}),
     Unit(name="W", exponents={"kg": 1, "m": 2, "s": -3}),
     Unit(

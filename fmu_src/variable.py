@@ -9,7 +9,7 @@ from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
 
 VariableType = Literal["Real", "Integer", "Boolean", "Enumeration"]
-Causality = Literal["parameter", "input", "output"]
+Causality = Literal["parameter", "input", "output", "local"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,8 +22,9 @@ class Variable:
         FMI name of the structured naming convention.
     type : {"Real", "Integer", "Boolean", "Enumeration"}
         FMI 2 type. FMI 3 calls them Float64, Int32, Boolean and Enumeration.
-    causality : {"parameter", "input", "output"}
-        A parameter is fixed after initialisation.
+    causality : {"parameter", "input", "output", "local"}
+        A parameter is fixed after initialisation. A local is computed as an output is, but meant
+        for no connection: what else a solver needs.
     description : str
         One line for the user.
     unit, display_unit : str
@@ -41,6 +42,8 @@ class Variable:
     option_of : str
         Name of the enumeration that this Integer parameter sets by number, for hosts that know no
         enumerations; 0 leaves it as it is.
+    rate_of : str
+        Name of the variable whose derivative by time this is.
     """
 
     name: str
@@ -56,18 +59,24 @@ class Variable:
     literals: tuple[str, ...] = ()
     argument: str = ""
     option_of: str = ""
+    rate_of: str = ""
 
     def __post_init__(self) -> None:
         check_option(f"type of {self.name}", self.type, get_args(VariableType))
         check_option(f"causality of {self.name}", self.causality, get_args(Causality))
-        if (self.start is None) != (self.causality == "output"):
-            raise ParameterError(f"{self.name} must have a start value unless it is an output.")
+        if (self.start is None) != self.is_computed:
+            raise ParameterError(f"{self.name} must have a start value unless it is computed.")
         if (self.type == "Real") != bool(self.unit):
             raise ParameterError(f"{self.name} must have a unit if, and only if, it is Real.")
         if (self.type == "Enumeration") != bool(self.literals):
             raise ParameterError(f"{self.name} must have literals if it is an Enumeration.")
         if (self.causality == "parameter") != bool(self.argument or self.option_of):
             raise ParameterError(f"{self.name} must have an argument if it is a parameter.")
+
+    @property
+    def is_computed(self) -> bool:
+        """Whether the model computes it: an output or a local."""
+        return self.causality in ("output", "local")
 
     @property
     def is_model_parameter(self) -> bool:
@@ -84,7 +93,7 @@ class Variable:
     @property
     def initial(self) -> str | None:
         """FMI 2 attribute `initial`; inputs must not have one."""
-        return {"parameter": "exact", "input": None, "output": "calculated"}[self.causality]
+        return "calculated" if self.is_computed else {"parameter": "exact"}.get(self.causality)
 
     @property
     def range(self) -> tuple[float, float]:

@@ -3,8 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from fmu_src.variable import Variable
+
+# unit of a state -> unit and typical size of its derivative
+_RATES = {
+    "m": ("m/s", 0.01),
+    "m/s": ("m/s2", 10.0),
+    "rad": ("rad/s", 100.0),
+    "rad/s": ("rad/s2", 1e3),
+    "J": ("W", 1e3),
+    "N.m": ("N.m/s", 1e3),
+}
 
 
 def input_(name: str, unit: str, description: str, **limits: float | str) -> Variable:
@@ -51,6 +62,29 @@ def count(
         name=name, type="Integer", causality="parameter", description=description,
         start=start, minimum=minimum, maximum=maximum, argument=argument,
     )  # fmt: skip
+
+
+def local(
+    name: str, unit: str, description: str, nominal: float = 1.0, display_unit: str = ""
+) -> Variable:
+    """Return a Real that a solver needs and no connection."""
+    return replace(output(name, unit, description, nominal, display_unit), causality="local")
+
+
+def rates(states: Sequence[Variable]) -> tuple[Variable, ...]:
+    """Return the derivative by time of each continuous state."""
+    return tuple(
+        replace(
+            local(f"der({one.name})", unit, f"Derivative by time: {_in_a_sentence(one)}", nominal),
+            rate_of=one.name,
+        )
+        for one in states
+        for unit, nominal in [_RATES[one.unit]]
+    )  # fmt: skip
+
+
+def _in_a_sentence(variable: Variable) -> str:
+    return variable.description[0].lower() + variable.description[1:]
 
 
 def output(

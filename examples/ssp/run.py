@@ -17,12 +17,14 @@ from docs.fmu_hosts.hosts import Job, run_ecos, run_libcosim
 from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
-from examples.ssp.driveline_fmu import build_driveline
 from examples.ssp.system import CONNECTIONS, REQUEST, ParameterSet, write_ssp, write_ssv
 from fmu_src.fmu_cache import cached_hypoid_axle
 from fmu_src.hypoid_axle import DEFINITION
+from fmu_src.native.build import NativeOptions, build_native
+from fmu_src.native.driveline import driveline_model
+from fmu_src.native.platforms import platform_of_this_machine
 
-SPEED, AXLE_LOSS = 20.0, 100.0  # m/s at the start; W, roughly
+SPEED = 20.0  # m/s at the start
 REQUESTED = 20.5  # m/s
 STEP, STEPS = 5e-5, 10_000  # s; a whole number of nanoseconds
 OILS = {"mohammadpour": 1, "karagiannis": 2}  # oil.name.number
@@ -34,7 +36,13 @@ _PARAMETERS = [v for v in DEFINITION.variables if v.is_model_parameter]
 
 def driveline() -> Driveline:
     """Return the car in its steady state at SPEED."""
-    return Driveline(DrivelineParameters(road_load=mohammadpour_2015_road_load()), SPEED, AXLE_LOSS)
+    return Driveline(DrivelineParameters(road_load=mohammadpour_2015_road_load()), SPEED)
+
+
+def build_driveline(folder: Path) -> Path:
+    """Write Driveline.fmu for this machine, as `gearlube build-fmu --model driveline` does."""
+    options = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
+    return build_native(driveline_model(), folder, options)[0]
 
 
 def parameter_sets(car: Driveline, first: str) -> list[ParameterSet]:
@@ -49,7 +57,7 @@ def parameter_sets(car: Driveline, first: str) -> list[ParameterSet]:
     }
     sets = []
     for oil in sorted(OILS, key=lambda name: name != first):
-        sets.append(ParameterSet(oil, "car", {REQUEST: REQUESTED}))
+        sets.append(ParameterSet(oil, "car", {REQUEST: REQUESTED, "vehicle.speed_start": SPEED}))
         sets.append(ParameterSet(oil, "axle", start | {"oil.name.number": OILS[oil]}))
     return sets
 
@@ -115,7 +123,7 @@ def main(steps: int = STEPS) -> dict[str, Sequence[float]]:
     found: dict[str, Sequence[float]] = {}
     with tempfile.TemporaryDirectory() as name:
         folder, car = Path(name), driveline()
-        fmus = {"car": build_driveline(car, folder / "Driveline.fmu"), "axle": cached_hypoid_axle()}
+        fmus = {"car": build_driveline(folder), "axle": cached_hypoid_axle()}
         for oil in OILS:
             found[f"Python, {oil}"] = in_python(oil, steps)
             sets = parameter_sets(car, oil)

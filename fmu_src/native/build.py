@@ -22,6 +22,7 @@ from fmu_src.native.platforms import (
     PLATFORM_NAMES,
     PLATFORMS,
     Platform,
+    c_object,
     check_linker,
     fmi_headers,
     shared_library,
@@ -29,6 +30,7 @@ from fmu_src.native.platforms import (
 )
 from fmu_src.native.sources import c_sources
 from fmu_src.object_code import intermediate_code, object_code
+from fmu_src.reference_results import reference_results
 from gearlube_core.checks import check_option
 from gearlube_core.kernels.source_code import code_of
 from gearlube_core.kernels.source_files import source_files
@@ -48,6 +50,8 @@ class NativeOptions:
         Names in PLATFORMS.
     fmi : sequence of {"2", "3"}
         Versions of the standard, an archive for each.
+    reference : bool
+        Whether results of the Python model go into the archives, for hosts to compare with.
     report : callable
         Called with each line of progress.
 
@@ -59,6 +63,7 @@ class NativeOptions:
 
     platforms: Sequence[str] = PLATFORM_NAMES
     fmi: Sequence[str] = FMI_VERSIONS
+    reference: bool = True
     report: Callable[[str], None] = lambda text: None
 
     def __post_init__(self) -> None:
@@ -70,12 +75,20 @@ class NativeOptions:
                 check_option(name, one, known)
 
 
+def _description(model: NativeModel, guid: str) -> bytes:
+    """Return modelDescription.xml of FMI 2.0."""
+    return model_description(model.definition, guid, native=True, exchange=model.exchange)
+
+
 def native_guid(model: NativeModel) -> UUID:
     """Return the GUID: equal code and data have an equal GUID, on every machine."""
-    digest = hashlib.sha256(model_description(model.definition, "", native=True))
+    digest = hashlib.sha256(_description(model, ""))
     for name, text in sorted(c_sources(model, "").items()):
         digest.update(f"{name}\0{text}\0".encode())
-    digest.update(source_digest(model.definition) + _entry_digest(model.entry))
+    for name, text in model.c_code.items():
+        digest.update(f"{name}\0{text}\0".encode())
+    if model.entry is not None:
+        digest.update(source_digest(model.definition) + _entry_digest(model.entry))
     return UUID(bytes=digest.digest()[:16])
 
 
@@ -107,18 +120,23 @@ def libraries(
     name = model.definition.name
     sources = c_sources(model, str(native_guid(model))) | fmi_headers()
     report(f"{name}: compiling the kernels")
-    code = intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
+    code = model.entry and intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
+    headers = {file: text for file, text in sources.items() if file.endswith(".h")}
     built = {}
     for platform in platforms:
         report(f"{name}: linking for {platform.name}")
-        kernels, _ = object_code(code, platform.target)
+        if code:
+            kernels, _ = object_code(code, platform.target)
+        else:
+            kernels = c_object(platform, model.c_code, headers)
         built[platform.name] = shared_library(platform, sources, kernels, name)
     return built
 
 
 def _common_content(model: NativeModel) -> dict[str, bytes]:
     definition = model.definition
-    content = {"documentation/index.html": index_html(definition, native=True).encode()}
+    page = index_html(definition, model.ranges, native=True)
+    content = {"documentation/index.html": page.encode()}
     for licence in sorted((_PACKAGE / "licences").glob("gearlube*.txt")):
         content[f"documentation/licenses/{licence.name}"] = licence.read_bytes()
     for name, text in c_sources(model, str(native_guid(model))).items():
@@ -132,7 +150,7 @@ def fmi2_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
     definition, guid = model.definition, str(native_guid(model))
     suffixes = {platform.name: platform.suffix for platform in PLATFORMS}
     content = _common_content(model)
-    content["modelDescription.xml"] = model_description(definition, guid, native=True)
+    content["modelDescription.xml"] = _description(model, guid)
     content["model.png"] = (_PACKAGE / "model.png").read_bytes()
     for folder, platforms in FMI2_FOLDERS.items():
         there = {name: built[name] for name in platforms if name in built}
@@ -147,7 +165,7 @@ def fmi3_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
     """Return the files of the FMI 3.0 archive around the libraries of `libraries`."""
     definition, guid = model.definition, str(native_guid(model))
     content = _common_content(model)
-    content["modelDescription.xml"] = model_description_3(definition, guid)
+    content["modelDescription.xml"] = model_description_3(definition, guid, model.exchange)
     content["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(definition)
     content[ICON] = (_PACKAGE / "model.png").read_bytes()
     content["sources/buildDescription.xml"] = build_description(definition.name)
@@ -170,10 +188,14 @@ def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> l
     """
     platforms = [one for one in PLATFORMS if one.name in options.platforms]
     built = libraries(model, platforms, options.report)
+    results = {}
+    if options.reference and model.entry is not None:
+        options.report(f"{model.definition.name}: reference results")
+        results = reference_results(model.definition)
     contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}
     paths = []
     for version in options.fmi:
         ending, content = contents[version]
         paths.append(out_dir / f"{model.definition.name}{ending}.fmu")
-        write_archive(paths[-1], content(model, built))
+        write_archive(paths[-1], content(model, built) | results)
     return paths

@@ -16,12 +16,17 @@ from fmu_src.native.helical_cases import (
     CaseHead,
     helical_cases,
 )
-from fmu_src.native.model import OK, NativeModel, Operation
+from fmu_src.native.model import OK, Exchange, NativeModel, Operation
 from fmu_src.object_code import array_at, matrix_at, pointer_at
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march import equilibrium, integrate
 from gearlube_core.dynamics.helical_pair.march.communication import step_without_outputs
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants
+from gearlube_core.dynamics.helical_pair.march.continuous import (
+    EVENT_INDICATORS,
+    STATE_NAMES,
+    event,
+)
 from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     EQUILIBRIUM_WORK,
     highest_frequency,
@@ -51,6 +56,8 @@ from gearlube_core.dynamics.helical_pair.march.model import (
 from gearlube_core.dynamics.helical_pair.march.outputs import (
     MOTION_OUTPUTS,
     N_OUTPUTS,
+    POWERS,
+    write_derivatives,
     write_motion,
     write_outputs,
 )
@@ -59,9 +66,16 @@ from gearlube_core.dynamics.helical_pair.march.parameters import (
     HELD,
     LINE_WORK,
 )
-from gearlube_core.dynamics.helical_pair.march.state import LINES_MAX, N_STATE
+from gearlube_core.dynamics.helical_pair.march.state import (
+    LINES_MAX,
+    N_CONTINUOUS,
+    N_STATE,
+    PSI,
+    W_G,
+    W_P,
+)
 from gearlube_core.dynamics.helical_pair.supports.shaft_support import COUPLING_CURE
-from gearlube_core.dynamics.ranges import RangeLimits
+from gearlube_core.dynamics.ranges import MAX_SPEED, RangeLimits
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
 
@@ -127,9 +141,7 @@ DENSITY_WITH_LINE_MESH = 7
 COUPLING_TOO_LARGE = 8
 MISSING_CASE = 10  # and its number
 
-_START, _STEP, _RESUME, _MOTION = (
-    int(o) for o in (Operation.START, Operation.STEP, Operation.RESUME, Operation.MOTION)
-)
+_START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, Operation)
 
 
 @kernel
@@ -302,6 +314,17 @@ def entry(
         status = start(given, wanted, mesh, pair_data, trial, scratch, own)
         if status != OK:
             return status
+    if operation == _DERIVATIVES:
+        if max(abs(own[W_P]), abs(own[W_G])) > MAX_SPEED:
+            return integrate.TOO_FAST
+        if abs(own[PSI]) > integrate.DIVERGED:
+            return integrate.NOT_FINITE
+        last = own[INPUTS_AT:CONTROL_AT]
+        write_derivatives(own[:N_STATE], last, mesh, pair_data, scratch, out)
+        return OK
+    if operation == _EVENT:
+        event(own[:N_STATE], own[CONTROL_AT - 1], mesh, pair_data)
+        return OK
     if operation == _MOTION:  # after a step, where no rates are read
         constants: MarchConstants = tuple_from_array(pair_data, MarchConstants)
         write_motion(own[:N_STATE], scratch, constants.teeth, bearings, out)
@@ -341,4 +364,11 @@ def native_model(definition: Definition) -> NativeModel:
         ranges=cases.ranges,
         refusals=refusals,
         motion=frozenset(MOTION_OUTPUTS),
+        exchange=Exchange(
+            states=STATE_NAMES,
+            units=(1.0,) * N_CONTINUOUS,
+            indicators=EVENT_INDICATORS,
+            inputs_at=INPUTS_AT,
+            of_states=frozenset(MOTION_OUTPUTS) - POWERS,
+        ),
     )

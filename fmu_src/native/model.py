@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 from numba import types
@@ -18,6 +18,37 @@ ENTRY_SIGNATURE = types.int64(types.int64, types.float64, *6 * [_POINTER])
 OK = 0
 
 
+@dataclass(frozen=True, kw_only=True)
+class Exchange:
+    """What model exchange needs of a model.
+
+    Parameters
+    ----------
+    states : tuple of str
+        Variables that hold the continuous states, which are the first in `state`. Each has a
+        variable with it as `rate_of`.
+    units : tuple of float
+        One in `state` is so much in the variable's unit.
+    indicators : tuple of str
+        Variables whose change of sign is an event.
+    inputs_at : int
+        Place in the state of the inputs, in their order.
+    of_states : frozenset of str
+        Outputs that depend on states alone, not at once on an input.
+    """
+
+    states: tuple[str, ...]
+    units: tuple[float, ...]
+    indicators: tuple[str, ...]
+    inputs_at: int
+    of_states: frozenset[str]
+
+    def rates(self, definition: Definition) -> list[str]:
+        """Return the variables that hold the rates of the states, in their order."""
+        of_state = {v.rate_of: v.name for v in definition.variables if v.rate_of}
+        return [of_state[name] for name in self.states]
+
+
 class Operation(IntEnum):
     """What the entry of a model is asked to do."""
 
@@ -26,6 +57,8 @@ class Operation(IntEnum):
     OUTPUTS = 2  # state and its own inputs -> outputs
     RESUME = 3  # parameters -> work; the state comes from elsewhere
     MOTION = 4  # state after a step -> the outputs named in `motion`
+    DERIVATIVES = 5  # state and its own inputs -> rates and event indicators, among the outputs
+    EVENT = 6  # state -> state after what an event changes, if anything
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +69,7 @@ class NativeModel:
     ----------
     definition : Definition
         Variables and names.
-    entry : callable
+    entry : callable, optional
         Plain Python function over kernels, to be compiled with ENTRY_SIGNATURE:
         `entry(operation, step, data, parameters, inputs, state, work, outputs) -> status`.
         `parameters` are the values of the FMI parameters and `inputs` those of the inputs, both
@@ -59,13 +92,18 @@ class NativeModel:
         those in `work`.
     refusals : mapping of int to str
         Why an operation was refused, by status.
+    c_code : mapping of str to str
+        Instead of `entry`: C files by name, of which the first defines `gearlube_entry` and
+        includes the others.
     motion : frozenset of str
         Outputs that cost next to nothing. With any, STEP writes no outputs: MOTION writes these and
         OUTPUTS all of them, when the host reads one.
+    exchange : Exchange, optional
+        Without it the FMU is for co-simulation only, and the entry is never asked for
+        DERIVATIVES and EVENT.
     """
 
     definition: Definition
-    entry: Callable[..., int]
     data: Array
     state_size: int
     control_at: int
@@ -74,4 +112,7 @@ class NativeModel:
     ranges_at: int
     ranges: tuple[Range, ...]
     refusals: Mapping[int, str]
+    entry: Callable[..., int] | None = None
+    c_code: Mapping[str, str] = field(default_factory=dict)
     motion: frozenset[str] = frozenset()
+    exchange: Exchange | None = None

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 from fmu_src.definition import Definition
 from fmu_src.model_description import (
     attributes_of,
+    dependencies_of,
     type_name,
     write_default_experiment,
     write_log_categories,
@@ -15,6 +16,7 @@ from fmu_src.model_description import (
     xml_bytes,
 )
 from fmu_src.native.array_variables import ArrayVariable, array_variables
+from fmu_src.native.model import Exchange
 from fmu_src.variable import Variable
 
 _TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
@@ -28,7 +30,7 @@ ICON = "terminalsAndIcons/icon.png"
 _ICON_SIZE = 100.0  # of the drawing in its own units
 
 
-def _variable(parent: ElementTree.Element, array: ArrayVariable) -> None:
+def _variable(parent: ElementTree.Element, array: ArrayVariable, state: int | None) -> None:
     variable: Variable = array.variable
     attributes = {
         "name": variable.name,
@@ -39,6 +41,8 @@ def _variable(parent: ElementTree.Element, array: ArrayVariable) -> None:
     }
     if variable.initial is not None:
         attributes["initial"] = variable.initial
+    if state is not None:
+        attributes["derivative"] = str(state)
     element = ElementTree.SubElement(
         parent, _TYPES[variable.type], attributes | attributes_of(variable)
     )
@@ -47,21 +51,51 @@ def _variable(parent: ElementTree.Element, array: ArrayVariable) -> None:
 
 
 def _types(root: ElementTree.Element, definition: Definition) -> None:
+    enumerations = [variable for variable in definition.variables if variable.literals]
+    if not enumerations:  # an empty element is no valid one
+        return
     parent = ElementTree.SubElement(root, "TypeDefinitions")
-    for variable in definition.variables:
-        if variable.literals:
-            enumeration = ElementTree.SubElement(
+    for variable in enumerations:
+        enumeration = ElementTree.SubElement(
+            parent, "EnumerationType", name=type_name(variable), description=variable.description
+        )
+        for value, literal in enumerate(variable.literals, start=1):
+            ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
+
+
+def _structure(
+    root: ElementTree.Element, definition: Definition, exchange: Exchange | None
+) -> None:
+    arrays = array_variables(definition.variables)
+    first = {reference: one.references[0] for one in arrays for reference in one.references}
+    known = [one.references[0] for one in arrays if not one.variable.is_computed]
+    outputs = [one.references[0] for one in arrays if one.variable.causality == "output"]
+    sections = [("Output", dependencies_of(outputs, definition, exchange))]
+    if exchange:
+        references = definition.references
+        rates = [references[name] for name in exchange.rates(definition)]
+        states = [references[name] for name in exchange.states]
+        sections.append(("ContinuousStateDerivative", dependencies_of(rates, definition, exchange)))
+        outputs = sorted({*outputs, *rates, *states})
+    sections.append(("InitialUnknown", dict.fromkeys(outputs, known)))
+    if exchange:
+        indicators = [definition.references[name] for name in exchange.indicators]
+        sections.append(("EventIndicator", dependencies_of(indicators, definition, exchange)))
+    parent = ElementTree.SubElement(root, "ModelStructure")
+    for kind, unknowns in sections:
+        for reference, dependencies in unknowns.items():
+            ElementTree.SubElement(
                 parent,
-                "EnumerationType",
-                name=type_name(variable),
-                description=variable.description,
+                kind,
+                valueReference=str(reference),
+                dependencies=" ".join(str(first[one]) for one in dependencies),
             )
-            for value, literal in enumerate(variable.literals, start=1):
-                ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
 
 
-def model_description_3(definition: Definition, token: str) -> bytes:
-    """Return modelDescription.xml of FMI 3.0 for co-simulation.
+def model_description_3(
+    definition: Definition, token: str, exchange: Exchange | None = None
+) -> bytes:
+    """Return modelDescription.xml of FMI 3.0.
 
     Parameters
     ----------
@@ -69,6 +103,8 @@ def model_description_3(definition: Definition, token: str) -> bytes:
         The FMU.
     token : str
         Instantiation token: identifier of its content.
+    exchange : Exchange, optional
+        Of an FMU that is for model exchange too.
     """
     root = ElementTree.Element(
         "fmiModelDescription",
@@ -84,17 +120,25 @@ def model_description_3(definition: Definition, token: str) -> bytes:
             "variableNamingConvention": "structured",
         },
     )
+    common = {
+        "modelIdentifier": definition.name,
+        "needsExecutionTool": "false",
+        "canBeInstantiatedOnlyOncePerProcess": "false",
+        "canGetAndSetFMUState": "true",
+        "canSerializeFMUState": "true",
+    }
+    if exchange:
+        ElementTree.SubElement(
+            root,
+            "ModelExchange",
+            {
+                **common,
+                "providesDirectionalDerivatives": "true",
+                "needsCompletedIntegratorStep": "true",
+            },
+        )
     ElementTree.SubElement(
-        root,
-        "CoSimulation",
-        {
-            "modelIdentifier": definition.name,
-            "needsExecutionTool": "false",
-            "canBeInstantiatedOnlyOncePerProcess": "false",
-            "canGetAndSetFMUState": "true",
-            "canSerializeFMUState": "true",
-            "canHandleVariableCommunicationStepSize": "true",
-        },
+        root, "CoSimulation", {**common, "canHandleVariableCommunicationStepSize": "true"}
     )
     write_units(root, definition)
     _types(root, definition)
@@ -110,23 +154,10 @@ def model_description_3(definition: Definition, token: str) -> bytes:
         variability="continuous",
         description="Simulation time [s]",
     )
-    arrays = array_variables(definition.variables)
-    for array in arrays:
-        _variable(parent, array)
-    known = " ".join(
-        str(array.references[0]) for array in arrays if array.variable.causality != "output"
-    )
-    structure = ElementTree.SubElement(root, "ModelStructure")
-    outputs = [array for array in arrays if array.variable.causality == "output"]
-    # Outputs hold the end of the last step: setting an input changes none of them by itself.
-    for kind, dependencies in (("Output", ""), ("InitialUnknown", known)):
-        for array in outputs:
-            ElementTree.SubElement(
-                structure,
-                kind,
-                valueReference=str(array.references[0]),
-                dependencies=dependencies,
-            )
+    for array in array_variables(definition.variables):
+        state = array.variable.rate_of if exchange else ""
+        _variable(parent, array, definition.references[state] if state else None)
+    _structure(root, definition, exchange)
     return xml_bytes(root)
 
 

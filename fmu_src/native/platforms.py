@@ -7,7 +7,7 @@ import struct
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from platform import machine as machine_name
@@ -95,6 +95,28 @@ def check_linker() -> None:
         )
 
 
+def c_object(platform: Platform, code: Mapping[str, str], headers: Mapping[str, str]) -> bytes:
+    """Return the object file of C code for a platform.
+
+    Parameters
+    ----------
+    platform : Platform
+    code : mapping of str to str
+        Files by name; the first is compiled and includes the others.
+    headers : mapping of str to str
+        Files that they include too.
+
+    Raises
+    ------
+    GearLubeError
+        The compiler is missing or fails; the message ends with its last words.
+    """
+    check_linker()
+    main = next(iter(code))
+    options = ["-std=c99", "-O2", "-w", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off"]
+    return _compiled(platform, {**headers, **code}, [*options, "-c", main], "entry.o", main)
+
+
 def shared_library(
     platform: Platform, sources: Mapping[str, str], kernels: bytes, name: str
 ) -> bytes:
@@ -116,20 +138,33 @@ def shared_library(
         The linker is missing or fails; the message ends with its last words.
     """
     check_linker()
+    files = sorted(file for file in sources if file.endswith(".c"))
+    library = f"{name}{platform.suffix}"
+    return _compiled(
+        platform, {**sources, "kernels.o": kernels}, [*_OPTIONS, *files, "kernels.o"], library, name
+    )
+
+
+def _compiled(
+    platform: Platform,
+    files: Mapping[str, str | bytes],
+    options: Sequence[str],
+    wanted: str,
+    name: str,
+) -> bytes:
+    """Return the file `wanted` that the compiler makes of others with these options."""
     with tempfile.TemporaryDirectory() as folder:
-        for file, text in sources.items():
-            Path(folder, file).write_text(text, encoding="utf-8")
-        Path(folder, "kernels.o").write_bytes(kernels)
-        library = f"{name}{platform.suffix}"
+        for file, content in files.items():
+            data = content.encode() if isinstance(content, str) else content
+            Path(folder, file).write_bytes(data)
         command = [
-            sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, *_OPTIONS,
-            *sorted(file for file in sources if file.endswith(".c")), "kernels.o", "-o", library,
+            sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, *options, "-o", wanted,
         ]  # fmt: skip
         run = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=_settings())
-        if run.returncode != 0 or not Path(folder, library).is_file():
+        if run.returncode != 0 or not Path(folder, wanted).is_file():
             last = "\n".join(run.stderr.strip().splitlines()[-20:])
             raise GearLubeError(f"{name} cannot be linked for {platform.name}:\n{last}")
-        return Path(folder, library).read_bytes()
+        return Path(folder, wanted).read_bytes()
 
 
 def _settings() -> dict[str, str]:

@@ -16,7 +16,8 @@ from gearlube_core.dynamics.ranges import RANGE_EXCEEDED
 PLUMBING = Path(__file__).with_name("plumbing")
 _KINDS = {"Real": "GL_REAL", "Integer": "GL_INTEGER", "Enumeration": "GL_INTEGER",
           "Boolean": "GL_BOOLEAN"}  # fmt: skip
-_CAUSALITIES = {"parameter": "GL_PARAMETER", "input": "GL_INPUT", "output": "GL_OUTPUT"}
+_CAUSALITIES = {"parameter": "GL_PARAMETER", "input": "GL_INPUT", "output": "GL_OUTPUT",
+                "local": "GL_OUTPUT"}  # fmt: skip
 _NUMBERS_A_LINE = 8
 
 
@@ -56,7 +57,7 @@ def _places(variables: Sequence[Variable], output_names: Sequence[str]) -> list[
     counts = {"parameter": 0, "input": 0}
     places = []
     for variable in variables:
-        if variable.causality == "output":
+        if variable.is_computed:
             places.append(output_names.index(variable.name))
         elif variable.option_of:
             places.append(-1)
@@ -66,11 +67,31 @@ def _places(variables: Sequence[Variable], output_names: Sequence[str]) -> list[
     return places
 
 
-def _needs(variable: Variable, motion: frozenset[str]) -> int:
-    """Return what has to be computed before a variable is read: 0 nothing, 1 motion, 2 all."""
-    if variable.causality != "output":
-        return 0
-    return 1 if variable.name in motion else 2
+def _needs(variable: Variable, model: NativeModel) -> str:
+    """Return what has to be computed before a variable is read."""
+    if not variable.is_computed:
+        return "GL_NOTHING"
+    if variable.name in model.motion:
+        return "GL_OF_MOTION"
+    is_rate = model.exchange and (variable.rate_of or variable.name in model.exchange.indicators)
+    return "GL_OF_RATES" if is_rate else "GL_OF_OUTPUTS"
+
+
+def _exchange_tables(model: NativeModel) -> list[str]:
+    """Return the tables of model exchange; C knows none without elements."""
+    exchange, references = model.exchange, model.definition.references
+    states, indicators = ["{0, 0, 1.0}"], ["0"]
+    if exchange:
+        rates = exchange.rates(model.definition)
+        states = [
+            f"{{{references[name]}, {references[rate]}, {number_literal(unit)}}}"
+            for name, rate, unit in zip(exchange.states, rates, exchange.units, strict=True)
+        ]
+        indicators = [str(references[name]) for name in exchange.indicators]
+    return [
+        _array("const gl_continuous_state gl_states[]", states),
+        _array("const int gl_indicators[]", indicators),
+    ]
 
 
 def model_sizes(model: NativeModel, guid: str) -> str:
@@ -89,6 +110,9 @@ def model_sizes(model: NativeModel, guid: str) -> str:
         "RANGES": len(model.ranges),
         "REFUSALS": len(model.refusals),
         "LAZY": int(bool(model.motion)),
+        "CONTINUOUS": len(model.exchange.states) if model.exchange else 0,
+        "INDICATORS": len(model.exchange.indicators) if model.exchange else 0,
+        "INPUTS_AT": model.exchange.inputs_at if model.exchange else 0,
         "EXCEEDED": definition.references[RANGE_EXCEEDED],
     }
     lines = [f"#define GL_{name} {size}" for name, size in sizes.items()]
@@ -125,9 +149,9 @@ def model_tables(model: NativeModel) -> str:
         rows.append(
             f"{{{text_literal(variable.name)}, {text_literal(unit)}, {names}, "
             f"{number_literal(variable.start or 0.0)}, {number_literal(low)}, "
-            f"{number_literal(high)}, {_KINDS[variable.type]}, "
-            f"{_CAUSALITIES[variable.causality]}, {place}, {option}, "
-            f"{_needs(variable, model.motion)}}}"
+            f"{number_literal(high)}, {number_literal(variable.nominal or 1.0)}, "
+            f"{_KINDS[variable.type]}, {_CAUSALITIES[variable.causality]}, {place}, {option}, "
+            f"{_needs(variable, model)}}}"
         )
     arrays = {one.references[0]: one.references for one in array_variables(variables)}
     members = [
@@ -158,6 +182,7 @@ def model_tables(model: NativeModel) -> str:
             _array("const gl_array gl_arrays[GL_VARIABLES]", of_arrays),
             _array("const int gl_inputs[GL_INPUTS]", inputs),
             _array("const int gl_outputs[GL_OUTPUTS]", outputs),
+            *_exchange_tables(model),
             _array("const gl_refusal gl_refusals[GL_REFUSALS]", refusals),
             _array("const gl_range gl_ranges[GL_RANGES]", ranges),
             _array("const double gl_data[]", _numbers(model.data)),

@@ -21,12 +21,20 @@ def build_fmu(
     model: Annotated[
         str | None,
         typer.Option(
-            help="hypoid-axle or helical-pair. Default: the model of the given file, else both."
+            help="hypoid-axle, helical-pair or driveline. Default: those of the given files, "
+            "else all."
         ),
     ] = None,
     mesh_table: Annotated[
         Path | None,
         typer.Option(help="Mesh table (.nc) of another hypoid pair. Default: the one that ships."),
+    ] = None,
+    axle: Annotated[
+        str | None,
+        typer.Option(
+            help="Axle file (.toml) of another hypoid axle and its car; it names its mesh table.",
+            metavar="AXLE",
+        ),
     ] = None,
     gear: Annotated[
         Path | None, typer.Option(help="Gear file (.toml) of another helical pair.")
@@ -50,7 +58,7 @@ def build_fmu(
         ),
     ] = False,
 ) -> None:
-    """Build HypoidAxle.fmu and HelicalPair.fmu for co-simulation; they need no Python."""
+    """Build HypoidAxle.fmu, HelicalPair.fmu and Driveline.fmu; they need no Python."""
     from fmu_src.build import build_models
     from fmu_src.native.build import FMI_VERSIONS, NativeOptions
     from fmu_src.native.platforms import PLATFORM_NAMES
@@ -67,6 +75,6 @@ def build_fmu(
                 report=lambda text: _LOGGER.info("%s", text),
             )
         with written_folder(out):
-            paths = build_models(out, model, mesh_table, gear, line_mesh, native=native)
+            paths = build_models(out, model, mesh_table, gear, line_mesh, axle=axle, native=native)
     built = " and ".join(str(path) for path in paths)
     _LOGGER.info("Built %s in %.1f s.", built, time.monotonic() - began)

@@ -26,9 +26,23 @@ from fmu_src.native.helical_pair import (
     native_model,
 )
 from fmu_src.native.model import OK, NativeModel, Operation
-from gearlube_core.dynamics.helical_pair.march.integrate import TOO_MANY_STEPS
+from gearlube_core.dynamics.helical_pair.march.integrate import (
+    NOT_FINITE,
+    TOO_FAST,
+    TOO_MANY_STEPS,
+)
 from gearlube_core.dynamics.helical_pair.march.mesh_data import pair_data
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
+from gearlube_core.dynamics.helical_pair.march.state import (
+    LOAD_TORQUE,
+    MU,
+    N_CONTINUOUS,
+    N_STATE,
+    PHI_P,
+    PSI,
+    REFRESHED,
+    W_G,
+)
 from gearlube_core.dynamics.ranges import range_limits
 from gearlube_core.errors import GearLubeError, ParameterError
 from tests.helpers.object_code import (
@@ -40,7 +54,7 @@ from tests.helpers.object_code import (
 )
 
 PARAMETERS = tuple(v for v in HELICAL_PAIR if v.is_model_parameter)
-OUTPUTS = {v.name: v for v in HELICAL_PAIR if v.causality == "output"}
+OUTPUTS = {v.name: v for v in HELICAL_PAIR if v.is_computed}
 NOMINAL = np.array([OUTPUTS[name].nominal or 1.0 for name in DEFINITION.output_names])
 NOT_GIVEN_IF_0 = {
     "mesh.stiffness_density",
@@ -304,3 +318,49 @@ def test_a_bearing_made_too_soft_for_its_coupling_is_refused(
         assert instance(shipped, values, INPUTS, model)(Operation.START) == status
     with pytest.raises(ParameterError, match="K_x_theta_y must be within"):
         python_model(model, values, INPUTS)
+
+
+def test_rates_are_how_the_state_changes_and_events_renew_friction_alone(
+    shipped: LoadedModel,
+) -> None:
+    run = instance(shipped, values_of(), INPUTS)
+    assert run(Operation.START) == OK
+    for _ in range(3):
+        assert run(Operation.STEP, 1e-3) == OK
+    assert run(Operation.EVENT) == OK  # what a step would begin with
+    before = run.state.copy()
+    assert run(Operation.EVENT) == OK
+    np.testing.assert_array_equal(run.state, before)  # nothing is due any more
+    assert run(Operation.DERIVATIVES) == OK
+    np.testing.assert_array_equal(run.state, before)
+    first = DEFINITION.output_names.index("der(mesh.rotation)")
+    rates = run.outputs[first : first + N_CONTINUOUS].copy()
+    assert rates[LOAD_TORQUE] == 0.0
+    h = 1e-7
+    slopes = []
+    for step in (h, 2.0 * h):
+        run.state[:] = before
+        assert run(Operation.STEP, step) == OK
+        slopes.append((run.state[:N_CONTINUOUS] - before[:N_CONTINUOUS]) / step)
+    # Richardson's; third derivatives at 5 kHz leave 3e-6, roundings of 100 rad/s 1e-7 rad/s2
+    slope = 2.0 * slopes[0] - slopes[1]
+    nominal = NOMINAL[first : first + N_CONTINUOUS]
+    assert np.all(np.abs(slope - rates) < 1e-5 * np.maximum(np.abs(rates), nominal))
+
+    run.state[:] = before
+    run.state[LOAD_TORQUE] -= 10.0  # behind the torque by so much, with 20 ms
+    assert run(Operation.DERIVATIVES) == OK
+    assert run.outputs[first + LOAD_TORQUE] == pytest.approx(500.0, rel=1e-12)
+    run.state[:] = before
+    run.state[PHI_P] += 2.0 * math.pi / 25 / 16  # to the next update: 25 teeth, 16 a mesh period
+    assert run(Operation.EVENT) == OK
+    changed = np.flatnonzero(run.state != before)
+    assert changed[0] == PHI_P
+    assert changed[1] == REFRESHED
+    assert changed[2] >= MU
+    assert changed[-1] < N_STATE
+    run.state[W_G] = -5001.0
+    assert run(Operation.DERIVATIVES) == TOO_FAST
+    run.state[:] = before
+    run.state[PSI] = 0.2
+    assert run(Operation.DERIVATIVES) == NOT_FINITE

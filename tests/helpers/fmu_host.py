@@ -66,7 +66,9 @@ class Host:
         return values
 
     def outputs(self) -> list[float]:
-        return self.get(*(n for n, v in self.variables.items() if v.causality == "output"))
+        return self.get(
+            *(n for n, v in self.variables.items() if v.causality in ("output", "local"))
+        )
 
     def start(self, start_time: float = 0.0, **values: float) -> int:
         self.time = start_time

@@ -9,6 +9,25 @@ from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 from fmu_src.variable import Variable
+from tests.helpers.native_call_arguments import (
+    CONTINUOUS,
+    EVENTS,
+    INITIALISING,
+    INSTANTIATED,
+    LARGEST,
+    LOGS,
+    NOT_THERE,
+    RATES,
+    STARTS,
+    STEPPING,
+    STEPS,
+    STOPS,
+    TERMINATED,
+    TIMES,
+    VALUES,
+    Arguments,
+)
+from tests.helpers.native_exchange_calls import ExchangeCalls
 from tests.helpers.native_library import (
     DISCARD,
     ERROR,
@@ -18,49 +37,6 @@ from tests.helpers.native_library import (
     NativeLibrary,
 )
 from tests.helpers.small_native_model import HIDDEN_OIL, SINGULAR_OIL
-
-INSTANTIATED, INITIALISING, STEPPING, TERMINATED = range(4)
-LARGEST = 2**40  # of the number that decides the arguments of a call
-_STEPS = (
-    2.0**-10,
-    2.0**-10,
-    1e-3,
-    1e-3,
-    2.0**-10,
-    0.1,
-    1e-300,
-    0.0,
-    -1e-3,
-    0.2,
-    math.nan,
-    math.inf,
-    1e300,
-)
-_TIMES = (*8 * [0.0], 1e-12, 0.5, -0.5, math.nan, -math.inf)
-_STARTS = (0.0, 0.0, 2.5, -1.0, math.nan, math.inf)
-_STOPS = (None, None, 10.0, 0.2, -5.0, math.nan, math.inf)
-_VALUES = {
-    "Real": (1.0, 3.0, -3.0, 0.0, 31.0, 39.0, -39.0, 45.0, 51.0, 300.0, 1e300, 5e-324, -math.inf,
-             math.nan, math.inf, SINGULAR_OIL, HIDDEN_OIL, 313.15, 500.0),
-    "Integer": (1, 2, 0, 3, 16, -1, 2**31 - 1, -(2**31)),
-    "Enumeration": (1, 2, 0, 3, -1, 2**31 - 1, -(2**31)),
-    "Boolean": (0, 1),
-}  # fmt: skip
-_LOGS = (b"logAll", b"logEvents", b"logStatusError", b"logStatusFatal", b"nothing", b"", None)
-_NOT_THERE = {
-    2: "GetString SetString SetRealInputDerivatives GetRealOutputDerivatives CancelStep GetStatus "
-    "GetRealStatus GetIntegerStatus GetBooleanStatus GetStringStatus GetDirectionalDerivative",
-    3: "EnterEventMode EnterStepMode EnterConfigurationMode ExitConfigurationMode GetFloat32 "
-    "SetFloat32 GetInt8 SetInt8 GetUInt8 SetUInt8 GetInt16 SetInt16 GetUInt16 SetUInt16 GetUInt32 "
-    "SetUInt32 GetUInt64 SetUInt64 GetString SetString GetBinary SetBinary GetClock SetClock "
-    "GetNumberOfVariableDependencies GetVariableDependencies GetDirectionalDerivative "
-    "GetAdjointDerivative GetIntervalDecimal GetIntervalFraction GetShiftDecimal GetShiftFraction "
-    "SetIntervalDecimal SetIntervalFraction SetShiftDecimal SetShiftFraction "
-    "EvaluateDiscreteStates UpdateDiscreteStates EnterContinuousTimeMode CompletedIntegratorStep "
-    "SetTime SetContinuousStates GetContinuousStateDerivatives GetEventIndicators "
-    "GetContinuousStates GetNominalsOfContinuousStates GetNumberOfEventIndicators "
-    "GetNumberOfContinuousStates GetOutputDerivatives ActivateModelPartition",
-}
 
 
 class Saved(NamedTuple):
@@ -73,31 +49,20 @@ class Saved(NamedTuple):
     values: dict[int, float]
 
 
-class Arguments:
-    """Arguments taken one after the other from a number; 0 takes the first of each choice."""
-
-    def __init__(self, number: int) -> None:
-        self._rest = number
-
-    def one_of(self, choices: Any) -> Any:
-        self._rest, place = divmod(self._rest, len(choices))
-        return choices[place]
-
-
-class Calls:
+class Calls(ExchangeCalls):
     """One instance under random calls, and what is expected of it."""
 
-    def __init__(self, library: NativeLibrary) -> None:
-        self.library = library
+    def __init__(self, library: NativeLibrary, exchange: bool) -> None:
+        self.library, self.exchange = library, exchange
         self.saved: list[Saved] = []
         names = {reference: name for name, reference in library.references.items()}
+        self.library_names = names
         self.variables: dict[int, Variable] = {
             reference: library.variables[name] for reference, name in names.items()
         }
         self.counts = {reference: library.counts[name] for reference, name in names.items()}
         self.references = {
-            kind: [r for r, v in self.variables.items() if self._kind(v) == kind]
-            for kind in _VALUES
+            kind: [r for r, v in self.variables.items() if self._kind(v) == kind] for kind in VALUES
         }
         if library.version == 2:
             self.references["Enumeration"] = self.references["Integer"]
@@ -108,14 +73,14 @@ class Calls:
         return "Integer" if is_old else variable.type
 
     def _make(self) -> None:
-        self.instance = NativeInstance(self.library)
+        self.instance = NativeInstance(self.library, exchange=self.exchange)
         self._set_to_start()
 
     def _set_to_start(self) -> None:
         self.phase, self.time, self.stop, self.stale = INSTANTIATED, 0.0, math.inf, True
         self.instance.time = 0.0
         self.values = {
-            r: float(v.start or 0.0) for r, v in self.variables.items() if v.causality != "output"
+            r: float(v.start or 0.0) for r, v in self.variables.items() if not v.is_computed
         }
 
     def close(self) -> None:
@@ -143,6 +108,11 @@ class Calls:
             or abs(self._value("pinion.torque") - self._value("wheel.torque")) > 60.0
             or self._value("oil.temperature") == SINGULAR_OIL
         )
+
+    def _inputs_are_refused(self) -> bool:
+        """Whether an input is outside its range, or the limits of the model."""
+        illegal = [r for r, v in self.variables.items() if v.causality == "input"]
+        return any(map(self._illegal, illegal)) or self._is_beyond()
 
     def _starts(self) -> bool:
         if self.stale and self._start_is_refused():
@@ -175,7 +145,7 @@ class Calls:
         return all(reference in self.references[kind] for reference in references)
 
     def get(self, arguments: Arguments) -> tuple[int, set[int]]:
-        kind = arguments.one_of(tuple(_VALUES))
+        kind = arguments.one_of(tuple(VALUES))
         references = self._references(arguments, kind)
         if not self._fit(kind, references):
             return self.instance.get_raw(kind, references, 8)[0], {ERROR}
@@ -184,9 +154,14 @@ class Calls:
         status, values = self.instance.get_raw(kind, references, count + error)
         if error:
             return status, {ERROR}
-        outputs = [r for r in references if self.variables[r].causality == "output"]
+        outputs = [r for r in references if self.variables[r].is_computed]
         if outputs and self.phase < STEPPING and not self._starts():
             return status, {ERROR}
+        if outputs and self.exchange and self.phase >= STEPPING:
+            rates = all(self.library_names[r] in RATES for r in outputs)
+            refused = self.refused(rates)
+            if refused:
+                return status, refused
         k = 0
         for reference in references:
             for value in values[k : k + self.counts[reference]]:
@@ -199,19 +174,28 @@ class Calls:
         return status, {OK}
 
     def set(self, arguments: Arguments) -> tuple[int, set[int]]:
-        kind = arguments.one_of(tuple(_VALUES))
+        kind = arguments.one_of(tuple(VALUES))
         references = self._references(arguments, kind)
         allowed = {INSTANTIATED: ("input", "parameter"), INITIALISING: ("input", "parameter"),
-                   STEPPING: ("input",), TERMINATED: ()}[self.phase]  # fmt: skip
+                   TERMINATED: ()}.get(self.phase, ("input",))  # fmt: skip
         fits = self._fit(kind, references)
         count = sum(self.counts[r] for r in references) if fits else len(references)
-        choices = _VALUES[kind]
+        choices = VALUES[kind]
         if kind == "Enumeration" and self.library.version == 3:
             choices = (*choices, 2**63 - 1, -(2**63))
         values = [arguments.one_of(choices) for _ in range(count)]
         status = self.instance.set_raw(kind, references, values)
-        if not (fits and all(self.variables[r].causality in allowed for r in references)):
-            return status, {ERROR}
+        states = self.state_references() if self.phase in (EVENTS, CONTINUOUS) else []
+        if not (
+            fits and all(self.variables[r].causality in allowed or r in states for r in references)
+        ):
+            not_finite = fits and any(
+                r in states and not math.isfinite(value)
+                for r, value in zip(references, values, strict=False)
+            )
+            return status, {ERROR, DISCARD} if not_finite else {ERROR}
+        if any(reference in states for reference in references):
+            return self.after_setting_states(status, references, values)
         for reference, value in zip(references, values, strict=True):
             self.values[reference] = float(value)
         worst = OK
@@ -222,13 +206,13 @@ class Calls:
         return status, {worst}
 
     def null(self, arguments: Arguments) -> tuple[int, set[int]]:
-        kind = arguments.one_of(tuple(_VALUES))
+        kind = arguments.one_of(tuple(VALUES))
         action = arguments.one_of(("Get", "Set"))
         return self.instance.access(action, kind, [0], None, 1), {ERROR}
 
     def setup(self, arguments: Arguments) -> tuple[int, set[int]]:
         """Set the times; in FMI 3 that is one call with the entry into initialisation."""
-        start, stop = arguments.one_of(_STARTS), arguments.one_of(_STOPS)
+        start, stop = arguments.one_of(STARTS), arguments.one_of(STOPS)
         last = math.inf if stop is None else stop
         legal = self.phase == INSTANTIATED and math.isfinite(start) and start <= last
         numbers = ctypes.c_double(0.0), ctypes.c_double(start), ctypes.c_double(stop or 0.0)
@@ -262,12 +246,12 @@ class Calls:
         status = self.instance.leave()
         if self.phase != INITIALISING or not self._starts():
             return status, {ERROR}
-        self.phase = STEPPING
+        self.phase = EVENTS if self.exchange else STEPPING
         return status, {OK}
 
     def terminate(self, arguments: Arguments) -> tuple[int, set[int]]:
         status = self.instance.call("Terminate")
-        if self.phase != STEPPING:
+        if self.phase not in (STEPPING, EVENTS, CONTINUOUS):
             return status, {ERROR}
         self.phase = TERMINATED
         return status, {OK}
@@ -275,13 +259,13 @@ class Calls:
     def reset(self, arguments: Arguments) -> tuple[int, set[int]]:
         status = self.instance.call("Reset")
         self._set_to_start()
-        fresh = NativeInstance(self.library)
+        fresh = NativeInstance(self.library, exchange=self.exchange)
         assert fresh.content() == self.instance.content()
         fresh.close()
         return status, {OK}
 
     def step(self, arguments: Arguments) -> tuple[int, set[int]]:
-        h, offset = arguments.one_of(_STEPS), arguments.one_of(_TIMES)
+        h, offset = arguments.one_of(STEPS), arguments.one_of(TIMES)
         status = self.instance.step(h, self.time + offset)
         allowed = 1e-3 * h + 1e-9 * max(1.0, abs(self.time))
         if self.phase != STEPPING:
@@ -290,13 +274,8 @@ class Calls:
             return status, {DISCARD}
         if self.time + offset + h > self.stop + allowed:
             return status, {ERROR}
-        inputs = [r for r, v in self.variables.items() if v.causality == "input"]
         oil = self._value("oil.temperature")
-        if (
-            any(map(self._illegal, inputs))
-            or self._is_beyond()
-            or oil in (SINGULAR_OIL, HIDDEN_OIL)
-        ):
+        if self._inputs_are_refused() or oil in (SINGULAR_OIL, HIDDEN_OIL):
             return status, {DISCARD}
         if status == DISCARD:
             assert "the speed would leave the range" in self.instance.log[-1][2]
@@ -344,7 +323,7 @@ class Calls:
         return self.instance.free_state(state), {OK}
 
     def choose_logs(self, arguments: Arguments) -> tuple[int, set[int]]:
-        names = [arguments.one_of(_LOGS) for _ in range(arguments.one_of((0, 1, 2)))]
+        names = [arguments.one_of(LOGS) for _ in range(arguments.one_of((0, 1, 2)))]
         array = (ctypes.c_char_p * max(1, len(names)))(*names)
         status = self.instance.call("SetDebugLogging", ctypes.c_bool(True), len(names), array)
         legal = all(name and name.startswith(b"log") for name in names)
@@ -353,7 +332,7 @@ class Calls:
         return status, {OK if legal else ERROR}
 
     def not_there(self, arguments: Arguments) -> tuple[int, set[int]]:
-        name = arguments.one_of(_NOT_THERE[self.library.version].split())
+        name = arguments.one_of(NOT_THERE[self.library.version].split())
         references = (ctypes.c_uint32 * 1)(0)
         pointers = [ctypes.byref(references), ctypes.c_size_t(1)] + 8 * [ctypes.c_void_p()]
         return self.instance.call(name, *pointers), {DISCARD, ERROR}
@@ -370,12 +349,21 @@ NAMES = (
     *4 * ("start", "step", "step", "set", "step", "step", "get"), "enter", "leave", "save",
     "restore", "setup", "null", "terminate", "reset", "restore_damaged", "forget", "choose_logs",
     "not_there", "make_anew",
+    *2 * ("enter_events", "enter_continuous_time", "update", "complete", "set_states", "get_array",
+          "set_time", "differentiate"),
 )  # fmt: skip
+# a run of model exchange is moved on by other calls
+OF_EXCHANGE = (
+    *4 * ("start", "enter_continuous_time", "set_states", "complete", "get_array", "set", "get"),
+    *NAMES,
+)
 
 
-def run_calls(library: NativeLibrary, calls: Iterable[tuple[str, int]]) -> None:
+def run_calls(
+    library: NativeLibrary, calls: Iterable[tuple[str, int]], exchange: bool = False
+) -> None:
     """Do the calls, each a name with the number of its arguments, on a new instance."""
-    machine = Calls(library)
+    machine = Calls(library, exchange)
     try:
         for name, number in calls:
             machine.check(name, number)
@@ -383,9 +371,17 @@ def run_calls(library: NativeLibrary, calls: Iterable[tuple[str, int]]) -> None:
         machine.close()
 
 
-def run_random(library: NativeLibrary, sequences: int, seed: int, longest: int = 40) -> None:
+def run_random(
+    library: NativeLibrary,
+    sequences: int,
+    seed: int,
+    longest: int = 40,
+    exchange: bool = False,
+) -> None:
     """Run sequences that a seed decides."""
+    names = OF_EXCHANGE if exchange else NAMES
     rng = random.Random(seed)
     for _ in range(sequences):
         count = rng.randrange(longest)
-        run_calls(library, [(rng.choice(NAMES), rng.randrange(LARGEST)) for _ in range(count)])
+        calls = [(rng.choice(names), rng.randrange(LARGEST)) for _ in range(count)]
+        run_calls(library, calls, exchange)

@@ -51,6 +51,19 @@ class Callbacks(ctypes.Structure):
     )
 
 
+class EventInfo(ctypes.Structure):
+    """fmi2EventInfo."""
+
+    _fields_ = (
+        ("needed", c_int),
+        ("terminate", c_int),
+        ("nominals", c_int),
+        ("values", c_int),
+        ("next", c_int),
+        ("next_time", c_double),
+    )
+
+
 class NativeLibrary:
     """A loaded library; `call` takes a function's name without fmi2 or fmi3."""
 
@@ -84,19 +97,26 @@ class NativeInstance:
         logging: bool = True,
         resources: bytes | None = None,
         name: bytes | None = b"mass",
+        exchange: bool = False,
     ) -> None:
         self.library = library
         self.log: list[tuple[int, str, str]] = []
         self.time = 0.0
         token = library.guid.encode() if guid is None else guid.encode()
-        make = library.function(
-            "Instantiate" if library.version == 2 else "InstantiateCoSimulation"
-        )
+        kind = "ModelExchange" if exchange else "CoSimulation"
+        make = library.function(f"Instantiate{kind if library.version == 3 else ''}")
         make.restype = pointer
         if library.version == 2:
             self.callbacks = Callbacks(logger=_LOGGER_2(self._on_message_2))
             self.logger = self.callbacks.logger
-            self.address = make(name, 1, token, resources, byref(self.callbacks), 0, int(logging))
+            self.address = make(
+                name, int(not exchange), token, resources, byref(self.callbacks), 0, int(logging)
+            )
+        elif exchange:
+            self.logger = _LOGGER_3(self._on_message_3)
+            self.address = make(
+                name, token, resources, c_bool(False), c_bool(logging), None, self.logger
+            )
         else:
             self.logger = _LOGGER_3(self._on_message_3)
             self.address = make(
@@ -185,10 +205,77 @@ class NativeInstance:
             )
             if status <= DISCARD:
                 assert list(flags) == [False] * 3
-                assert last.value == (at + h if status == OK else self.time)
-        if status == OK:
+                assert last.value == (at + h if status <= WARNING else self.time)
+        if status <= WARNING:
             self.time = at + h
         return status
+
+    def get_array(self, call: str, count: int) -> tuple[int, list[float]]:
+        """Call a function of model exchange that writes so many numbers."""
+        values = (c_double * max(1, count))()
+        if self.library.version == 3:
+            call = call.replace("GetDerivatives", "GetContinuousStateDerivatives")
+        status = self.call(call, values, c_size_t(count))
+        return status, list(values)[:count]
+
+    def set_states(self, values: Sequence[float]) -> int:
+        array = (c_double * max(1, len(values)))(*values)
+        return self.call("SetContinuousStates", array, c_size_t(len(values)))
+
+    def update(self) -> tuple[int, bool]:
+        """Call what updates the discrete states; return whether continuous states changed."""
+        if self.library.version == 2:
+            info = EventInfo(1, 1, 1, 1, 1, 7.0)
+            status = self.call("NewDiscreteStates", byref(info))
+            if status == OK:
+                assert [info.needed, info.terminate, info.nominals, info.next] == [0] * 4
+            return status, bool(info.values)
+        flags, time = (c_bool * 5)(*5 * [True]), c_double()
+        places = [byref(flags, i) for i in range(5)]
+        status = self.call("UpdateDiscreteStates", *places, byref(time))
+        if status == OK:
+            assert [flags[i] for i in (0, 1, 2, 4)] == [False] * 4
+        return status, flags[3]
+
+    def complete(self) -> tuple[int, bool]:
+        """Complete an integrator step; return whether there is an event."""
+        flag = c_int if self.library.version == 2 else c_bool
+        event, terminate = flag(1), flag(1)
+        ahead = flag(1)
+        status = self.call("CompletedIntegratorStep", ahead, byref(event), byref(terminate))
+        assert status != OK or not terminate.value
+        return status, bool(event.value)
+
+    def differentiate(
+        self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
+    ) -> tuple[int, list[float]]:
+        """Return the derivatives of unknowns along a direction of knowns."""
+        references = self.library.references
+        return self.differentiate_raw(
+            [references[name] for name in unknowns],
+            [references[name] for name in knowns],
+            seed,
+            sum(self.library.counts[name] for name in unknowns),
+        )
+
+    def differentiate_raw(
+        self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float], count: int
+    ) -> tuple[int, list[float]]:
+        found = (c_double * max(1, count))()
+        of_seed = (c_double * max(1, len(seed)))(*seed)
+        lists = [
+            item
+            for refs in (unknowns, knowns)
+            for item in ((c_uint32 * max(1, len(refs)))(*refs), c_size_t(len(refs)))
+        ]
+        if self.library.version == 2:
+            status = self.call("GetDirectionalDerivative", *lists, of_seed, found)
+        else:
+            status = self.call(
+                "GetDirectionalDerivative", *lists, of_seed, c_size_t(len(seed)), found,
+                c_size_t(count),
+            )  # fmt: skip
+        return status, list(found)[:count]
 
     def save(self, place: Any = None) -> Any:
         state = pointer() if place is None else place

@@ -12,7 +12,8 @@ from tests.helpers.session_folder import alone, shared_folder
 from tests.helpers.small_native_model import small_native_model
 
 MODEL = small_native_model()
-LAZY_MODEL = small_native_model(motion=frozenset({"pinion.speed"}))
+# for co-simulation only
+LAZY_MODEL = small_native_model(motion=frozenset({"pinion.speed"}), exchange=None)
 LINUX = PLATFORMS[0]
 
 

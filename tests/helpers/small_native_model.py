@@ -1,4 +1,7 @@
-"""A rotating mass with drag as a native FMU: small, with an exact solution and every refusal."""
+"""A rotating mass with drag as a native FMU: small, with an exact solution and every refusal.
+
+In model exchange there is a wall at the angle WALL too: what arrives there turns back.
+"""
 
 from __future__ import annotations
 
@@ -9,19 +12,29 @@ import numpy as np
 
 from fmu_src.common_outputs import ranges
 from fmu_src.definition import Definition, Model, Value
-from fmu_src.native.model import NativeModel
+from fmu_src.native.model import Exchange, NativeModel
 from fmu_src.object_code import array_at
 from fmu_src.variable import Variable
-from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
+from fmu_src.variable_kinds import (
+    count,
+    input_,
+    local,
+    option,
+    options_by_number,
+    output,
+    parameter,
+    rates,
+)
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS, Range
 
-START, STEP, RESUME, MOTION = 0, 1, 3, 4
+START, STEP, RESUME, MOTION, DERIVATIVES, EVENT = 0, 1, 3, 4, 5, 6
 TURNED, SPEED, TORQUE, LOAD, OIL, LIMIT, N_STATE = range(7)
 INERTIA, DRAG, SPEED_START, LAW, SUBSTEPS, BRAKED, N_PARAMETERS = range(7)
 N_RANGES = len(RANGE_OUTPUTS) - 1
 LIMITS_AT, RANGES_AT, DRAG_AT = 0, 6, 6 + 2 * N_RANGES
 N_WORK = DRAG_AT + 1
 FASTEST = 1000.0  # rad/s, above it a step is refused
+WALL = 20.0  # rad
 SINGULAR_OIL, HIDDEN_OIL = 400.0, 401.0  # K, where an output, or the state alone, is infinite
 
 NO_DRAG, TOO_MUCH, TOO_FAST = 1, 2, 3
@@ -60,9 +73,22 @@ _OUTPUTS = (
     output("oil.ratio", "1", "Infinite at one temperature"),
     *ranges(),
 )  # fmt: skip
-VARIABLES = (*_FREE, *_OUTPUTS, *options_by_number(_FREE))
-OUTPUT_NAMES = tuple(variable.name for variable in _OUTPUTS)
+_LOCALS = (
+    *rates([_OUTPUTS[0], _OUTPUTS[1]]),
+    local("event.wall", "1", "Angle beyond the wall over 1 rad"),
+)
+VARIABLES = (*_FREE, *_OUTPUTS, *options_by_number(_FREE), *_LOCALS)
+OUTPUT_NAMES = tuple(variable.name for variable in _OUTPUTS + _LOCALS)
 N_OUTPUTS = len(OUTPUT_NAMES)
+EXCHANGE = Exchange(
+    states=("pinion.angle", "pinion.speed"),
+    units=(1.0, 1.0),
+    indicators=("event.wall",),
+    inputs_at=TORQUE,
+    of_states=frozenset({"wheel.angle", "wheel.speed", "disc[1].power", "disc[2].power",
+                         "disc[3].power"}),
+)  # fmt: skip
+FIRST_RATE = OUTPUT_NAMES.index("der(pinion.angle)")
 FIRST_RANGE = OUTPUT_NAMES.index(RANGE_OUTPUTS[0])
 RANGES = tuple(
     Range(name, f"the {name.split('.')[1]}", -30.0, 30.0, "N.m", "Use less torque.")
@@ -116,6 +142,20 @@ def entry(operation, step, data, parameters, inputs, state, work, outputs):  # t
             s[TURNED] = math.inf
     if operation in (START, STEP):
         s[TORQUE], s[LOAD], s[OIL] = u[0], u[1], u[2]
+    if operation == EVENT:
+        if s[TURNED] >= WALL and s[SPEED] > 0.0:
+            s[SPEED] = -s[SPEED]
+        return 0
+    if operation == DERIVATIVES and not abs(s[SPEED]) <= FASTEST:
+        return TOO_FAST
+    resisting = drag * s[SPEED] * (abs(s[SPEED]) if squared else 1.0)
+    out[FIRST_RATE] = s[SPEED]
+    out[FIRST_RATE + 1] = (s[TORQUE] - s[LOAD] - resisting) / p[INERTIA]
+    if operation == DERIVATIVES and s[OIL] == HIDDEN_OIL:
+        out[FIRST_RATE + 1] = math.inf
+    out[FIRST_RATE + 2] = min(s[TURNED], 1e9) - WALL
+    if operation == DERIVATIVES:
+        return 0
     if operation == MOTION:
         out[1] = s[SPEED]
         return 0
@@ -142,10 +182,12 @@ def small_native_model(
     entry: Callable[..., int] = entry,
     variables: Sequence[Variable] = VARIABLES,
     motion: frozenset[str] = frozenset(),
+    exchange: Exchange | None = EXCHANGE,
 ) -> NativeModel:
     """Return the model; torques beyond 40 N.m are refused although the table allows 50.
 
-    With `motion` outputs are computed when they are read.
+    With `motion` outputs are computed when they are read. Without `exchange` it is for
+    co-simulation only.
     """
     return NativeModel(
         definition=Definition(
@@ -169,6 +211,7 @@ def small_native_model(
         ranges=RANGES,
         refusals=REFUSALS,
         motion=motion,
+        exchange=exchange,
     )
 
 

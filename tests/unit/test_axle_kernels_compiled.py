@@ -19,6 +19,7 @@ from gearlube_core.dynamics import flank_force, hypoid_axle, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
     bearing_outputs,
+    continuous,
     flank_outputs,
     flanks,
     force_derivatives,
@@ -37,12 +38,14 @@ from gearlube_core.dynamics.hypoid_axle.model import START_WORK
 from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, N_OUTPUTS, PINION_BEARINGS
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
+    N_CONTINUOUS,
     N_ODE,
     N_STATE,
     PHI_P,
     PINION_WORK,
     SIDE,
     TIME_IN_STEP,
+    W_G,
     WORK_MARK,
     X,
 )
@@ -214,6 +217,7 @@ def all_cases():
             (state, 64.0, 22.0, 60.0, OIL, table, lossless, zeros(START_WORK), zeros(5)),
         ),
         (mesh_force.modal_damping, (0.06, 5e8, 3.4)),
+        (mesh_force.equivalent_mass, (0.021, 2.77, 1.7e-3, 0.058)),
         (integrate.step_limit, (p, control, 145.0, 5e8)),
         (integrate.step_limit, (printed, control, 145.0, 5e8)),
         *(
@@ -236,6 +240,11 @@ def all_cases():
         ),
         (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p)),
         (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p._replace(drag=0.0))),
+        (integrate.displacements, (state, 1e-5)),
+        (
+            integrate.largest_change,
+            ((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), (1.5, 2.0, 0.0, 4.0, 5.0, 7.0)),
+        ),
         (
             mesh_at_load.blend_mesh,
             (33.0, -1.0, both_sides, mesh_data),
@@ -249,6 +258,31 @@ def all_cases():
             for state in (state, separated, coasting, crossed, crossed_back)
             for parameters in (p.mesh, p.mesh._replace(backlash=0.0))
         ),
+        *(
+            (
+                mesh_at_load.gap_rotation,
+                (
+                    one,
+                    kernels.mesh_series(series, mesh.orders, 13.0, one[PHI_P]),
+                    p.mesh,
+                    series,
+                    mesh.orders,
+                ),
+            )
+            for one in (state, separated, coasting)
+        ),
+        (continuous.write_rates, (state, slope, -60.0, zeros(N_CONTINUOUS))),
+        *(
+            (continuous.write_event_indicators, (one, levels, mesh_data, p.mesh, zeros(3)))
+            for one in (state, separated, coasting)
+            for levels in (table, both_sides)
+        ),
+        *(
+            (continuous.change_side, (one, levels, p.mesh, work))
+            for one in (state, crossed, crossed_back)
+            for levels in (table, both_sides)
+        ),
+        (outputs.write_derivatives, (state, torques, OIL, table, p, work, zeros(N_OUTPUTS))),
         (outputs.stored_energy, (state, 5e8, state_of_oil, p)),
         (
             flank_outputs.write_flanks,
@@ -286,6 +320,9 @@ def all_cases():
         ),
     ]
     inputs_now = np.array([*torques, OIL])
+    too_fast, broken = state.copy(), state.copy()
+    too_fast[W_G] = -5001.0
+    broken[X] = -2e5
     found += [
         (
             COMPILED.static_state,
@@ -316,6 +353,17 @@ def all_cases():
                 flatten(control), work,
             ),
         ),
+        *(
+            (
+                COMPILED.continuous_rates,
+                (
+                    one, np.array([*torques, OIL]), tuple(table), flatten(p), work,
+                    zeros(N_OUTPUTS),
+                ),
+            )
+            for one in (state, too_fast, broken)
+        ),
+        (COMPILED.event, (crossed, tuple(both_sides), flatten(p), work)),
         (
             COMPILED.motion_outputs,
             (state, tuple(table), flatten(p), work, zeros(N_OUTPUTS)),
@@ -336,7 +384,8 @@ SUMMING = {"_sums_line", "_sums_general", "expand_shaft_bearings"}
 SUMMING |= {"expanded_shaft_forces"}
 # the same sums, 24 rollers of 1 kN that cancel to a few 1e-16 each, over a pinion of 12 kg
 ACCELERATING = {"axle_rhs", "rk4_step", "advance", "write_outputs"}
-ACCELERATING |= {"communication_step", "step_without_outputs", "outputs"}
+ACCELERATING |= {"communication_step", "step_without_outputs", "outputs", "write_derivatives"}
+ACCELERATING |= {"continuous_rates"}
 
 
 def same(kernel, compiled, source, case):

@@ -1,4 +1,4 @@
-/* FMI 2.0 for co-simulation. */
+/* FMI 2.0: what both interfaces share, and co-simulation. */
 #include "fmi2Functions.h"
 
 #include "instance.h"
@@ -62,7 +62,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         gl_say_no_instance(name, "The host must give a logger.");
         return NULL;
     }
-    if (type != fmi2CoSimulation) {
+    if (type != fmi2CoSimulation && GL_CONTINUOUS == 0) {
         why = "This FMU is for co-simulation only.";
     } else if (!guid || strcmp(guid, GL_GUID)) {
         why = "The GUID must be " GL_GUID ", that of the model description.";
@@ -73,7 +73,8 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
                  gl_log_names[GL_LOG_ERROR], why);
         return NULL;
     }
-    return gl_make(name, tell, calls->componentEnvironment, (uintptr_t)calls->logger, logging);
+    return gl_make(name, tell, calls->componentEnvironment, (uintptr_t)calls->logger, logging,
+                   type == fmi2ModelExchange);
 }
 
 void fmi2FreeInstance(fmi2Component c)
@@ -110,42 +111,51 @@ fmi2Status fmi2Reset(fmi2Component c)
     return gl_is_instance(c) ? answer(gl_reset(c)) : fmi2Error;
 }
 
-static const double *read_values(gl_instance *instance, gl_kind kind, const unsigned *refs,
-                                 size_t n, const void *values)
+/* Points at the values that may be read, if any. */
+static fmi2Status read_values(gl_instance *instance, gl_kind kind, const unsigned *refs, size_t n,
+                              const void *values, const double **from)
 {
-    if (!gl_is_instance(instance) || gl_check_read(instance, kind, n, refs, values) != GL_OK) {
-        return NULL;
+    *from = NULL;
+    if (!gl_is_instance(instance)) {
+        return fmi2Error;
     }
-    return instance->now.values;
+    gl_status status = gl_check_read(instance, kind, n, refs, values);
+    if (status == GL_OK) {
+        *from = instance->now.values;
+    }
+    return answer(status);
 }
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
 {
-    const double *from = read_values(c, GL_REAL, vr, n, value);
+    const double *from;
+    fmi2Status status = read_values(c, GL_REAL, vr, n, value, &from);
     for (size_t i = 0; from && i < n; i++) {
         value[i] = from[vr[i]];
     }
-    return from ? fmi2OK : fmi2Error;
+    return status;
 }
 
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                           fmi2Integer value[])
 {
-    const double *from = read_values(c, GL_INTEGER, vr, n, value);
+    const double *from;
+    fmi2Status status = read_values(c, GL_INTEGER, vr, n, value, &from);
     for (size_t i = 0; from && i < n; i++) {
         value[i] = (fmi2Integer)gl_whole(from[vr[i]], INT32_MIN, INT32_MAX);
     }
-    return from ? fmi2OK : fmi2Error;
+    return status;
 }
 
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                           fmi2Boolean value[])
 {
-    const double *from = read_values(c, GL_BOOLEAN, vr, n, value);
+    const double *from;
+    fmi2Status status = read_values(c, GL_BOOLEAN, vr, n, value, &from);
     for (size_t i = 0; from && i < n; i++) {
         value[i] = from[vr[i]] != 0.0 ? fmi2True : fmi2False;
     }
-    return from ? fmi2OK : fmi2Error;
+    return status;
 }
 
 static fmi2Status no_strings(gl_instance *instance, size_t n)
@@ -180,10 +190,13 @@ static fmi2Status worse(fmi2Status status, gl_status other)
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                        const fmi2Real value[])
 {
-    if (!gl_is_instance(c) || gl_check_set(c, GL_REAL, n, vr, value) != GL_OK) {
+    if (!gl_is_instance(c)) {
         return fmi2Error;
     }
-    fmi2Status status = fmi2OK;
+    fmi2Status status = answer(gl_check_set(c, GL_REAL, n, vr, value));
+    if (status != fmi2OK) {
+        return status;
+    }
     for (size_t i = 0; i < n; i++) {
         status = worse(status, gl_set(c, vr[i], value[i]));
     }
@@ -285,20 +298,6 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
     (void)order;
     (void)value;
     return unsupported(c, "derivatives of outputs");
-}
-
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[],
-                                        size_t n_unknown, const fmi2ValueReference known[],
-                                        size_t n_known, const fmi2Real d_known[],
-                                        fmi2Real d_unknown[])
-{
-    (void)unknown;
-    (void)n_unknown;
-    (void)known;
-    (void)n_known;
-    (void)d_known;
-    (void)d_unknown;
-    return unsupported(c, "directional derivatives");
 }
 
 /* Discard says that the FMU has not the information that is asked for (FMI 2.0.4, 2.1.3). */

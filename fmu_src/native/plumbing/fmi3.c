@@ -1,4 +1,4 @@
-/* FMI 3.0 for co-simulation. Values of arrays lie one after the other, element by element. */
+/* FMI 3.0: what all interfaces share, and co-simulation. Values of arrays lie one after the other, element by element. */
 #include "fmi3Functions.h"
 
 #include "instance.h"
@@ -44,7 +44,15 @@ static fmi3Instance no_instance(fmi3String name, fmi3InstanceEnvironment host,
     return NULL;
 }
 
-static const char WRONG_KIND[] = "This FMU is for co-simulation only.";
+static fmi3Instance make(fmi3String name, fmi3String token, fmi3Boolean logging,
+                         fmi3InstanceEnvironment host, fmi3LogMessageCallback log, int exchange)
+{
+    if (!token || strcmp(token, GL_GUID)) {
+        return no_instance(name, host, log,
+                           "The token must be " GL_GUID ", that of the model description.");
+    }
+    return gl_make(name, tell, host, (uintptr_t)log, logging, exchange);
+}
 
 fmi3Instance fmi3InstantiateCoSimulation(
     fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
@@ -57,26 +65,23 @@ fmi3Instance fmi3InstantiateCoSimulation(
     (void)early_return;
     (void)intermediate;
     (void)update;
-    if (!token || strcmp(token, GL_GUID)) {
-        return no_instance(name, host, log,
-                           "The token must be " GL_GUID ", that of the model description.");
-    }
     if (events || n_intermediate) {
         return no_instance(name, host, log,
                            "This FMU has neither event mode nor intermediate variables.");
     }
-    return gl_make(name, tell, host, (uintptr_t)log, logging);
+    return make(name, token, logging, host, log, 0);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
                                           fmi3Boolean visible, fmi3Boolean logging,
                                           fmi3InstanceEnvironment host, fmi3LogMessageCallback log)
 {
-    (void)token;
     (void)resources;
     (void)visible;
-    (void)logging;
-    return no_instance(name, host, log, WRONG_KIND);
+    if (GL_CONTINUOUS == 0) {
+        return no_instance(name, host, log, "This FMU is for co-simulation only.");
+    }
+    return make(name, token, logging, host, log, 1);
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(
@@ -92,7 +97,7 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     (void)update;
     (void)lock;
     (void)unlock;
-    return no_instance(name, host, log, WRONG_KIND);
+    return no_instance(name, host, log, "This FMU has no scheduled execution.");
 }
 
 void fmi3FreeInstance(fmi3Instance c)
@@ -189,11 +194,16 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
         return gl_refuse(instance, "References or values are missing: a null pointer.");
     }
     gl_status status = check_types(instance, kind, enumeration, setting, refs, n, n_values);
+    const double *reals = kind == GL_REAL ? values : NULL;
     for (size_t i = 0; status == GL_OK && i < n; i++) {
         if (!is_time(refs[i], kind, setting)) {
             const gl_array *array = &gl_arrays[refs[i]];
+            const void *own = reals ? reals : values;
             status = (setting ? gl_check_set : gl_check_read)(
-                instance, kind, (size_t)array->count, array->members, values);
+                instance, kind, (size_t)array->count, array->members, own);
+            reals = reals ? reals + array->count : NULL;
+        } else {
+            reals++;
         }
     }
     return status;
@@ -206,9 +216,12 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
     {                                                                                             \
         gl_instance *instance = c;                                                                \
         size_t k = 0;                                                                             \
-        if (!gl_is_instance(instance) ||                                                          \
-            check(instance, kind, enumeration, 0, refs, n, values, n_values) != GL_OK) {          \
+        if (!gl_is_instance(instance)) {                                                          \
             return fmi3Error;                                                                     \
+        }                                                                                         \
+        gl_status status = check(instance, kind, enumeration, 0, refs, n, values, n_values);      \
+        if (status != GL_OK) {                                                                    \
+            return answer(status);                                                                \
         }                                                                                         \
         for (size_t i = 0; i < n; i++) {                                                          \
             for (int j = 0; refs[i] != TIME && j < gl_arrays[refs[i]].count; j++) {               \
@@ -227,9 +240,12 @@ static gl_status check(gl_instance *instance, gl_kind kind, int enumeration, int
     {                                                                                             \
         fmi3Status worst = fmi3OK;                                                                \
         size_t k = 0;                                                                             \
-        if (!gl_is_instance(c) ||                                                                 \
-            check(c, kind, enumeration, 1, refs, n, values, n_values) != GL_OK) {                 \
+        if (!gl_is_instance(c)) {                                                                 \
             return fmi3Error;                                                                     \
+        }                                                                                         \
+        gl_status status = check(c, kind, enumeration, 1, refs, n, values, n_values);             \
+        if (status != GL_OK) {                                                                    \
+            return answer(status);                                                                \
         }                                                                                         \
         for (size_t i = 0; i < n; i++) {                                                          \
             for (int j = 0; j < gl_arrays[refs[i]].count; j++) {                                  \

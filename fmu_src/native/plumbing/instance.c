@@ -7,14 +7,15 @@
 #include <string.h>
 
 static const uint64_t INSTANCE_MARK = 0x6c756265696e7374u;
-/* Ranges are looked at where outputs are read, at latest so long after the last time [s]. */
-static const double LONGEST_UNWATCHED = 0.01;
-static const char *const phase_names[] = {"instantiated", "initialising", "stepping",
+static const char *const phase_names[] = {"instantiated", "initialising",    "stepping",
+                                          "in event mode", "in continuous-time mode",
                                           "terminated"};
 
 static void set_to_start(gl_instance *instance)
 {
+    int exchange = instance->now.exchange;
     memset(&instance->now, 0, sizeof instance->now);
+    instance->now.exchange = exchange;
     memset(instance->refused, 0, sizeof instance->refused);
     memset(instance->outside, 0, sizeof instance->outside);
     memcpy(instance->now.owner, GL_GUID, strlen(GL_GUID));
@@ -29,7 +30,7 @@ static void set_to_start(gl_instance *instance)
 }
 
 gl_instance *gl_make(const char *name, gl_listener listener, void *host, uintptr_t logger,
-                     int logging)
+                     int logging, int exchange)
 {
     const char *given = name && *name ? name : GL_MODEL_NAME;
     size_t length = strlen(given) + 1;
@@ -48,6 +49,7 @@ gl_instance *gl_make(const char *name, gl_listener listener, void *host, uintptr
     instance->host = host;
     instance->logger = logger;
     instance->logs = logging ? GL_ALL_LOGS : 0;
+    instance->now.exchange = exchange;
     set_to_start(instance);
     return instance;
 }
@@ -66,18 +68,24 @@ void gl_free(gl_instance *instance)
     }
 }
 
-static gl_status expect(gl_instance *instance, gl_phase phase)
+gl_status gl_expect_either(gl_instance *instance, gl_phase one, gl_phase other)
 {
-    if (instance->now.phase == phase) {
+    if (instance->now.phase == one || instance->now.phase == other) {
         return GL_OK;
     }
-    return gl_refuse(instance, "The FMU must be %s for this call, is %s.", phase_names[phase],
+    return gl_refuse(instance, "The FMU must be %s%s%s for this call, is %s.", phase_names[one],
+                     one == other ? "" : " or ", one == other ? "" : phase_names[other],
                      phase_names[instance->now.phase]);
+}
+
+gl_status gl_expect(gl_instance *instance, gl_phase phase)
+{
+    return gl_expect_either(instance, phase, phase);
 }
 
 gl_status gl_set_times(gl_instance *instance, double start, double stop)
 {
-    gl_status status = expect(instance, GL_INSTANTIATED);
+    gl_status status = gl_expect(instance, GL_INSTANTIATED);
     if (status == GL_OK && !isfinite(start)) {
         status = gl_refuse(instance, "The start time must be finite, got %g s.", start);
     }
@@ -94,14 +102,14 @@ gl_status gl_set_times(gl_instance *instance, double start, double stop)
 
 gl_status gl_enter_initialisation(gl_instance *instance)
 {
-    gl_status status = expect(instance, GL_INSTANTIATED);
+    gl_status status = gl_expect(instance, GL_INSTANTIATED);
     if (status == GL_OK) {
         instance->now.phase = GL_INITIALISING;
     }
     return status;
 }
 
-static const char *refusal_text(int64_t status)
+const char *gl_refusal_text(int64_t status)
 {
     for (int i = 0; i < GL_REFUSALS; i++) {
         if (gl_refusals[i].status == status) {
@@ -109,34 +117,6 @@ static const char *refusal_text(int64_t status)
         }
     }
     return "the model refused it";
-}
-
-/* Inputs have narrower limits than the table of variables says: mesh data and oil decide. */
-static int say_input_beyond(gl_instance *instance, gl_status status, const char *before)
-{
-    for (int i = 0; i < GL_INPUTS; i++) {
-        const gl_variable *variable = &gl_variables[gl_inputs[i]];
-        const double *limits = instance->work + GL_LIMITS_AT + 2 * i;
-        double value = instance->now.values[gl_inputs[i]];
-        if (!(limits[0] <= value && value <= limits[1])) {
-            gl_say(instance, status, "%s%s must be within %g to %g %s, got %g. %s", before,
-                   variable->name, limits[0], limits[1], variable->unit, value,
-                   "Beyond it results have no meaning: the data of mesh or oil end before. "
-                   "Check the unit.");
-            return 1;
-        }
-    }
-    return 0;
-}
-
-static void take_outputs(gl_instance *instance, int computed)
-{
-    for (int i = 0; i < GL_OUTPUTS; i++) {
-        if (gl_variables[gl_outputs[i]].needs <= computed) {
-            instance->now.values[gl_outputs[i]] = instance->outputs[i];
-        }
-    }
-    instance->fresh = computed;
 }
 
 int gl_all_finite(const double *values, int count)
@@ -154,7 +134,7 @@ int gl_all_finite(const double *values, int count)
 static const char *why_not(int64_t status, const double *outputs, const double *state)
 {
     if (status != 0) {
-        return refusal_text(status);
+        return gl_refusal_text(status);
     }
     if (outputs && !gl_all_finite(outputs, GL_OUTPUTS)) {
         return "an output is not finite";
@@ -174,7 +154,7 @@ gl_status gl_start(gl_instance *instance)
     int64_t status = gearlube_entry(GL_RESUME, 0.0, gl_data, instance->parameters, inputs, state,
                                     instance->work, instance->outputs);
     if (status == 0) {
-        if (say_input_beyond(instance, GL_ERROR, "")) {
+        if (gl_say_input_beyond(instance, GL_ERROR, "")) {
             return GL_ERROR;
         }
         status = gearlube_entry(GL_START, 0.0, gl_data, instance->parameters, inputs, state,
@@ -185,69 +165,22 @@ gl_status gl_start(gl_instance *instance)
         return gl_refuse(instance, "The start was refused: %s.", why);
     }
     memcpy(instance->now.state, state, sizeof state);
-    take_outputs(instance, 2);
+    gl_take_outputs(instance, GL_ALL);
     instance->stale = 0;
-    return GL_OK;
-}
-
-static void watch_ranges(gl_instance *instance)
-{
-    instance->points++;
-    instance->watched = instance->now.time;
-    if (GL_RANGES == 0) {
-        return;
-    }
-    unsigned outside = (unsigned)instance->now.values[GL_EXCEEDED];
-    for (int i = 0; outside && i < GL_RANGES; i++) {
-        if (!(outside >> i & 1u) || instance->outside[i]++) {
-            continue;
-        }
-        const gl_range *range = &gl_ranges[i];
-        const double *limits = instance->work + GL_RANGES_AT + 2 * i;
-        gl_say(instance, GL_WARNING,
-               "%s: %s should be within %g to %g%s%s, got %.4g. %s First at t = %g s; said once "
-               "a run.",
-               range->output, range->what, limits[0], limits[1], *range->unit ? " " : "",
-               range->unit, instance->now.values[range->reference], range->beyond,
-               instance->now.time);
-    }
-}
-
-gl_status gl_refresh(gl_instance *instance, int needed)
-{
-    double inputs[GL_INPUTS] = {0.0}; /* those of the last step stand in the state */
-    if (needed <= instance->fresh) {
-        return GL_OK;
-    }
-    int64_t status = gearlube_entry(needed == 1 ? GL_MOTION : GL_WRITE_OUTPUTS, 0.0, gl_data,
-                                    instance->parameters, inputs, instance->now.state,
-                                    instance->work, instance->outputs);
-    for (int i = 0; status == 0 && i < GL_OUTPUTS; i++) {
-        if (gl_variables[gl_outputs[i]].needs <= needed && !isfinite(instance->outputs[i])) {
-            return gl_refuse(instance, "%s is not finite.", gl_variables[gl_outputs[i]].name);
-        }
-    }
-    if (status != 0) {
-        return gl_refuse(instance, "The outputs cannot be computed: %s.", refusal_text(status));
-    }
-    take_outputs(instance, needed);
-    if (needed == 2) {
-        watch_ranges(instance);
-    }
     return GL_OK;
 }
 
 gl_status gl_exit_initialisation(gl_instance *instance)
 {
-    gl_status status = expect(instance, GL_INITIALISING);
+    gl_status status = gl_expect(instance, GL_INITIALISING);
     if (status == GL_OK && instance->stale) {
         status = gl_start(instance);
     }
     if (status != GL_OK) {
         return status;
     }
-    instance->now.phase = GL_STEPPING;
-    watch_ranges(instance);
+    instance->now.phase = instance->now.exchange ? GL_EVENTS : GL_STEPPING;
+    gl_watch_ranges(instance);
     gl_say(instance, GL_OK, "initialised at t = %g s", instance->now.time);
     for (unsigned i = 0; i < GL_VARIABLES; i++) {
         if (gl_variables[i].causality == GL_PARAMETER && gl_variables[i].place >= 0) {
@@ -262,11 +195,16 @@ gl_status gl_exit_initialisation(gl_instance *instance)
 
 gl_status gl_terminate(gl_instance *instance)
 {
-    gl_status status = expect(instance, GL_STEPPING);
+    gl_status status = instance->now.exchange
+                           ? gl_expect_either(instance, GL_EVENTS, GL_CONTINUOUS_TIME)
+                           : gl_expect(instance, GL_STEPPING);
     if (status != GL_OK) {
         return status;
     }
-    gl_refresh(instance, 2); /* so that the ranges are looked at where the run ends */
+    /* so that the ranges are looked at where the run ends */
+    if (gl_refresh(instance, GL_ALL) == GL_OK && instance->now.exchange) {
+        gl_watch_ranges(instance);
+    }
     instance->now.phase = GL_TERMINATED;
     for (int i = 0; i < GL_RANGES; i++) {
         if (instance->outside[i]) {
@@ -289,7 +227,7 @@ static gl_status check_step(gl_instance *instance, double time, double step)
     double last = instance->now.time;
     double allowed = 1e-3 * step + 1e-9 * fmax(1.0, fabs(last));
     if (instance->now.phase != GL_STEPPING) {
-        return expect(instance, GL_STEPPING);
+        return gl_expect(instance, GL_STEPPING);
     }
     if (!(0.0 < step && step <= GL_LONGEST_STEP)) {
         gl_say(instance, GL_DISCARD,
@@ -310,7 +248,7 @@ static gl_status check_step(gl_instance *instance, double time, double step)
                          time + step, instance->stop);
     }
     if (gl_say_refused(instance, GL_DISCARD, "step refused. ") ||
-        say_input_beyond(instance, GL_DISCARD, "step refused. ")) {
+        gl_say_input_beyond(instance, GL_DISCARD, "step refused. ")) {
         return GL_DISCARD;
     }
     return GL_OK;
@@ -335,13 +273,13 @@ static gl_status step_to(gl_instance *instance, double time, double step)
     }
     instance->now.time = time + step;
     if (!GL_LAZY) {
-        take_outputs(instance, 2);
-        watch_ranges(instance);
+        gl_take_outputs(instance, GL_ALL);
+        gl_watch_ranges(instance);
         return GL_OK;
     }
     instance->fresh = 0;
-    if (instance->now.time - instance->watched >= LONGEST_UNWATCHED) {
-        gl_refresh(instance, 2);
+    if (gl_is_unwatched(instance)) {
+        gl_refresh(instance, GL_ALL);
     }
     return GL_OK;
 }

@@ -7,7 +7,15 @@
 
 #include "model.h"
 
-typedef enum { GL_INSTANTIATED, GL_INITIALISING, GL_STEPPING, GL_TERMINATED } gl_phase;
+/* Stepping is co-simulation; events and continuous time are model exchange. */
+typedef enum {
+    GL_INSTANTIATED,
+    GL_INITIALISING,
+    GL_STEPPING,
+    GL_EVENTS,
+    GL_CONTINUOUS_TIME,
+    GL_TERMINATED
+} gl_phase;
 
 /* Values as FMI numbers them. A refused call changes nothing. */
 typedef enum { GL_OK, GL_WARNING, GL_DISCARD, GL_ERROR } gl_status;
@@ -29,7 +37,8 @@ typedef void (*gl_listener)(gl_instance *instance, gl_status status, const char 
 typedef struct {
     char owner[GL_OWNER_SIZE]; /* GUID of the FMU: tells a state of it from other memory */
     gl_phase phase;
-    double time;                 /* last communication point [s] */
+    int exchange;                /* 1: model exchange, 0: co-simulation */
+    double time;                 /* last communication point, or what the host has set [s] */
     double values[GL_VARIABLES]; /* of every variable, in its FMI unit */
     double state[GL_STATE];      /* of the model */
 } gl_snapshot;
@@ -40,7 +49,7 @@ struct gl_instance {
     double stop; /* no step goes beyond it [s] */
     int stale;   /* outputs wait for a start with the present values */
     int step_refused; /* the last one; nothing has been restored since */
-    int fresh;      /* outputs of the present state: 0 none, 1 those of the motion, 2 all */
+    int fresh;      /* what is computed of the present state, as bits */
     double watched; /* time at which the ranges were looked at last [s] */
     int refusals;                        /* values outside their range: how many, */
     unsigned char refused[GL_VARIABLES]; /* and which */
@@ -56,7 +65,7 @@ struct gl_instance {
 };
 
 gl_instance *gl_make(const char *name, gl_listener listener, void *host, uintptr_t logger,
-                     int logging);
+                     int logging, int exchange);
 void gl_free(gl_instance *instance);
 int gl_is_instance(const gl_instance *instance);
 
@@ -83,6 +92,24 @@ gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const 
 int64_t gl_whole(double value, int64_t low, int64_t high);
 /* Only after the check; returns GL_WARNING where the value lies outside its range. */
 gl_status gl_set(gl_instance *instance, unsigned reference, double value);
+
+/* Model exchange. What the integrator tries may be refused with GL_DISCARD. */
+gl_status gl_enter_events(gl_instance *instance);
+gl_status gl_enter_continuous_time(gl_instance *instance);
+/* Does what an event changes; tells whether the continuous states have changed. */
+gl_status gl_update_discrete(gl_instance *instance, int *states_changed);
+/* Tells whether there is something to be done in event mode. */
+gl_status gl_complete_step(gl_instance *instance, int *event);
+gl_status gl_set_time(gl_instance *instance, double time);
+gl_status gl_set_states(gl_instance *instance, const double *values, size_t count);
+gl_status gl_get_states(gl_instance *instance, double *values, size_t count);
+gl_status gl_get_nominals(gl_instance *instance, double *values, size_t count);
+gl_status gl_get_rates(gl_instance *instance, double *values, size_t count);
+gl_status gl_get_indicators(gl_instance *instance, double *values, size_t count);
+/* Derivatives of computed Reals along a direction of states and inputs, by a central difference. */
+gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
+                           const unsigned *knowns, size_t n_knowns, const double *seed,
+                           double *derivatives);
 
 /* States of the host: `place` points at null or at a state that is written over. */
 gl_status gl_save(gl_instance *instance, void **place);

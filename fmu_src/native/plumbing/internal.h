@@ -22,7 +22,34 @@ int gl_all_finite(const double *values, int count);
 /* Starts the model unless its outputs belong to the present values. */
 gl_status gl_start(gl_instance *instance);
 
-/* Computes the outputs of the present state: 1 those of the motion, 2 all. */
+/* Says of an input beyond the limits of the model why it is refused; returns 0 if none is. */
+int gl_say_input_beyond(gl_instance *instance, gl_status status, const char *before);
+
+/* Takes over what the model has computed, as bits. */
+void gl_take_outputs(gl_instance *instance, int computed);
+
+/* Computes what is needed of the present state, as bits. */
 gl_status gl_refresh(gl_instance *instance, int needed);
+
+/* Ditto, of the start before the end of initialisation. */
+gl_status gl_compute(gl_instance *instance, int needed);
+
+/* Refuses the call unless the instance is in this phase, or in one of both. */
+gl_status gl_expect(gl_instance *instance, gl_phase phase);
+gl_status gl_expect_either(gl_instance *instance, gl_phase one, gl_phase other);
+
+/* Why an operation was refused, in words. */
+const char *gl_refusal_text(int64_t status);
+
+/* In model exchange: puts the present inputs into the state, unless they are refused. */
+gl_status gl_take_inputs(gl_instance *instance);
+
+/* Place of a continuous state by the reference of its variable; -1: none such. */
+int gl_state_place(unsigned reference);
+
+/* Counts and says what is outside its range; all outputs must be those of now. */
+void gl_watch_ranges(gl_instance *instance);
+/* Whether it is time to do so. */
+int gl_is_unwatched(const gl_instance *instance);
 
 #endif

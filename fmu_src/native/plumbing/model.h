@@ -9,6 +9,8 @@
 
 /* FMI 2 reads and sets an enumeration as an integer. */
 typedef enum { GL_REAL, GL_INTEGER, GL_BOOLEAN } gl_kind;
+/* What is computed before a variable is read, as bits; all that the model computes is all of them. */
+enum { GL_NOTHING = 0, GL_OF_MOTION = 1, GL_OF_RATES = 2, GL_OF_OUTPUTS = 4, GL_ALL = 7 };
 typedef enum { GL_PARAMETER, GL_INPUT, GL_OUTPUT } gl_causality;
 
 typedef struct {
@@ -16,11 +18,12 @@ typedef struct {
     const char *unit;            /* "" for numbers without one */
     const char *const *literals; /* of an enumeration, from value 1 on; else NULL */
     double start, low, high;     /* closed range of legal values [unit] */
+    double nominal;              /* typical size [unit] */
     gl_kind kind;
     gl_causality causality;
     int place; /* among parameters, inputs or outputs of the model; -1: an option by number */
     int option; /* of an option by number: reference of the enumeration it stands for; else -1 */
-    int needs;  /* before it is read: 0 nothing, 1 the outputs of the motion, 2 all outputs */
+    int needs;  /* one of GL_NOTHING to GL_OF_OUTPUTS */
 } gl_variable;
 
 /* A variable of FMI 3: an array where FMI 2 has one variable for each element. */
@@ -28,6 +31,12 @@ typedef struct {
     int count;               /* of elements; 0: FMI 3 has no variable of this reference */
     const unsigned *members; /* their references in FMI 2 */
 } gl_array;
+
+/* A continuous state: the first ones of the model's state, in their order. */
+typedef struct {
+    int reference, rate; /* of the variables that hold it and its derivative */
+    double unit;         /* one in the model's state is so much in that of the variable */
+} gl_continuous_state;
 
 typedef struct {
     int status;
@@ -46,11 +55,14 @@ extern const gl_variable gl_variables[GL_VARIABLES];
 extern const gl_array gl_arrays[GL_VARIABLES];
 extern const int gl_inputs[GL_INPUTS];   /* reference of each input of the model */
 extern const int gl_outputs[GL_OUTPUTS]; /* reference of each output of the model */
+extern const gl_continuous_state gl_states[]; /* GL_CONTINUOUS of them */
+extern const int gl_indicators[];             /* references of the GL_INDICATORS event indicators */
 extern const gl_refusal gl_refusals[GL_REFUSALS];
 extern const gl_range gl_ranges[GL_RANGES];
 extern const double gl_data[]; /* what only a table or a gear decides */
 
-enum { GL_START, GL_STEP, GL_WRITE_OUTPUTS, GL_RESUME, GL_MOTION }; /* operations of the entry */
+/* operations of the entry */
+enum { GL_START, GL_STEP, GL_WRITE_OUTPUTS, GL_RESUME, GL_MOTION, GL_DERIVATIVES, GL_EVENT };
 
 /* The physics: compiled from the same kernels as the Python models. Returns 0 or the status of a
    refusal, with `state` unchanged. It allocates nothing and takes no lock. */

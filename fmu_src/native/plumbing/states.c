@@ -11,6 +11,7 @@
 enum {
     MARK_SIZE = 8,
     HEADER_SIZE = MARK_SIZE + GL_OWNER_SIZE + 4 + 4,
+    OF_EXCHANGE = 256, /* added to the phase in model exchange */
     NUMBERS_SIZE = 8 * (1 + GL_VARIABLES + GL_STATE)
 };
 static const char MARK[MARK_SIZE + 1] = "gearlub2";
@@ -58,11 +59,29 @@ static gl_status keep(gl_instance *instance, const gl_snapshot *snapshot, void *
     return GL_OK;
 }
 
+/* In model exchange outputs follow from states and inputs: a state holds no trace of what the host
+   has read. */
+static gl_status keep_of_exchange(gl_instance *instance, void **place)
+{
+    gl_snapshot snapshot = instance->now;
+    for (int i = 0; i < GL_OUTPUTS; i++) {
+        snapshot.values[gl_outputs[i]] = 0.0;
+    }
+    for (int i = 0; i < GL_INPUTS; i++) {
+        snapshot.state[GL_INPUTS_AT + i] = 0.0;
+    }
+    return keep(instance, &snapshot, place);
+}
+
 gl_status gl_save(gl_instance *instance, void **place)
 {
+    int started = instance->now.phase >= GL_STEPPING;
     gl_status status = check_pointers(instance, place, instance);
-    if (status == GL_OK && instance->now.phase >= GL_STEPPING) {
-        status = gl_refresh(instance, 2); /* a state holds all outputs */
+    if (status == GL_OK && started && instance->now.exchange) {
+        return keep_of_exchange(instance, place);
+    }
+    if (status == GL_OK && started) {
+        status = gl_refresh(instance, GL_ALL); /* a state of co-simulation holds all outputs */
     }
     return status == GL_OK ? keep(instance, &instance->now, place) : status;
 }
@@ -108,7 +127,7 @@ gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *
         return status;
     }
     unsigned char *numbers = bytes + HEADER_SIZE;
-    uint32_t phase = (uint32_t)snapshot->phase;
+    uint32_t phase = (uint32_t)snapshot->phase + (snapshot->exchange ? OF_EXCHANGE : 0);
     memset(bytes, 0, HEADER_SIZE);
     memcpy(bytes, MARK, MARK_SIZE);
     memcpy(bytes + MARK_SIZE, snapshot->owner, GL_OWNER_SIZE);
@@ -124,7 +143,10 @@ gl_status gl_serialise(gl_instance *instance, const void *state, unsigned char *
 static int is_sound(const gl_snapshot *snapshot)
 {
     int started = snapshot->phase >= GL_STEPPING;
-    int sound = isfinite(snapshot->time);
+    int of_other_kind = snapshot->exchange ? snapshot->phase == GL_STEPPING
+                                           : snapshot->phase == GL_EVENTS ||
+                                                 snapshot->phase == GL_CONTINUOUS_TIME;
+    int sound = isfinite(snapshot->time) && !of_other_kind;
     for (int i = 0; i < GL_VARIABLES; i++) {
         const gl_variable *variable = &gl_variables[i];
         double value = snapshot->values[i];
@@ -159,12 +181,13 @@ static gl_status from_bytes(gl_instance *instance, const unsigned char *bytes, s
     memcpy(&phase, bytes + MARK_SIZE + GL_OWNER_SIZE, 4);
     memcpy(&sum, bytes + HEADER_SIZE - 4, 4);
     const unsigned char *numbers = bytes + HEADER_SIZE;
-    if (size != HEADER_SIZE + NUMBERS_SIZE || phase > GL_TERMINATED ||
+    snapshot->exchange = (phase & OF_EXCHANGE) != 0;
+    snapshot->phase = (gl_phase)(phase & ~(uint32_t)OF_EXCHANGE);
+    if (size != HEADER_SIZE + NUMBERS_SIZE || (phase & ~(uint32_t)OF_EXCHANGE) > GL_TERMINATED ||
         checksum(phase, numbers, NUMBERS_SIZE) != sum) {
         return gl_refuse(instance, "The FMU state is damaged: length or checksum do not agree.");
     }
     memcpy(snapshot->owner, instance->now.owner, GL_OWNER_SIZE);
-    snapshot->phase = (gl_phase)phase;
     memcpy(&snapshot->time, numbers, 8);
     memcpy(snapshot->values, numbers + 8, sizeof snapshot->values);
     memcpy(snapshot->state, numbers + 8 + sizeof snapshot->values, sizeof snapshot->state);
@@ -191,6 +214,10 @@ gl_status gl_restore(gl_instance *instance, const void *state)
     if (check_state(instance, state) != GL_OK) {
         return GL_ERROR;
     }
+    if (snapshot->exchange != instance->now.exchange) {
+        return gl_refuse(instance, "The FMU state must be one of %s, as this instance is.",
+                         instance->now.exchange ? "model exchange" : "co-simulation");
+    }
     if (snapshot->phase >= GL_STEPPING) {
         double parameters[GL_PARAMETERS], inputs[GL_INPUTS], of_model[GL_STATE];
         gl_gather_parameters(snapshot->values, parameters);
@@ -208,7 +235,7 @@ gl_status gl_restore(gl_instance *instance, const void *state)
         memcpy(instance->parameters, parameters, sizeof parameters);
     }
     instance->now = *snapshot;
-    instance->fresh = 2;
+    instance->fresh = snapshot->exchange ? 0 : GL_ALL;
     instance->step_refused = 0;
     instance->watched = snapshot->time;
     instance->stale = snapshot->phase < GL_STEPPING;

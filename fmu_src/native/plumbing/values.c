@@ -2,6 +2,7 @@
 #include "instance.h"
 #include "internal.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -106,22 +107,25 @@ static gl_status check(gl_instance *instance, gl_kind kind, size_t count, const 
 
 static int needed_by(size_t count, const unsigned *refs)
 {
-    int most = 0;
+    int needs = GL_NOTHING;
     for (size_t i = 0; i < count; i++) {
-        most = gl_variables[refs[i]].needs > most ? gl_variables[refs[i]].needs : most;
+        needs |= gl_variables[refs[i]].needs;
     }
-    return most;
+    return needs;
 }
 
 gl_status gl_check_read(gl_instance *instance, gl_kind kind, size_t count, const unsigned *refs,
                         const void *values)
 {
     gl_status status = check(instance, kind, count, refs, values);
-    int needed = status == GL_OK ? needed_by(count, refs) : 0;
-    if (needed && instance->now.phase >= GL_STEPPING) {
-        return gl_refresh(instance, needed);
-    }
-    return needed && instance->stale ? gl_start(instance) : status;
+    return status == GL_OK ? gl_compute(instance, needed_by(count, refs)) : status;
+}
+
+/* Some hosts of model exchange set states one by one, as variables. */
+static int is_set_as_state(const gl_instance *instance, unsigned reference)
+{
+    return (instance->now.phase == GL_EVENTS || instance->now.phase == GL_CONTINUOUS_TIME) &&
+           gl_state_place(reference) >= 0;
 }
 
 static int can_be_set(const gl_instance *instance, const gl_variable *variable)
@@ -135,22 +139,39 @@ gl_status gl_check_set(gl_instance *instance, gl_kind kind, size_t count, const 
 {
     gl_status status = check(instance, kind, count, refs, values);
     for (size_t i = 0; status == GL_OK && i < count; i++) {
-        if (!can_be_set(instance, &gl_variables[refs[i]])) {
+        if (!can_be_set(instance, &gl_variables[refs[i]]) && !is_set_as_state(instance, refs[i])) {
             status = gl_refuse(instance,
                                "%s must not be set in this phase of the simulation. Set "
                                "parameters before the end of initialisation, inputs before "
                                "termination, outputs never.",
                                gl_variables[refs[i]].name);
+        } else if (is_set_as_state(instance, refs[i]) && !isfinite(((const double *)values)[i])) {
+            gl_say(instance, GL_DISCARD, "%s must be finite, got %g.", gl_variables[refs[i]].name,
+                   ((const double *)values)[i]);
+            status = GL_DISCARD;
         }
     }
     return status;
 }
 
+static gl_status set_state(gl_instance *instance, int place, double value)
+{
+    instance->now.state[place] = value / gl_states[place].unit;
+    instance->fresh = 0;
+    return GL_OK;
+}
+
 gl_status gl_set(gl_instance *instance, unsigned reference, double value)
 {
     const gl_variable *variable = &gl_variables[reference];
+    if (variable->causality == GL_OUTPUT) {
+        return set_state(instance, gl_state_place(reference), value);
+    }
     instance->now.values[reference] = value;
     instance->stale = 1;
+    if (instance->now.exchange) {
+        instance->fresh = 0; /* an input counts at once */
+    }
     note(instance, reference, !is_legal(variable, value));
     if (!instance->refused[reference]) {
         return GL_OK;

@@ -13,14 +13,27 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.dynamics.hypoid_axle.continuous import change_side
 from gearlube_core.dynamics.hypoid_axle.force_derivatives import force_derivatives
-from gearlube_core.dynamics.hypoid_axle.integrate import OK, StepControl, advance
+from gearlube_core.dynamics.hypoid_axle.integrate import (
+    DIVERGED_UM,
+    NOT_FINITE,
+    OK,
+    TOO_FAST,
+    StepControl,
+    advance,
+)
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields, MeshLevels
-from gearlube_core.dynamics.hypoid_axle.outputs import write_motion_after_step, write_outputs
+from gearlube_core.dynamics.hypoid_axle.outputs import (
+    write_derivatives,
+    write_motion_after_step,
+    write_outputs,
+)
 from gearlube_core.dynamics.hypoid_axle.start import rest
-from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE, W_G, W_P, X
 from gearlube_core.dynamics.hypoid_axle.step_control import write_step_control
+from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
@@ -36,6 +49,8 @@ class AxleKernels(NamedTuple):
     step_without_outputs: Callable[..., int]
     motion_outputs: Callable[..., None]
     outputs: Callable[..., None]
+    continuous_rates: Callable[..., int]
+    event: Callable[..., None]
 
 
 @cache
@@ -198,6 +213,29 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
         write_motion_after_step(s, MeshLevels(*mesh), p, work, out)
 
+    @kernel
+    def continuous_rates(
+        s: Array, inputs: Array, mesh: MeshFields, parameters: Array, work: Array, out: Array
+    ) -> int:
+        """Write rates and event indicators as in `write_derivatives`; return a status.
+
+        Arguments as in `outputs`; the status is OK, NOT_FINITE or TOO_FAST.
+        """
+        if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
+            return TOO_FAST
+        if not abs(s[X]) <= DIVERGED_UM:
+            return NOT_FINITE
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        table = MeshLevels(*mesh)
+        write_derivatives(s, (inputs[0], inputs[1]), inputs[2], table, p, work, out)
+        return OK
+
+    @kernel
+    def event(s: Array, mesh: MeshFields, parameters: Array, work: Array) -> None:
+        """Take the other side's mesh data if the teeth have crossed, as in `change_side`."""
+        p: AxleParameters = tuple_from_array(parameters, AxleParameters, bearing, law)
+        change_side(s, MeshLevels(*mesh), p.mesh, work)
+
     return AxleKernels(
         static_state,
         step_control,
@@ -206,4 +244,6 @@ def axle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> AxleKerne
         step_without_outputs,
         motion_outputs,
         outputs,
+        continuous_rates,
+        event,
     )

@@ -74,6 +74,31 @@ def lateral_and_unloaded(
 
 
 @kernel
+def gap_rotation(
+    s: Array, m: MeshSeries, p: MeshForceConstants, series: Array, n_orders: int
+) -> float:
+    """Return how far the pinion stands from the middle of the gap [m], along the line of action.
+
+    It decides the side of the mesh data: below 0 the coast flanks', else the drive flanks'.
+    In contact it counts the deflection from there, so that it has the sign of the contact.
+
+    Parameters
+    ----------
+    s : ndarray of shape (N_STATE,)
+    m : MeshSeries
+        At s[PHI_P]; read where neither flank touches.
+    p : MeshForceConstants
+    series : ndarray of shape (N_SERIES * (2 n_orders + 1),)
+        Coefficients at the present load.
+    """
+    x = s[X] * UM
+    rotation = x + 0.5 * p.backlash
+    if -p.backlash < x < 0.0:
+        rotation -= lateral_and_unloaded(s, m, series, n_orders, p.z_p)
+    return rotation
+
+
+@kernel
 def follow_flank(
     s: Array,
     table: MeshLevels,
@@ -108,9 +133,7 @@ def follow_flank(
     phi = s[PHI_P]
     old = mesh_series(mesh.series, mesh.n_orders, p.z_p, phi)
     separated = -gap < x < 0.0
-    rotation = x + 0.5 * gap
-    if separated:
-        rotation -= lateral_and_unloaded(s, old, mesh.series, mesh.n_orders, p.z_p)
+    rotation = gap_rotation(s, old, p, mesh.series, mesh.n_orders)
     if (rotation < 0.0) == on_coast:
         return
     s[SIDE] = 1.0 if on_coast else -1.0

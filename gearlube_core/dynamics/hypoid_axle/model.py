@@ -9,6 +9,7 @@ from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.integrate import (
+    MAX_STEPS,
     NOT_FINITE,
     TOO_FAST,
     TOO_MANY_STEPS,
@@ -53,7 +54,7 @@ STEP_REFUSALS = {
         "Reduce the torques or check for an unstable option (equations='as_printed')"
     ),
     TOO_MANY_STEPS: (
-        "the step needs more than 1000000 integrator steps. Shorten the communication step"
+        f"the step needs more than {MAX_STEPS} integrator steps. Shorten the communication step"
     ),
     TOO_FAST: TOO_FAST_WORDS,
 }

@@ -11,6 +11,13 @@ from gearlube_core.dynamics.hypoid_axle.bearing_outputs import (
     N_BEARING_QUANTITIES,
     write_shaft,
 )
+from gearlube_core.dynamics.hypoid_axle.continuous import (
+    EVENT_INDICATORS,
+    RATE_NAMES,
+    STATE_NAMES,
+    write_event_indicators,
+    write_rates,
+)
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_OUTPUTS, write_flanks
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
@@ -62,7 +69,7 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import N_SERIES, R_P, blend_levels, load_bracket
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
-OUTPUT_NAMES: tuple[str, ...] = (
+_OUTPUTS: tuple[str, ...] = (
     "pinion.angle",
     "wheel.angle",
     "pinion.speed",
@@ -96,6 +103,9 @@ OUTPUT_NAMES: tuple[str, ...] = (
     "energy.stored",
     *RANGE_OUTPUTS,
 )
+# for another integrator: the other states, the rates of all, and the event indicators
+_OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
+OUTPUT_NAMES = (*_OUTPUTS, *_OTHER_STATES, *RATE_NAMES, *EVENT_INDICATORS)
 OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
 N_OUTPUTS = len(OUTPUT_NAMES)
 
@@ -130,6 +140,11 @@ PINION_BEARINGS = OUTPUT_INDEX[BEARING_OUTPUTS[0]]
 GEAR_BEARINGS = PINION_BEARINGS + 2 * N_BEARING_QUANTITIES
 ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
 RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
+PINION_VELOCITY = OUTPUT_INDEX["pinion.velocity.x"]
+WHEEL_VELOCITY = OUTPUT_INDEX["wheel.velocity.x"]
+LOAD_LEVEL = OUTPUT_INDEX["mesh.load_torque"]
+RATES = OUTPUT_INDEX[RATE_NAMES[0]]  # in the order of the state
+EVENTS = OUTPUT_INDEX[EVENT_INDICATORS[0]]
 
 # what follows from the state and the mean mesh data alone
 MOTION_OUTPUTS: tuple[str, ...] = (
@@ -140,7 +155,11 @@ MOTION_OUTPUTS: tuple[str, ...] = (
     OUTPUT_NAMES[PINION_CAGE],
     OUTPUT_NAMES[GEAR_CAGE],
     *OUTPUT_NAMES[ENERGIES : ENERGIES + N_ENERGIES],
+    *_OTHER_STATES,
 )
+
+# of these, what an input changes at once while no step has been taken
+POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY + 1])
 
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
@@ -225,6 +244,9 @@ def write_motion(
     for i in range(3):
         out[PINION_DISPLACEMENT + i] = s[U_P + i] * UM
         out[WHEEL_DISPLACEMENT + i] = s[U_G + i] * UM
+        out[PINION_VELOCITY + i] = s[V_P + i]
+        out[WHEEL_VELOCITY + i] = s[V_G + i]
+    out[LOAD_LEVEL] = s[LOAD_TORQUE]
     out[PINION_CAGE] = s[CAGE_P]
     out[GEAR_CAGE] = s[CAGE_G]
     for i in range(N_ENERGIES):
@@ -242,6 +264,33 @@ def write_motion_after_step(
     bracket = load_bracket(s[LOAD_TORQUE], s[SIDE], table.levels, table.levels.size)
     blend_levels(table.series, size, bracket, series)
     write_motion(s, work[0:N_ODE], series, table.n_orders, p, out)
+
+
+@kernel
+def write_derivatives(
+    s: Array,
+    torques: tuple[float, float],
+    oil_temperature: float,
+    table: MeshLevels,
+    p: AxleParameters,
+    work: Array,
+    out: Array,
+) -> None:
+    """Write the rates of the continuous states and the event indicators.
+
+    The right-hand side is exact: films, tractions and bearing forces are evaluated at `s`, and
+    nothing is kept between calls. Arguments as in `write_outputs`.
+    """
+    at_series = N_ODE + SCRATCH
+    at_window = at_series + N_SERIES * (2 * table.n_orders + 1)
+    rates = work[0:N_ODE]
+    data = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)
+    oil = lubricant_state(p.oil, oil_temperature)
+    blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
+    inputs = step_inputs(s, torques[0], torques[1], oil, p)
+    axle_rhs(s, inputs, data, oil, p, 1.0, 1.0, work[N_ODE:at_series], rates)
+    write_rates(s, rates, torques[0], out[RATES:EVENTS])
+    write_event_indicators(s, table, data, p.mesh, out[EVENTS:])
 
 
 @kernel
@@ -265,9 +314,7 @@ def write_outputs(
     scratch = work[N_ODE:at_series]
     data = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)
     oil = lubricant_state(p.oil, oil_temperature)
-    blend_mesh(s[LOAD_TORQUE], s[SIDE], table, data)
-    inputs = step_inputs(s, torques[0], torques[1], oil, p)
-    axle_rhs(s, inputs, data, oil, p, 1.0, 1.0, scratch, rates)
+    write_derivatives(s, torques, oil_temperature, table, p, work, out)
     mesh = write_motion(s, rates, data.series, data.n_orders, p, out)
     out[PINION_ACCELERATION] = rates[W_P]
     out[WHEEL_ACCELERATION] = rates[W_G]

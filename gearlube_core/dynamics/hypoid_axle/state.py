@@ -26,3 +26,4 @@ TIME_IN_STEP = 27  # length of the last communication step [s]
 WORK_MARK = 28  # these energies at the start of the last communication step [J]
 SIDE = WORK_MARK + N_ENERGIES  # below 0: the mesh data are those of the coast flanks [-]
 N_STATE = SIDE + 1
+N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events

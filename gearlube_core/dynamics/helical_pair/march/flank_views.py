@@ -102,23 +102,35 @@ def coast_view(s: Array, p: FlankConstants) -> FlankView:
 
 
 @kernel
-def touches(view: FlankView, offset_low: float, p: FlankConstants) -> bool:
-    """Return whether a flank can touch anywhere: a quick bound."""
+def deepest(view: FlankView, offset_low: float, p: FlankConstants) -> float:
+    """Return a bound of the deflection anywhere on a flank [m]; not above 0 nothing touches."""
     plane = p.plane
     reach = abs(view.tilt) * (0.5 * plane.W * plane.cos_b + plane.x_g * plane.sin_b)
-    return view.a + reach - offset_low > 0.0
+    return view.a + reach - offset_low
 
 
 @kernel
-def coast_near(s: Array, offset_low: float, p: FlankConstants) -> bool:
-    """Return whether the coast flanks can touch: a bound that costs less than their view."""
+def touches(view: FlankView, offset_low: float, p: FlankConstants) -> bool:
+    """Return whether a flank can touch anywhere: a quick bound."""
+    return deepest(view, offset_low, p) > 0.0
+
+
+@kernel
+def coast_deepest(s: Array, offset_low: float, p: FlankConstants) -> float:
+    """Return a bound of the deflection of the coast flanks [m] that costs less than their view."""
     reach = 0.0
     for i in range(3):
         reach += abs(s[U_P + i]) + abs(s[U_G + i])
     size = p.plane.W + 2.0 * p.plane.x_g + p.plane.r_bp + p.plane.r_bg
     for i in range(2):
         reach += size * (abs(s[TH_P + i]) + abs(s[TH_G + i]))
-    return reach - s[PSI] * p.plane.cos_b - p.backlash - offset_low > 0.0
+    return reach - s[PSI] * p.plane.cos_b - p.backlash - offset_low
+
+
+@kernel
+def coast_near(s: Array, offset_low: float, p: FlankConstants) -> bool:
+    """Return whether the coast flanks can touch, by `coast_deepest`."""
+    return coast_deepest(s, offset_low, p) > 0.0
 
 
 @kernel

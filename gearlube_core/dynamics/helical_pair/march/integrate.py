@@ -32,7 +32,7 @@ NOT_FINITE = 1
 TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
-MAX_STEPS = 1_000_000  # in one communication interval
+MAX_STEPS = 150_000  # in one communication interval; below a second of computing
 LOAD_FILTER_TIME = 0.02  # s, the load level follows the torque below the shafts' own motions
 DIVERGED = 0.1  # m along the line of action: teeth long broken
 

@@ -17,6 +17,7 @@ from gearlube_core.dynamics.helical_pair.march.equilibrium import (
     squared_frequencies,
 )
 from gearlube_core.dynamics.helical_pair.march.integrate import (
+    MAX_STEPS,
     NOT_FINITE,
     TOO_FAST,
     TOO_MANY_STEPS,
@@ -57,7 +58,7 @@ WORDS = Words(
             "Reduce the torques"
         ),
         TOO_MANY_STEPS: (
-            "the step needs more than 1000000 integrator steps. Shorten the communication step"
+            f"the step needs more than {MAX_STEPS} integrator steps. Shorten the communication step"
         ),
         TOO_FAST: TOO_FAST_WORDS,
     },

@@ -6,6 +6,13 @@ import math
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.helical_pair.march.constants import MarchConstants, SupportConstants
+from gearlube_core.dynamics.helical_pair.march.continuous import (
+    EVENT_INDICATORS,
+    RATE_NAMES,
+    STATE_NAMES,
+    write_event_indicators,
+    write_rates,
+)
 from gearlube_core.dynamics.helical_pair.march.flank_views import (
     coast_view,
     drive_view,
@@ -45,7 +52,7 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 
 BEARING_QUANTITIES = ("force.x", "force.y", "force.z")
 
-OUTPUT_NAMES: tuple[str, ...] = (
+_OUTPUTS: tuple[str, ...] = (
     "pinion.angle",
     "wheel.angle",
     "pinion.speed",
@@ -83,6 +90,9 @@ OUTPUT_NAMES: tuple[str, ...] = (
     "energy.stored",
     *RANGE_OUTPUTS,
 )
+# for another integrator: the other states, the rates of all, and the event indicators
+_OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
+OUTPUT_NAMES = (*_OUTPUTS, *_OTHER_STATES, *RATE_NAMES, *EVENT_INDICATORS)
 OUTPUT_INDEX = {name: index for index, name in enumerate(OUTPUT_NAMES)}
 N_OUTPUTS = len(OUTPUT_NAMES)
 
@@ -114,6 +124,11 @@ DISPLACEMENTS = OUTPUT_INDEX["pinion.displacement.x"]  # in the order of the sta
 BEARINGS = OUTPUT_INDEX["bearing[1].force.x"]
 ENERGIES = OUTPUT_INDEX["energy.pinion_work"]  # in the order of the state
 RANGES = OUTPUT_INDEX[RANGE_EXCEEDED]
+RELATIVE_ROTATION = OUTPUT_INDEX["mesh.rotation"]
+VELOCITIES = OUTPUT_INDEX["pinion.velocity.x"]  # in the order of the state
+LOAD_LEVEL = OUTPUT_INDEX["mesh.load_torque"]
+RATES = OUTPUT_INDEX[RATE_NAMES[0]]  # ditto
+EVENTS = OUTPUT_INDEX[EVENT_INDICATORS[0]]
 N_BEARING_QUANTITIES = len(BEARING_QUANTITIES)
 
 # what follows from the state alone
@@ -125,7 +140,10 @@ MOTION_OUTPUTS: tuple[str, ...] = (
     *OUTPUT_NAMES[DISPLACEMENTS : DISPLACEMENTS + N_LATERAL],
     *OUTPUT_NAMES[BEARINGS : BEARINGS + N_BEARINGS * N_BEARING_QUANTITIES],
     *OUTPUT_NAMES[ENERGIES : ENERGIES + N_ENERGIES],
+    *_OTHER_STATES,
 )
+# of these, what an input changes at once while no step has been taken
+POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : PAIR_EFFICIENCY + 1])
 
 _IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 
@@ -204,9 +222,28 @@ def write_motion(s: Array, rates: Array, teeth: float, bearings: Array, out: Arr
     write_losses(s, rates, out)
     for i in range(N_LATERAL):
         out[DISPLACEMENTS + i] = s[U_P + i]
+        out[VELOCITIES + i] = s[V_P + i]
+    out[RELATIVE_ROTATION] = s[PSI]
+    out[LOAD_LEVEL] = s[LOAD_TORQUE]
     write_bearings(s, bearings, out)
     for i in range(N_ENERGIES):
         out[ENERGIES + i] = s[PINION_WORK + i]
+
+
+@kernel
+def write_derivatives(
+    s: Array, inputs: Array, mesh: MeshFields, data: Array, work: Array, out: Array
+) -> None:
+    """Write the rates of the continuous states and the event indicators.
+
+    Arguments as in `write_outputs`.
+    """
+    p: MarchConstants = tuple_from_array(data, MarchConstants)
+    rates = work[0:N_ODE]
+    mesh_at_torque(s[LOAD_TORQUE], mesh, data)
+    march_rates(s, inputs[0], inputs[1], data, rates)
+    write_rates(s, rates, inputs[0], out[RATES:EVENTS])
+    write_event_indicators(s, data, p, out[EVENTS:])
 
 
 @kernel
@@ -227,8 +264,7 @@ def write_outputs(
     p: MarchConstants = tuple_from_array(data, MarchConstants)
     rates = work[0:N_ODE]
     oil_temperature = inputs[2]
-    mesh_at_torque(s[LOAD_TORQUE], mesh, data)
-    march_rates(s, inputs[0], inputs[1], data, rates)
+    write_derivatives(s, inputs, mesh, data, work, out)
     flanks = p.motion.flanks
     plane = flanks.plane
     drive = drive_view(s, flanks)

@@ -1,0 +1,283 @@
+/* Model exchange: modes, continuous states, their rates, event indicators, derivatives. */
+#include "instance.h"
+#include "internal.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Step of a central difference, as a share of the typical size of what is changed. */
+static const double DIFFERENCE = 2e-6;
+
+gl_status gl_enter_events(gl_instance *instance)
+{
+    gl_status status = gl_expect_either(instance, GL_EVENTS, GL_CONTINUOUS_TIME);
+    if (status == GL_OK) {
+        instance->now.phase = GL_EVENTS;
+    }
+    return status;
+}
+
+gl_status gl_enter_continuous_time(gl_instance *instance)
+{
+    gl_status status = gl_expect(instance, GL_EVENTS);
+    if (status == GL_OK) {
+        instance->now.phase = GL_CONTINUOUS_TIME;
+    }
+    return status;
+}
+
+/* Lets a copy of the state take what an event changes. */
+static gl_status event(gl_instance *instance, double *state)
+{
+    double inputs[GL_INPUTS] = {0.0}; /* those in the state count */
+    gl_status status = gl_take_inputs(instance);
+    if (status != GL_OK) {
+        return status;
+    }
+    memcpy(state, instance->now.state, sizeof instance->now.state);
+    int64_t refusal = gearlube_entry(GL_EVENT, 0.0, gl_data, instance->parameters, inputs, state,
+                                     instance->work, instance->outputs);
+    if (refusal != 0 || !gl_all_finite(state, GL_STATE)) {
+        gl_say(instance, GL_DISCARD, "The event cannot be computed: %s.",
+               refusal ? gl_refusal_text(refusal) : "a state is not finite");
+        return GL_DISCARD;
+    }
+    return GL_OK;
+}
+
+gl_status gl_update_discrete(gl_instance *instance, int *states_changed)
+{
+    double state[GL_STATE];
+    gl_status status = gl_expect(instance, GL_EVENTS);
+    if (status == GL_OK) {
+        status = event(instance, state);
+    }
+    if (status != GL_OK) {
+        return status;
+    }
+    *states_changed = memcmp(state, instance->now.state, GL_CONTINUOUS * sizeof *state) != 0;
+    if (memcmp(state, instance->now.state, sizeof state)) {
+        memcpy(instance->now.state, state, sizeof state);
+        instance->fresh = 0;
+    }
+    return GL_OK;
+}
+
+gl_status gl_complete_step(gl_instance *instance, int *due)
+{
+    double state[GL_STATE];
+    gl_status status = gl_expect(instance, GL_CONTINUOUS_TIME);
+    if (status == GL_OK) {
+        status = event(instance, state);
+    }
+    if (status != GL_OK) {
+        return status;
+    }
+    *due = memcmp(state, instance->now.state, sizeof state) != 0;
+    if (gl_is_unwatched(instance) && gl_refresh(instance, GL_ALL) == GL_OK) {
+        gl_watch_ranges(instance);
+    }
+    return GL_OK;
+}
+
+/* Beyond the stop time too: integrators look ahead there and interpolate. */
+gl_status gl_set_time(gl_instance *instance, double time)
+{
+    gl_status status = gl_expect_either(instance, GL_EVENTS, GL_CONTINUOUS_TIME);
+    if (status == GL_OK && !isfinite(time)) {
+        status = gl_refuse(instance, "The time must be finite, got %g s.", time);
+    }
+    if (status == GL_OK) {
+        instance->now.time = time;
+    }
+    return status;
+}
+
+static gl_status check_array(gl_instance *instance, const double *values, size_t count,
+                             size_t expected)
+{
+    if (count != expected) {
+        return gl_refuse(instance, "The call must bring room for %d values, got %lu.",
+                         (int)expected, (unsigned long)count);
+    }
+    return values || !count ? GL_OK : gl_refuse(instance, "The values are missing: a null pointer.");
+}
+
+gl_status gl_set_states(gl_instance *instance, const double *values, size_t count)
+{
+    gl_status status = gl_expect(instance, GL_CONTINUOUS_TIME);
+    if (status == GL_OK) {
+        status = check_array(instance, values, count, GL_CONTINUOUS);
+    }
+    if (status != GL_OK) {
+        return status;
+    }
+    if (!gl_all_finite(values, GL_CONTINUOUS)) {
+        gl_say(instance, GL_DISCARD, "A continuous state is not finite.");
+        return GL_DISCARD;
+    }
+    for (int i = 0; i < GL_CONTINUOUS; i++) {
+        instance->now.state[i] = values[i] / gl_states[i].unit;
+    }
+    instance->fresh = 0;
+    return GL_OK;
+}
+
+/* In any phase from initialisation on; computes what is needed. */
+static gl_status check_get(gl_instance *instance, const double *values, size_t count,
+                           size_t expected, int needed)
+{
+    if (!instance->now.exchange || instance->now.phase < GL_INITIALISING) {
+        return gl_refuse(instance, "This call needs an instance for model exchange that has "
+                                   "entered initialisation.");
+    }
+    gl_status status = check_array(instance, values, count, expected);
+    return status == GL_OK ? gl_compute(instance, needed) : status;
+}
+
+gl_status gl_get_states(gl_instance *instance, double *values, size_t count)
+{
+    int needed = instance->now.phase < GL_STEPPING ? GL_ALL : GL_NOTHING;
+    gl_status status = check_get(instance, values, count, GL_CONTINUOUS, needed);
+    for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
+        values[i] = instance->now.state[i] * gl_states[i].unit;
+    }
+    return status;
+}
+
+gl_status gl_get_nominals(gl_instance *instance, double *values, size_t count)
+{
+    gl_status status = check_get(instance, values, count, GL_CONTINUOUS, GL_NOTHING);
+    for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
+        values[i] = gl_variables[gl_states[i].reference].nominal;
+    }
+    return status;
+}
+
+gl_status gl_get_rates(gl_instance *instance, double *values, size_t count)
+{
+    gl_status status = check_get(instance, values, count, GL_CONTINUOUS, GL_OF_RATES);
+    for (int i = 0; status == GL_OK && i < GL_CONTINUOUS; i++) {
+        values[i] = instance->now.values[gl_states[i].rate];
+    }
+    return status;
+}
+
+gl_status gl_get_indicators(gl_instance *instance, double *values, size_t count)
+{
+    gl_status status = check_get(instance, values, count, GL_INDICATORS, GL_OF_RATES);
+    for (int i = 0; status == GL_OK && i < GL_INDICATORS; i++) {
+        values[i] = instance->now.values[gl_indicators[i]];
+    }
+    return status;
+}
+
+int gl_state_place(unsigned reference)
+{
+    for (int i = 0; i < GL_CONTINUOUS; i++) {
+        if (gl_states[i].reference == (int)reference) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* Place in the state of what a direction changes, with the size of one there; -1: none such. */
+static int place_of(unsigned reference, double *unit)
+{
+    int place = gl_state_place(reference);
+    *unit = place >= 0 ? gl_states[place].unit : 1.0;
+    if (place >= 0) {
+        return place;
+    }
+    return gl_variables[reference].causality == GL_INPUT
+               ? GL_INPUTS_AT + gl_variables[reference].place
+               : -1;
+}
+
+static gl_status check_direction(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
+                                 const unsigned *knowns, size_t n_knowns, const double *seed,
+                                 const double *derivatives)
+{
+    double unit;
+    gl_status status = gl_expect_either(instance, GL_EVENTS, GL_CONTINUOUS_TIME);
+    if (status == GL_OK && ((n_unknowns && (!unknowns || !derivatives)) ||
+                            (n_knowns && (!knowns || !seed)))) {
+        status = gl_refuse(instance, "References or values are missing: a null pointer.");
+    }
+    for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
+        if (unknowns[i] >= GL_VARIABLES || gl_variables[unknowns[i]].causality != GL_OUTPUT ||
+            gl_variables[unknowns[i]].kind != GL_REAL) {
+            status = gl_refuse(instance, "An unknown must be a Real that the FMU computes, got the "
+                                         "value reference %u.", unknowns[i]);
+        }
+    }
+    for (size_t i = 0; status == GL_OK && i < n_knowns; i++) {
+        if (knowns[i] >= GL_VARIABLES || place_of(knowns[i], &unit) < 0) {
+            status = gl_refuse(instance, "A known must be a continuous state or an input, got the "
+                                         "value reference %u.", knowns[i]);
+        } else if (!isfinite(seed[i])) {
+            status = gl_refuse(instance, "The seed must be finite, got %g.", seed[i]);
+        }
+    }
+    return status;
+}
+
+/* Outputs at the present state, changed along the direction by so much. */
+static gl_status outputs_beside(gl_instance *instance, int operation, const unsigned *knowns,
+                                size_t n_knowns, const double *seed, double change,
+                                double *outputs)
+{
+    double state[GL_STATE], inputs[GL_INPUTS] = {0.0}, unit;
+    memcpy(state, instance->now.state, sizeof state);
+    for (size_t i = 0; i < n_knowns; i++) {
+        int place = place_of(knowns[i], &unit);
+        state[place] += change * seed[i] / unit;
+    }
+    int64_t refusal = gearlube_entry(operation, 0.0, gl_data, instance->parameters, inputs, state,
+                                     instance->work, outputs);
+    if (refusal != 0) {
+        gl_say(instance, GL_DISCARD, "The derivatives cannot be computed: %s.",
+               gl_refusal_text(refusal));
+    }
+    return refusal == 0 ? GL_OK : GL_DISCARD;
+}
+
+gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
+                           const unsigned *knowns, size_t n_knowns, const double *seed,
+                           double *derivatives)
+{
+    double above[GL_OUTPUTS], below[GL_OUTPUTS], largest = 0.0;
+    int needs = GL_OF_RATES;
+    gl_status status = check_direction(instance, unknowns, n_unknowns, knowns, n_knowns, seed,
+                                       derivatives);
+    if (status == GL_OK) {
+        status = gl_take_inputs(instance);
+    }
+    for (size_t i = 0; status == GL_OK && i < n_knowns; i++) {
+        largest = fmax(largest, fabs(seed[i]) / gl_variables[knowns[i]].nominal);
+    }
+    for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
+        needs |= gl_variables[unknowns[i]].needs;
+    }
+    int operation = needs == GL_OF_RATES ? GL_DERIVATIVES : GL_WRITE_OUTPUTS;
+    double change = largest > 0.0 ? DIFFERENCE / largest : 1.0;
+    if (status == GL_OK) {
+        status = outputs_beside(instance, operation, knowns, n_knowns, seed, change, above);
+    }
+    if (status == GL_OK) {
+        status = outputs_beside(instance, operation, knowns, n_knowns, seed, -change, below);
+    }
+    for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
+        int place = gl_variables[unknowns[i]].place;
+        if (!isfinite(above[place] - below[place])) {
+            gl_say(instance, GL_DISCARD, "%s is not finite.", gl_variables[unknowns[i]].name);
+            status = GL_DISCARD;
+        }
+    }
+    for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
+        int place = gl_variables[unknowns[i]].place;
+        derivatives[i] = (above[place] - below[place]) / (2.0 * change);
+    }
+    return status;
+}

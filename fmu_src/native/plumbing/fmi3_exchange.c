@@ -1,0 +1,155 @@
+/* FMI 3.0 for model exchange. */
+#include "fmi3Functions.h"
+
+#include "instance.h"
+
+/* In the order of the standard: OK, warning, discard, error. */
+static fmi3Status answer(gl_status status)
+{
+    return (fmi3Status)status;
+}
+
+static fmi3Status no_pointer(gl_instance *instance)
+{
+    return answer(gl_refuse(instance, "A pointer of the call is null."));
+}
+
+fmi3Status fmi3EnterEventMode(fmi3Instance c)
+{
+    return gl_is_instance(c) ? answer(gl_enter_events(c)) : fmi3Error;
+}
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needed, fmi3Boolean *terminate,
+                                    fmi3Boolean *nominals_changed, fmi3Boolean *values_changed,
+                                    fmi3Boolean *next_defined, fmi3Float64 *next)
+{
+    int changed = 0;
+    if (!gl_is_instance(c)) {
+        return fmi3Error;
+    }
+    if (!needed || !terminate || !nominals_changed || !values_changed || !next_defined || !next) {
+        return no_pointer(c);
+    }
+    gl_status status = gl_update_discrete(c, &changed);
+    if (status == GL_OK) {
+        *needed = *terminate = *nominals_changed = *next_defined = false;
+        *values_changed = changed != 0;
+        *next = 0.0;
+    }
+    return answer(status);
+}
+
+fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance c)
+{
+    return gl_is_instance(c) ? answer(gl_enter_continuous_time(c)) : fmi3Error;
+}
+
+fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_way_back,
+                                       fmi3Boolean *enter_event_mode, fmi3Boolean *terminate)
+{
+    int due = 0;
+    (void)no_way_back;
+    if (!gl_is_instance(c)) {
+        return fmi3Error;
+    }
+    if (!enter_event_mode || !terminate) {
+        return no_pointer(c);
+    }
+    gl_status status = gl_complete_step(c, &due);
+    if (status == GL_OK) {
+        *enter_event_mode = due != 0;
+        *terminate = false;
+    }
+    return answer(status);
+}
+
+fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time)
+{
+    return gl_is_instance(c) ? answer(gl_set_time(c, time)) : fmi3Error;
+}
+
+fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 x[], size_t n)
+{
+    return gl_is_instance(c) ? answer(gl_set_states(c, x, n)) : fmi3Error;
+}
+
+fmi3Status fmi3GetContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
+{
+    return gl_is_instance(c) ? answer(gl_get_states(c, x, n)) : fmi3Error;
+}
+
+fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
+{
+    return gl_is_instance(c) ? answer(gl_get_nominals(c, x, n)) : fmi3Error;
+}
+
+fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 x[], size_t n)
+{
+    return gl_is_instance(c) ? answer(gl_get_rates(c, x, n)) : fmi3Error;
+}
+
+fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 z[], size_t n)
+{
+    return gl_is_instance(c) ? answer(gl_get_indicators(c, z, n)) : fmi3Error;
+}
+
+static fmi3Status tell_number(gl_instance *instance, size_t *place, size_t number)
+{
+    if (!gl_is_instance(instance)) {
+        return fmi3Error;
+    }
+    if (!place) {
+        return no_pointer(instance);
+    }
+    *place = number;
+    return fmi3OK;
+}
+
+fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *n)
+{
+    return tell_number(c, n, GL_INDICATORS);
+}
+
+fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n)
+{
+    return tell_number(c, n, GL_CONTINUOUS);
+}
+
+/* Writes the elements of all arrays one after the other; returns 0 if they are not `count`. */
+static int elements(const fmi3ValueReference refs[], size_t n, size_t count, unsigned *found)
+{
+    size_t k = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (refs[i] >= GL_VARIABLES || gl_arrays[refs[i]].count == 0) {
+            return 0;
+        }
+        for (int j = 0; j < gl_arrays[refs[i]].count; j++) {
+            if (k == GL_VARIABLES) {
+                return 0;
+            }
+            found[k++] = gl_arrays[refs[i]].members[j];
+        }
+    }
+    return k == count;
+}
+
+fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference unknowns[],
+                                        size_t n_unknowns, const fmi3ValueReference knowns[],
+                                        size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
+                                        fmi3Float64 sensitivity[], size_t n_sensitivity)
+{
+    unsigned of_unknowns[GL_VARIABLES], of_knowns[GL_VARIABLES];
+    if (!gl_is_instance(c)) {
+        return fmi3Error;
+    }
+    if ((n_unknowns && !unknowns) || (n_knowns && !knowns)) {
+        return no_pointer(c);
+    }
+    if (!elements(unknowns, n_unknowns, n_sensitivity, of_unknowns) ||
+        !elements(knowns, n_knowns, n_seed, of_knowns)) {
+        return answer(gl_refuse(c, "Value references of variables are expected, each once, and as "
+                                   "many values as they have elements."));
+    }
+    return answer(gl_differentiate(c, of_unknowns, n_sensitivity, of_knowns, n_seed, seed,
+                                   sensitivity));
+}

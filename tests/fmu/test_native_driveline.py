@@ -1,0 +1,167 @@
+"""Driveline.fmu against the driveline of the package."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import fmpy
+import pytest
+
+from docs.fmu_hosts.hosts import Job, c_host, in_c_host, in_fmpy
+from drivetrain.driveline.model import Driveline
+from drivetrain.engine import Gearbox
+from fmu_src import build
+from fmu_src.check import problems
+from fmu_src.native.build import NativeOptions, build_native, native_guid
+from fmu_src.native.driveline import default_car, driveline_model
+from fmu_src.native.model import NativeModel
+from fmu_src.native.platforms import platform_of_this_machine
+from gearlube_core.errors import ParameterError
+
+OUTPUTS = ("pinion.torque", "wheel.torque", "vehicle.speed", "engine.speed", "start.pinion_speed",
+           "start.gear")  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def fmus(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    options = NativeOptions(platforms=[platform_of_this_machine()])
+    return build_native(driveline_model(), tmp_path_factory.mktemp("driveline"), options)
+
+
+def expected(car: Driveline, ripple: float, steps: int, h: float) -> list[float]:
+    """Last outputs of the driveline in Python, asked to go 0.5 m/s faster on a rigid axle."""
+    pinion, wheel = car.steady.pinion_speed, car.steady.wheel_speed
+    state = car.get_state()
+    if ripple == 0.0:
+        state[: len(car.steady.state)] = car.steady.state
+    state[-1] = ripple
+    car.set_state(state)
+    car.request_speed(float(car.inputs[0]) + 0.5)
+    torques = car.steady.pinion_torque, car.steady.wheel_torque
+    for k in range(steps):
+        at = k * h
+        torques = car.step(h, at * pinion, pinion, at * wheel, wheel)
+    return [*torques, car.vehicle_speed, car.engine_speed, pinion, car.gear]
+
+
+@pytest.mark.parametrize("speed", [3.0, 8.7, 13.1, 20.0, 41.0])
+def test_it_starts_as_the_driveline_of_the_package(fmus: list[Path], speed: float) -> None:
+    car = Driveline(default_car(), speed)
+    job = Job(
+        fmu=fmus[0],
+        reals={
+            "vehicle.speed_start": speed,
+            "vehicle.speed_request": speed + 0.5,
+            "pinion.speed": car.steady.pinion_speed,
+            "wheel.speed": car.steady.wheel_speed,
+        },
+        integers={},
+        names=OUTPUTS,
+        step_size=2.0**-13,
+        steps=0,
+    )
+    # between 33 speeds of a gear, by a cubic: road load is nearly one, the orders' answer is not
+    found = in_fmpy(job)
+    assert found[:2] == pytest.approx([car.steady.pinion_torque, car.steady.wheel_torque], rel=1e-6)
+    assert found[4:] == [pytest.approx(car.steady.pinion_speed, rel=1e-9), car.gear]
+    assert in_fmpy(dataclasses.replace(job, steps=1))[3] == pytest.approx(
+        expected(car, 1.0, 1, job.step_size)[3], rel=1e-5
+    )
+
+
+@pytest.mark.parametrize("ripple", [1.0, 0.0])
+def test_it_computes_what_the_package_computes(fmus: list[Path], ripple: float) -> None:
+    """At a speed of the table of starts, to rounding: the highest of the only gear."""
+    car = dataclasses.replace(default_car(), gearbox=Gearbox(ratios=(2.0,)))
+    model = driveline_model(car)
+    folder = fmus[0].parent / f"one_gear_{ripple:g}"
+    options = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
+    (fmu,) = build_native(model, folder, options)
+    assert len(fmus) == 2
+    # engine speeds at idle and at most, then speeds of the vehicle in this gear
+    speed = float(model.data[4])
+    python = Driveline(car, speed * (1.0 - 1e-12))
+    h, steps = 2.0**-13, 500
+    names = OUTPUTS[:4]
+    wanted = expected(python, ripple, steps, h)[:4]
+    result = fmpy.simulate_fmu(
+        str(fmu),
+        stop_time=steps * h,
+        output_interval=h,
+        start_values={
+            "engine.order_scale": ripple,
+            "vehicle.speed_start": speed,
+            "vehicle.speed_request": speed + 0.5,
+        },
+        input=_motion(python, steps, h),
+        output=names,
+    )
+    found = [float(result[name][-1]) for name in names]
+    assert found == pytest.approx(wanted, rel=1e-9)  # the start differs by 1e-12
+
+
+def _motion(car: Driveline, steps: int, h: float):  # type: ignore[no-untyped-def]
+    import numpy as np
+
+    steady = car.steady
+    times = np.arange(steps + 1) * h
+    columns = {
+        "time": times,
+        "pinion.angle": steady.pinion_speed * times,
+        "pinion.speed": np.full_like(times, steady.pinion_speed),
+        "wheel.angle": steady.wheel_speed * times,
+        "wheel.speed": np.full_like(times, steady.wheel_speed),
+    }
+    table = np.zeros(times.size, dtype=[(name, float) for name in columns])
+    for name, values in columns.items():
+        table[name] = values
+    return table
+
+
+def test_checkers_find_no_problem(fmus: list[Path]) -> None:
+    assert [problems(fmu) for fmu in fmus] == [[], []]
+
+
+def test_steps_that_its_integration_cannot_take_are_refused(
+    fmus: list[Path], tmp_path: Path
+) -> None:
+    job = Job(fmu=fmus[0], reals={}, integers={}, names=OUTPUTS, step_size=2.0**-11)
+    with pytest.raises(RuntimeError, match=r"steps of the driveline must be at most 0\.25 ms"):
+        in_c_host(job, c_host(tmp_path), tmp_path)
+
+
+def test_a_start_speed_without_a_gear_is_refused(fmus: list[Path], tmp_path: Path) -> None:
+    reals = {"vehicle.speed_start": 30.0}
+    job = Job(fmu=fmus[0], reals=reals, integers={"gearbox.gear": 1}, names=OUTPUTS)
+    with pytest.raises(RuntimeError, match=r"keep the engine within its speeds in gearbox\.gear"):
+        in_c_host(job, c_host(tmp_path), tmp_path)
+
+
+def test_the_car_of_an_axle_file_is_built_beside_its_axle(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "light.toml"
+    file.write_text('[gear_set]\nmesh_table = "mohammadpour_2015"\n[vehicle]\nmass_kg = 900.0\n')
+    made: list[NativeModel] = []
+
+    def kept(model: NativeModel, folder: Path, options: NativeOptions) -> list[Path]:
+        made.append(model)
+        return []
+
+    monkeypatch.setattr(build, "build_native", kept)
+    build.build_models(tmp_path, axle=file, native=NativeOptions())
+    assert [one.definition.name for one in made] == ["HypoidAxle", "Driveline"]
+    shipped = driveline_model()
+    assert native_guid(made[1]) != native_guid(shipped)
+    torque = [car.definition.variables[1].start for car in (made[1], shipped)]
+    assert torque[0] == pytest.approx(torque[1], rel=1e-2)
+    # a row of the first gear: the engine's torque at idle pulls less of a lighter car
+    first = 5 + 2 * 10
+    assert made[1].data[first] < shipped.data[first]
+
+
+def test_the_driveline_has_no_fmu_that_computes_in_python(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="--model driveline must come without --python"):
+        build.build_models(tmp_path, "driveline")
+    assert list(tmp_path.iterdir()) == []
