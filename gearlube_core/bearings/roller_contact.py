@@ -67,6 +67,15 @@ def preload_approach(
 
 
 @kernel
+def contact_angle_terms(angle: float) -> tuple[float, float, float]:
+    """Return sine and cosine of the contact angle [rad], and the factor 2 Y of the drag.
+
+    2 Y = 0.8 cot(angle), 0 for cylindrical rollers.
+    """
+    return math.sin(angle), math.cos(angle), 0.8 / math.tan(angle) if angle > 0.0 else 0.0
+
+
+@kernel
 def film_amplitude(
     shaft_speed: float, eta0: float, alpha: float, p: BearingParameters
 ) -> tuple[float, float]:

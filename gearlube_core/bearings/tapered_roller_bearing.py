@@ -11,7 +11,7 @@ from gearlube_core.bearings.parameters import (
     FILM_FLOOR_APPROACH,
     ROLLERS_MAX,
 )
-from gearlube_core.bearings.roller_contact import N_LINE, preload_approach
+from gearlube_core.bearings.roller_contact import N_LINE, contact_angle_terms, preload_approach
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, pi_contact_modulus
@@ -233,13 +233,13 @@ class TaperedRollerBearing:
 
     def parameters(self) -> TaperedRollerParameters:
         """Return the floats for the kernels."""
-        angle = self.contact_angle
+        sin_contact, cos_contact, axial_factor = contact_angle_terms(float(self.contact_angle))
         return TaperedRollerParameters(
             kn=float(self.stiffness_constant),
             n=float(self.exponent),
             n_rollers=float(self.n_rollers),
-            sin_contact=math.sin(angle),
-            cos_contact=math.cos(angle),
+            sin_contact=sin_contact,
+            cos_contact=cos_contact,
             interference=self.rest_approach,
             cage_ratio=self.cage_ratio,
             loss=float(self.loss),
@@ -251,5 +251,5 @@ class TaperedRollerBearing:
             mean_diameter=0.5 * (self.bore_diameter + self.outside_diameter),
             f0=float(self.f0),
             f1=float(self.f1),
-            axial_factor=0.8 / math.tan(angle) if angle > 0.0 else 0.0,
+            axial_factor=axial_factor,
         )

@@ -146,8 +146,8 @@ def step_inputs(
     drag_p = 0.0
     drag_g = 0.0
     if p.drag != 0.0:
-        drag_p = 2.0 * shaft_drag(p.bearing_p, s[W_P], p.preload, oil)
-        drag_g = 2.0 * shaft_drag(p.bearing_g, s[W_G], p.preload, oil)
+        drag_p = 2.0 * shaft_drag(p.bearing_p, s[W_P], p.preload_p, oil)
+        drag_g = 2.0 * shaft_drag(p.bearing_g, s[W_G], p.preload_g, oil)
     return StepInputs(pinion_torque, wheel_torque, drag_p, drag_g)
 
 

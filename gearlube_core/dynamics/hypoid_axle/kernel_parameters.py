@@ -51,7 +51,8 @@ class AxleParameters(NamedTuple):
     drag: float  # 1 with bearing drag torque, 0 without
     reduced_modulus: float  # E' = 2 E* of the flanks [Pa]
     ranges: RangeLimits
-    preload: float  # axial preload of a bearing, for its drag [N]
+    preload_p: float  # axial preload of a bearing of the pinion, for its drag [N]
+    preload_g: float  # ditto of the gear
     bearing_p: ShaftBearings
     bearing_g: ShaftBearings
     flank_law: FlankLaw

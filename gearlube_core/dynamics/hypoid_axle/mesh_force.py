@@ -79,6 +79,13 @@ def modal_damping(loss_factor: float, stiffness: float, mass: float) -> float:
 
 
 @kernel
+def equivalent_mass(R_p: float, ratio: float, I_p: float, I_g: float) -> float:
+    """Return the mass of the torsional mesh mode [kg], [karagiannis_2012 (30)]."""
+    R_g = R_p * ratio
+    return 1.0 / (R_p * R_p / I_p + R_g * R_g / I_g)
+
+
+@kernel
 def mesh_force(s: Array, series: Array, n_orders: int, p: MeshForceConstants) -> MeshForce:
     """Return the mesh force in state `s`.
 

@@ -16,7 +16,11 @@ from gearlube_core.contact.solid import (
     solid_parameters,
 )
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
-from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, modal_damping
+from gearlube_core.dynamics.hypoid_axle.mesh_force import (
+    MeshForceConstants,
+    equivalent_mass,
+    modal_damping,
+)
 from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.dynamics.ranges import Range, range_limits
@@ -55,8 +59,10 @@ class HypoidAxleParameters(AxleScalars):
     ----------
     mesh : MeshTable
     bearing : Bearing
-        One type, two opposed on either shaft, e.g. a `TaperedRollerBearing` with preload,
-        interference or clearance set.
+        Two opposed on either shaft, e.g. a `TaperedRollerBearing` with preload, interference or
+        clearance set.
+    gear_bearing : Bearing, optional
+        Those of the gear's shaft, of the same class; by default as the pinion's.
     oil : Lubricant
     solid : Solid
         Both flanks.
@@ -96,6 +102,7 @@ class HypoidAxleParameters(AxleScalars):
 
     mesh: MeshTable
     bearing: Bearing
+    gear_bearing: Bearing | None = None
     oil: Lubricant
     solid: Solid
     roughness_rms: Annotated[float, Within(1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")]
@@ -120,13 +127,32 @@ class HypoidAxleParameters(AxleScalars):
         check_scalars(self)
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
             raise ParameterError(NO_MODAL_LOSS)
+        kinds = [type(one).__name__ for one in self.bearings]
+        if kinds[0] != kinds[1]:
+            raise ParameterError(
+                f"gear_bearing must be a {kinds[0]} as bearing is, got a {kinds[1]}. The kernels "
+                "of an axle are compiled for one class of bearing."
+            )
+
+    @property
+    def bearings(self) -> tuple[Bearing, Bearing]:
+        """The bearings of the pinion's and of the gear's shaft."""
+        return self.bearing, self.bearing if self.gear_bearing is None else self.gear_bearing
+
+    @property
+    def mean_pinion_radius(self) -> float:
+        """Mean contact radius of the pinion without load [m]."""
+        return self.mesh.mean("R_p", 0.0)
 
     @property
     def equivalent_mass(self) -> float:
         """Mass of the torsional mesh mode [kg], [karagiannis_2012 (30)]."""
-        R_p = self.mesh.mean("R_p", 0.0)
-        R_g = R_p * self.mesh.ratio
-        return 1.0 / (R_p**2 / self.pinion_inertia + R_g**2 / self.gear_inertia)
+        return equivalent_mass(
+            self.mean_pinion_radius,
+            self.mesh.ratio,
+            float(self.pinion_inertia),
+            float(self.gear_inertia),
+        )
 
     @property
     def modal_damping(self) -> float:
@@ -179,7 +205,7 @@ class HypoidAxleParameters(AxleScalars):
 
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""
-        bearing = self.bearing.parameters()
+        of_pinion, of_gear = self.bearings
         as_printed = self.equations == "as_printed"
         return constants_of(
             AxleParameters,
@@ -200,9 +226,10 @@ class HypoidAxleParameters(AxleScalars):
             drag=1.0 if self.bearing_torque_loss == "palmgren" else 0.0,
             reduced_modulus=2.0 * contact_modulus(self.solid, self.solid),
             ranges=range_limits(self.ranges),
-            preload=self.bearing.preload_force(),
-            bearing_p=bearing,
-            bearing_g=bearing,
+            preload_p=of_pinion.preload_force(),
+            preload_g=of_gear.preload_force(),
+            bearing_p=of_pinion.parameters(),
+            bearing_g=of_gear.parameters(),
             flank_law=self._flank_law(),
             oil=self.oil.parameters(),
         )
