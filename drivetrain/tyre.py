@@ -13,7 +13,7 @@ _INCH = 0.0254  # m
 _SIZE = re.compile(r"^\s*(?:P|LT)?(\d{3})\s*/\s*(\d{2})\s*Z?R\s*(\d{2})\b.*$", re.IGNORECASE)
 
 # Rolling circumference of a radial tyre over its unladen diameter (ETRTO standards manual).
-_CIRCUMFERENCE_FACTOR = 3.05
+CIRCUMFERENCE_FACTOR = 3.05
 # Loaded rolling radius over the unladen radius, a rule of thumb for radial car tyres.
 _RADIUS_FACTOR = 0.965
 
@@ -83,7 +83,7 @@ class Tyre:
         check_within("tyre rim diameter", rim_inch, 10.0, 24.0, "inch", "Try 16.")
         radius = 0.5 * rim_inch * _INCH + width_mm * 1e-3 * aspect_percent / 100.0
         if rolling_radius == "circumference":
-            rolling = _CIRCUMFERENCE_FACTOR * 2.0 * radius / (2.0 * math.pi)
+            rolling = CIRCUMFERENCE_FACTOR * 2.0 * radius / (2.0 * math.pi)
         else:
             rolling = _RADIUS_FACTOR * radius
         return cls(unladen_radius=radius, rolling_radius=rolling)

@@ -11,16 +11,23 @@ from pydantic import BaseModel
 _UNITS = {  # of names' endings; the longest that fits counts
     "_rpm": "rpm",
     "_m_s": "m/s",
+    "_hz": "Hz",
     "_mm": "mm",
     "_um": "um",
     "_deg": "deg",
     "_degc": "degC",
     "_kg": "kg",
     "_kg_m3": "kg/m3",
+    "_kg_m2": "kg.m2",
     "_kg_mm2": "kg.mm2",
+    "_m2": "m2",
+    "_mm2_s": "mm2/s",
+    "_m_s2": "m/s2",
     "_n": "N",
     "_kn": "kN",
     "_n_m": "N.m",
+    "_n_m_per_rad": "N.m/rad",
+    "_n_m_s_per_rad": "N.m.s/rad",
     "_n_per_mm": "N/mm",
     "_n_per_um": "N/um",
     "_kn_per_rad": "kN/rad",
@@ -31,6 +38,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_pa_s": "Pa.s",
     "_per_k": "1/K",
     "_w_m_k": "W/(m.K)",
+    "_w_m_k2": "W/(m.K2)",
     "_j_kg_k": "J/(kg.K)",
 }
 _KINDS = {
@@ -96,7 +104,7 @@ def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]
         note = FieldNote(
             name=name,
             kind=_kind(value),
-            unit=_unit(key),
+            unit=field_unit(key)[0],
             limits=_limits(value),
             default=_default(entry),
             meaning=entry.get("description", ""),
@@ -105,9 +113,15 @@ def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]
     return notes
 
 
-def _unit(key: str) -> str:
+def field_unit(key: str) -> tuple[str, str]:
+    """Return the unit of a field and the ending of its name that says so; both may be empty.
+
+    >>> field_unit("tip_relief_um")
+    ('um', '_um')
+    """
     endings = [ending for ending in _UNITS if key.endswith(ending)]
-    return _UNITS[max(endings, key=len)] if endings else ""
+    longest = max(endings, key=len, default="")
+    return _UNITS.get(longest, ""), longest
 
 
 def _kind(value: Any) -> str:

@@ -1,0 +1,1 @@
+"""The axle file: an axle and the car around it in one TOML file."""

@@ -1,0 +1,250 @@
+"""The axle file: an axle and its car in engineers' units, and the parameters that it gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, ClassVar
+
+from pydantic import Field
+
+from drivetrain.axle_file.axle_sections import GearSet, Member, ModelOptions, Steel
+from drivetrain.axle_file.bearing_section import BearingSection
+from drivetrain.axle_file.car_sections import (
+    DrivelineSection,
+    EngineSection,
+    GearboxSection,
+    TyreSection,
+    VehicleSection,
+)
+from drivetrain.axle_file.field_units import field_value, unit_of
+from drivetrain.axle_file.model_section import InputNote, Origin
+from drivetrain.axle_file.oil_section import OilSection
+from drivetrain.driveline.parameters import DrivelineParameters
+from drivetrain.road_load import FinalDrive, RoadLoad
+from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.dynamics.hypoid_axle.parameters import (
+    HypoidAxleParameters,
+    mohammadpour_2015_axle,
+)
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.mesh_table.netcdf import read_mesh_table
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.mesh_table.table import MeshTable
+
+Text = Annotated[str, Field(min_length=1)]
+
+_PAPER = "Mohammadpour et al. 2015"
+_MODEL = "default of the model"
+_CAR = "size for a 1300 kg car; no source"
+_AS_PINION = "as the pinion's"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CarAxle:
+    """An axle in its car, as an axle file gives them.
+
+    Parameters
+    ----------
+    name, source : str
+        Of the file.
+    axle : HypoidAxleParameters
+    driveline : DrivelineParameters
+        The car from the crankshaft to the road; its final drive has the teeth of the mesh table.
+    inputs : tuple of InputNote
+        Every input with value, unit, and whether the file gives it.
+    """
+
+    name: str
+    source: str
+    axle: HypoidAxleParameters
+    driveline: DrivelineParameters
+    inputs: tuple[InputNote, ...]
+
+    @property
+    def assumed(self) -> tuple[InputNote, ...]:
+        """The inputs that the file does not give: assumed ones and those inferred from others."""
+        return tuple(note for note in self.inputs if note.origin != "given")
+
+
+class AxleFile(InputFile):
+    """An axle and its car.
+
+    Examples
+    --------
+    >>> AxleFile.shipped()
+    ('mohammadpour_2015',)
+    >>> AxleFile.named("mohammadpour_2015").car_axle().axle.gear_mass  # kg
+    49.9
+    """
+
+    package: ClassVar[str] = "drivetrain.axle_file"
+    title: ClassVar[str] = "axle file"
+
+    name: Text = Field(default="axle", description="What reports call the axle")
+    source: Text | None = Field(default=None, description="Where the numbers are from")
+    gear_set: GearSet
+    pinion: Member = Member()
+    gear: Member = Member()
+    steel: Steel = Steel()
+    oil: OilSection = OilSection()
+    model: ModelOptions = ModelOptions()
+    vehicle: VehicleSection = VehicleSection()
+    tyre: TyreSection = TyreSection()
+    gearbox: GearboxSection = GearboxSection()
+    engine: EngineSection = EngineSection()
+    driveline: DrivelineSection = DrivelineSection()
+
+    @property
+    def own_table(self) -> str:
+        """Path of the mesh table relative to the file; "" where it names a shipped one."""
+        table = self.gear_set.mesh_table
+        return table if table.endswith(".nc") else ""
+
+    def mesh(self, folder: Path = Path()) -> MeshTable:
+        """Return the mesh table; `folder` is that of the file."""
+        if self.own_table:
+            return read_mesh_table(folder / self.own_table)
+        return shipped_mesh_table(self.gear_set.mesh_table)
+
+    def car_axle(self, mesh: MeshTable | None = None) -> CarAxle:
+        """Return the parameters of axle and car.
+
+        Parameters
+        ----------
+        mesh : MeshTable, optional
+            Read from the file's `mesh_table`; by default the shipped one that it names.
+
+        Raises
+        ------
+        ParameterError, TableError
+            The fields contradict each other, or the mesh table has no teeth of an axle.
+        """
+        mesh = mesh or self.mesh()
+        axle = self._axle(mesh)
+        driveline = self._driveline(mesh)
+        return CarAxle(
+            name=self.name,
+            source=self.source or "",
+            axle=axle,
+            driveline=driveline,
+            inputs=tuple(self._notes(axle, driveline)),
+        )
+
+    def _bearings(self) -> tuple[TaperedRollerBearing, TaperedRollerBearing | None]:
+        """Return the bearings of the pinion's shaft, and those of the gear's if they differ."""
+        common = {"solid": replace(STEEL_MOHAMMADPOUR_2015, **self.steel.changes(_STEEL))}
+        if self.model.bearing_approach is not None:
+            common["approach"] = self.model.bearing_approach
+        of_pinion = (self.pinion.bearing or BearingSection()).bearing()
+        of_gear = self.gear.bearing and self.gear.bearing.bearing(of_pinion.preload)
+        return replace(of_pinion, **common), of_gear and replace(of_gear, **common)
+
+    def _axle(self, mesh: MeshTable) -> HypoidAxleParameters:
+        base = mohammadpour_2015_axle(mesh=mesh)
+        members = {
+            f"{role}_{name}": value
+            for role, member in (("pinion", self.pinion), ("gear", self.gear))
+            for name, value in (
+                (member.attribute(key), member.si(key))
+                for key in ("mass_kg", "inertia_kg_m2")
+                if member.has(key)
+            )
+        }
+        bearing, gear_bearing = self._bearings()
+        given = self.gear_set.changes(base) | self.model.changes(base) | members
+        return replace(
+            base,
+            **given,
+            bearing=bearing,
+            gear_bearing=gear_bearing,
+            solid=bearing.solid,
+            oil=self.oil.oil(),
+        )
+
+    def _driveline(self, mesh: MeshTable) -> DrivelineParameters:
+        road = RoadLoad(
+            vehicle=self.vehicle.vehicle(),
+            tyre=self.tyre.tyre(),
+            final_drive=FinalDrive(pinion_teeth=mesh.pinion_teeth, gear_teeth=mesh.gear_teeth),
+        )
+        base = DrivelineParameters(
+            road_load=road, engine=self.engine.engine(), gearbox=self.gearbox.gearbox()
+        )
+        return replace(base, **self.driveline.changes(base))
+
+    def _notes(self, axle: HypoidAxleParameters, car: DrivelineParameters) -> list[InputNote]:
+        notes = self.gear_set.notes("gear_set.", axle, _MODEL)
+        for role, member in (("pinion", self.pinion), ("gear", self.gear)):
+            notes += _member_notes(role, member, axle)
+            section, made = member.bearing, axle.bearing
+            prefix = f"{role}.bearing."
+            if role == "gear" and section is None:
+                notes.append(InputNote("gear.bearing", "", "", "assumed", _AS_PINION))
+            else:
+                made = axle.bearings[role == "gear"]
+                notes += (section or BearingSection()).bearing_notes(prefix, made, _PAPER)
+        notes += self.steel.notes("steel.", axle.solid, _PAPER)
+        notes += self.oil.oil_notes("oil.", axle.oil)
+        notes += self.model.notes("model.", axle, _MODEL)
+        approach = self.model.bearing_approach
+        if approach is None:
+            value = axle.bearing.approach
+            notes.append(InputNote("model.bearing_approach", value, "", "assumed", _MODEL))
+        road = car.road_load
+        notes += self.vehicle.vehicle_notes("vehicle.", road.vehicle)
+        notes += self.tyre.tyre_notes("tyre.", road.tyre)
+        notes += self.gearbox.gearbox_notes("gearbox.", car.gearbox)
+        notes += self.engine.engine_notes("engine.", car.engine)
+        notes += self.driveline.notes("driveline.", car, _CAR)
+        return notes
+
+
+_STEEL = STEEL_MOHAMMADPOUR_2015
+
+
+def _member_notes(role: str, member: Member, axle: HypoidAxleParameters) -> list[InputNote]:
+    notes = []
+    for key in ("mass_kg", "inertia_kg_m2"):
+        given = member.has(key)
+        value = field_value(key, getattr(axle, f"{role}_{member.attribute(key)}"))
+        origin: Origin = "given" if given else "assumed"
+        notes.append(
+            InputNote(f"{role}.{key}", value, unit_of(key), origin, "" if given else _PAPER)
+        )
+    return notes
+
+
+def read_axle(path: str | Path) -> CarAxle:
+    """Return axle and car of an axle file, or of a shipped one by its name.
+
+    Raises
+    ------
+    ParameterError
+        The file is missing or wrong; all wrong fields are named.
+    TableError
+        Its mesh table is missing or wrong.
+
+    Examples
+    --------
+    >>> paper = read_axle("mohammadpour_2015")
+    >>> paper.driveline.road_load.vehicle.mass  # kg
+    1300.0
+    >>> [note.field for note in paper.assumed][:2]
+    []
+    """
+    file = AxleFile.given(str(path))
+    return file.car_axle(file.mesh(Path(path).parent))
+
+
+def parsed_axle_file(content: bytes) -> AxleFile:
+    """Return the axle file in bytes, e.g. in those of an FMU's resource."""
+    import tomllib
+
+    try:
+        data = tomllib.loads(content.decode())
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
+        raise ParameterError(f"It is not a readable TOML file: {reason}.") from None
+    return AxleFile.from_data(data, "The axle file")

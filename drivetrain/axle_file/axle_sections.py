@@ -1,0 +1,116 @@
+"""The sections of the axle file on gear set, members, steel and model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from drivetrain.axle_file.bearing_section import BearingSection
+from drivetrain.axle_file.model_section import ModelSection
+
+Text = Annotated[str, Field(min_length=1)]
+Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False)]
+Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
+LossFactor = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Hysteresis = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+Floor = Annotated[float, Field(ge=1.0, le=1e4, allow_inf_nan=False)]
+Mass = Annotated[float, Field(ge=0.05, le=2000.0, allow_inf_nan=False)]
+Inertia = Annotated[float, Field(ge=1e-6, le=500.0, allow_inf_nan=False)]
+Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False)]
+Poisson = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+Density = Annotated[float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False)]
+Conductivity = Annotated[float, Field(ge=0.01, le=3000.0, allow_inf_nan=False)]
+HeatCapacity = Annotated[float, Field(ge=50.0, le=5000.0, allow_inf_nan=False)]
+
+
+class GearSet(ModelSection):
+    """The gear pair: its mesh table, and how its force acts."""
+
+    sources: ClassVar[Mapping[str, str]] = {
+        "backlash_um": "Karagiannis et al. 2012",
+        "roughness_rms_um": "Karagiannis et al. 2012",
+        "hysteretic_loss": "Mohammadpour et al. 2015 (4)",
+    }
+
+    mesh_table: Text = Field(
+        description="Shipped mesh table, or a file (.nc) of `gearlube contact`, its path relative "
+        "to the axle file"
+    )
+    backlash_um: Backlash | None = Field(
+        default=None, description="Total, along the line of action"
+    )
+    roughness_rms_um: Roughness | None = Field(
+        default=None, description="Composite root mean square of both flanks"
+    )
+    radii: Literal["consistent", "paper", "mean"] | None = Field(
+        default=None, description="Radii on which the mesh force acts"
+    )
+    mesh_stiffness: Literal["tangent", "secant"] | None = Field(
+        default=None, description="Spring of the mesh: tangent at its load, or secant"
+    )
+    mesh_damping: Literal["hysteretic", "modal"] | None = Field(
+        default=None, description="Law of the mesh damping"
+    )
+    modal_loss_factor: LossFactor | None = Field(
+        default=None, description="Twice the damping ratio of the mesh, for modal damping"
+    )
+    hysteretic_loss: Hysteresis | None = Field(
+        default=None, description="Coefficient of the hysteretic damping"
+    )
+    frequency_floor_hz: Floor | None = Field(
+        default=None, description="Lowest mesh frequency that the hysteresis sees"
+    )
+
+    @model_validator(mode="after")
+    def _check_damping(self) -> GearSet:
+        if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
+            raise ValueError(
+                "modal_loss_factor must be above 0 with modal mesh_damping, got 0; give about "
+                "0.06, or take hysteretic damping"
+            )
+        return self
+
+
+class Member(ModelSection):
+    """Pinion or gear with all that turns and moves with it."""
+
+    mass_kg: Mass | None = Field(default=None, description="Of all that moves with the member")
+    inertia_kg_m2: Inertia | None = Field(
+        default=None, description="Of all that turns with the member, about its axis"
+    )
+    bearing: BearingSection | None = None
+
+
+class Steel(ModelSection):
+    """The solid of flanks, rollers and races."""
+
+    youngs_modulus_gpa: Modulus | None = Field(default=None, description="E")
+    poisson_ratio: Poisson | None = Field(default=None, description="nu")
+    density_kg_m3: Density | None = Field(default=None, description="Of the solid")
+    conductivity_w_m_k: Conductivity | None = Field(default=None, description="Of heat")
+    heat_capacity_j_kg_k: HeatCapacity | None = Field(default=None, description="Per mass")
+
+
+class ModelOptions(ModelSection):
+    """How the axle is computed."""
+
+    equations: Literal["consistent", "as_printed"] | None = Field(
+        default=None, description="Of motion: with corrected misprints, or as printed"
+    )
+    friction: Literal["consistent", "as_printed", "off", "printed_traction_circular"] | None = (
+        Field(default=None, description="Of the flanks")
+    )
+    bearing_torque_loss: Literal["none", "palmgren"] | None = Field(
+        default=None, description="Drag torque of the bearings"
+    )
+    bearing_approach: Literal["full", "as_printed"] | None = Field(
+        default=None, description="Roller approach under shaft displacement: full, or halved"
+    )
+    steps_per_mesh_period: Annotated[int, Field(ge=16, le=4096)] | None = Field(
+        default=None, description="Integration steps in one mesh period"
+    )
+    steps_per_highest_period: Annotated[int, Field(ge=8, le=4096)] | None = Field(
+        default=None, description="Ditto in one period of the highest natural frequency"
+    )

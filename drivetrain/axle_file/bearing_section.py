@@ -1,0 +1,189 @@
+"""The section of the axle file on the bearings of one shaft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from drivetrain.axle_file.model_section import InputNote, ModelSection
+from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
+from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.errors import ParameterError
+
+Diameter = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
+RollerSize = Annotated[float, Field(ge=2.0, le=200.0, allow_inf_nan=False)]
+Rollers = Annotated[int, Field(ge=3, le=40)]
+Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False)]
+Exponent = Annotated[float, Field(ge=1.0, le=2.0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Preload = Annotated[float, Field(ge=0.0, le=1e5, allow_inf_nan=False)]
+Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
+ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
+LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
+
+PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]
+_RACES = ("inner_race_diameter_mm", "outer_race_diameter_mm")
+_BOUNDARY = ("bore_diameter_mm", "outside_diameter_mm")
+
+
+class BearingSection(ModelSection):
+    """The two opposed tapered roller bearings of one shaft."""
+
+    renamed: ClassVar[Mapping[str, str]] = {"rollers": "n_rollers"}
+    sources: ClassVar[Mapping[str, str]] = {
+        "contact_angle_deg": "common for axle bearings; no source",
+        "exponent": "line contact",
+        "f0": "Palmgren 1959",
+        "f1": "Palmgren 1959",
+        "preload_n": "the lower of the two of Mohammadpour et al. 2015",
+        "film": "default of the model",
+    }
+
+    bore_diameter_mm: Diameter | None = Field(default=None, description="Of the inner ring")
+    outside_diameter_mm: Diameter | None = Field(default=None, description="Of the outer ring")
+    pitch_diameter_mm: Diameter | None = Field(
+        default=None,
+        description="Of the middles of the rollers; absent: the mean of the races, or of bore and "
+        "outside diameter where one of these is given",
+    )
+    inner_race_diameter_mm: Diameter | None = Field(
+        default=None,
+        description="At the middle of the rollers; absent: pitch diameter less roller diameter "
+        "times the cosine of the contact angle",
+    )
+    outer_race_diameter_mm: Diameter | None = Field(
+        default=None, description="At the middle of the rollers; absent: likewise, with plus"
+    )
+    rollers: Rollers | None = Field(default=None, description="Number of rollers")
+    roller_diameter_mm: RollerSize | None = Field(default=None, description="Mean, at mid-length")
+    roller_length_mm: RollerSize | None = Field(
+        default=None, description="Effective: without chamfers and undercuts"
+    )
+    contact_angle_deg: Angle | None = Field(
+        default=None, description="Of the outer race: half the included angle of the cup"
+    )
+    stiffness_constant: Stiffness | None = Field(
+        default=None,
+        description="kn of inner race - roller - outer race [N/m^n]; absent: that of steel rollers "
+        "of the given roller length",
+    )
+    exponent: Exponent | None = Field(
+        default=None, description="n of load over approach; 10/9 for lines"
+    )
+    preload_n: Preload | None = Field(
+        default=None, description="Axial force of either bearing at rest; or give the interference"
+    )
+    interference_um: Interference | None = Field(
+        default=None, description="Approach of every roller at rest, in place of the preload"
+    )
+    loss: Share | None = Field(default=None, description="Coefficient of the rollers' hysteresis")
+    film: Literal["squeeze", "steady", "off"] | None = Field(
+        default=None, description="Of the rollers: with squeeze factor, without, or none"
+    )
+    f0: ViscousFactor | None = Field(
+        default=None, description="Viscous factor of Palmgren's drag torque"
+    )
+    f1: LoadFactor | None = Field(default=None, description="Load factor of the drag torque")
+
+    @model_validator(mode="after")
+    def _check_bearing(self) -> BearingSection:
+        problems = []
+        if self.has("preload_n") and self.has("interference_um"):
+            problems.append(
+                "preload_n and interference_um set the same approach of the rollers, got "
+                f"{self.preload_n:g} N and {self.interference_um:g} um; give one of them"
+            )
+        races = [key for key in _RACES if self.has(key)]
+        if len(races) == 1:
+            problems.append(f"the race diameters come in pairs, got {races[0]} alone; give both")
+        if races and self.has("pitch_diameter_mm"):
+            problems.append("pitch_diameter_mm and the race diameters say the same; give one")
+        if not problems:
+            try:
+                problems = self._geometry_problems(self.bearing())
+            except ParameterError as reason:
+                problems = [f"In SI units: {str(reason).removesuffix('.')}"]
+        if problems:
+            raise ValueError(". ".join(problems))
+        return self
+
+    @staticmethod
+    def _geometry_problems(made: TaperedRollerBearing) -> list[str]:
+        mm = 1e3
+        pitch = 0.5 * (made.inner_race_diameter + made.outer_race_diameter)
+        problems = []
+        room = pitch * math.sin(math.pi / made.n_rollers)
+        if made.roller_diameter > room:
+            most = math.floor(math.pi / math.asin(min(1.0, made.roller_diameter / pitch)))
+            problems.append(
+                f"the rollers overlap: {made.n_rollers} rollers on a pitch diameter of "
+                f"{mm * pitch:.4g} mm leave {mm * room:.4g} mm for each, got rollers of "
+                f"{mm * made.roller_diameter:.4g} mm; at most {most} fit"
+            )
+        if not made.bore_diameter < pitch < made.outside_diameter:
+            problems.append(
+                f"the pitch diameter, {mm * pitch:.4g} mm, must lie between bore and outside "
+                f"diameter, got {mm * made.bore_diameter:.4g} and "
+                f"{mm * made.outside_diameter:.4g} mm"
+            )
+        return problems
+
+    @property
+    def _pitch(self) -> tuple[float, str] | None:
+        """Pitch diameter [m] that the races follow from, and how; None: the paper's races."""
+        if self.has("pitch_diameter_mm"):
+            return self.si("pitch_diameter_mm"), "pitch diameter"
+        base = TaperedRollerBearing.mohammadpour_2015()
+        if any(self.has(key) for key in _BOUNDARY):
+            bore, outside = (
+                self.si(key) if self.has(key) else getattr(base, self.attribute(key))
+                for key in _BOUNDARY
+            )
+            return 0.5 * (bore + outside), "mean of bore and outside diameter"
+        if self.has("roller_diameter_mm"):
+            return 0.5 * (base.inner_race_diameter + base.outer_race_diameter), "assumed pitch"
+        return None
+
+    def _changes(self) -> tuple[dict[str, Any], dict[str, str]]:
+        """Return the attributes of the bearing that follow from the file, and the inferred."""
+        base = TaperedRollerBearing.mohammadpour_2015()
+        changes, inferred = self.changes(base), {}
+        interference = changes.pop("interference", None)
+        changes.setdefault("preload", PRELOAD)
+        if self.has("roller_length_mm") and not self.has("stiffness_constant"):
+            changes["stiffness_constant"] = palmgren_roller_stiffness(self.si("roller_length_mm"))
+            inferred["stiffness_constant"] = "Palmgren's, from the roller length"
+        pitch = self._pitch
+        if not self.has(_RACES[0]) and pitch is not None:
+            diameter = changes.get("roller_diameter", base.roller_diameter)
+            across = diameter * math.cos(changes.get("contact_angle", base.contact_angle))
+            changes["inner_race_diameter"] = pitch[0] - across
+            changes["outer_race_diameter"] = pitch[0] + across
+            inferred |= dict.fromkeys(_RACES, f"{pitch[1]} and roller diameter")
+        if interference is not None:
+            fitted = replace(base, **(changes | {"preload": None})).with_interference(interference)
+            changes["preload"] = fitted.preload_force()
+            inferred["preload_n"] = "interference"
+        return changes, inferred
+
+    def bearing(self, preload: float | None = None) -> TaperedRollerBearing:
+        """Return the bearing with its preload.
+
+        Parameters
+        ----------
+        preload : float, optional
+            Taken where the file gives neither preload nor interference [N].
+        """
+        changes, _ = self._changes()
+        if preload is not None and not (self.has("preload_n") or self.has("interference_um")):
+            changes["preload"] = preload
+        return replace(TaperedRollerBearing.mohammadpour_2015(), **changes)
+
+    def bearing_notes(self, prefix: str, made: TaperedRollerBearing, why: str) -> list[InputNote]:
+        """Return a note on every field; `made` is what `bearing` returned."""
+        return self.notes(prefix, made, why, self._changes()[1])

@@ -1,0 +1,136 @@
+"""The section of the axle file on its oil."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from drivetrain.axle_file.model_section import InputNote, ModelSection
+from gearlube_core.errors import ParameterError
+from gearlube_core.oil.lubricant import Lubricant, lubricant_names
+from gearlube_core.units import celsius_to_kelvin
+
+Text = Annotated[str, Field(min_length=1)]
+Viscosity = Annotated[float, Field(ge=2.0, le=1e5, allow_inf_nan=False)]
+WaltherA = Annotated[float, Field(ge=1.0, le=30.0, allow_inf_nan=False)]
+WaltherB = Annotated[float, Field(ge=0.3, le=10.0, allow_inf_nan=False)]
+Density = Annotated[float, Field(ge=500.0, le=2000.0, allow_inf_nan=False)]
+PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
+Stress = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False)]
+Strength = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Conductivity = Annotated[float, Field(ge=0.02, le=2.0, allow_inf_nan=False)]
+Slope = Annotated[float, Field(ge=-1e-2, le=1e-2, allow_inf_nan=False)]
+HeatCapacity = Annotated[float, Field(ge=100.0, le=1e4, allow_inf_nan=False)]
+Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False)]
+
+OIL = "mohammadpour_2015"
+_SHEET = ("viscosity_40_degc_mm2_s", "viscosity_100_degc_mm2_s")
+_WALTHER = ("walther_a", "walther_b")
+
+
+class OilSection(ModelSection):
+    """A shipped oil, or what differs from it."""
+
+    name: Text | None = Field(
+        default=None, description="Shipped oil; fields that are absent are taken from it"
+    )
+    viscosity_40_degc_mm2_s: Viscosity | None = Field(
+        default=None, description="Kinematic, at 40 degC; with that at 100 degC"
+    )
+    viscosity_100_degc_mm2_s: Viscosity | None = Field(
+        default=None, description="Kinematic, at 100 degC"
+    )
+    walther_a: WaltherA | None = Field(
+        default=None,
+        description="A of log log(nu + 0.7) = A - B log T, nu in mm2/s, T in K; with walther_b, in "
+        "place of the two viscosities",
+    )
+    walther_b: WaltherB | None = Field(default=None, description="B of the same line")
+    density_kg_m3: Density | None = Field(default=None, description="At any temperature")
+    alpha_per_gpa: PressureViscosity | None = Field(
+        default=None, description="Pressure-viscosity coefficient at low pressure"
+    )
+    alpha_temperature_degc: Temperature | None = Field(
+        default=None, description="Where alpha holds"
+    )
+    eyring_stress_mpa: Stress | None = Field(
+        default=None, description="Shear stress where thinning begins"
+    )
+    limiting_shear_stress_mpa: Strength | None = Field(
+        default=None, description="Shear strength of boundary junctions without pressure"
+    )
+    boundary_friction: Share | None = Field(
+        default=None, description="Slope of that strength with pressure"
+    )
+    conductivity_w_m_k: Conductivity | None = Field(default=None, description="Of heat")
+    conductivity_temperature_degc: Temperature | None = Field(
+        default=None, description="Where that conductivity holds"
+    )
+    conductivity_slope_w_m_k2: Slope | None = Field(
+        default=None, description="Change of the conductivity with temperature"
+    )
+    heat_capacity_j_kg_k: HeatCapacity | None = Field(default=None, description="Per mass")
+    temperature_low_degc: Temperature | None = Field(
+        default=None, description="Lowest oil temperature that the data are meant for"
+    )
+    temperature_high_degc: Temperature | None = Field(
+        default=None, description="Highest oil temperature that the data are meant for"
+    )
+
+    @model_validator(mode="after")
+    def _check_oil(self) -> OilSection:
+        problems = []
+        if self.name is not None and self.name not in lubricant_names():
+            problems.append(
+                f"name must be one of {', '.join(lubricant_names())}, got {self.name!r}; for "
+                "another oil give its data in place of the name"
+            )
+        for pair in (_SHEET, _WALTHER):
+            given = [key for key in pair if self.has(key)]
+            if len(given) == 1:
+                problems.append(f"{pair[0]} and {pair[1]} come together, got {given[0]} alone")
+        if self.has(_SHEET[0]) and self.has(_WALTHER[0]):
+            problems.append("the two viscosities and walther_a, walther_b say the same; give one")
+        if not problems:
+            try:
+                self.oil()
+            except ParameterError as reason:
+                problems = [f"In SI units: {str(reason).removesuffix('.')}"]
+        if problems:
+            raise ValueError(". ".join(problems))
+        return self
+
+    @property
+    def is_shipped(self) -> bool:
+        """Whether it is a shipped oil as it stands there."""
+        return not any(self.has(key) for key in type(self).model_fields if key != "name")
+
+    def oil(self) -> Lubricant:
+        """Return the oil."""
+        base = Lubricant.named(self.name or OIL)
+        if self.is_shipped:
+            return base
+        changes = self.changes(base) | {"name": f"the axle file's oil (from {base.name})"}
+        if self.has(_SHEET[0]):
+            # the line alone: other data may not fit together before all are changed
+            line = base.with_two_viscosities(
+                1e-6 * float(self.viscosity_40_degc_mm2_s or 0.0),
+                celsius_to_kelvin(40.0),
+                1e-6 * float(self.viscosity_100_degc_mm2_s or 0.0),
+                celsius_to_kelvin(100.0),
+                name=base.name,
+            )
+            changes |= {"walther_a": line.walther_a, "walther_b": line.walther_b}
+        return replace(base, **changes)
+
+    def oil_notes(self, prefix: str, made: Lubricant) -> list[InputNote]:
+        """Return a note on every field; `made` is what `oil` returned."""
+        inferred = dict.fromkeys(_WALTHER, "the two viscosities") if self.has(_SHEET[0]) else {}
+        notes = self.notes(prefix, made, f"shipped oil {self.name or OIL}", inferred)
+        if self.name is None:
+            assumed = InputNote(f"{prefix}name", OIL, "", "assumed", "oil of the paper's axle")
+            notes = [assumed, *(note for note in notes if note.field != f"{prefix}name")]
+        return notes
