@@ -27,6 +27,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument(
         "--mesh-table", type=Path, metavar="FILE", help="mesh table (.nc) of another hypoid pair"
     )
+    parser.add_argument("--axle", metavar="FILE", help="axle file (.toml) of another hypoid axle")
     parser.add_argument(
         "--gear", type=Path, metavar="FILE", help="gear file (.toml) of another helical pair"
     )
@@ -54,7 +55,9 @@ def main(arguments: list[str] | None = None) -> int:
                 report=_LOGGER.info,
             )
         files = options.mesh_table, options.gear, options.line_mesh
-        for path in build_models(options.out, options.model, *files, native=native):
+        for path in build_models(
+            options.out, options.model, *files, axle=options.axle, native=native
+        ):
             _LOGGER.info("built %s (%d kB)", path, path.stat().st_size // 1024)
             found += problems(path) if options.check else []
         for definition in DEFINITIONS if options.page else ():

@@ -70,7 +70,11 @@ def _build(definition: Definition, out_dir: Path) -> Path:
     return path
 
 
-def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None) -> Path:
+def build_hypoid_axle(
+    out_dir: str | Path,
+    mesh_table: str | Path | None = None,
+    axle: str | Path | None = None,
+) -> Path:
     """Build HypoidAxle.fmu that computes in Python in `out_dir`, and return its path.
 
     Parameters
@@ -78,11 +82,15 @@ def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None)
     out_dir : path
     mesh_table : path, optional
         Mesh table of another gear pair, which the FMU then carries.
+    axle : path, optional
+        Axle file (TOML), which the FMU then carries with its mesh table.
 
     Raises
     ------
     TableError
-        When `mesh_table` is missing, no mesh table, or of another format.
+        When the mesh table is missing, no mesh table, or of another format.
+    ParameterError
+        The axle file is missing or wrong, or both are given.
 
     Notes
     -----
@@ -95,7 +103,7 @@ def build_hypoid_axle(out_dir: str | Path, mesh_table: str | Path | None = None)
     ...     build_hypoid_axle(folder).name
     'HypoidAxle.fmu'
     """
-    return _build(_axle_definition(mesh_table), Path(out_dir))
+    return _build(axle_definition(mesh_table, axle), Path(out_dir))
 
 
 def build_helical_pair(
@@ -136,6 +144,7 @@ def build_models(
     gear: Path | None = None,
     line_mesh: Path | None = None,
     *,
+    axle: str | Path | None = None,
     native: NativeOptions | None = None,
 ) -> list[Path]:
     """Build the FMUs asked for and return their paths.
@@ -149,13 +158,15 @@ def build_models(
         Goes into HypoidAxle.fmu.
     gear, line_mesh : path, optional
         Go into HelicalPair.fmu.
+    axle : path, optional
+        Axle file of HypoidAxle.fmu, or the name of a shipped one.
     native : NativeOptions, optional
         Of native FMUs; by default FMUs that compute in the installed package.
 
     Raises
     ------
     ParameterError
-        A file for a model that is not built.
+        A file for a model that is not built, or a mesh table beside an axle file.
     GearLubeError
         A file is wrong, or a native FMU cannot be linked.
     """
@@ -163,6 +174,7 @@ def build_models(
         check_option("--model", model, MODELS)
     needs = {
         "--mesh-table": (mesh_table, "hypoid-axle"),
+        "--axle": (axle, "hypoid-axle"),
         "--gear": (gear, "helical-pair"),
         "--line-mesh": (line_mesh, "helical-pair"),
     }
@@ -173,7 +185,7 @@ def build_models(
             raise ParameterError(f"{name} must come with --model {owner}, got {model}.")
     definitions = []
     if "hypoid-axle" in wanted:
-        definitions.append(_axle_definition(mesh_table))
+        definitions.append(axle_definition(mesh_table, axle))
     if "helical-pair" in wanted:
         definitions.append(helical_pair.definition_with(gear, line_mesh))
     if native is None:
@@ -184,7 +196,11 @@ def build_models(
     return [path for one in models for path in build_native(one, out_dir, native)]
 
 
-def _axle_definition(mesh_table: str | Path | None) -> Definition:
+def axle_definition(mesh_table: str | Path | None, axle: str | Path | None) -> Definition:
+    """Return the definition of HypoidAxle.fmu with a mesh table, an axle file or neither."""
+    if axle is not None:
+        hypoid_axle.check_one_table(mesh_table)
+        return hypoid_axle.definition_with_axle(axle)
     if mesh_table is None:
         return hypoid_axle.DEFINITION
     return hypoid_axle.definition_with_table(mesh_table)

@@ -15,13 +15,20 @@ def can_build_native() -> bool:
     return find_spec("ziglang") is not None
 
 
-def cached_hypoid_axle(mesh_table: Path | None = None, *, native: bool | None = None) -> Path:
-    """Return HypoidAxle.fmu from the user's cache; build it if sources or mesh table are new.
+def cached_hypoid_axle(
+    mesh_table: Path | None = None,
+    *,
+    axle: str | Path | None = None,
+    native: bool | None = None,
+) -> Path:
+    """Return HypoidAxle.fmu from the user's cache; build it if sources or files are new.
 
     Parameters
     ----------
     mesh_table : path, optional
         Of another gear pair; by default the one that ships.
+    axle : path, optional
+        Axle file, or the name of a shipped one; names its own mesh table.
     native : bool, optional
         Whether the FMU computes by itself, or in this package. By default native where the
         compiler is installed.
@@ -29,7 +36,7 @@ def cached_hypoid_axle(mesh_table: Path | None = None, *, native: bool | None = 
     Raises
     ------
     GearLubeError
-        The table is wrong, or `native` is asked for without the compiler.
+        A file is wrong, both are given, or `native` is asked for without the compiler.
 
     Notes
     -----
@@ -37,13 +44,12 @@ def cached_hypoid_axle(mesh_table: Path | None = None, *, native: bool | None = 
     """
     from platformdirs import user_cache_path
 
-    from fmu_src.build import build_models
-    from fmu_src.hypoid_axle import DEFINITION, definition_with_table
+    from fmu_src.build import axle_definition, build_models
     from fmu_src.identity import guid_of
     from fmu_src.native.build import NativeOptions
     from fmu_src.native.platforms import platform_of_this_machine
 
-    definition = DEFINITION if mesh_table is None else definition_with_table(mesh_table)
+    definition = axle_definition(mesh_table, axle)
     native = can_build_native() if native is None else native
     key = f"native-{_native_digest()}-" if native else ""
     folder = user_cache_path("gearlube") / "fmu" / f"{key}{guid_of(definition)}"
@@ -54,7 +60,7 @@ def cached_hypoid_axle(mesh_table: Path | None = None, *, native: bool | None = 
         if native:
             _LOGGER.info("building the native FMU of this machine, once")
             options = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
-        build_models(folder, "hypoid-axle", mesh_table, native=options)
+        build_models(folder, "hypoid-axle", mesh_table, axle=axle, native=options)
     return path
 
 

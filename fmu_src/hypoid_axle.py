@@ -5,41 +5,28 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
-from inspect import signature
 from pathlib import Path
-from typing import Any
 
+from drivetrain.axle_file.axle_file import AxleFile, CarAxle, parsed_axle_file
+from fmu_src.axle_arguments import CUSTOM_OIL, axle_parameters, start_arguments
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
+from fmu_src.variable import Variable
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.dynamics import hypoid_axle
-from gearlube_core.errors import TableError
+from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_content
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 
-
-def axle_parameters(
-    arguments: Mapping[str, Value], mesh: MeshTable | None = None
-) -> hypoid_axle.HypoidAxleParameters:
-    """Return the paper's axle with changes.
-
-    Parameters
-    ----------
-    arguments : mapping
-        By name: arguments of `mohammadpour_2015_axle` and fields of `HypoidAxleParameters`.
-    mesh : MeshTable, optional
-        By default the table that ships with gearlube.
-    """
-    given: dict[str, Any] = dict(arguments)
-    named = signature(hypoid_axle.mohammadpour_2015_axle).parameters
-    parameters = hypoid_axle.mohammadpour_2015_axle(
-        mesh=mesh, **{name: given.pop(name) for name in arguments if name in named}
-    )
-    return replace(parameters, **given)
+AXLE_FILE = "axle.toml"  # among the FMU's resources
+PAPER = "mohammadpour_2015"  # the axle of an FMU without a file of its own
 
 
 def start_axle(
-    arguments: Mapping[str, Value], inputs: Sequence[float], mesh: MeshTable | None = None
+    arguments: Mapping[str, Value],
+    inputs: Sequence[float],
+    base: hypoid_axle.HypoidAxleParameters | None = None,
 ) -> hypoid_axle.HypoidAxle:
     """Return an initialised axle.
 
@@ -49,12 +36,12 @@ def start_axle(
         `pinion_speed`, and those of `axle_parameters`.
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
-    mesh : MeshTable, optional
-        By default the table that ships with gearlube.
+    base : HypoidAxleParameters, optional
+        What the arguments change; by default the paper's axle.
     """
     given = dict(arguments)
     speed = float(given.pop("pinion_speed"))
-    axle = hypoid_axle.HypoidAxle(axle_parameters(given, mesh))
+    axle = hypoid_axle.HypoidAxle(axle_parameters(given, base))
     pinion_torque, wheel_torque, oil_temperature = inputs
     axle.initialise(
         pinion_speed=speed,
@@ -86,23 +73,104 @@ def definition_with_table(path: str | Path) -> Definition:
     """Return the definition of the FMU with the mesh table at `path`."""
     content = read_content(path)
     try:
-        return _definition_with(content)
+        return _definition_with(None, content)
     except TableError as error:
         raise TableError(f"{path}: {error}") from None
 
 
+def definition_with_axle(path: str | Path, mesh_table: str | Path | None = None) -> Definition:
+    """Return the definition of the FMU with an axle file.
+
+    Parameters
+    ----------
+    path : path
+        Axle file, or the name of a shipped one.
+    mesh_table : path, optional
+        Where the table that the file names as a file is; by default where the file says.
+
+    Raises
+    ------
+    ParameterError
+        The file is missing or wrong.
+    TableError
+        Its mesh table is missing or wrong.
+    """
+    content = _axle_content(path)
+    try:
+        table = parsed_axle_file(content).own_table
+        where = Path(path).parent / table if mesh_table is None else mesh_table
+        return _definition_with(content, read_content(where) if table else None)
+    except GearLubeError as error:
+        raise type(error)(f"{path}: {error}") from None
+
+
+def check_one_table(mesh_table: str | Path | None) -> None:
+    """Raise ParameterError if there is a mesh table beside an axle file."""
+    if mesh_table is not None:
+        raise ParameterError(
+            f"--mesh-table must not come with an axle file, which names its own, got {mesh_table}. "
+            "Write it into the file as gear_set.mesh_table."
+        )
+
+
+def _axle_content(path: str | Path) -> bytes:
+    if not str(path).endswith(".toml") and not Path(path).is_file():
+        return AxleFile.shipped_text(str(path)).encode()
+    try:
+        return Path(path).read_bytes().replace(b"\r\n", b"\n")
+    except OSError as reason:
+        raise ParameterError(
+            f"No axle file can be read at {path}: {reason.strerror or reason}."
+        ) from None
+
+
+def mesh_table_in(resources: Mapping[str, bytes]) -> MeshTable:
+    """Return the mesh table among the resources of an FMU, or the one that ships."""
+    content = resources.get(FILE_IN_FMU)
+    return mesh_table_from_bytes(content, FILE_IN_FMU) if content else shipped_mesh_table(PAPER)
+
+
+def car_axle_in(resources: Mapping[str, bytes]) -> CarAxle:
+    """Return axle and car among the resources of an FMU, or the paper's with its mesh table."""
+    content = resources.get(AXLE_FILE)
+    file = AxleFile.named(PAPER) if content is None else parsed_axle_file(content)
+    own = FILE_IN_FMU in resources
+    return file.car_axle(mesh_table_in(resources) if own else None)
+
+
 @cache
-def _definition_with(content: bytes) -> Definition:
-    """Return the definition with this table; one object per content, for caches keyed by it."""
-    mesh = mesh_table_from_bytes(content, "the mesh table")
+def _definition_with(axle: bytes | None, table: bytes | None) -> Definition:
+    """Return the definition with these files; one object per content, for caches keyed by it."""
+    files = {AXLE_FILE: axle, FILE_IN_FMU: table}
+    resources = {name: content for name, content in files.items() if content is not None}
+    described = car_axle_in(resources)
+    base, mesh = described.axle, described.axle.mesh
+    of_axle = f"; axle file {described.name}" if axle is not None else ""
     source = f", from {mesh.source}" if mesh.source else ""
+    starts = start_arguments(base)
     return replace(
         DEFINITION,
-        description=f"{DEFINITION.description}; mesh table {mesh.name} "
+        description=f"{DEFINITION.description}{of_axle}; mesh table {mesh.name} "
         f"({mesh.pinion_teeth}/{mesh.gear_teeth} teeth){source}",
-        start=partial(start_axle, mesh=mesh),
-        resources={FILE_IN_FMU: content},
+        variables=tuple(_starting(variable, starts) for variable in HYPOID_AXLE),
+        start=partial(start_axle, base=base),
+        resources=resources,
     )
+
+
+def _starting(variable: Variable, starts: Mapping[str, Value]) -> Variable:
+    """Return a variable with the start value of an axle; an oil of its own is a new literal."""
+    own_oil = starts["oil"] == CUSTOM_OIL
+    if own_oil and variable.argument == "oil":
+        variable = replace(variable, literals=(*variable.literals, CUSTOM_OIL))
+    if own_oil and variable.option_of == "oil.name":
+        variable = replace(variable, maximum=(variable.maximum or 0.0) + 1.0)
+    value = starts.get(variable.argument)
+    if value is None:
+        return variable
+    if isinstance(value, str):
+        value = 1.0 + variable.literals.index(value)
+    return replace(variable, start=float(value))
 
 
 class HypoidAxle(CoSimulationSlave):
@@ -110,6 +178,8 @@ class HypoidAxle(CoSimulationSlave):
 
     @staticmethod
     def definition_of(resources: Path) -> Definition:
-        """Return the definition with the table in `resources`, else with the shipped table."""
-        table = resources / FILE_IN_FMU
+        """Return the definition with the files in `resources`, else with those that ship."""
+        axle, table = resources / AXLE_FILE, resources / FILE_IN_FMU
+        if axle.is_file():
+            return definition_with_axle(axle, table)
         return definition_with_table(table) if table.is_file() else DEFINITION

@@ -49,6 +49,8 @@ _ALL = (
     ),
     Unit(name="rad/s2", exponents={"s": -2, "rad": 1}),
     Unit(name="Hz", exponents={"s": -1}),
+    Unit(name="kg", exponents={"kg": 1}),
+    Unit(name="kg.m2", exponents={"kg": 1, "m": 2}),
     Unit(
         name="N",
         exponents={"kg": 1, "m": 1, "s": -2},

@@ -6,9 +6,13 @@ append new variables at the end, never insert, reorder or remove.
 
 from __future__ import annotations
 
+import math
+
 from fmu_src.common_outputs import MEMBERS, displacements, energies, motion, ranges
 from fmu_src.variable import Variable
 from fmu_src.variable_kinds import count, input_, option, options_by_number, output, parameter
+
+SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
 
 _INPUTS = (
     input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives; refused "
@@ -21,7 +25,8 @@ _INPUTS = (
 )  # fmt: skip
 
 _PARAMETERS = (
-    parameter("bearing.preload", "N", "Axial preload of each bearing pair", display_unit="kN",
+    parameter("bearing.preload", "N", "Axial preload of each bearing; see wheel.bearing.preload",
+              display_unit="kN",
               start=2500.0, minimum=0.0, maximum=1e5, nominal=1e3, argument="bearing_preload"),
     parameter("flank.roughness_rms", "m", "Composite root-mean-square roughness of the flanks",
               display_unit="um", start=0.5e-6, minimum=1e-9, maximum=2e-5, nominal=1e-6,
@@ -127,6 +132,31 @@ _LATER_PARAMETERS = (
            "tangent", "secant", start="tangent", argument="mesh_stiffness"),
 )  # fmt: skip
 
+# ditto; those that an axle file gives too
+_AXLE_NUMBERS = (
+    *(parameter(f"{name}.mass", "kg", f"Mass of the {word} and of all that moves with it",
+                start=start, minimum=0.05, maximum=2000.0, nominal=10.0, argument=f"{word}_mass")
+      for (name, word), start in zip(MEMBERS, (12.0, 49.9), strict=True)),
+    *(parameter(f"{name}.inertia", "kg.m2", f"Inertia of the {word} and of all that turns with it",
+                start=start, minimum=1e-6, maximum=500.0, nominal=0.01, argument=f"{word}_inertia")
+      for (name, word), start in zip(MEMBERS, (1734e-6, 5.81e-2), strict=True)),
+    parameter("wheel.bearing.preload", "N", "Axial preload of each bearing of the gear's shaft; "
+              "below 0: bearing.preload holds there too", display_unit="kN",
+              start=SHARED_PRELOAD, minimum=SHARED_PRELOAD, maximum=1e5, nominal=1e3,
+              argument="gear_bearing_preload"),
+    *(parameter(f"{name}.bearing.contact_angle", "rad", "Contact angle of the bearings of the "
+                f"{word}'s shaft, at the outer race", display_unit="deg",
+                start=math.radians(15.0), minimum=math.radians(5.0), maximum=math.radians(45.0),
+                nominal=0.1, argument=f"{word}_contact_angle")
+      for name, word in MEMBERS),
+    *(parameter(f"{name}.bearing.{factor}", "1", f"{words} of the drag of the bearings of the "
+                f"{word}'s shaft", start=start, minimum=0.0, maximum=most,
+                argument=f"{word}_{factor}")
+      for factor, words, start, most in (("f0", "Viscous factor", 6.0, 100.0),
+                                         ("f1", "Load factor", 4e-4, 0.1))
+      for name, word in MEMBERS),
+)  # fmt: skip
+
 HYPOID_AXLE: tuple[Variable, ...] = (
     *_INPUTS,
     *_PARAMETERS,
@@ -141,4 +171,5 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *_LATER_PARAMETERS,
     *ranges(),
     *options_by_number(_PARAMETERS + _LATER_PARAMETERS),
+    *_AXLE_NUMBERS,
 )

@@ -27,6 +27,11 @@ COMMANDS = (
         summary="Build HypoidAxle.fmu and HelicalPair.fmu (FMI 2.0 co-simulation).",
     ),
     LazyCommand(
+        name="axle",
+        target="gearlube.cli.axle:axle",
+        summary="Check an axle file and show its inputs.",
+    ),
+    LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",

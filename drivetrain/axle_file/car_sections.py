@@ -127,9 +127,7 @@ class TyreSection(ModelSection):
         rolling, unladen = given.get("rolling_radius_mm"), given.get("unladen_radius_mm")
         if rolling is None:
             rolling = unladen / to_unladen
-        return Tyre(
-            rolling_radius=rolling, unladen_radius=unladen or to_unladen * rolling
-        )
+        return Tyre(rolling_radius=rolling, unladen_radius=unladen or to_unladen * rolling)
 
     def tyre_notes(self, prefix: str, made: Tyre) -> list[InputNote]:
         """Return a note on every field; `made` is what `tyre` returned."""

@@ -23,6 +23,17 @@ class InputNote(NamedTuple):
     origin: Origin
     why: str
 
+    @property
+    def value_text(self) -> str:
+        """The value as a table shows it."""
+        return _text(self.value)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, tuple | list):
+        return ", ".join(_text(one) for one in value)
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
 
 class ModelSection(Section):
     """A section whose fields fall back to those of a model.

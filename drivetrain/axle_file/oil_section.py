@@ -129,6 +129,8 @@ class OilSection(ModelSection):
     def oil_notes(self, prefix: str, made: Lubricant) -> list[InputNote]:
         """Return a note on every field; `made` is what `oil` returned."""
         inferred = dict.fromkeys(_WALTHER, "the two viscosities") if self.has(_SHEET[0]) else {}
+        if self.is_shipped and self.name is not None:
+            return [InputNote(f"{prefix}name", self.name, "", "given", "")]
         notes = self.notes(prefix, made, f"shipped oil {self.name or OIL}", inferred)
         if self.name is None:
             assumed = InputNote(f"{prefix}name", OIL, "", "assumed", "oil of the paper's axle")

@@ -8,21 +8,22 @@ from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
+from fmu_src.axle_arguments import axle_parameters, tapered_bearings
 from fmu_src.definition import Definition, Value
-from fmu_src.hypoid_axle import axle_parameters
+from fmu_src.hypoid_axle import car_axle_in
 from fmu_src.native.model import NativeModel, Operation
 from fmu_src.native.parameter_map import ParameterMap, parameter_map, write_packed
 from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
-from gearlube_core.bearings.roller_contact import preload_approach
+from gearlube_core.bearings.roller_contact import contact_angle_terms, preload_approach
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.contact.solid import contact_modulus
 from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
 from gearlube_core.dynamics.hypoid_axle.integrate import StepControl, work_size
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshFields
-from gearlube_core.dynamics.hypoid_axle.mesh_force import modal_damping
+from gearlube_core.dynamics.hypoid_axle.mesh_force import equivalent_mass, modal_damping
 from gearlube_core.dynamics.hypoid_axle.model import (
     START_WORK,
     STEP_REFUSALS,
@@ -47,9 +48,6 @@ from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.friction.thermal_eyring_data import PRESSURES
 from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from gearlube_core.mesh_table.table import MeshTable
 
 MODAL_WITHOUT_LOSS = 6  # status, beside those of the kernels
 REFUSALS: Mapping[int, str] = {
@@ -84,11 +82,15 @@ class AxleSettings(NamedTuple):
     modal: float  # 1 with modal damping of the mesh, 0 with hysteresis
     modal_loss_factor: float
     reference_stiffness: float  # N/m, of the modal damping
-    equivalent_mass: float  # kg
+    mean_pinion_radius: float  # m, ditto
+    gear_preload: float  # N, as given: below 0 that of the pinion's shaft holds
+    contact_angle_p: float  # rad
+    contact_angle_g: float  # rad
 
 
-def _settings(axle: HypoidAxleParameters) -> AxleSettings:
+def _settings(axle: HypoidAxleParameters, gear_preload: float) -> AxleSettings:
     torques = torque_limits(axle)
+    of_pinion, of_gear = tapered_bearings(axle)
     return AxleSettings(
         torques.pinion_low,
         torques.pinion_high,
@@ -104,7 +106,10 @@ def _settings(axle: HypoidAxleParameters) -> AxleSettings:
         1.0 if axle.mesh_damping == "modal" else 0.0,
         float(axle.modal_loss_factor),
         axle.reference_stiffness,
-        axle.equivalent_mass,
+        axle.mean_pinion_radius,
+        gear_preload,
+        float(of_pinion.contact_angle),
+        float(of_gear.contact_angle),
     )
 
 
@@ -129,9 +134,16 @@ class _Places(NamedTuple):
     scratch: int
     work_end: int
     # packed floats that kernels derive
-    interference_p: int
-    interference_g: int
+    preload_g: int
     modal_damping: int
+    interference_p: int
+    sin_contact_p: int
+    cos_contact_p: int
+    axial_factor_p: int
+    interference_g: int
+    sin_contact_g: int
+    cos_contact_g: int
+    axial_factor_g: int
     # sizes
     orders: int
     nodes: int
@@ -145,6 +157,15 @@ _N_SETTINGS = count_floats(AxleSettings)
 _STIFFNESSES = len(get_args(MeshStiffness))
 # the place of each float among the packed ones
 _AT: Any = tuple_from_array(np.arange(float(_N_PARAMETERS)), AxleParameters, *_KINDS)
+_DERIVED = {
+    "preload_g": int(_AT.preload_g),
+    "modal_damping": int(_AT.mesh.modal_damping),
+    **{
+        f"{name}_{side}": int(getattr(bearing, name))
+        for side, bearing in (("p", _AT.bearing_p), ("g", _AT.bearing_g))
+        for name in ("interference", "sin_contact", "cos_contact", "axial_factor")
+    },
+}
 
 
 @kernel
@@ -161,13 +182,20 @@ def _write_parameters(parameters: Array, data: Array, at: _Places, work: Array) 
     p: AxleParameters = tuple_from_array(work, AxleParameters, *_KINDS)
     settings: AxleSettings = tuple_from_array(work[at.settings :], AxleSettings)
     one: Any = p.bearing_p
-    approach = preload_approach(p.preload, one.n_rollers, one.sin_contact, one.kn, one.n)
-    work[at.interference_p] = approach
-    work[at.interference_g] = approach
+    sin, cos, axial = contact_angle_terms(settings.contact_angle_p)
+    work[at.sin_contact_p], work[at.cos_contact_p], work[at.axial_factor_p] = sin, cos, axial
+    work[at.interference_p] = preload_approach(p.preload_p, one.n_rollers, sin, one.kn, one.n)
+    other: Any = p.bearing_g
+    preload = settings.gear_preload if settings.gear_preload >= 0.0 else p.preload_p
+    sin, cos, axial = contact_angle_terms(settings.contact_angle_g)
+    work[at.preload_g] = preload
+    work[at.sin_contact_g], work[at.cos_contact_g], work[at.axial_factor_g] = sin, cos, axial
+    work[at.interference_g] = preload_approach(preload, other.n_rollers, sin, other.kn, other.n)
     work[at.modal_damping] = 0.0
     if settings.modal != 0.0:
+        mass = equivalent_mass(settings.mean_pinion_radius, p.ratio, p.I_p, p.I_g)
         work[at.modal_damping] = modal_damping(
-            settings.modal_loss_factor, settings.reference_stiffness, settings.equivalent_mass
+            settings.modal_loss_factor, settings.reference_stiffness, mass
         )
     for i in range(_N_PARAMETERS):
         value = data[at.lossless + i]
@@ -268,10 +296,10 @@ def _entry(at: _Places, n_parameters: int, at_speed: int) -> Callable[..., int]:
     return entry
 
 
-def _lossless_row(parameters: AxleParameters) -> Array:
+def _lossless_row() -> Array:
     """Return the packed floats without losses, NaN where they stay."""
-    packed, lossless = flatten(parameters), flatten(without_losses(parameters))
-    return np.where(packed == lossless, np.nan, lossless)
+    unknown = tuple_from_array(np.full(_N_PARAMETERS, np.nan), AxleParameters, *_KINDS)
+    return flatten(without_losses(unknown))
 
 
 def _mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list[Array]]:
@@ -314,22 +342,12 @@ def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
         rollers=rollers,
         scratch=scratch,
         work_end=scratch + max(work_size(mesh.orders, mesh.nodes), START_WORK),
-        interference_p=int(_AT.bearing_p.interference),
-        interference_g=int(_AT.bearing_g.interference),
-        modal_damping=int(_AT.mesh.modal_damping),
+        **_DERIVED,
         orders=mesh.orders,
         nodes=mesh.nodes,
         series_size=mesh.series.size,
         windows_size=mesh.windows.size,
     )
-
-
-def _table_of(definition: Definition) -> MeshTable:
-    """Return the mesh table that a definition carries, or the one that ships."""
-    content = definition.resources.get(FILE_IN_FMU)
-    if content is None:
-        return shipped_mesh_table("mohammadpour_2015")
-    return mesh_table_from_bytes(content, "the mesh table")
 
 
 def native_model(definition: Definition) -> NativeModel:
@@ -340,27 +358,21 @@ def native_model(definition: Definition) -> NativeModel:
     ParameterError
         The definition has a parameter whose effect no kernel of the entry knows.
     """
-    mesh = _table_of(definition)
-
-    def axle(arguments: Mapping[str, Value]) -> HypoidAxleParameters:
-        given = {name: value for name, value in arguments.items() if name != "pinion_speed"}
-        return axle_parameters(given, mesh)
+    by_default = car_axle_in(definition.resources).axle
 
     def pack(arguments: Mapping[str, Value]) -> Array:
-        one = axle(arguments)
-        return np.concatenate([flatten(one.kernel_parameters()), flatten(_settings(one))])
+        given = {name: value for name, value in arguments.items() if name != "pinion_speed"}
+        one = axle_parameters(given, by_default)
+        settings = _settings(one, float(arguments["gear_bearing_preload"]))
+        return np.concatenate([flatten(one.kernel_parameters()), flatten(settings)])
 
-    by_default = axle({})
-    derived = int(_AT.bearing_p.interference), int(_AT.bearing_g.interference)
-    found = parameter_map(
-        definition.variables, pack, frozenset((*derived, int(_AT.mesh.modal_damping)))
-    )
+    found = parameter_map(definition.variables, pack, frozenset(_DERIVED.values()))
     packed_mesh, series, windows = _mesh_data(by_default)
     at = _places(found, packed_mesh)
     data = np.concatenate(
         [
             *found.arrays,
-            _lossless_row(by_default.kernel_parameters()),
+            _lossless_row(),
             packed_mesh.levels,
             *series,
             *windows,

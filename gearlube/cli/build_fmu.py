@@ -28,6 +28,13 @@ def build_fmu(
         Path | None,
         typer.Option(help="Mesh table (.nc) of another hypoid pair. Default: the one that ships."),
     ] = None,
+    axle: Annotated[
+        str | None,
+        typer.Option(
+            help="Axle file (.toml) of another hypoid axle; it names its mesh table.",
+            metavar="AXLE",
+        ),
+    ] = None,
     gear: Annotated[
         Path | None, typer.Option(help="Gear file (.toml) of another helical pair.")
     ] = None,
@@ -67,6 +74,6 @@ def build_fmu(
                 report=lambda text: _LOGGER.info("%s", text),
             )
         with written_folder(out):
-            paths = build_models(out, model, mesh_table, gear, line_mesh, native=native)
+            paths = build_models(out, model, mesh_table, gear, line_mesh, axle=axle, native=native)
     built = " and ".join(str(path) for path in paths)
     _LOGGER.info("Built %s in %.1f s.", built, time.monotonic() - began)

@@ -8,7 +8,8 @@ from typing import Any
 
 from typer.core import TyperCommand
 
-_VALUE = re.compile(r"^[+\-]?[\d.]")  # a number, or a range that begins with one
+# a number, or a range that begins with one; not the path of a file
+_VALUE = re.compile(r"^[+\-]?\.?\d[^/\\]*$(?<!\.toml)")
 
 
 def repeat_flags(arguments: Sequence[str], flags: Collection[str]) -> list[str]:

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from gearlube_core.checks import check_within
 from gearlube_core.units import celsius_to_kelvin, kelvin_to_celsius
 
+if TYPE_CHECKING:
+    from gearlube_core.oil.lubricant import Lubricant
 
-def oil_kelvin(oil_temperature: float, oil: str, option: str = "--oil-temperature") -> float:
+
+def oil_kelvin(
+    oil_temperature: float, oil: str | Lubricant, option: str = "--oil-temperature"
+) -> float:
     """Return the temperature of `option` [degC] in kelvin, checked against the oil's data.
+
+    The oil is one of the library by its name, or any other.
 
     Examples
     --------
@@ -16,9 +25,9 @@ def oil_kelvin(oil_temperature: float, oil: str, option: str = "--oil-temperatur
     """
     from gearlube_core.oil.lubricant import Lubricant  # help does without NumPy
 
-    data = Lubricant.named(oil)
+    data = Lubricant.named(oil) if isinstance(oil, str) else oil
     low, high = kelvin_to_celsius(data.temperature_low), kelvin_to_celsius(data.temperature_high)
-    cure = f"The data of {oil} are meant for this range."
+    cure = f"The data of {data.name} are meant for this range."
     # limits that are whole numbers in kelvin plus 0.15 come out with roundings
     check_within(option, oil_temperature, round(low, 9), round(high, 9), "degC", cure)
     return celsius_to_kelvin(oil_temperature)

@@ -22,8 +22,8 @@ def palmgren_roller_stiffness(roller_length: float) -> float:
 
     Notes
     -----
-    Fitted by Palmgren to rollers of steel. The bearing of [mohammadpour_2015 Table A2] has 2.5 times
-    less than this for its 22 mm.
+    Fitted by Palmgren to rollers of steel. The bearing of [mohammadpour_2015 Table A2] has 2.5
+    times less than this for its 22 mm.
 
     References
     ----------

@@ -14,10 +14,10 @@ import typer
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import (
+    ExampleOption,
     JobsOption,
     OilTemperatureOption,
     OverwriteOption,
-    RoughnessOption,
 )
 from gearlube.cli.results_folder import results_folder
 
@@ -35,6 +35,13 @@ class SweepCommand(MultiValueCommand):
 
 
 def sweep(
+    axle: Annotated[
+        str | None,
+        typer.Argument(
+            help="Axle file (TOML): your axle and car. Default: those of the paper.",
+            metavar="AXLE",
+        ),
+    ] = None,
     speeds: Annotated[
         list[str] | None,
         typer.Option(
@@ -46,27 +53,40 @@ def sweep(
     preload: Annotated[
         list[float] | None,
         typer.Option(
-            help="Bearing preloads [N], one or more. Default 2500 6000.", metavar="FORCE..."
+            help="Bearing preloads [N], one or more. Default: that of the axle file, else 2500 "
+            "6000.",
+            metavar="FORCE...",
         ),
     ] = None,
     oil_temperature: OilTemperatureOption = 95.0,
     oil: Annotated[
-        str, typer.Option(help="mohammadpour_2015 or karagiannis_2012.")
-    ] = "mohammadpour_2015",
-    roughness_um: RoughnessOption = 0.5,
+        str | None,
+        typer.Option(help="mohammadpour_2015 or karagiannis_2012. Default: that of the axle."),
+    ] = None,
+    roughness_um: Annotated[
+        float | None,
+        typer.Option(
+            help="Composite rms roughness of the flanks [um]. Default: that of the axle.",
+            metavar="UM",
+        ),
+    ] = None,
     equations: Annotated[
-        str, typer.Option(help="consistent, or as_printed in the paper.")
-    ] = "consistent",
+        str | None,
+        typer.Option(help="consistent, or as_printed in the paper. Default: those of the axle."),
+    ] = None,
     friction: Annotated[
-        str,
+        str | None,
         typer.Option(
             help="Flank friction: consistent, as_printed, off, or printed_traction_circular "
-            "(the reading that gives the paper's efficiency)."
+            "(the reading that gives the paper's efficiency). Default: that of the axle."
         ),
-    ] = "consistent",
+    ] = None,
     bearing_torque_loss: Annotated[
-        str, typer.Option(help="Drag torque of the bearings: palmgren or none.")
-    ] = "palmgren",
+        str | None,
+        typer.Option(
+            help="Drag torque of the bearings: palmgren or none. Default: that of the axle."
+        ),
+    ] = None,
     driver: Annotated[
         str, typer.Option(help="vehicle: coupled driveline; hold: road load and speed hold.")
     ] = "vehicle",
@@ -87,54 +107,64 @@ def sweep(
         typer.Option(help="Mesh table (.nc) of another gear pair, built into the axle FMU."),
     ] = None,
     overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
 ) -> None:
     """Sweep vehicle speed and bearing preload; write sweep.nc, summary.csv and report.html.
 
     Finished points are kept in OUT/points: run the same command again to go on after a stop.
     """
+    from drivetrain.axle_file.axle_file import AxleFile
     from gearlube.cli.console import console
     from gearlube.cli.oil_option import oil_kelvin
     from gearlube.cli.progress_report import progress_on
     from gearlube.cli.ranges import numbers_from
     from gearlube.studies.sweep import run
+    from gearlube.studies.sweep.axle_in_fmu import chosen_axle, given_preload, settings_of
     from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
     from gearlube.studies.sweep.report import write_sweep_report
     from gearlube.studies.sweep.settings import (
         OILS,
         PRELOAD_RANGE,
         SPEED_RANGE,
-        SweepSettings,
         quick_sweep_settings,
     )
     from gearlube_core.checks import check_option, check_within
     from gearlube_core.errors import ParameterError
+    from gearlube_core.oil.lubricant import Lubricant
 
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
-        check_option("--oil", oil, OILS)
-        if fmu is not None and mesh_table is not None:
-            raise ParameterError(
-                "--mesh-table must not be given with --fmu, which has its own table, got both. "
-                "Build the FMU with `gearlube build-fmu --mesh-table`, or leave out --fmu."
-            )
+        if example:
+            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
+            return
+        if oil is not None:
+            check_option("--oil", oil, OILS)
+        car_axle = chosen_axle(fmu, mesh_table, axle)
         if scheduler is not None and not re.fullmatch(r"[a-z]+://[^\s/]+", scheduler):
             raise ParameterError(
                 f"--scheduler must be an address such as tcp://host:8786, got {scheduler!r}. "
                 "Take the one that the Dask scheduler prints when it starts."
             )
-        settings = SweepSettings(
-            oil_temperature=oil_kelvin(oil_temperature, oil),
-            oil=oil,
-            roughness_rms=roughness_um * 1e-6,
-            equations=equations,
-            friction=friction,
-            bearing_torque_loss=bearing_torque_loss,
+        changes = {
+            "oil": oil,
+            "roughness_rms": None if roughness_um is None else roughness_um * 1e-6,
+            "equations": equations,
+            "friction": friction,
+            "bearing_torque_loss": bearing_torque_loss,
+        }
+        settings = settings_of(
+            car_axle.axle,
+            oil_temperature=oil_kelvin(
+                oil_temperature, car_axle.axle.oil if oil is None else Lubricant.named(oil)
+            ),
             driver=driver,
+            **{name: value for name, value in changes.items() if value is not None},
         )
         ranges = speeds or (_QUICK_SPEEDS if quick else _DEFAULT_SPEEDS)
         speeds_kmh = numbers_from(
             "--speeds", ranges, "km/h", *SPEED_RANGE, example="20:100:5", most=500
         )
         preloads = [check_within("--preload", p, *PRELOAD_RANGE, "N") for p in preload or ()]
+        of_file = () if axle is None else given_preload(car_axle)
         if jobs is not None:
             check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")
         logger.info("Preparing the axle; the first time this compiles it, about 15 s.")
@@ -145,9 +175,10 @@ def sweep(
             dataset = run.run_sweep(
                 quick_sweep_settings(settings) if quick else settings,
                 speeds_kmh=speeds_kmh,
-                preloads=preloads or _DEFAULT_PRELOADS,
+                preloads=preloads or of_file or _DEFAULT_PRELOADS,
                 fmu=fmu,
                 mesh_table=mesh_table,
+                axle=axle,
                 out=out,
                 jobs=jobs,
                 scheduler=scheduler,

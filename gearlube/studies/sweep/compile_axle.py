@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gearlube.studies.sweep.axle_in_fmu import car_axle_of
 from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.fmu_axle import FmuAxle
-from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
 from gearlube.studies.sweep.operating_point import operation
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
@@ -20,7 +20,7 @@ def compile_axle(fmu: Path, settings: SweepSettings) -> None:
     The machine code stays in numba's cache on disk, from where the workers load it.
     """
     with unpacked(fmu) as directory, FmuAxle(directory, CHANNELS) as axle:
-        where = operation(settings, _SPEED_KMH, final_drive_of(mesh_table_of(directory)))
+        where = operation(settings, _SPEED_KMH, car_axle_of(directory).driveline)
         axle.set_parameters(settings.fmu_parameters)
         axle.set_parameters({"pinion.speed_start": where.pinion_speed})
         torques = where.driver.initial_torques()

@@ -8,14 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.modes import driveline_modes
-from drivetrain.driveline.parameters import DrivelineParameters
-from drivetrain.road_load import RoadLoad, mohammadpour_2015_road_load
-from gearlube.studies.sweep.gear_pair import final_drive_of
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
 from gearlube_core.errors import GearLubeError
-from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.units import kmh_to_ms
 
 logger = logging.getLogger(__name__)
@@ -24,7 +21,7 @@ _LOWEST_DRIVELINE_MODE = 100.0  # Hz, lower ones lie below the mesh frequencies 
 
 
 def natural_frequencies(
-    preloads: Sequence[float], speed_kmh: float, settings: SweepSettings, mesh: MeshTable
+    preloads: Sequence[float], speed_kmh: float, settings: SweepSettings, car_axle: CarAxle
 ) -> xr.DataArray:
     """Return undamped natural frequencies [Hz] over (preload, mode).
 
@@ -37,10 +34,9 @@ def natural_frequencies(
     Modes are matched between preloads by their order, since two modes that share their energy may
     swap names; all take the names that they have at the first preload.
     """
-    road = mohammadpour_2015_road_load(final_drive=final_drive_of(mesh))
-    found = [_modes(preload, speed_kmh, settings, mesh, road) for preload in preloads]
+    found = [_modes(preload, speed_kmh, settings, car_axle) for preload in preloads]
     first = next((row for row in found if row), {})
-    driveline = _driveline_modes(speed_kmh, settings, road)
+    driveline = _driveline_modes(speed_kmh, settings, car_axle)
     names = [*first, *driveline]
     values = np.full((len(found), len(names)), np.nan)
     for row, frequencies in zip(values, found, strict=True):
@@ -50,26 +46,28 @@ def natural_frequencies(
     return xr.DataArray(values, dims=("preload", "mode"), coords={"mode": names})
 
 
-def _driveline_modes(speed_kmh: float, settings: SweepSettings, road: RoadLoad) -> dict[str, float]:
+def _driveline_modes(
+    speed_kmh: float, settings: SweepSettings, car_axle: CarAxle
+) -> dict[str, float]:
     if settings.driver != "vehicle":
         return {}
-    parameters = DrivelineParameters(road_load=road)
-    found = driveline_modes(Driveline(parameters, kmh_to_ms(speed_kmh)))
+    found = driveline_modes(Driveline(car_axle.driveline, kmh_to_ms(speed_kmh)))
     return {m.name: m.frequency for m in found if m.frequency > _LOWEST_DRIVELINE_MODE}
 
 
 def _modes(
-    preload: float, speed_kmh: float, settings: SweepSettings, mesh: MeshTable, road: RoadLoad
+    preload: float, speed_kmh: float, settings: SweepSettings, car_axle: CarAxle
 ) -> dict[str, float]:
     # Imported here because it compiles kernels when the machine has none yet.
-    from fmu_src.hypoid_axle import axle_parameters
+    from fmu_src.axle_arguments import axle_parameters
     from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes
 
     speed = kmh_to_ms(speed_kmh)
     arguments = {name: getattr(settings, name) for name in FMU_PARAMETERS}
+    road = car_axle.driveline.road_load
     torque = road.pinion_torque(speed)
     try:
-        axle = HypoidAxle(axle_parameters(arguments | {"bearing_preload": preload}, mesh))
+        axle = HypoidAxle(axle_parameters(arguments | {"bearing_preload": preload}, car_axle.axle))
         axle.initialise(
             pinion_speed=road.pinion_speed(speed),
             pinion_torque=torque,

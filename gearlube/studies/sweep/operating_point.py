@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.drivers import CoupledVehicle, Driver, SpeedHold
-from drivetrain.road_load import FinalDrive, mohammadpour_2015_road_load
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.units import kmh_to_ms
 
@@ -30,20 +29,17 @@ class Operation:
 def operation(
     settings: SweepSettings,
     speed_kmh: float,
-    final_drive: FinalDrive,
+    driveline: DrivelineParameters,
     axle_power_loss: float = 0.0,
 ) -> Operation:
-    """Return the driver and the start of the point at `speed_kmh` [km/h].
+    """Return the driver and the start of the point at `speed_kmh` [km/h] in a car.
 
     The drivers start in the steady state with an axle that loses `axle_power_loss` [W].
     """
     speed = kmh_to_ms(speed_kmh)
-    road = mohammadpour_2015_road_load(final_drive=final_drive)
     driver: CoupledVehicle | SpeedHold
     if settings.driver == "vehicle":
-        driver = CoupledVehicle(
-            DrivelineParameters(road_load=road), speed, axle_power_loss=axle_power_loss
-        )
+        driver = CoupledVehicle(driveline, speed, axle_power_loss=axle_power_loss)
     else:
-        driver = SpeedHold(road, speed, axle_power_loss=axle_power_loss)
+        driver = SpeedHold(driveline.road_load, speed, axle_power_loss=axle_power_loss)
     return Operation(driver=driver, pinion_speed=driver.initial_pinion_speed)

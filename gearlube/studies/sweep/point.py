@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from gearlube.studies.sweep.axle_in_fmu import car_axle_of
 from gearlube.studies.sweep.axle_loss import LOSS_CHANNELS, measured_loss
 from gearlube.studies.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from gearlube.studies.sweep.curves import mesh_cycle, roller_zone, spectra, waves
 from gearlube.studies.sweep.fmu_axle import FmuAxle
-from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
 from gearlube.studies.sweep.operating_point import operation
 from gearlube.studies.sweep.quantities import described
 from gearlube.studies.sweep.range_variables import range_variables
@@ -65,12 +65,12 @@ def _simulate(
     directory: Path, speed_kmh: float, preload: float, settings: SweepSettings
 ) -> Recording:
     parameters = {**settings.fmu_parameters, "bearing.preload": preload}
-    final_drive = final_drive_of(mesh_table_of(directory))
-    held = operation(replace(settings, driver="hold"), speed_kmh, final_drive)
+    driveline = car_axle_of(directory).driveline
+    held = operation(replace(settings, driver="hold"), speed_kmh, driveline)
     with FmuAxle(directory, LOSS_CHANNELS) as axle:
         axle.set_parameters({**parameters, "pinion.speed_start": held.pinion_speed})
         loss = measured_loss(axle, held.driver, settings)
-    where = operation(settings, speed_kmh, final_drive, loss)
+    where = operation(settings, speed_kmh, driveline, loss)
     with FmuAxle(directory, CHANNELS) as axle:
         axle.set_parameters({**parameters, "pinion.speed_start": where.pinion_speed})
         recording = record(axle, where.driver, settings, CHANNELS)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+import json
 import logging
 import platform
 from collections.abc import Sequence
@@ -102,6 +103,7 @@ def report_html(
             for p in points
             if int(p["status"]) != FINISHED
         ],
+        inputs=json.loads(dataset.attrs.get("inputs_assumed", "[]")),
         ranges=_ranges(finished),
         figures=_pictures(dataset, figures, entries) if finished else [],
     )
@@ -158,6 +160,7 @@ def _versions(dataset: xr.Dataset) -> list[tuple[str, str]]:
         ("gearlube", str(dataset.attrs.get("gearlube_version", ""))),
         ("FMU", str(dataset.attrs.get("fmu_kind", ""))),
         ("FMU GUID", str(dataset.attrs.get("fmu_guid", ""))),
+        ("axle", str(dataset.attrs.get("axle", ""))),
         ("mesh table", str(dataset.attrs.get("mesh_table", ""))),
         ("Python", platform.python_version()),
         ("system", f"{platform.system()} {platform.machine()}"),

@@ -12,9 +12,16 @@ from pathlib import Path
 
 import xarray as xr
 
+from drivetrain.axle_file.axle_file import CarAxle
+from gearlube.studies.sweep.axle_in_fmu import (
+    assumed_inputs,
+    check_operation,
+    chosen_axle,
+    notes_as_text,
+    settings_of,
+)
 from gearlube.studies.sweep.compile_axle import compile_axle
 from gearlube.studies.sweep.datasets import merge, save
-from gearlube.studies.sweep.gear_pair import mesh_table_of
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.provenance import code_version
@@ -23,7 +30,6 @@ from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSet
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
-from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import Pool, ProcessPool
 from gearlube_core.storage.result_store import DATASETS, ResultStore
@@ -52,7 +58,7 @@ class SweepModel:
     point: PointFunction = run_point
     compile_first: Callable[[Path, SweepSettings], None] | None = compile_axle
     natural_frequencies: (
-        Callable[[Sequence[float], float, SweepSettings, MeshTable], xr.DataArray] | None
+        Callable[[Sequence[float], float, SweepSettings, CarAxle], xr.DataArray] | None
     ) = natural_frequencies
 
 
@@ -66,6 +72,7 @@ def run_sweep(
     preloads: Sequence[float],
     fmu: Path | str | None = None,
     mesh_table: Path | None = None,
+    axle: Path | str | None = None,
     out: Path | str | None = None,
     jobs: int | None = None,
     scheduler: str | None = None,
@@ -78,7 +85,7 @@ def run_sweep(
     Parameters
     ----------
     settings : SweepSettings
-        Shared by all points.
+        Shared by all points; by default those of the axle, see `settings_of`.
     speeds_kmh, preloads : sequence of float
         Grid [km/h], [N].
     fmu : path
@@ -86,6 +93,8 @@ def run_sweep(
         if need be.
     mesh_table : path
         Mesh table (.nc) of another gear pair, built into the FMU of this installation.
+    axle : path
+        Axle file, or the name of a shipped one, built into the FMU likewise.
     out : path
         Folder of results: points/ holds every finished point; sweep.nc and summary.csv all.
         Points that are already there are not computed again; failed ones are. None: no files.
@@ -108,7 +117,8 @@ def run_sweep(
     Raises
     ------
     ParameterError
-        The grid is empty, a value is out of range, or both `fmu` and `mesh_table` are given.
+        The grid is empty, a value is out of range, the road asks for more torque than the mesh
+        table allows, or more than one of `fmu`, `mesh_table` and `axle` is given.
     InterruptedRunError
         After Ctrl-C, when the finished points have been saved.
 
@@ -121,7 +131,8 @@ def run_sweep(
     ...     settings, speeds_kmh=[60.0], preloads=[2500.0, 6000.0], out="gearlube_sweep"
     ... )
     """
-    settings = settings or SweepSettings()
+    from fmu_src.fmu_cache import cached_hypoid_axle
+
     speeds = sorted({check_within("speed", v, *SPEED_RANGE, "km/h") for v in speeds_kmh})
     loads = sorted(
         {check_within("preload", p, *PRELOAD_RANGE, "N", _PRELOAD_CURE) for p in preloads}
@@ -130,11 +141,13 @@ def run_sweep(
         raise ParameterError("A sweep needs at least one speed and one preload, got none.")
     if jobs is not None:
         check_within("jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all processors.")
-    archive = _fmu(fmu, mesh_table)
+    car_axle = chosen_axle(fmu, mesh_table, axle)
+    settings = settings or settings_of(car_axle.axle)
+    check_operation(car_axle, settings, speeds)
+    archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
     folder = None if out is None else Path(out)
     with unpacked(archive) as directory:
         guid, kind = fmu_guid(directory), fmu_kind(directory)
-        mesh = mesh_table_of(directory)
         keys = {
             (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=code_version())
             for p in loads
@@ -149,8 +162,11 @@ def run_sweep(
             "gearlube_version": code_version(),
             "fmu_guid": guid,
             "fmu_kind": kind,
-            "mesh_table": mesh.name,
-            "mesh_table_source": mesh.source,
+            "axle": car_axle.name,
+            "axle_source": car_axle.source,
+            "inputs_assumed": notes_as_text(assumed_inputs(car_axle, settings)),
+            "mesh_table": car_axle.axle.mesh.name,
+            "mesh_table_source": car_axle.axle.mesh.source,
             "command_line": command_line,
             "scheduler": scheduler or "local processes",
             "computed_points": computed,
@@ -160,24 +176,11 @@ def run_sweep(
     )
     if model.natural_frequencies is not None:
         middle = speeds[len(speeds) // 2]
-        sweep["mode_frequency"] = model.natural_frequencies(loads, middle, settings, mesh)
+        sweep["mode_frequency"] = model.natural_frequencies(loads, middle, settings, car_axle)
     described(sweep)
     if folder is not None:
         save(sweep, folder)
     return sweep
-
-
-def _fmu(fmu: Path | str | None, mesh_table: Path | None) -> Path:
-    if fmu is None:
-        from fmu_src.fmu_cache import cached_hypoid_axle
-
-        return cached_hypoid_axle(mesh_table)
-    if mesh_table is not None:
-        raise ParameterError(
-            "mesh_table must not be given with fmu, which has its own table, got both. "
-            "Build the FMU with that table, or leave out fmu."
-        )
-    return Path(fmu)
 
 
 def _workers(

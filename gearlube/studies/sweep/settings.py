@@ -7,6 +7,7 @@ import json
 from dataclasses import asdict, dataclass, fields
 
 from drivetrain.driveline.model import COMMUNICATION_STEP
+from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.oil.lubricant import Lubricant
@@ -50,7 +51,7 @@ class SweepSettings:
         speed hold act on it directly.
     oil, equations, radii, mesh_stiffness, mesh_damping, friction : str
     bearing_approach, bearing_torque_loss : str
-        Options of the axle model, passed to the FMU.
+        Options of the axle model, passed to the FMU. Oil "custom" is that of its axle file.
     roughness_rms, backlash : float
         Composite roughness of the flanks, total normal backlash [m].
     modal_loss_factor : float
@@ -99,11 +100,15 @@ class SweepSettings:
         check_within("backlash", self.backlash, 1e-9, 2e-3, "m", "150 um is 150e-6 m.")
         for name, variable in _FMU_VARIABLES.items():
             value = getattr(self, name)
+            if name == "oil" and value == CUSTOM_OIL:
+                continue  # that of the axle's file
             if variable.literals:
                 check_option(name, value, variable.literals)
             else:
                 check_within(name, value, *variable.range, variable.unit)
-        Lubricant.named(self.oil).check_temperature(self.oil_temperature, "oil_temperature")
+        check_positive("oil_temperature", self.oil_temperature, "K")
+        if self.oil != CUSTOM_OIL:
+            Lubricant.named(self.oil).check_temperature(self.oil_temperature, "oil_temperature")
         check_within(
             "communication_step",
             self.communication_step,

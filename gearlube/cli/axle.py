@@ -1,0 +1,47 @@
+"""The command `gearlube axle`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.options import ExampleOption
+
+axle = typer.Typer(name="axle", help="Axle files: an axle and its car.", no_args_is_help=True)
+
+
+@axle.callback()
+def _axle() -> None:
+    """Check axle files and show what they give."""
+
+
+@axle.command()
+def show(
+    file: Annotated[
+        str, typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE")
+    ] = "mohammadpour_2015",
+    assumed: Annotated[
+        bool, typer.Option("--assumed", help="Only the inputs that the file does not give.")
+    ] = False,
+    example: ExampleOption = False,
+) -> None:
+    """Check an axle file; print every input with its value, unit and where it is from."""
+    from drivetrain.axle_file.axle_file import AxleFile, read_axle
+
+    with exit_on_error():
+        if example:
+            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
+            return
+        described = read_axle(file)
+        mesh = described.axle.mesh
+        typer.echo(f"{described.name}{f' ({described.source})' if described.source else ''}")
+        typer.echo(f"mesh table {mesh.name}: {mesh.pinion_teeth}/{mesh.gear_teeth} teeth")
+        notes = described.assumed if assumed else described.inputs
+        wide = max((len(note.field) for note in notes), default=0)
+        for note in notes:
+            value = f"{note.value_text} {note.unit}".strip()
+            line = f"{note.field:{wide}}  {value:28}  {note.origin:8}  {note.why}"
+            typer.echo(line.rstrip())
+        typer.echo(f"{len(described.assumed)} of {len(described.inputs)} inputs are not given.")

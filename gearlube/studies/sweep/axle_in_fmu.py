@@ -1,0 +1,131 @@
+"""The axle and the car that an axle FMU stands for."""
+
+from __future__ import annotations
+
+import json
+import logging
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from drivetrain.axle_file.axle_file import CarAxle, read_axle
+from drivetrain.axle_file.field_units import attribute_of
+from drivetrain.axle_file.model_section import InputNote
+from fmu_src.axle_arguments import start_arguments
+from fmu_src.hypoid_axle import AXLE_FILE, car_axle_in, check_one_table
+from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
+from gearlube.studies.sweep.unpack import unpacked
+from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, read_content
+from gearlube_core.units import kmh_to_ms
+
+logger = logging.getLogger(__name__)
+
+_SWEPT = "pinion.bearing.preload_n"  # the sweep sets it
+
+
+def car_axle_of(fmu: Path) -> CarAxle:
+    """Return axle and car of an FMU, a file or an unzipped folder, by the files that it carries."""
+    with unpacked(fmu) as directory:
+        resources = directory / "resources"
+        found = {name: resources / name for name in (AXLE_FILE, FILE_IN_FMU)}
+        return car_axle_in({name: p.read_bytes() for name, p in found.items() if p.is_file()})
+
+
+def chosen_axle(
+    fmu: Path | str | None, mesh_table: Path | None, axle: Path | str | None
+) -> CarAxle:
+    """Return axle and car of a sweep: at most one of an FMU, a mesh table and an axle file.
+
+    Raises
+    ------
+    ParameterError
+        More than one is given, or a file is wrong.
+    TableError
+        The mesh table is wrong.
+    """
+    given = {"--mesh-table": mesh_table, "An axle file": axle}
+    for name, path in given.items() if fmu is not None else ():
+        if path is not None:
+            raise ParameterError(
+                f"{name} must not be given with --fmu, which has its own, got both. Build the "
+                "FMU with it by `gearlube build-fmu`, or leave out --fmu."
+            )
+    if fmu is not None:
+        return car_axle_of(Path(fmu))
+    if axle is not None:
+        check_one_table(mesh_table)
+        return read_axle(axle)
+    return car_axle_in({} if mesh_table is None else {FILE_IN_FMU: read_content(mesh_table)})
+
+
+def given_preload(car_axle: CarAxle) -> tuple[float, ...]:
+    """Return the preload of the pinion's bearings [N] if the axle file gives it, else nothing."""
+    notes = {note.field: note.origin for note in car_axle.inputs}
+    given = notes.get(_SWEPT) != "assumed"
+    return (float(start_arguments(car_axle.axle)["bearing_preload"]),) if given else ()
+
+
+def settings_of(axle: HypoidAxleParameters, **changes: Any) -> SweepSettings:
+    """Return the settings of a sweep that leave an axle as it is, with changes.
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+    >>> settings_of(mohammadpour_2015_axle(), friction="off").friction
+    'off'
+    """
+    starts = start_arguments(axle)
+    of_axle: dict[str, Any] = {name: starts[name] for name in FMU_PARAMETERS}
+    return SweepSettings(**(of_axle | changes))
+
+
+def check_operation(
+    car_axle: CarAxle, settings: SweepSettings, speeds_kmh: Sequence[float]
+) -> None:
+    """Check oil temperature and road load of all points before anything is computed.
+
+    Raises
+    ------
+    ParameterError
+        The oil's data do not reach the temperature, or the axle would refuse the torque.
+    """
+    road, axle = car_axle.driveline.road_load, car_axle.axle
+    if settings.oil == start_arguments(axle)["oil"]:
+        axle.oil.check_temperature(settings.oil_temperature, "oil_temperature")
+    limits, (low, high) = torque_limits(axle), axle.torque_range
+    for speed in speeds_kmh:
+        torque = road.pinion_torque(kmh_to_ms(speed))
+        if not limits.pinion_low <= torque <= limits.pinion_high:
+            raise ParameterError(
+                f"The road load must be within {limits.pinion_low:g} to {limits.pinion_high:g} N.m "
+                f"at the pinion, got {torque:.4g} N.m at {speed:g} km/h. {limits.cure}"
+            )
+        if not low <= torque <= high:
+            logger.warning(
+                "At %g km/h the road takes %.4g N.m at the pinion; the mesh table ends at %g and "
+                "%g N.m, and its data hold beyond. Analyse the contact at higher torques.",
+                speed, torque, low, high,
+            )  # fmt: skip
+
+
+def assumed_inputs(car_axle: CarAxle, settings: SweepSettings) -> list[InputNote]:
+    """Return the inputs that neither the axle file nor the settings of a sweep give."""
+    starts = start_arguments(car_axle.axle)
+    set_here = {name for name in FMU_PARAMETERS if getattr(settings, name) != starts[name]}
+
+    def is_set(note: InputNote) -> bool:
+        section, _, key = note.field.rpartition(".")
+        name = "oil" if section == "oil" else attribute_of(key)
+        return note.field == _SWEPT or (
+            section in ("gear_set", "model", "oil") and name in set_here
+        )
+
+    return [note for note in car_axle.assumed if not is_set(note)]
+
+
+def notes_as_text(notes: Sequence[InputNote]) -> str:
+    """Return notes as one text, for an attribute of a dataset."""
+    return json.dumps([[n.field, n.value_text, n.unit, n.origin, n.why] for n in notes])
