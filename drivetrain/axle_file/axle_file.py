@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
@@ -36,7 +37,9 @@ from gearlube_core.mesh_table.table import MeshTable
 
 Text = Annotated[str, Field(min_length=1)]
 
+_STEEL = STEEL_MOHAMMADPOUR_2015
 _PAPER = "Mohammadpour et al. 2015"
+_BEARING = "Mohammadpour et al. 2015, Table A2"
 _MODEL = "default of the model"
 _CAR = "size for a 1300 kg car; no source"
 _AS_PINION = "as the pinion's"
@@ -135,12 +138,16 @@ class AxleFile(InputFile):
 
     def _bearings(self) -> tuple[TaperedRollerBearing, TaperedRollerBearing | None]:
         """Return the bearings of the pinion's shaft, and those of the gear's if they differ."""
-        common = {"solid": replace(STEEL_MOHAMMADPOUR_2015, **self.steel.changes(_STEEL))}
+        common: dict[str, Any] = {"solid": replace(_STEEL, **self.steel.changes(_STEEL))}
         if self.model.bearing_approach is not None:
             common["approach"] = self.model.bearing_approach
         of_pinion = (self.pinion.bearing or BearingSection()).bearing()
-        of_gear = self.gear.bearing and self.gear.bearing.bearing(of_pinion.preload)
-        return replace(of_pinion, **common), of_gear and replace(of_gear, **common)
+        section = self.gear.bearing
+        of_gear = None if section is None else section.bearing(of_pinion.preload)
+        return (
+            replace(of_pinion, **common),
+            None if of_gear is None else replace(of_gear, **common),
+        )
 
     def _axle(self, mesh: MeshTable) -> HypoidAxleParameters:
         base = mohammadpour_2015_axle(mesh=mesh)
@@ -179,19 +186,17 @@ class AxleFile(InputFile):
         notes = self.gear_set.notes("gear_set.", axle, _MODEL)
         for role, member in (("pinion", self.pinion), ("gear", self.gear)):
             notes += _member_notes(role, member, axle)
-            section, made = member.bearing, axle.bearing
-            prefix = f"{role}.bearing."
+            section, prefix = member.bearing, f"{role}.bearing."
             if role == "gear" and section is None:
                 notes.append(InputNote("gear.bearing", "", "", "assumed", _AS_PINION))
             else:
                 made = axle.bearings[role == "gear"]
-                notes += (section or BearingSection()).bearing_notes(prefix, made, _PAPER)
+                notes += (section or BearingSection()).bearing_notes(prefix, made, _BEARING)
         notes += self.steel.notes("steel.", axle.solid, _PAPER)
         notes += self.oil.oil_notes("oil.", axle.oil)
         notes += self.model.notes("model.", axle, _MODEL)
-        approach = self.model.bearing_approach
-        if approach is None:
-            value = axle.bearing.approach
+        if self.model.bearing_approach is None:
+            value = TaperedRollerBearing.mohammadpour_2015().approach
             notes.append(InputNote("model.bearing_approach", value, "", "assumed", _MODEL))
         road = car.road_load
         notes += self.vehicle.vehicle_notes("vehicle.", road.vehicle)
@@ -200,9 +205,6 @@ class AxleFile(InputFile):
         notes += self.engine.engine_notes("engine.", car.engine)
         notes += self.driveline.notes("driveline.", car, _CAR)
         return notes
-
-
-_STEEL = STEEL_MOHAMMADPOUR_2015
 
 
 def _member_notes(role: str, member: Member, axle: HypoidAxleParameters) -> list[InputNote]:
@@ -241,8 +243,6 @@ def read_axle(path: str | Path) -> CarAxle:
 
 def parsed_axle_file(content: bytes) -> AxleFile:
     """Return the axle file in bytes, e.g. in those of an FMU's resource."""
-    import tomllib
-
     try:
         data = tomllib.loads(content.decode())
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:

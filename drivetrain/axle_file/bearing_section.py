@@ -184,6 +184,6 @@ class BearingSection(ModelSection):
             changes["preload"] = preload
         return replace(TaperedRollerBearing.mohammadpour_2015(), **changes)
 
-    def bearing_notes(self, prefix: str, made: TaperedRollerBearing, why: str) -> list[InputNote]:
+    def bearing_notes(self, prefix: str, made: object, why: str) -> list[InputNote]:
         """Return a note on every field; `made` is what `bearing` returned."""
         return self.notes(prefix, made, why, self._changes()[1])

@@ -123,11 +123,14 @@ class TyreSection(ModelSection):
         if not (self.has("rolling_radius_mm") or self.has("unladen_radius_mm")):
             return Tyre.from_size(self.size or TYRE_SIZE)
         to_unladen = math.pi / CIRCUMFERENCE_FACTOR
-        given = {key: self.si(key) for key in type(self).model_fields if self.has(key)}
-        rolling, unladen = given.get("rolling_radius_mm"), given.get("unladen_radius_mm")
-        if rolling is None:
-            rolling = unladen / to_unladen
-        return Tyre(rolling_radius=rolling, unladen_radius=unladen or to_unladen * rolling)
+        if not self.has("rolling_radius_mm"):
+            unladen = self.si("unladen_radius_mm")
+            return Tyre(rolling_radius=unladen / to_unladen, unladen_radius=unladen)
+        rolling = self.si("rolling_radius_mm")
+        unladen = (
+            self.si("unladen_radius_mm") if self.has("unladen_radius_mm") else to_unladen * rolling
+        )
+        return Tyre(rolling_radius=rolling, unladen_radius=unladen)
 
     def tyre_notes(self, prefix: str, made: Tyre) -> list[InputNote]:
         """Return a note on every field; `made` is what `tyre` returned."""

@@ -13,6 +13,7 @@ from fmpy import extract
 from typer.testing import CliRunner
 
 import build_fmu
+from drivetrain.axle_file.axle_file import AxleFile
 from fmu_src import fmu_cache, identity
 from fmu_src.archive import write_archive
 from fmu_src.build import build_hypoid_axle
@@ -21,7 +22,7 @@ from fmu_src.hypoid_axle import DEFINITION, definition_with_table
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
 from gearlube.studies.sweep import run as sweep_run
-from gearlube.studies.sweep.gear_pair import final_drive_of, mesh_table_of
+from gearlube.studies.sweep.axle_in_fmu import car_axle_of
 from gearlube.studies.sweep.point import run_point
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
@@ -137,7 +138,7 @@ def test_a_damaged_table_in_the_archive_is_refused(other_fmu: Path, tmp_path: Pa
     with pytest.raises(Exception, match="instantiate"):
         Host(folder)
     with pytest.raises(TableError, match=r"mesh_table\.nc is not a readable NetCDF 3 file"):
-        mesh_table_of(folder)
+        car_axle_of(folder)
 
 
 def test_states_of_two_tables_do_not_mix(
@@ -150,7 +151,7 @@ def test_states_of_two_tables_do_not_mix(
 
 
 def test_a_sweep_point_takes_the_final_drive_from_the_fmu(other_folder: Path) -> None:
-    drive = final_drive_of(mesh_table_of(other_folder))
+    drive = car_axle_of(other_folder).driveline.road_load.final_drive
     assert (drive.pinion_teeth, drive.gear_teeth) == (11, 43)
     point = run_point(other_folder, 60.0, 2500.0, SweepSettings(driver="vehicle", **SHORT))
     assert int(point["status"]) == 1, str(point["message"].values)
@@ -205,7 +206,7 @@ def test_the_commands_pass_the_table_on(
         cli.app, ["build-fmu", "--python", "--mesh-table", str(table), "--out", str(tmp_path)]
     ).exit_code == 0  # fmt: skip
     unzipped = Path(extract(str(tmp_path / "HypoidAxle.fmu"), str(tmp_path / "unzipped")))
-    assert mesh_table_of(unzipped).name == "pair_11_43"
+    assert car_axle_of(unzipped).axle.mesh.name == "pair_11_43"
     with caplog.at_level(logging.INFO):
         assert (
             build_fmu.main(
@@ -247,4 +248,4 @@ def test_the_cache_keeps_one_fmu_for_each_table(
 
 def test_teeth_that_no_axle_has_are_told() -> None:
     with pytest.raises(ParameterError, match="pinion_teeth must be within 5 to 500, got 2"):
-        final_drive_of(replace(OTHER, pinion_teeth=2))
+        AxleFile.named("mohammadpour_2015").car_axle(replace(OTHER, pinion_teeth=2))

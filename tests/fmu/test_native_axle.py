@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fmu_src.hypoid_axle import DEFINITION, axle_parameters, definition_with_table, start_axle
+from fmu_src.axle_arguments import axle_parameters
+from fmu_src.hypoid_axle import DEFINITION, definition_with_table, start_axle
 from fmu_src.native.hypoid_axle import MODAL_WITHOUT_LOSS, REFUSALS, native_model
 from fmu_src.native.model import OK, Operation
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
@@ -63,6 +64,13 @@ def drivable(rng):
     values["backlash"] = rng.uniform(0.0, 3e-4)
     values["pinion_speed"] = rng.uniform(-500.0, 500.0)
     values["modal_loss_factor"] = rng.uniform(0.01, 0.2)
+    values["pinion_mass"], values["gear_mass"] = rng.uniform(5.0, 20.0), rng.uniform(20.0, 80.0)
+    values["pinion_inertia"] = rng.uniform(1e-3, 3e-3)
+    values["gear_inertia"] = rng.uniform(0.03, 0.1)
+    values["gear_bearing_preload"] = rng.choice([-1.0, rng.uniform(100.0, 1e4)])
+    for role in ("pinion", "gear"):
+        values[f"{role}_contact_angle"] = rng.uniform(0.2, 0.5)
+        values[f"{role}_f0"], values[f"{role}_f1"] = rng.uniform(0.0, 12.0), rng.uniform(0.0, 1e-3)
     values["steps_per_mesh_period"], values["steps_per_highest_period"] = 64, 22
     torque = rng.uniform(-400.0, 400.0)
     return values, [torque, torque * 36 / 13, rng.uniform(300.0, 380.0)]

@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
+from drivetrain.axle_file.axle_file import read_axle
 from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import run_point
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import ParameterError, StepError
-from gearlube_core.mesh_table.shipped import shipped_mesh_table
 
 SHORT = {"settling_time": 0.15, "record_time": 0.15, "cage_turns": 0.9}
 
@@ -84,8 +84,8 @@ def test_gear_mesh_alone_drives_the_axle_without_an_engine(axle_folder):
 
 def test_higher_preload_raises_every_bearing_mode_by_the_power_of_one_twentieth():
     settings = SweepSettings(driver="hold")
-    table = shipped_mesh_table("mohammadpour_2015")
-    found = natural_frequencies([2500.0, 6000.0], 60.0, settings, table)
+    paper = read_axle("mohammadpour_2015")
+    found = natural_frequencies([2500.0, 6000.0], 60.0, settings, paper)
     modes = found.sel(mode="gear axial").values
     # Stiffness of a preloaded line contact goes with F^((n-1)/n), n = 10/9, so the frequency with
     # F^(1/20) (Mohammadpour et al. 2015); the mesh force adds to the preload: 0.5 % here.

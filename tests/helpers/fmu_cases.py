@@ -182,6 +182,7 @@ HELICAL_PAIR = Case(
         "line[1].length": "mm",
         "mesh.stiffness_density": "N/(mm.um)",
     },
+    units_unused={"kg", "kg.m2"},
 )
 
 CASES = (HYPOID_AXLE, HELICAL_PAIR)

@@ -12,7 +12,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from fmu_src.hypoid_axle import definition_with_table
+from fmu_src.build import axle_definition
 from gearlube import command
 from gearlube.cli import results_folder
 from gearlube_core.errors import GearLubeError
@@ -61,9 +61,8 @@ def nothing_computes(monkeypatch, tmp_path):
     def reached(*_arguments: Any, **_named: Any) -> None:
         raise typer.Exit(REACHED)
 
-    def built(mesh_table: Path | None) -> None:
-        if mesh_table is not None:
-            definition_with_table(mesh_table)
+    def built(mesh_table: Path | None, *, axle: str | None) -> None:
+        axle_definition(mesh_table, axle)
         reached()
 
     for name in SOLVERS:
