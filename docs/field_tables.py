@@ -8,13 +8,18 @@ from gearlube_core.input_file.field_notes import FieldNote, field_notes
 from gearlube_core.input_file.input_file import InputFile
 
 
-def field_tables(model: type[InputFile], sections: Mapping[str, str]) -> str:
-    """Return one table for each of `sections`: dotted name of the section to its title."""
+def field_tables(
+    model: type[InputFile], sections: Mapping[str, str], defaults: Mapping[str, str] | None = None
+) -> str:
+    """Return one table for each of `sections`: dotted name of the section to its title.
+
+    `defaults` are those of fields whose data model has none, by dotted name.
+    """
     groups: dict[str, list[FieldNote]] = {section: [] for section in sections}
     for name, note in field_notes(model).items():
         section = name.rpartition(".")[0]
         if section in groups:
-            groups[section].append(note)
+            groups[section].append(note._replace(default=(defaults or {}).get(name, note.default)))
     return "".join(_table(sections[section], notes) for section, notes in groups.items())
 
 

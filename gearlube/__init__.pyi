@@ -12,6 +12,8 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 from gearlube_core.bearings.tapered_roller_bearing import (
     TaperedRollerBearing as TaperedRollerBearing,
 )
+from drivetrain.axle_file.axle_file import read_axle as read_axle
+from drivetrain.axle_file.axle_file import CarAxle as CarAxle
 
 # -- Helical pair
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (

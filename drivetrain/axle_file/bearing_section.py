@@ -129,7 +129,7 @@ class BearingSection(ModelSection):
             problems.append(
                 f"the pitch diameter, {mm * pitch:.4g} mm, must lie between bore and outside "
                 f"diameter, got {mm * made.bore_diameter:.4g} and "
-                f"{mm * made.outside_diameter:.4g} mm"
+                f"{mm * made.outside_diameter:.4g} mm; give all three of one bearing"
             )
         return problems
 

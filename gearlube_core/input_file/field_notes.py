@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from difflib import get_close_matches
 from functools import cache
 from typing import Any, NamedTuple
@@ -41,6 +42,24 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_w_m_k2": "W/(m.K2)",
     "_j_kg_k": "J/(kg.K)",
 }
+# what a number is likely in that leaves its limits: unit, times so many of the field's unit
+_SLIPS: dict[str, tuple[tuple[str, float], ...]] = {
+    "mm": (("m", 1e3), ("um", 1e-3), ("inch", 25.4)),
+    "um": (("m", 1e6), ("mm", 1e3), ("nm", 1e-3)),
+    "kg": (("t", 1e3), ("g", 1e-3)),
+    "kg.m2": (("kg.mm2", 1e-6), ("kg.cm2", 1e-4)),
+    "kg/m3": (("g/cm3", 1e3),),
+    "m2": (("cm2", 1e-4), ("mm2", 1e-6)),
+    "deg": (("rad", 180.0 / math.pi),),
+    "rpm": (("rad/s", 30.0 / math.pi), ("1/s", 60.0)),
+    "N": (("kN", 1e3),),
+    "N.m/rad": (("N.m/deg", 180.0 / math.pi), ("kN.m/rad", 1e3)),
+    "MPa": (("Pa", 1e-6), ("GPa", 1e3)),
+    "GPa": (("Pa", 1e-9), ("MPa", 1e-3)),
+    "1/GPa": (("1/Pa", 1e9), ("1/MPa", 1e3)),
+    "mm2/s": (("m2/s", 1e6),),
+}
+_LIMITS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 _KINDS = {
     "number": "number",
     "integer": "whole number",
@@ -79,7 +98,9 @@ def sentence(error: Any, notes: dict[str, FieldNote]) -> str:
     if kind == "value_error":
         return f"{f'{field}: ' if field else ''}{error['ctx']['error']}."
     if kind == "missing":
-        return f"{field} is missing{f': {note.meaning}' if note else ''}."
+        needed = [n for n, one in notes.items() if n.startswith(f"{field}.") and not one.default]
+        what = note.meaning if note else f"a section with {', '.join(needed)}" if needed else ""
+        return f"{field} is missing{f': {what}' if what else ''}."
     if kind == "extra_forbidden":
         near = get_close_matches(field, notes, n=1)
         return f"{field} is not a field of this file" + (f"; is it {near[0]}?" if near else ".")
@@ -88,7 +109,22 @@ def sentence(error: Any, notes: dict[str, FieldNote]) -> str:
     limits = f", {note.limits}" if note.limits else ""
     unit = f" {note.unit}" if note.unit else ""
     what = note.kind if note.kind == _KINDS["boolean"] else f"a {note.kind}"
-    return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}."
+    hint = _likely_unit(note.unit, error)
+    return f"{field} must be {what}{limits}{unit}, got {error['input']!r}. {note.meaning}.{hint}"
+
+
+def _likely_unit(unit: str, error: Any) -> str:
+    """Return in which unit a number out of range would be within it."""
+    value, context = error["input"], error.get("ctx", {})
+    bounds = [context.get(name) for name in ("ge", "gt", "le", "lt")]
+    if error["type"] not in _LIMITS or not isinstance(value, float | int) or value <= 0.0:
+        return ""
+    bound = next(float(one) for one in bounds if one is not None)
+    rises = error["type"].startswith("greater")
+    for other, factor in _SLIPS.get(unit, ()):
+        if (factor > 1.0) == rises and (factor * value > bound) == rises:
+            return f" Is it in {other}? {value:g} {other} is {factor * value:.6g} {unit}."
+    return ""
 
 
 def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]]:

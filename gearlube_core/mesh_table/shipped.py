@@ -24,6 +24,9 @@ def shipped_mesh_table(name: str) -> MeshTable:
     """
     resource = files("gearlube_core.mesh_table") / "data" / f"{name}.nc"
     if not resource.is_file():
-        raise TableError(f"No mesh table is called {name!r}. Shipped: mohammadpour_2015.")
+        raise TableError(
+            f"No mesh table is called {name!r}. Shipped: mohammadpour_2015. "
+            "A file's name ends in .nc."
+        )
     with as_file(resource) as path:
         return read_mesh_table(path)

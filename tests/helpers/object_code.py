@@ -15,7 +15,7 @@ from elftools.elf.elffile import ELFFile
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel, Operation
 from fmu_src.object_code import lower_to_object
 
-LIBM = {"exp", "expm1", "log", "pow", "sin", "cos", "sqrt", "asinh", "tanh", "erfc", "ceil"}
+LIBM = {"exp", "expm1", "log", "pow", "sin", "cos", "tan", "sqrt", "asinh", "tanh", "erfc", "ceil"}
 LIBM |= {"floor", "hypot", "log1p", "cosh", "sinh", "fmod", "exp2", "sincos"}
 # plain memory primitives that any C library and any compiler run-time provides
 FREESTANDING = {"memcpy", "memset", "memmove"}

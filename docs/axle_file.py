@@ -1,0 +1,156 @@
+"""Rewrite docs/axle_file.md: python -m docs.axle_file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from docs.field_tables import field_tables
+from drivetrain.axle_file.axle_file import AxleFile, read_axle
+from drivetrain.axle_file.field_units import attribute_of
+from fmu_src.axle_arguments import start_arguments
+from fmu_src.variables import HYPOID_AXLE
+from gearlube_core.input_file.field_notes import field_notes
+
+PAGE = Path(__file__).with_suffix(".md")
+SECTIONS = {
+    "": "The file",
+    "gear_set": "[gear_set]",
+    "pinion": "[pinion] and [gear]",
+    "pinion.bearing": "[pinion.bearing] and [gear.bearing]: two opposed bearings on the shaft",
+    "steel": "[steel]: flanks, rollers and races",
+    "oil": "[oil]: a shipped oil, or what differs from it",
+    "model": "[model]: how the axle is computed",
+    "vehicle": "[vehicle]",
+    "tyre": "[tyre]",
+    "gearbox": "[gearbox]",
+    "engine": "[engine]",
+    "driveline": "[driveline]",
+}
+
+HEAD = """# The axle file
+
+The tables are written by `python -m docs.axle_file` from the data model
+(`drivetrain/axle_file/axle_file.py`), the text with them; not edited by hand.
+
+Your hypoid axle and the car around it in one TOML file: gear set, masses, bearings, oil, vehicle,
+tyre, gearbox, engine and driveline. From it come the speed sweep, the FMU and the Python model. The
+axle of Mohammadpour et al. 2015 ships as `mohammadpour_2015`; with it everything is as without a file.
+
+```
+gearlube sweep --example > my_axle.toml       # every field, at the paper's values
+gearlube axle show my_axle.toml               # checks the file; each input and where it is from
+gearlube sweep my_axle.toml --speeds 40 60
+gearlube build-fmu --axle my_axle.toml --out DIR
+```
+
+```python
+import gearlube as gl
+
+paper = gl.read_axle("mohammadpour_2015")
+axle, car = paper.axle, paper.driveline  # HypoidAxleParameters, DrivelineParameters
+for note in paper.assumed:
+    print(note.field, note.value_text, note.unit, note.origin, note.why)
+```
+
+- Only `gear_set.mesh_table` is required: a shipped table, or the file that `gearlube contact` wrote
+  for your gears. The numbers of teeth, and so the final drive, are those of the table.
+- What the file gives is **given**. What it leaves out is **inferred** where it follows from given
+  fields, else **assumed**: the default in the tables below. `gearlube axle show` and the report of
+  a sweep list what is inferred and assumed, with values, units and reasons.
+- Without `[gear.bearing]` the bearings of the gear's shaft are as the pinion's. With it, what it
+  leaves out is at the defaults, not as the pinion's; only the preload is then the pinion's.
+- A bearing is given by bore, outside diameter, pitch diameter, number, mean diameter and effective
+  length of the rollers, and contact angle. Races follow from the pitch diameter: it less and plus
+  roller diameter times cosine of the contact angle. The stiffness follows from the roller length,
+  d = 3.84e-5 Q^0.9/l^0.8 [mm, N] for each of the two contacts (Palmgren; Harris and Kotzalas 2007).
+  Without a roller length it is the paper's, which is 2.5 times softer for the paper's rollers.
+- `drag_area_m2` stands for drag coefficient times frontal area, `rolling_radius_mm` for the tyre's
+  size, `interference_um` for the preload, the two race diameters for the pitch diameter, and
+  `walther_a` with `walther_b` for the two viscosities: give one of each. The engine's orders have
+  their three lists together.
+- All wrong fields of a file are named at once, each with the value, its limits and unit, and, if
+  another unit would bring the number within them, that unit. Nothing is compiled before.
+
+## Fields
+"""
+
+_TAIL = """
+## The sweep
+
+`gearlube sweep my_axle.toml` takes its options from the file: oil, roughness, equations, friction
+and drag torque; an option on the command line goes before the file. Without `--preload` it runs the
+preload that the file gives, else 2500 and 6000 N. `--preload` sets the bearings of the pinion's
+shaft; those of the gear's follow unless the file gives them a preload of their own. The oil
+temperature is that of `--oil-temperature`, 95 degC. If the road asks for more than 1.5 times the
+torque of the mesh table, the sweep refuses before it builds anything; beyond the table it warns.
+
+## The FMU
+
+`gearlube build-fmu --axle my_axle.toml` builds native FMUs, with `--python` one that computes in
+this package. The FMU carries the file as `resources/axle.toml`, and a mesh table of its own as
+`resources/mesh_table.nc`; the path in the file has no meaning there. Its GUID depends on every byte
+of both. Start values of its parameters are the file's. An oil of the file's own is the literal
+`custom` of `oil.name`. `--mesh-table` does not go with `--axle`: the file names its table. A sweep
+keeps one such FMU in the cache for each content of file and table. The FMU has no car: vehicle,
+tyre, gearbox, engine and driveline of the file are those of the sweep.
+
+These inputs are parameters of the FMU and can be set at run time; all others are built in:
+
+| Parameter | Input |
+|---|---|
+{parameters}
+## Limits
+
+- One class of bearing, two opposed and alike on each shaft; no distances between them: the model has
+  no tilt of the shafts.
+- Nothing computes masses or inertias from drawings: they are given, or the paper's.
+- The stiffness of the rollers is that of steel, whatever `[steel]` says.
+- The contact angle is that of the outer race for both races; the rib is not modelled.
+"""
+_FIELDS = {
+    "bearing_preload": "`pinion.bearing.preload_n`",
+    "gear_bearing_preload": "`gear.bearing.preload_n`",
+    "oil": "`oil`",
+    "bearing_approach": "`model.bearing_approach`",
+}
+
+
+def _field_of(argument: str, fields: dict[str, str]) -> str:
+    """Return the field of the file that sets an argument of the FMU's model."""
+    role, _, rest = argument.partition("_")
+    if argument in _FIELDS:
+        return _FIELDS[argument]
+    of_bearing = f"{role}.bearing.{rest}"
+    of_member = f"{role}.{rest}"
+    name = next(n for n in (argument, of_bearing, of_member) if n in fields)
+    return f"`{fields[name]}`"
+
+
+def _run_time_parameters() -> str:
+    fields: dict[str, str] = {}
+    for name in field_notes(AxleFile):
+        section, _, key = name.rpartition(".")
+        prefix = f"{section}." if section not in ("gear_set", "model") else ""
+        fields[prefix + attribute_of(key)] = name
+    starts = start_arguments(read_axle("mohammadpour_2015").axle)
+    rows = [
+        f"| `{v.name}` | {_field_of(v.argument, fields)} |\n"
+        for v in HYPOID_AXLE
+        if v.argument in starts
+    ]
+    return "".join(rows)
+
+
+def page() -> str:
+    """Return docs/axle_file.md."""
+    bare = AxleFile.from_data({"gear_set": {"mesh_table": "mohammadpour_2015"}}, "the page")
+    assumed = bare.car_axle().assumed
+    defaults = {note.field: note.value_text for note in assumed if note.origin == "assumed"}
+    for key in ("mass_kg", "inertia_kg_m2"):
+        defaults[f"pinion.{key}"] += f", gear {defaults[f'gear.{key}']}"
+    tables = field_tables(AxleFile, SECTIONS, defaults)
+    return HEAD + tables + _TAIL.format(parameters=_run_time_parameters())
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
