@@ -34,7 +34,7 @@ The tables are written by `python -m docs.axle_file` from the data model
 
 Your hypoid axle and the car around it in one TOML file: gear set, masses, bearings, oil, vehicle,
 tyre, gearbox, engine and driveline. From it come the speed sweep, the FMU and the Python model. The
-axle of Mohammadpour et al. 2015 ships as `mohammadpour_2015`; with it everything is as without a file.
+axle of Mohammadpour et al. 2015 ships as `mohammadpour_2015`; with it all is as without a file.
 
 ```
 gearlube sweep --example > my_axle.toml       # every field, at the paper's values
@@ -101,8 +101,8 @@ These inputs are parameters of the FMU and can be set at run time; all others ar
 {parameters}
 ## Limits
 
-- One class of bearing, two opposed and alike on each shaft; no distances between them: the model has
-  no tilt of the shafts.
+- Two opposed and equal bearings on each shaft; no distances between them: the model has no tilt
+  of the shafts.
 - Nothing computes masses or inertias from drawings: they are given, or the paper's.
 - The stiffness of the rollers is that of steel, whatever `[steel]` says.
 - The contact angle is that of the outer race for both races; the rib is not modelled.

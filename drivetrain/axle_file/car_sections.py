@@ -84,17 +84,19 @@ class VehicleSection(ModelSection):
         """Return the vehicle."""
         base = mohammadpour_2015_vehicle()
         changes = self.changes(base)
-        drag_area = changes.pop("drag_area", None)  # half the air's density is in the model's
+        drag_area = changes.pop("drag_area", None)
         if drag_area is not None:
             changes["frontal_area"] = drag_area / base.drag_coefficient
         return replace(base, **changes)
 
     def vehicle_notes(self, prefix: str, made: Vehicle) -> list[InputNote]:
         """Return a note on every field; `made` is what `vehicle` returned."""
-        inferred = {"frontal_area_m2": "drag area"} if self.has("drag_area_m2") else {}
-        notes = self.notes(prefix, made, _PAPER, inferred)
-        unless_given = f"{prefix}drag_area_m2"
-        return [n for n in notes if n.field != unless_given or n.origin == "given"]
+        # the drag area of the model holds half the air's density too
+        left_out = {"frontal_area_m2", "drag_coefficient"}
+        if not self.has("drag_area_m2"):
+            left_out = {"drag_area_m2"}
+        notes = self.notes(prefix, made, _PAPER)
+        return [note for note in notes if note.field.removeprefix(prefix) not in left_out]
 
 
 class TyreSection(ModelSection):

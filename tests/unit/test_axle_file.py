@@ -1,0 +1,384 @@
+"""The axle file: what each field sets in the models, what is assumed, what is refused."""
+
+import math
+import re
+import tomllib
+from dataclasses import replace
+from functools import reduce
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drivetrain.axle_file.axle_file import AxleFile, read_axle
+from drivetrain.driveline.parameters import DrivelineParameters
+from drivetrain.road_load import mohammadpour_2015_road_load
+from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle
+from gearlube_core.errors import ParameterError, TableError
+from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.mesh_table.netcdf import write_mesh_table
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
+
+MESH = shipped_mesh_table("mohammadpour_2015")
+BARE = {"gear_set": {"mesh_table": "mohammadpour_2015"}}
+EXAMPLE = Path(__file__).parents[2] / "examples" / "my_axle.toml"
+
+# field: value there, place in the models, value there in SI
+NUMBERS = {
+    "gear_set.backlash_um": (83.7, "axle.backlash", 83.7e-6),
+    "gear_set.roughness_rms_um": (0.83, "axle.roughness_rms", 0.83e-6),
+    "gear_set.modal_loss_factor": (0.11, "axle.modal_loss_factor", 0.11),
+    "gear_set.hysteretic_loss": (0.02, "axle.hysteretic_loss", 0.02),
+    "gear_set.frequency_floor_hz": (20.0, "axle.frequency_floor", 20.0),
+    "gear_set.radii": ("mean", "axle.radii", "mean"),
+    "gear_set.mesh_stiffness": ("secant", "axle.mesh_stiffness", "secant"),
+    "gear_set.mesh_damping": ("modal", "axle.mesh_damping", "modal"),
+    "pinion.mass_kg": (9.0, "axle.pinion_mass", 9.0),
+    "pinion.inertia_kg_m2": (2e-3, "axle.pinion_inertia", 2e-3),
+    "gear.mass_kg": (31.0, "axle.gear_mass", 31.0),
+    "gear.inertia_kg_m2": (0.09, "axle.gear_inertia", 0.09),
+    "steel.youngs_modulus_gpa": (206.0, "axle.solid.youngs_modulus", 206e9),
+    "steel.poisson_ratio": (0.28, "axle.bearing.solid.poisson_ratio", 0.28),
+    "steel.density_kg_m3": (7800.0, "axle.solid.density", 7800.0),
+    "steel.conductivity_w_m_k": (50.0, "axle.solid.conductivity", 50.0),
+    "steel.heat_capacity_j_kg_k": (460.0, "axle.solid.heat_capacity", 460.0),
+    "oil.name": ("karagiannis_2012", "axle.oil.name", "karagiannis_2012"),
+    "oil.density_kg_m3": (900.0, "axle.oil.density", 900.0),
+    "oil.alpha_per_gpa": (18.5, "axle.oil.alpha", 18.5e-9),
+    "oil.alpha_temperature_degc": (40.0, "axle.oil.alpha_temperature", 313.15),
+    "oil.eyring_stress_mpa": (5.5, "axle.oil.eyring_stress", 5.5e6),
+    "oil.limiting_shear_stress_mpa": (3.5, "axle.oil.limiting_shear_stress", 3.5e6),
+    "oil.boundary_friction": (0.1, "axle.oil.boundary_friction", 0.1),
+    "oil.conductivity_w_m_k": (0.13, "axle.oil.conductivity", 0.13),
+    "oil.conductivity_temperature_degc": (20.0, "axle.oil.conductivity_temperature", 293.15),
+    "oil.conductivity_slope_w_m_k2": (-1e-4, "axle.oil.conductivity_slope", -1e-4),
+    "oil.heat_capacity_j_kg_k": (1900.0, "axle.oil.heat_capacity", 1900.0),
+    "oil.temperature_low_degc": (-10.0, "axle.oil.temperature_low", 263.15),
+    "oil.temperature_high_degc": (160.0, "axle.oil.temperature_high", 433.15),
+    "model.equations": ("as_printed", "axle.equations", "as_printed"),
+    "model.friction": ("off", "axle.friction", "off"),
+    "model.bearing_torque_loss": ("none", "axle.bearing_torque_loss", "none"),
+    "model.bearing_approach": ("as_printed", "axle.bearing.approach", "as_printed"),
+    "model.steps_per_mesh_period": (72, "axle.steps_per_mesh_period", 72),
+    "model.steps_per_highest_period": (20, "axle.steps_per_highest_period", 20),
+    "vehicle.mass_kg": (1999.0, "driveline.road_load.vehicle.mass", 1999.0),
+    "vehicle.drag_area_m2": (0.99, "driveline.road_load.vehicle.frontal_area", 0.99 / 0.33),
+    "vehicle.frontal_area_m2": (2.5, "driveline.road_load.vehicle.frontal_area", 2.5),
+    "vehicle.drag_coefficient": (0.28, "driveline.road_load.vehicle.drag_coefficient", 0.28),
+    "vehicle.rolling_coefficient": (0.01, "driveline.road_load.vehicle.rolling_coefficient", 0.01),
+    "vehicle.air_density_kg_m3": (1.1, "driveline.road_load.vehicle.air_density", 1.1),
+    "vehicle.grade": (0.05, "driveline.road_load.vehicle.grade", 0.05),
+    "vehicle.gravity_m_s2": (9.78, "driveline.road_load.vehicle.gravity", 9.78),
+    # 235 mm wide, 55 % high, 17 inch; the rolling circumference is 3.05 diameters
+    "tyre.size": (
+        "235/55R17",
+        "driveline.rolling_radius",
+        3.05 * (17 * 0.0254 + 2 * 0.235 * 0.55) / (2 * math.pi),
+    ),
+    "tyre.rolling_radius_mm": (305.0, "driveline.rolling_radius", 0.305),
+    "tyre.unladen_radius_mm": (333.0, "driveline.road_load.tyre.unladen_radius", 0.333),
+    "gearbox.ratios": ([4.0, 2.0, 1.0], "driveline.gearbox.ratios", (4.0, 2.0, 1.0)),
+    "gearbox.lowest_cruising_speed_rpm": (
+        1700.0,
+        "driveline.gearbox.lowest_cruising_speed_rpm",
+        1700.0,
+    ),
+    "engine.primary_inertia_kg_m2": (0.2, "driveline.engine.primary_inertia", 0.2),
+    "engine.secondary_inertia_kg_m2": (0.05, "driveline.engine.secondary_inertia", 0.05),
+    "engine.flywheel_stiffness_n_m_per_rad": (500.0, "driveline.engine.flywheel_stiffness", 500.0),
+    "engine.flywheel_damping_n_m_s_per_rad": (1.1, "driveline.engine.flywheel_damping", 1.1),
+    "engine.idle_speed_rpm": (700.0, "driveline.engine.idle_speed_rpm", 700.0),
+    "engine.highest_speed_rpm": (5000.0, "driveline.engine.highest_speed_rpm", 5000.0),
+    "driveline.propshaft_inertia_kg_m2": (0.02, "driveline.propshaft_inertia", 0.02),
+    "driveline.propshaft_stiffness_n_m_per_rad": (2e4, "driveline.propshaft_stiffness", 2e4),
+    "driveline.propshaft_damping_n_m_s_per_rad": (0.5, "driveline.propshaft_damping", 0.5),
+    "driveline.half_shaft_stiffness_n_m_per_rad": (9e3, "driveline.half_shaft_stiffness", 9e3),
+    "driveline.half_shaft_damping_n_m_s_per_rad": (2.0, "driveline.half_shaft_damping", 2.0),
+    "driveline.wheel_inertia_kg_m2": (1.2, "driveline.wheel_inertia", 1.2),
+    "driveline.tyre_slip_stiffness_n": (1e5, "driveline.tyre_slip_stiffness", 1e5),
+    "driveline.tyre_relaxation_length_mm": (250.0, "driveline.tyre_relaxation_length", 0.25),
+    "driveline.speed_control_frequency_hz": (0.2, "driveline.speed_control_frequency", 0.2),
+}
+# of the bearings of either shaft
+BEARING = {
+    "bore_diameter_mm": (35.0, "bore_diameter", 0.035),
+    "outside_diameter_mm": (90.7, "outside_diameter", 0.0907),
+    # races at the pitch diameter less and plus 12.7 mm cos 15 deg
+    "pitch_diameter_mm": (70.0, "inner_race_diameter", 0.07 - 0.0127 * math.cos(math.pi / 12)),
+    "rollers": (11, "n_rollers", 11),
+    "roller_diameter_mm": (12.1, "roller_diameter", 0.0121),
+    # Q = (d/3.84e-5)^(10/9) l^(8/9) with half the approach at either contact [mm, N]
+    "roller_length_mm": (
+        18.0,
+        "stiffness_constant",
+        (0.5 * 1e3 / 3.84e-5) ** (10 / 9) * 18.0 ** (8 / 9),
+    ),
+    "contact_angle_deg": (20.0, "contact_angle", math.pi / 9),
+    "stiffness_constant": (7e8, "stiffness_constant", 7e8),
+    "exponent": (1.1, "exponent", 1.1),
+    "preload_n": (3333.0, "preload", 3333.0),
+    # F = N kn d^n sin L, Mohammadpour et al. 2015
+    "interference_um": (
+        10.0,
+        "preload",
+        12 * 5e8 * 1e-5 ** (10 / 9) * math.sin(math.pi / 12),
+    ),
+    "loss": (0.02, "loss", 0.02),
+    "film": ("steady", "film", "steady"),
+    "f0": (3.0, "f0", 3.0),
+    "f1": (7e-4, "f1", 7e-4),
+}
+for _role, _place in (("pinion", "bearing"), ("gear", "gear_bearing")):
+    for _key, (_value, _name, _si) in BEARING.items():
+        NUMBERS[f"{_role}.bearing.{_key}"] = (_value, f"axle.{_place}.{_name}", _si)
+# what comes in groups has tests of its own below
+GROUPS = {"oil.viscosity_40_degc_mm2_s", "oil.viscosity_100_degc_mm2_s", "oil.walther_a"}
+GROUPS |= {"oil.walther_b", "engine.orders", "engine.order_amplitudes", "engine.order_phases_deg"}
+GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gear")
+           for side in ("inner", "outer")}  # fmt: skip
+WORDS = {"name", "source", "gear_set.mesh_table"}
+NOT_PACKED = {"oil.heat_capacity_j_kg_k"}  # the axle's films take no heat away with the oil
+
+
+def with_fields(changes):
+    data = {"gear_set": dict(BARE["gear_set"])}
+    for field, value in changes.items():
+        *sections, key = field.split(".")
+        reduce(lambda at, name: at.setdefault(name, {}), sections, data)[key] = value
+    return data
+
+
+def car_axle(changes):
+    return AxleFile.from_data(with_fields(changes), "my.toml").car_axle(MESH)
+
+
+def refusal(changes):
+    with pytest.raises(ParameterError) as error:
+        car_axle(changes)
+    return str(error.value)
+
+
+def fingerprint(made):
+    """All that the kernels of the axle and the driveline can see."""
+    axle = made.axle
+    options = (axle.radii, axle.mesh_stiffness, axle.steps_per_mesh_period)
+    options += (axle.steps_per_highest_period, axle.contact_pressure)
+    packed = flatten(axle.kernel_parameters()).tolist()
+    return packed, options, made.driveline
+
+
+def test_every_field_has_an_expectation_here():
+    assert NUMBERS.keys() | GROUPS | WORDS == field_notes(AxleFile).keys()
+
+
+@pytest.mark.parametrize("field", NUMBERS)
+def test_a_field_sets_its_number_of_the_model_and_reaches_the_kernels(field):
+    value, place, expected = NUMBERS[field]
+    # a loss factor acts with modal damping alone
+    beside = {"gear_set.mesh_damping": "modal"} if field.endswith("modal_loss_factor") else {}
+    made = car_axle(beside | {field: value})
+    found = reduce(getattr, place.split("."), made)
+    if isinstance(expected, float):
+        assert found == pytest.approx(expected, rel=1e-12)  # roundings of a unit or a power
+    else:
+        assert found == expected
+    changed = fingerprint(made) != fingerprint(car_axle(beside))
+    assert changed == (field not in NOT_PACKED)
+    note = next(note for note in made.inputs if note.field == field)
+    # lists are tuples once they are read
+    assert (note.origin, note.value) == (
+        "given",
+        tuple(value) if isinstance(value, list) else value,
+    )
+
+
+def test_decimals_of_other_units_are_exact():
+    made = car_axle({"gear_set.backlash_um": 83.7, "pinion.bearing.roller_diameter_mm": 12.7})
+    assert made.axle.backlash == 83.7e-6
+    assert made.axle.bearing.roller_diameter == 0.0127
+
+
+def paper():
+    return mohammadpour_2015_axle(), DrivelineParameters(road_load=mohammadpour_2015_road_load())
+
+
+def every_field(text):
+    """The shipped file with its remarks at work too."""
+    uncommented = re.sub(r"^# (\w+ = )", r"\1", text, flags=re.MULTILINE)
+    data = tomllib.loads(uncommented)
+    data["oil"] = {"name": "mohammadpour_2015"}  # its data there are another oil's, to copy
+    return data
+
+
+def test_the_shipped_file_is_the_papers_axle_to_the_last_bit():
+    text = AxleFile.shipped_text("mohammadpour_2015")
+    axle, driveline = paper()
+    for data in (tomllib.loads(text), every_field(text), BARE):
+        made = AxleFile.from_data(data, "it").car_axle()
+        np.testing.assert_array_equal(
+            flatten(made.axle.kernel_parameters()), flatten(axle.kernel_parameters())
+        )
+        assert made.driveline == driveline
+        for name in ("bearing", "gear_bearing", "oil", "solid", "radii", "friction"):
+            assert getattr(made.axle, name) == getattr(axle, name)
+
+
+def test_the_shipped_file_shows_every_field():
+    text = AxleFile.shipped_text("mohammadpour_2015")
+    for name in field_notes(AxleFile):
+        assert re.search(rf"\b{name.rpartition('.')[2]}\b", text), name
+
+
+def test_what_the_file_leaves_out_is_told_with_value_unit_and_reason():
+    made = car_axle({"pinion.bearing.roller_length_mm": 20.0})
+    notes = {note.field: note for note in made.assumed}
+    assert made.inputs[0].origin == "given"
+    mass = notes["vehicle.mass_kg"]
+    assert mass == ("vehicle.mass_kg", 1300.0, "kg", "assumed", mass.why)
+    assert "Mohammadpour" in mass.why
+    stiffness = notes["pinion.bearing.stiffness_constant"]
+    assert (stiffness.origin, stiffness.unit) == ("inferred", "N/m^n")
+    assert stiffness.value_text == "1.15246e+09"
+    assert "pinion.bearing.roller_length_mm" not in notes
+    assert all(note.why for note in made.assumed)
+
+
+@pytest.mark.parametrize("start", [BARE, tomllib.loads(EXAMPLE.read_text())])
+def test_a_file_of_all_that_was_assumed_gives_the_same(start):
+    made = AxleFile.from_data(start, "it").car_axle(MESH)
+    given = {n.field: n.value for n in made.inputs if n.origin != "inferred" and n.value != ""}
+    again = car_axle(given)
+    assert fingerprint(again) == fingerprint(made)
+    left = {n.field for n in again.assumed if n.origin == "assumed"}
+    assert left <= {"gear.bearing"}
+
+
+def test_bearings_of_the_gears_shaft_are_the_pinions_unless_given():
+    made = car_axle({"pinion.bearing.preload_n": 3000.0})
+    assert made.axle.gear_bearing is None
+    made = car_axle({"pinion.bearing.preload_n": 3000.0, "gear.bearing.rollers": 10})
+    assert made.axle.gear_bearing.preload == 3000.0
+    assert (made.axle.bearing.n_rollers, made.axle.gear_bearing.n_rollers) == (12, 10)
+    p = made.axle.kernel_parameters()
+    assert (p.bearing_p.n_rollers, p.bearing_g.n_rollers) == (12.0, 10.0)
+    made = car_axle({"gear.bearing.preload_n": 1000.0})
+    p = made.axle.kernel_parameters()
+    assert (p.preload_p, p.preload_g) == (2500.0, 1000.0)
+
+
+def test_boundary_dimensions_alone_give_the_pitch_diameter():
+    made = car_axle(
+        {"pinion.bearing.bore_diameter_mm": 50, "pinion.bearing.outside_diameter_mm": 90.0}
+    )
+    races = made.axle.bearing.inner_race_diameter + made.axle.bearing.outer_race_diameter
+    assert races == pytest.approx(0.14, rel=1e-12)  # twice the mean of 50 and 90 mm
+
+
+def test_races_of_a_file_are_taken_as_they_are():
+    races = {"pinion.bearing.inner_race_diameter_mm": 52.1}
+    races |= {"pinion.bearing.outer_race_diameter_mm": 77.7}
+    bearing = car_axle(races).axle.bearing
+    assert (bearing.inner_race_diameter, bearing.outer_race_diameter) == (0.0521, 0.0777)
+
+
+def test_an_oil_of_a_data_sheet_has_its_two_viscosities():
+    oil = car_axle(
+        {"oil.viscosity_40_degc_mm2_s": 150.0, "oil.viscosity_100_degc_mm2_s": 16.0}
+    ).axle.oil
+    for T, nu in ((313.15, 150e-6), (373.15, 16e-6)):
+        # double logarithms lose three digits
+        assert oil.dynamic_viscosity(T) == pytest.approx(nu * oil.density, rel=1e-12)
+    a, b = oil.walther_a, oil.walther_b
+    assert car_axle({"oil.walther_a": a, "oil.walther_b": b}).axle.oil.walther_b == b
+
+
+def test_the_engine_has_the_orders_of_the_file():
+    lists = {"engine.orders": [3, 6], "engine.order_amplitudes": [1.0, 0.25]}
+    engine = car_axle(lists | {"engine.order_phases_deg": [0.0, 90.0]}).driveline.engine
+    # at 15 deg of the crank: cos 45 deg, and cos(90 + 90 deg)
+    expected = 100.0 * (1.0 + math.cos(math.pi / 4) - 0.25)
+    assert engine.torque(100.0, math.pi / 12) == pytest.approx(expected, rel=1e-12)
+    none = {key: [] for key in (*lists, "engine.order_phases_deg")}
+    assert car_axle(none).driveline.engine.orders == ()
+
+
+def test_a_mesh_table_lies_beside_the_file_and_gives_the_final_drive(tmp_path, monkeypatch):
+    (tmp_path / "gears").mkdir()
+    other = replace(MESH, name="own", pinion_teeth=11, gear_teeth=43)
+    write_mesh_table(other, tmp_path / "gears" / "own.nc")
+    path = tmp_path / "my.toml"
+    path.write_text('[gear_set]\nmesh_table = "gears/own.nc"\n')
+    made = read_axle(path)
+    assert (made.axle.mesh.name, made.driveline.axle_ratio) == ("own", 43 / 11)
+    path.write_text('[gear_set]\nmesh_table = "gears/none.nc"\n')
+    with pytest.raises(TableError, match=r"No mesh table can be read at .*none\.nc"):
+        read_axle(path)
+    path.write_text('[gear_set]\nmesh_table = "none"\n')
+    with pytest.raises(TableError, match=r"No mesh table is called 'none'.*ends in \.nc"):
+        read_axle(path)
+
+
+@pytest.mark.parametrize(
+    ("changes", "parts"),
+    [
+        (
+            {"pinion.bearing.rollers": 20},
+            # 20 rollers have 62.7 mm sin(pi/20) each; 62.7 sin(pi/15) is 13.04, of 16 it is 12.2
+            ["pinion.bearing: the rollers overlap: 20", "9.808 mm", "12.7 mm", "at most 15 fit"],
+        ),
+        ({"pinion.bearing.pitch_diameter_mm": 0.0627}, ["Is it in m? 0.0627 m is 62.7 mm"]),
+        ({"pinion.bearing.pitch_diameter_mm": -60.0}, ["5 to 1000 mm, got -60.0"]),
+        ({"pinion.bearing.pitch_diameter_mm": 200.0}, ["between bore and outside diameter"]),
+        ({"gear.bearing.contact_angle_deg": 0.26}, ["0.26 rad is 14.8969 deg"]),
+        ({"gear.bearing.contact_angle_deg": 60.0}, ["5 to 45 deg, got 60.0"]),
+        ({"gear_set.backlash_um": 150000.0}, ["Is it in nm? 150000 nm is 150 um"]),
+        ({"vehicle.mass_kg": 1.3}, ["100 to 100000 kg, got 1.3", "1.3 t is 1300 kg"]),
+        ({"gear.inertia_kg_m2": 58100.0}, ["58100 kg.mm2 is 0.0581 kg.m2"]),
+        ({"gearbox.ratios": [3.0, 3.5]}, ["gearbox: ratios must fall", "First gear comes first"]),
+        ({"gearbox.ratios": []}, ["gearbox.ratios"]),
+        ({"oil.name": "sae90"}, ["jamali_2015, karagiannis_2012, mohammadpour_2015", "'sae90'"]),
+        ({"oil.walther_a": 7.0}, ["walther_a and walther_b come together"]),
+        (
+            {"oil.viscosity_40_degc_mm2_s": 15.0, "oil.viscosity_100_degc_mm2_s": 100.0},
+            ["Viscosity must fall with temperature"],
+        ),
+        (
+            {"pinion.bearing.preload_n": 2000.0, "pinion.bearing.interference_um": 5.0},
+            ["2000 N and 5 um; give one of them"],
+        ),
+        ({"pinion.bearing.inner_race_diameter_mm": 50.0}, ["come in pairs"]),
+        ({"tyre.size": "big"}, ["195/65R16", "'big'"]),
+        ({"tyre.size": "195/65R16", "tyre.rolling_radius_mm": 320.0}, ["say the same; give one"]),
+        ({"engine.orders": [2]}, ["the same number of entries, got 1, 0 and 0"]),
+        ({"engine.idle_speed_rpm": 7000.0}, ["highest_speed_rpm must be within 7000"]),
+        ({"vehicle.drag_area_m2": 0.7, "vehicle.frontal_area_m2": 2.2}, ["give one"]),
+        ({"gear_set.mesh_damping": "modal", "gear_set.modal_loss_factor": 0.0}, ["above 0"]),
+        ({"pinion.mas_kg": 12.0}, ["is it pinion.mass_kg?"]),
+        ({"pinion.bearing.roller_lenght_mm": 12.0}, ["is it pinion.bearing.roller_length_mm?"]),
+    ],
+)
+def test_what_no_axle_has_is_refused_with_value_limit_and_cure(changes, parts):
+    said = refusal(changes)
+    for part in parts:
+        assert part in said, said
+
+
+def test_all_wrong_fields_are_named_at_once():
+    said = refusal(
+        {
+            "pinion.bearing.rollers": 20,
+            "gear.mass_kg": -1.0,
+            "oil.name": "water",
+            "gearbox.ratios": [1.0, 2.0],
+            "vehicle.mass_kg": math.nan,
+        }
+    )
+    assert said.startswith("my.toml has 5 wrong field(s).")
+    for part in ("overlap", "gear.mass_kg", "'water'", "must fall", "got nan"):
+        assert part in said
+
+
+def test_a_file_without_gear_set_says_what_it_needs():
+    with pytest.raises(ParameterError, match=r"gear_set is missing: a section with gear_set\.mesh"):
+        AxleFile.from_data({"name": "x"}, "my.toml")
