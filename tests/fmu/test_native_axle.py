@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from drivetrain.axle_file.axle_file import read_axle
 from fmu_src.axle_arguments import axle_parameters
-from fmu_src.hypoid_axle import DEFINITION, definition_with_table, start_axle
+from fmu_src.hypoid_axle import (
+    DEFINITION,
+    definition_with_axle,
+    definition_with_table,
+    start_axle,
+)
 from fmu_src.native.hypoid_axle import MODAL_WITHOUT_LOSS, REFUSALS, native_model
 from fmu_src.native.model import OK, Operation
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
@@ -177,6 +184,37 @@ def test_steps_continue_as_in_python_and_outputs_of_a_restored_state_are_the_sam
     run.inputs[:] = other.inputs[:] = CURRENT
     assert run(Operation.STEP, 1e-3) == other(Operation.STEP, 1e-3) == OK
     np.testing.assert_array_equal(other.state, run.state)
+
+
+def test_an_axle_file_changes_constants_alone_and_is_the_axle_of_python_over_20_ms(
+    native, tmp_path
+):
+    path = tmp_path / "axle.toml"
+    path.write_text(
+        '[gear_set]\nmesh_table = "mohammadpour_2015"\nfrequency_floor_hz = 30.0\n'
+        "[pinion]\nmass_kg = 9.0\nbearing = { rollers = 13, preload_n = 3000.0, loss = 0.0 }\n"
+        "[gear]\nbearing = { roller_length_mm = 18.0, contact_angle_deg = 20.0, f1 = 5e-4 }\n"
+        '[oil]\nname = "karagiannis_2012"\n[model]\nfriction = "off"\n'
+    )
+    definition = definition_with_axle(path)
+    of_file = native_model(definition)
+    sizes = ("state_size", "control_at", "work_size", "limits_at", "ranges_at")
+    assert of_file.data.size == native.model.data.size
+    assert [getattr(of_file, name) for name in sizes] == [
+        getattr(native.model, name) for name in sizes
+    ]
+    axle = start_axle(
+        {"pinion_speed": 150.0, "friction": "consistent"}, CURRENT, read_axle(path).axle
+    )
+    loaded = copy.copy(native)
+    loaded.model = of_file
+    run = loaded.instance({"pinion_speed": 150.0, "friction": "consistent"}, CURRENT)
+    assert run(Operation.START) == OK
+    np.testing.assert_array_equal(run.work[:N], flatten(axle.parameters.kernel_parameters()))
+    for _ in range(20):
+        assert run.step(1e-3) == OK
+        axle.step(1e-3, *CURRENT)
+    assert_outputs_agree(run, axle, 1e-9)
 
 
 def test_outputs_of_the_motion_are_those_among_all_outputs(native):
