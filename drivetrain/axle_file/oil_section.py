@@ -94,7 +94,7 @@ class OilSection(ModelSection):
                 problems.append(f"{pair[0]} and {pair[1]} come together, got {given[0]} alone")
         if self.has(_SHEET[0]) and self.has(_WALTHER[0]):
             problems.append("the two viscosities and walther_a, walther_b say the same; give one")
-        if not problems:
+        if not problems and not self.is_shipped:
             try:
                 self.oil()
             except ParameterError as reason:

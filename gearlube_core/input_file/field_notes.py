@@ -149,6 +149,7 @@ def _walk(schema: Any, sections: Any, prefix: str) -> list[tuple[str, FieldNote]
     return notes
 
 
+@cache
 def field_unit(key: str) -> tuple[str, str]:
     """Return the unit of a field and the ending of its name that says so; both may be empty.
 

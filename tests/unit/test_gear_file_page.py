@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from docs import ehl_case_file, gear_file, helical_gear_file
+from docs import axle_file, ehl_case_file, gear_file, helical_gear_file
+from drivetrain.axle_file.axle_file import AxleFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -17,6 +18,7 @@ PAGES = {
     gear_file: (HypoidGearFile,),
     helical_gear_file: (HelicalGearFile,),
     ehl_case_file: (LineCase, PointCase, HypoidCase),
+    axle_file: (AxleFile,),
 }
 
 
@@ -26,7 +28,7 @@ def stored(script):
 
 @pytest.mark.parametrize("script", PAGES)
 def test_page_is_up_to_date(script):
-    """If not: python -m docs.gear_file, docs.helical_gear_file or docs.ehl_case_file."""
+    """If not: python -m docs.gear_file, docs.helical_gear_file, docs.axle_file, docs.ehl_case_file."""
     assert script.page() == stored(script)
 
 
@@ -46,5 +48,5 @@ def test_what_the_page_points_to_exists(script):
     assert links
     for link in links:
         assert (FOLDER / link).is_file(), link
-    for path in re.findall(r"`((?:examples|tests|gearlube_core)/[\w./]+)`", text):
+    for path in re.findall(r"`((?:examples|tests|gearlube_core|drivetrain)/[\w./]+)`", text):
         assert (FOLDER.parent / path).exists(), path
