@@ -43,6 +43,8 @@ gearlube sweep my_axle.toml --speeds 40 60
 gearlube build-fmu --axle my_axle.toml --out DIR
 ```
 
+`examples/my_axle.toml` is a made-up van, with bearings of its own on either shaft.
+
 ```python
 import gearlube as gl
 
@@ -53,7 +55,7 @@ for note in paper.assumed:
 ```
 
 - Only `gear_set.mesh_table` is required: a shipped table, or the file that `gearlube contact` wrote
-  for your gears. The numbers of teeth, and so the final drive, are those of the table.
+  for [your gears](gear_file.md). The numbers of teeth, and so the final drive, are the table's.
 - What the file gives is **given**. What it leaves out is **inferred** where it follows from given
   fields, else **assumed**: the default in the tables below. `gearlube axle show` and the report of
   a sweep list what is inferred and assumed, with values, units and reasons.
@@ -86,10 +88,10 @@ torque of the mesh table, the sweep refuses before it builds anything; beyond th
 
 ## The FMU
 
-`gearlube build-fmu --axle my_axle.toml` builds native FMUs, with `--python` one that computes in
-this package. The FMU carries the file as `resources/axle.toml`, and a mesh table of its own as
-`resources/mesh_table.nc`; the path in the file has no meaning there. Its GUID depends on every byte
-of both. Start values of its parameters are the file's. An oil of the file's own is the literal
+`gearlube build-fmu --axle my_axle.toml` builds native [FMUs](fmu.md), with `--python` one that
+computes in this package. The FMU carries the file as `resources/axle.toml`, and a mesh table of its
+own as `resources/mesh_table.nc`; the path in the file has no meaning there. Its GUID depends on
+every byte of both. Start values of its parameters are the file's. An oil of the file's own is the literal
 `custom` of `oil.name`. `--mesh-table` does not go with `--axle`: the file names its table. A sweep
 keeps one such FMU in the cache for each content of file and table. The FMU has no car: vehicle,
 tyre, gearbox, engine and driveline of the file are those of the sweep.

@@ -9,6 +9,7 @@ from typing import Any
 from fmu_src.definition import Value
 from fmu_src.variables import HYPOID_AXLE, SHARED_PRELOAD
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.parameters import (
     HypoidAxleParameters,
     mohammadpour_2015_axle,
@@ -18,6 +19,7 @@ from gearlube_core.oil.lubricant import Lubricant
 
 CUSTOM_OIL = "custom"  # literal of oil.name where the axle file has an oil of its own
 _OILS = next(variable.literals for variable in HYPOID_AXLE if variable.argument == "oil")
+_VARIABLES = {variable.argument: variable for variable in HYPOID_AXLE if variable.argument}
 _OF_ONE_SHAFT = ("contact_angle", "f0", "f1")
 _ROLES = ("pinion", "gear")
 
@@ -70,8 +72,18 @@ def axle_parameters(
         `pinion_contact_angle`, `pinion_f0`, `pinion_f1`, `gear_contact_angle` and so on.
     base : HypoidAxleParameters, optional
         By default the paper's axle.
+
+    Raises
+    ------
+    ParameterError
+        A value out of the range of its variable, or an option or oil that does not exist.
     """
     base = base or mohammadpour_2015_axle()
+    for name, value in arguments.items():
+        variable = _VARIABLES.get(name)
+        if variable is not None and variable.type == "Real":
+            # the model itself allows other bearings than its FMU
+            check_within(variable.name, float(value), *variable.range, variable.unit)
     given: dict[str, Any] = start_arguments(base) | dict(arguments)
     oil = given.pop("oil")
     preload, gear_preload = given.pop("bearing_preload"), given.pop("gear_bearing_preload")

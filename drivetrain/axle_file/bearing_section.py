@@ -14,6 +14,8 @@ from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.errors import ParameterError
 
+LARGEST_PRELOAD = 1e5  # N
+
 Diameter = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
 RollerSize = Annotated[float, Field(ge=2.0, le=200.0, allow_inf_nan=False)]
 Rollers = Annotated[int, Field(ge=3, le=40)]
@@ -21,7 +23,7 @@ Stiffness = Annotated[float, Field(ge=1e6, le=1e14, allow_inf_nan=False)]
 Exponent = Annotated[float, Field(ge=1.0, le=2.0, allow_inf_nan=False)]
 Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
-Preload = Annotated[float, Field(ge=0.0, le=1e5, allow_inf_nan=False)]
+Preload = Annotated[float, Field(ge=0.0, le=LARGEST_PRELOAD, allow_inf_nan=False)]
 Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
 ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
 LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
@@ -117,6 +119,12 @@ class BearingSection(ModelSection):
         mm = 1e3
         pitch = 0.5 * (made.inner_race_diameter + made.outer_race_diameter)
         problems = []
+        preload = made.preload_force()
+        if preload > LARGEST_PRELOAD:
+            problems.append(
+                f"the preload must be within 0 to {LARGEST_PRELOAD:g} N, got {preload:.4g} N from "
+                "the interference; 10 um is common"
+            )
         room = pitch * math.sin(math.pi / made.n_rollers)
         if made.roller_diameter > room:
             most = math.floor(math.pi / math.asin(min(1.0, made.roller_diameter / pitch)))

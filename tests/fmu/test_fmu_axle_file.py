@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from fmpy import extract
 from typer.testing import CliRunner
 
@@ -39,6 +40,7 @@ from gearlube.studies.sweep.axle_in_fmu import (
     settings_of,
 )
 from gearlube.studies.sweep.point import run_point
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.kernels.flat_tuples import flatten
@@ -226,6 +228,18 @@ def test_a_sweep_point_takes_car_and_axle_from_the_fmu(folder: Path) -> None:
     road = made.driveline.road_load
     # the held speed swings by less than 0.1 % of it, and the load with it
     assert float(point["wheel_torque"]) == pytest.approx(road.ring_gear_torque(60 / 3.6), rel=2e-3)
+
+
+def test_a_point_of_the_shipped_file_is_that_of_the_plain_fmu(
+    axle_folder: Path, tmp_path: Path
+) -> None:
+    fmu = build_hypoid_axle(tmp_path, axle="mohammadpour_2015")
+    shipped = Path(extract(str(fmu), str(tmp_path / "shipped")))
+    settings = SweepSettings(settling_time=0.02, record_time=0.02, cage_turns=0.1)
+    assert settings_of(car_axle_of(shipped).axle) == SweepSettings()
+    plain, of_file = (run_point(one, 60.0, 2500.0, settings) for one in (axle_folder, shipped))
+    assert int(plain["status"]) == 1, str(plain["message"].values)
+    xr.testing.assert_identical(of_file, plain)
 
 
 def test_settings_of_a_sweep_start_from_the_file(axle_file: Path) -> None:

@@ -85,7 +85,7 @@ for name, old, new, changes in {edits}:
 
 
 def test_the_guid_follows_code_and_data_but_no_words(tmp_path: Path) -> None:
-    for package in ("fmu_src", "gearlube_core"):
+    for package in ("fmu_src", "drivetrain", "gearlube_core"):
         ignore = shutil.ignore_patterns("__pycache__", "*.png")
         shutil.copytree(ROOT / package, tmp_path / package, ignore=ignore)
     done = subprocess.run(

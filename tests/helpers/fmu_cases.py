@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from fmu_src import build, helical_pair, hypoid_axle
+from fmu_src.axle_arguments import axle_parameters
 from fmu_src.definition import Definition
 from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
@@ -16,6 +17,8 @@ from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helpers.axle_cases import axle_with
 from tests.helpers.helical_march_cases import march_of
 
+OF_BEARINGS = ("gear_bearing_preload", *(f"{role}_{name}" for role in ("pinion", "gear")
+               for name in ("contact_angle", "f0", "f1")))  # fmt: skip
 H = 2.0**-10  # s; exact in binary, so that t + h is exact too
 
 
@@ -99,6 +102,13 @@ def helical(gear_name: str = "he_2007", stiffness_model: str = "uniform", **sett
     return march_of(HelicalGearFile.named(gear_name), line_mesh=mesh, **settings)
 
 
+def hypoid(**settings: Any) -> Any:
+    """The paper's axle with changes; arguments that the FMU alone has come last."""
+    late = {n: settings.pop(n) for n in list(settings) if n.startswith(OF_BEARINGS)}
+    axle = axle_with(**settings)
+    return axle_parameters(late, axle) if late else axle
+
+
 def settings_of(definition: Definition) -> dict[str, str]:
     """Names of the parameters of a model, without its start speed."""
     return {n: a for n, a in definition.arguments.items() if a != "pinion_speed"}
@@ -109,7 +119,7 @@ HYPOID_AXLE = Case(
     build=build.build_hypoid_axle,
     snapshot="value_references.json",
     arguments=settings_of(hypoid_axle.DEFINITION),
-    parameters=axle_with,
+    parameters=hypoid,
     model=HypoidAxle,
     changed={"bearing.preload": 4000.0, "oil.name": 2, "pinion.speed_start": 150.0},
     reals={

@@ -214,6 +214,7 @@ def all_cases():
             (state, 64.0, 22.0, 60.0, OIL, table, lossless, zeros(START_WORK), zeros(5)),
         ),
         (mesh_force.modal_damping, (0.06, 5e8, 3.4)),
+        (mesh_force.equivalent_mass, (0.021, 2.77, 1.7e-3, 0.058)),
         (integrate.step_limit, (p, control, 145.0, 5e8)),
         (integrate.step_limit, (printed, control, 145.0, 5e8)),
         *(

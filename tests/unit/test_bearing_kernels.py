@@ -38,6 +38,8 @@ CASES = [
     (ninth_root.ninth_root_refined, (1.156, 1e-3)),
     (ninth_root.ninth_root, (3.7,)),
     (ninth_root.ninth_root_change, (0.01,)),
+    (roller_contact.contact_angle_terms, (0.26,)),
+    (roller_contact.contact_angle_terms, (0.0,)),
     (roller_contact.film_amplitude, (145.0, *OIL, P)),
     (roller_contact._squeezed_excess, (-1e-2,)),
     (roller_contact.roller_load_line, (8.0, 300.0, 0.7, 3e-5, 40.0, 3e-5, 0.0)),

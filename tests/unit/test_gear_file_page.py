@@ -28,7 +28,7 @@ def stored(script):
 
 @pytest.mark.parametrize("script", PAGES)
 def test_page_is_up_to_date(script):
-    """If not: python -m docs.gear_file, docs.helical_gear_file, docs.axle_file, docs.ehl_case_file."""
+    """If not: python -m docs.gear_file, or .helical_gear_file, .axle_file, .ehl_case_file."""
     assert script.page() == stored(script)
 
 

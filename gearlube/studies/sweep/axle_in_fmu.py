@@ -8,17 +8,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from drivetrain.axle_file.axle_file import CarAxle, read_axle
+from drivetrain.axle_file.axle_file import AxleFile, CarAxle, read_axle
 from drivetrain.axle_file.field_units import attribute_of
 from drivetrain.axle_file.model_section import InputNote
 from fmu_src.axle_arguments import start_arguments
-from fmu_src.hypoid_axle import AXLE_FILE, car_axle_in, check_one_table
+from fmu_src.hypoid_axle import AXLE_FILE, PAPER, car_axle_in, check_one_table
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
-from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, read_content
+from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, read_mesh_table
 from gearlube_core.units import kmh_to_ms
 
 logger = logging.getLogger(__name__)
@@ -58,7 +58,8 @@ def chosen_axle(
     if axle is not None:
         check_one_table(mesh_table)
         return read_axle(axle)
-    return car_axle_in({} if mesh_table is None else {FILE_IN_FMU: read_content(mesh_table)})
+    mesh = None if mesh_table is None else read_mesh_table(mesh_table)
+    return AxleFile.named(PAPER).car_axle(mesh)
 
 
 def given_preload(car_axle: CarAxle) -> tuple[float, ...]:

@@ -8,9 +8,12 @@ from typing import Annotated, NamedTuple
 from gearlube_core.bearings.bearing_type import ShaftBearings
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
-from gearlube_core.dynamics.scalars import Positive, Within
+from gearlube_core.dynamics.scalars import Within
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.oil.lubricant import LubricantParameters
+
+_INERTIA = Within(1e-6, 500.0, "kg m2", "1734 kg.mm2 is 1.734e-3 kg m2.")
+_MASS = Within(0.05, 2000.0, "kg", "12 000 g is 12 kg.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,17 +23,17 @@ class AxleScalars(MeshForceScalars):
     Parameters
     ----------
     pinion_inertia, gear_inertia : float
-        About the members' axes [kg m2].
+        About the members' axes [kg m2], 1e-6 to 500.
     pinion_mass, gear_mass : float
-        [kg]
+        [kg], 0.05 to 2000.
     backlash : float
         Total backlash 2b along the line of action [m], 0 to 2e-3.
     """
 
-    pinion_inertia: Annotated[float, Positive("kg m2")]
-    gear_inertia: Annotated[float, Positive("kg m2")]
-    pinion_mass: Annotated[float, Positive("kg")]
-    gear_mass: Annotated[float, Positive("kg")]
+    pinion_inertia: Annotated[float, _INERTIA]
+    gear_inertia: Annotated[float, _INERTIA]
+    pinion_mass: Annotated[float, _MASS]
+    gear_mass: Annotated[float, _MASS]
     backlash: Annotated[float, Within(0.0, 2e-3, "m", "150 um is 1.5e-4 m.")]
 
 
