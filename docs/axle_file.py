@@ -91,10 +91,10 @@ torque of the mesh table, the sweep refuses before it builds anything; beyond th
 `gearlube build-fmu --axle my_axle.toml` builds native [FMUs](fmu.md), with `--python` one that
 computes in this package. The FMU carries the file as `resources/axle.toml`, and a mesh table of its
 own as `resources/mesh_table.nc`; the path in the file has no meaning there. Its GUID depends on
-every byte of both. Start values of its parameters are the file's. An oil of the file's own is the literal
-`custom` of `oil.name`. `--mesh-table` does not go with `--axle`: the file names its table. A sweep
-keeps one such FMU in the cache for each content of file and table. The FMU has no car: vehicle,
-tyre, gearbox, engine and driveline of the file are those of the sweep.
+every byte of both. Start values of its parameters are the file's. An oil of the file's own is the
+literal `custom` of `oil.name`. `--mesh-table` does not go with `--axle`: the file names its table.
+A sweep keeps one such FMU in the cache for each content of file and table. The FMU has no car:
+vehicle, tyre, gearbox, engine and driveline of the file are those of the sweep.
 
 These inputs are parameters of the FMU and can be set at run time; all others are built in:
 

@@ -201,7 +201,8 @@ def test_the_preload_of_the_gears_shaft_is_the_pinions_when_below_zero(gear, exp
 @pytest.mark.slow  # half a minute of compilation
 def test_the_native_fmu_of_the_example_is_its_axle_in_python_over_20_ms() -> None:
     definition = definition_with_axle(EXAMPLE)
-    run = LoadedModel(native_model(definition)).instance({}, list(TORQUES.values()))
+    loaded = LoadedModel(native_model(definition))  # holds the machine code that the run enters
+    run = loaded.instance({}, list(TORQUES.values()))
     assert run(Operation.START) == DONE
     axle = in_python(EXAMPLE, 0, H)
     np.testing.assert_array_equal(
