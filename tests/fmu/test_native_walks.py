@@ -10,7 +10,7 @@ import pytest
 
 from fmu_src.native.models import native_model
 from tests.helpers.fmu_cases import CASES, Case
-from tests.helpers.native_library import NativeLibrary
+from tests.helpers.native_library import WARNING, NativeInstance, NativeLibrary
 from tests.helpers.native_walk import native_library, walk
 from tests.helpers.watching_library import COMPILER, watching_environment, watching_library
 
@@ -60,3 +60,30 @@ def test_no_call_leaves_its_memory_or_overflows(case: Case, version: int, tmp_pa
     )
     assert done.returncode == 0, (done.stdout + done.stderr)[-5000:]
     assert "steps 0" in done.stdout
+
+
+def _memory() -> int:
+    """Memory of this process [kB]."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/statm").is_file(), reason="memory is read as Linux has it")
+def test_instances_leave_no_memory_behind_and_do_not_disturb_each_other(
+    library: NativeLibrary,
+) -> None:
+    def made() -> NativeInstance:
+        instance = NativeInstance(library, logging=False)
+        assert max(instance.start(), instance.step(1e-3)) <= WARNING
+        return instance
+
+    for _ in range(200):  # what the C library keeps for itself
+        made().close()
+    before = _memory()
+    for _ in range(2000):
+        made().close()
+    assert _memory() - before < 200  # 0.1 kB each: a leak of one state would be 10 kB each
+    many = [made() for _ in range(2000)]
+    assert len({instance.get("mesh.dte") for instance in many}) == 1
+    for instance in many:
+        instance.close()
