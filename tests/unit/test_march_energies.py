@@ -12,6 +12,7 @@ from gearlube_core.dynamics.helical_pair.march import flank_wrench, outputs
 from gearlube_core.dynamics.helical_pair.march.constants import SupportConstants
 from gearlube_core.dynamics.helical_pair.march.flank_views import FlankConstants
 from gearlube_core.dynamics.helical_pair.march.given_pair import BEARING_FIELDS, N_BEARINGS
+from gearlube_core.dynamics.helical_pair.march.integrate import LOAD_FILTER_TIME
 from gearlube_core.dynamics.helical_pair.march.line_sums import LineSums
 from gearlube_core.dynamics.helical_pair.march.outputs import MOTION_OUTPUTS
 from gearlube_core.dynamics.helical_pair.march.state import (
@@ -174,6 +175,7 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
         "lubricant_state": lambda oil, temperature: (oil, temperature),
         "write_lines": write_lines,
         "write_ranges": lambda *given: calls.setdefault("ranges", given[:7]),
+        "write_event_indicators": lambda *given: None,
     }.items():
         monkeypatch.setattr(outputs, name, stand_in)
     s = STATE.copy()
@@ -185,6 +187,8 @@ def test_outputs_of_the_mesh_are_those_of_both_flanks(monkeypatch, on_drive, on_
 
     assert told["pinion.acceleration"] == rates[W_P]
     assert told["wheel.acceleration"] == rates[W_G]
+    assert told["der(pinion.speed)"] == rates[W_P]
+    assert told["der(mesh.load_torque)"] == pytest.approx((50.0 - 0.8) / LOAD_FILTER_TIME)
     assert told["mesh.load"] == on_drive - on_coast
     assert told["mesh.separated"] == (on_drive == on_coast == 0.0)
     assert told["mesh.coast_contact"] == (on_coast > 0.0)
