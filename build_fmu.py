@@ -7,11 +7,7 @@ import logging
 import sys
 from pathlib import Path
 
-from fmu_src.build import DEFINITIONS, MODELS, build_models
-from fmu_src.check import problems
-from fmu_src.documentation import update_page
-from fmu_src.native.build import FMI_VERSIONS, NativeOptions
-from fmu_src.native.platforms import PLATFORM_NAMES
+from fmu_src.native.build_target import compile_for_any_machine
 from gearlube_core.errors import GearLubeError
 
 _LOGGER = logging.getLogger("build_fmu")
@@ -20,10 +16,10 @@ _LOGGER = logging.getLogger("build_fmu")
 def main(arguments: list[str] | None = None) -> int:
     """Build, check if asked to, and return the exit status."""
     parser = argparse.ArgumentParser(
-        description="Build HypoidAxle.fmu and HelicalPair.fmu for co-simulation."
+        description="Build HypoidAxle.fmu, HelicalPair.fmu and Driveline.fmu."
     )
     parser.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="where to put them")
-    parser.add_argument("--model", choices=MODELS, help="build only this one")
+    parser.add_argument("--model", help="hypoid-axle, helical-pair or driveline; by default all")
     parser.add_argument(
         "--mesh-table", type=Path, metavar="FILE", help="mesh table (.nc) of another hypoid pair"
     )
@@ -44,6 +40,14 @@ def main(arguments: list[str] | None = None) -> int:
         "--page", type=Path, metavar="FILE", help="refresh the tables in docs/fmu.md"
     )
     options = parser.parse_args(arguments)
+    if not options.python:
+        compile_for_any_machine()
+    from fmu_src.build import DEFINITIONS, build_models
+    from fmu_src.check import problems
+    from fmu_src.documentation import update_page
+    from fmu_src.native.build import FMI_VERSIONS, NativeOptions
+    from fmu_src.native.platforms import PLATFORM_NAMES
+
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stderr)
     found: list[str] = []
     try:

@@ -59,6 +59,10 @@ def build_fmu(
     ] = False,
 ) -> None:
     """Build HypoidAxle.fmu, HelicalPair.fmu and Driveline.fmu; they need no Python."""
+    from fmu_src.native.build_target import compile_for_any_machine
+
+    if not python:
+        compile_for_any_machine()
     from fmu_src.build import build_models
     from fmu_src.native.build import FMI_VERSIONS, NativeOptions
     from fmu_src.native.platforms import PLATFORM_NAMES
