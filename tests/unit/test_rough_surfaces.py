@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube_core.ehl.gap.measured_heights import (
+from gearlube_core.surface.measured_heights import (
     MeasuredMap,
     MeasuredProfile,
     read_map,

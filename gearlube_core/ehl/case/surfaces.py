@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gearlube_core.ehl.gap.measured_heights import (
+from gearlube_core.surface.measured_heights import (
     MeasuredMap,
     MeasuredProfile,
     read_map,
