@@ -1,0 +1,93 @@
+"""Johnson's distributions: heights of any skewness and kurtosis from normal ones [johnson_1949]."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from scipy.optimize import brentq, least_squares
+from scipy.special import expit, ndtri
+
+from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
+
+# of normal heights and their shares, for moments: the rule of even steps is exact to rounding
+_NORMAL = np.linspace(-10.0, 10.0, 801)
+_SHARES = np.exp(-0.5 * _NORMAL**2) / np.exp(-0.5 * _NORMAL**2).sum()
+_BOUNDS = ([-12.0, 1e-4], [12.0, 20.0])  # shift, scale
+_STARTS = ((0.3, 0.3), (2.0, 0.7), (0.5, 2.0), (4.0, 1.0), (1.0, 6.0))
+_SOLVED = 1e-4  # near the normal distribution the moments hardly change with the scale
+
+
+def check_moments(skewness: float, kurtosis: float) -> None:
+    """Refuse a kurtosis that no distribution with this skewness has.
+
+    kurtosis >= skewness^2 + 1 [johnson_1949]; only two heights reach the bound itself.
+    """
+    lowest = skewness**2 + 1.0
+    if not kurtosis > lowest:
+        raise ParameterError(
+            f"kurtosis must be above skewness^2 + 1 = {lowest:.4g}, got {kurtosis:g}. No "
+            "distribution of heights has less. Normally distributed ones have 3."
+        )
+
+
+def normal_scores(count: int) -> Array:
+    """Return the heights (count,) [-] of a standard normal distribution at even shares."""
+    return np.asarray(ndtri((np.arange(count) + 0.5) / count))
+
+
+def lognormal_kurtosis(skewness: float) -> float:
+    """Return the kurtosis [-] of the lognormal distribution with a skewness.
+
+    It parts the unbounded distributions (above) from the bounded ones (below) [johnson_1949].
+    """
+    square = skewness**2
+    w = 1.0
+    if square > 0.0:
+        w = brentq(lambda w: (w + 2.0) ** 2 * (w - 1.0) - square, 1.0, 1.0 + square)
+    return w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0
+
+
+def johnson_transform(skewness: float, kurtosis: float) -> Callable[[Array], Array]:
+    """Return a rising function of normal heights with these moments; its scale is free.
+
+    Unbounded: sinh((g - gamma)/delta), bounded: 1/(1 + exp(-(g - gamma)/delta)) [johnson_1949].
+
+    Parameters
+    ----------
+    skewness, kurtosis
+        [-]. Near the lowest kurtosis the bounded distribution has two peaks.
+
+    Raises
+    ------
+    ParameterError
+        No distribution has these moments, or none is found.
+    """
+    check_moments(skewness, kurtosis)
+    lean = abs(skewness)
+    shape = np.sinh if kurtosis > lognormal_kurtosis(lean) else expit
+    side = 1.0 if shape is np.sinh else -1.0
+
+    def error(at: Array) -> list[float]:
+        got = _moments(shape(at[0] + at[1] * _NORMAL))
+        return [got[0] - lean, (got[1] - kurtosis) / kurtosis]
+
+    for shift, scale in _STARTS:
+        found = least_squares(error, [side * shift, scale], bounds=_BOUNDS, xtol=1e-12, ftol=1e-12)
+        if np.abs(found.fun).max() < _SOLVED:
+            first, factor = (float(one) for one in found.x)
+            sign = math.copysign(1.0, skewness)
+            return lambda normal: np.asarray(sign * shape(first + sign * factor * normal))
+    raise ParameterError(
+        f"No distribution of heights was found for skewness {skewness:.4g} and kurtosis "
+        f"{kurtosis:.4g}. Take a kurtosis farther from skewness^2 + 1 = {skewness**2 + 1.0:.4g}, "
+        "or a smaller skewness."
+    )
+
+
+def _moments(values: Array) -> tuple[float, float]:
+    deviation = values - _SHARES @ values
+    deviation = deviation / math.sqrt(_SHARES @ deviation**2)
+    return float(_SHARES @ deviation**3), float(_SHARES @ deviation**4)
