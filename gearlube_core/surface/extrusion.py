@@ -85,9 +85,7 @@ class Lay:
         return math.atan(share) if self.measured == "along_x" else math.asin(share)
 
     @classmethod
-    def nearest(
-        cls, period: float, width: float, angle: float, measured: str = "along_x"
-    ) -> Lay:
+    def nearest(cls, period: float, width: float, angle: float, measured: str = "along_x") -> Lay:
         """Return the lay that closes with the angle nearest to `angle` [rad]."""
         base = cls(period=period, width=width, turns=0, measured=measured)
         slope = math.tan(angle) if measured == "along_x" else math.sin(angle)
@@ -99,9 +97,7 @@ class Lay:
         return min(near or [base], key=lambda one: abs(one.angle - angle))
 
     @classmethod
-    def closing(
-        cls, period: float, width: float, angle: float, measured: str = "along_x"
-    ) -> Lay:
+    def closing(cls, period: float, width: float, angle: float, measured: str = "along_x") -> Lay:
         """Return the lay of an angle [rad] that closes within 1e-6 rad.
 
         Raises
@@ -200,11 +196,15 @@ class ExtrudedProfile:
         Raises
         ------
         ParameterError
-            The length is no multiple of the period along x.
+            The length is no multiple of the period along x, or the points are too few for the waves.
         """
         check_divides("length", length, self.period_x)
         dx, dy = length / counts[0], self.lay.width / counts[1]
-        x, y = dx * np.arange(counts[0]), dy * np.arange(counts[1])
+        x, y = (
+            dx * np.arange(counts[0], dtype=np.float64),
+            dy * np.arange(counts[1], dtype=np.float64),
+        )
+        self.check_serves(x, y)
         return HeightMap(
             height=self(x[:, None], y[None, :]),
             spacing=(dx, dy),

@@ -97,9 +97,7 @@ def generated_profile(
     """
     shape, spacing = (_checked_count(count), 1), (period / count, math.inf)
     height, statistics, band, notes = _generated(request, shape, spacing, random)
-    made = Profile(
-        height=height[:, 0], spacing=spacing[0], periodic=True, name="generated profile"
-    )
+    made = Profile(height=height[:, 0], spacing=spacing[0], periodic=True, name="generated profile")
     check_plausible(made)
     return Generated(surface=made, statistics=statistics, band=band, notes=notes)
 

@@ -86,7 +86,7 @@ def wave_amplitudes(
             return np.sqrt(power), got
         # a length that is not reached inside the period is far too long
         parameters = parameters * np.clip(ratio, 0.5, 2.0)
-        if not (1e-6 < (parameters / asked)).all() or not ((parameters / asked) < 1e6).all():
+        if not ((parameters / asked) > 1e-6).all() or not ((parameters / asked) < 1e6).all():
             break
     wish, met = (
         " and ".join(f"{one / MICROMETRE:.4g}" for one in lengths) for lengths in (asked, got)

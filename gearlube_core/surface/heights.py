@@ -63,7 +63,7 @@ class Profile:
     @property
     def x(self) -> Array:
         """Places (n,) [m]."""
-        return self.spacing * np.arange(self.height.size)
+        return self.spacing * np.arange(self.height.size, dtype=np.float64)
 
     @property
     def length(self) -> float:
@@ -110,12 +110,12 @@ class HeightMap:
     @property
     def x(self) -> Array:
         """Places (nx,) [m]."""
-        return self.spacing[0] * np.arange(self.height.shape[0])
+        return self.spacing[0] * np.arange(self.height.shape[0], dtype=np.float64)
 
     @property
     def y(self) -> Array:
         """Places (ny,) [m]."""
-        return self.spacing[1] * np.arange(self.height.shape[1])
+        return self.spacing[1] * np.arange(self.height.shape[1], dtype=np.float64)
 
     @property
     def lengths(self) -> tuple[float, float]:

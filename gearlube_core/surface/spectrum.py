@@ -116,7 +116,7 @@ def _spectrum(sections: Array, spacing: float, *, tapered: bool) -> Spectrum:
     power = np.mean(np.abs(waves) ** 2, axis=1) * spacing / count
     both = slice(1, -1) if count % 2 == 0 else slice(1, None)
     power[both] *= 2.0  # each with its negative frequency
-    return Spectrum(np.fft.rfftfreq(count, spacing), power)
+    return Spectrum(np.asarray(np.fft.rfftfreq(count, spacing)), np.asarray(power))
 
 
 def _autocorrelation(height: Array, periodic: tuple[bool, bool]) -> Array:

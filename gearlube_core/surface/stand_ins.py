@@ -1,13 +1,13 @@
 """Stand-ins for the measured profiles of [jamali_2015 7.6, 7.9], which are not published.
 
-What is published: a profile of a ground disc, 4 mm long with Ra 0.31 um, from which parts of 149 and
-100 um (cases A and B, from two places) and 114 and 131 um (case C, from one place) are repeated; the
+What is published: a profile of a disc, 4 mm long with Ra 0.31 um, from which parts of 149 and 100 um
+(cases A and B, from two places) and 114 and 131 um (case C, from one place) are repeated; the
 spacing is a/200. Everything else is assumed here: skewness, kurtosis, correlation length, band.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,8 +28,9 @@ _PARTS = {
     "B": ((149e-6, 2.0e-3), (100e-6, 3.0e-3)),
     "C": ((114e-6, 0.5e-3), (131e-6, 0.5e-3)),
 }
+_MEAN = 0.31e-6  # m, Ra
 _REQUEST = RoughnessRequest(
-    arithmetic_mean=0.31e-6,  # m
+    arithmetic_mean=_MEAN,
     correlation_length=8e-6,  # m, assumed
     skewness=-0.7,  # assumed: run in, more valleys than peaks
     kurtosis=4.0,  # assumed
@@ -69,7 +70,7 @@ class StandIn:
         return fast, slow
 
 
-def stand_in(case: str, seed: int = SEEDS[0]) -> StandIn:
+def stand_in(case: str, seed: int = SEEDS[0], *, same_mean: bool = False) -> StandIn:
     """Return stand-ins for the two profiles of a case.
 
     The long profile has Ra 0.31 um; its short parts scatter about that, as those of a measured
@@ -82,6 +83,8 @@ def stand_in(case: str, seed: int = SEEDS[0]) -> StandIn:
         teeth cannot have: there the faster surface has the larger angle.
     seed
         Whole number from 0; 1 to 5 are the five that results are given for.
+    same_mean
+        Scale each part to Ra 0.31 um too.
 
     Raises
     ------
@@ -93,7 +96,12 @@ def stand_in(case: str, seed: int = SEEDS[0]) -> StandIn:
         raise ParameterError(f"seed must be a whole number from 0 on, got {seed!r}.")
     count = round(_LENGTH / _SPACING)
     full = generated_profile(_REQUEST, _LENGTH, count, np.random.default_rng(seed))
-    fast, slow = (
-        periodic_section(full.surface, start, length) for length, start in _PARTS[case]
-    )
+    fast, slow = (periodic_section(full.surface, start, length) for length, start in _PARTS[case])
+    if same_mean:
+        fast, slow = _scaled(fast), _scaled(slow)
     return StandIn(case=case, seed=seed, full=full, fast=fast, slow=slow)
+
+
+def _scaled(part: Profile) -> Profile:
+    factor = _MEAN / float(np.abs(part.height).mean())
+    return replace(part, height=factor * part.height)
