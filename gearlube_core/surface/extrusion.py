@@ -196,7 +196,8 @@ class ExtrudedProfile:
         Raises
         ------
         ParameterError
-            The length is no multiple of the period along x, or the points are too few for the waves.
+            The length is no multiple of the period along x, or there are too few points for the
+            waves.
         """
         check_divides("length", length, self.period_x)
         dx, dy = length / counts[0], self.lay.width / counts[1]

@@ -16,6 +16,7 @@ from gearlube_core.surface.heights import MICROMETRE, Profile, S, Surface
 
 ALPHA = math.sqrt(math.log(2.0) / math.pi)  # half of the amplitude passes at the cut-off
 ENDS = ("regression", "cut")
+_ROUNDING = 1e-6  # of a spacing
 _REACH = 1.0  # cut-offs to each side; beyond, the weights are below 1e-6 of the largest
 
 
@@ -177,6 +178,6 @@ def _regression(height: Array, spacing: float, cutoff: float) -> Array:
 def _cut(surface: S, dropped: float) -> S:
     height = surface.height
     for axis, (spacing, periodic, _) in enumerate(_sides(surface)):
-        points = 0 if periodic else math.ceil(dropped / spacing)
+        points = 0 if periodic else math.ceil(dropped / spacing - _ROUNDING)
         height = height.take(range(points, height.shape[axis] - points), axis=axis)
     return replace(surface, height=height)

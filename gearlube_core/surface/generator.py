@@ -21,7 +21,7 @@ from gearlube_core.surface.heights import HeightMap, Profile, S, check_plausible
 from gearlube_core.surface.johnson_1949 import johnson_transform, normal_scores
 from gearlube_core.surface.statistics import skewness_kurtosis
 
-_MOMENT_STEPS = 200
+_MOMENT_STEPS, _GAIN = 200, 0.5
 _SKEWNESS_MET, _KURTOSIS_MET = 1e-3, 1e-3  # kurtosis: of its value
 _REFUSED = 20.0  # times these
 
@@ -198,17 +198,18 @@ def _with_moments(
     met = np.array([_SKEWNESS_MET, _KURTOSIS_MET * request.kurtosis])
     height = _in_spectrum(random.standard_normal(shape), amplitude, shape)
     scores, target = normal_scores(height.size), asked.copy()
-    best, nearest = height, math.inf
-    for _ in range(_MOMENT_STEPS):
+    best, nearest, transform = height, math.inf, None
+    for step in range(_MOMENT_STEPS):
         got = np.array(skewness_kurtosis(height))
         error = float(np.abs((asked - got) / met).max())
         if error < nearest:
             best, nearest = height, error
         if nearest <= 1.0:
             return best
-        target = _possible(target + 0.5 * (asked - got))
+        if step > 0:  # before, nothing was lost to the spectrum
+            target = _possible(target + _GAIN * (asked - got))
         try:
-            transform = johnson_transform(*target)
+            transform = johnson_transform(float(target[0]), float(target[1]), transform)
         except ParameterError:
             break  # the spectrum pulls the heights to what no distribution has
         ranked = np.empty(height.size)

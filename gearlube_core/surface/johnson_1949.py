@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq, least_squares
@@ -13,9 +13,10 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 
 # of normal heights and their shares, for moments: the rule of even steps is exact to rounding
-_NORMAL = np.linspace(-10.0, 10.0, 801)
+_NORMAL = np.linspace(-10.0, 10.0, 401)
 _SHARES = np.exp(-0.5 * _NORMAL**2) / np.exp(-0.5 * _NORMAL**2).sum()
 _BOUNDS = ([-12.0, 1e-4], [12.0, 20.0])  # shift, scale
+_STOP = 1e-8
 _STARTS = ((0.3, 0.3), (2.0, 0.7), (0.5, 2.0), (4.0, 1.0), (1.0, 6.0))
 _SOLVED = 1e-4  # near the normal distribution the moments hardly change with the scale
 
@@ -50,15 +51,44 @@ def lognormal_kurtosis(skewness: float) -> float:
     return w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0
 
 
-def johnson_transform(skewness: float, kurtosis: float) -> Callable[[Array], Array]:
-    """Return a rising function of normal heights with these moments; its scale is free.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JohnsonTransform:
+    """A rising function of normal heights; its scale is free.
 
     Unbounded: sinh((g - gamma)/delta), bounded: 1/(1 + exp(-(g - gamma)/delta)) [johnson_1949].
 
     Parameters
     ----------
+    bounded
+        Which of the two.
+    shift, scale
+        -gamma/delta, 1/delta [-] for a skewness of zero or above.
+    sign
+        -1: turned round, for one below zero.
+    """
+
+    bounded: bool
+    shift: float
+    scale: float
+    sign: float
+
+    def __call__(self, normal: Array) -> Array:
+        """Return the heights [-] of normal ones [-]."""
+        shape = expit if self.bounded else np.sinh
+        return np.asarray(self.sign * shape(self.shift + self.sign * self.scale * normal))
+
+
+def johnson_transform(
+    skewness: float, kurtosis: float, near: JohnsonTransform | None = None
+) -> JohnsonTransform:
+    """Return the function that gives normal heights these moments.
+
+    Parameters
+    ----------
     skewness, kurtosis
         [-]. Near the lowest kurtosis the bounded distribution has two peaks.
+    near
+        One with moments nearby, from which the search starts.
 
     Raises
     ------
@@ -67,19 +97,22 @@ def johnson_transform(skewness: float, kurtosis: float) -> Callable[[Array], Arr
     """
     check_moments(skewness, kurtosis)
     lean = abs(skewness)
-    shape = np.sinh if kurtosis > lognormal_kurtosis(lean) else expit
-    side = 1.0 if shape is np.sinh else -1.0
+    bounded = kurtosis <= lognormal_kurtosis(lean)
+    shape, side = (expit, -1.0) if bounded else (np.sinh, 1.0)
 
     def error(at: Array) -> list[float]:
         got = _moments(shape(at[0] + at[1] * _NORMAL))
         return [got[0] - lean, (got[1] - kurtosis) / kurtosis]
 
-    for shift, scale in _STARTS:
-        found = least_squares(error, [side * shift, scale], bounds=_BOUNDS, xtol=1e-12, ftol=1e-12)
+    starts = [(side * shift, scale) for shift, scale in _STARTS]
+    if near is not None and near.bounded == bounded:
+        starts.insert(0, (near.shift, near.scale))
+    for start in starts:
+        found = least_squares(error, start, bounds=_BOUNDS, xtol=_STOP, ftol=_STOP)
         if np.abs(found.fun).max() < _SOLVED:
-            first, factor = (float(one) for one in found.x)
+            shift, scale = (float(one) for one in found.x)
             sign = math.copysign(1.0, skewness)
-            return lambda normal: np.asarray(sign * shape(first + sign * factor * normal))
+            return JohnsonTransform(bounded=bounded, shift=shift, scale=scale, sign=sign)
     raise ParameterError(
         f"No distribution of heights was found for skewness {skewness:.4g} and kurtosis "
         f"{kurtosis:.4g}. Take a kurtosis farther from skewness^2 + 1 = {skewness**2 + 1.0:.4g}, "

@@ -1,8 +1,9 @@
 """Stand-ins for the measured profiles of [jamali_2015 7.6, 7.9], which are not published.
 
-What is published: a profile of a disc, 4 mm long with Ra 0.31 um, from which parts of 149 and 100 um
-(cases A and B, from two places) and 114 and 131 um (case C, from one place) are repeated; the
-spacing is a/200. Everything else is assumed here: skewness, kurtosis, correlation length, band.
+What is published: a profile of a disc, 4 mm long with Ra 0.31 um, from which parts of 149 and
+100 um (cases A and B, from two places) and of 114 and 131 um (case C, from one place) are
+repeated; the spacing is a/200. All else is assumed here: skewness, kurtosis, correlation length
+and band.
 """
 
 from __future__ import annotations

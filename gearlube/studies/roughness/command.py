@@ -71,9 +71,9 @@ def read(
         from gearlube_core.surface.heights import check_plausible
         from gearlube_core.surface.levelling import levelled
 
-        surface: Any = levelled(read_surface(file), level)
+        read_in: Any = read_surface(file)
         surface = filtered(
-            surface,
+            levelled(read_in, level),
             cutoff_long=_metres("--cutoff-long-um", cutoff_long_um),
             cutoff_short=_metres("--cutoff-short-um", cutoff_short_um),
             ends=ends,

@@ -20,6 +20,7 @@ from gearlube_core.surface.spectrum import (
 from gearlube_core.surface.statistics import map_statistics, profile_statistics
 
 _LENGTHS_SHOWN = 8.0  # correlation lengths
+_MOST_BINS = 50
 
 
 def surface_figure(surface: Surface) -> Any:
@@ -82,13 +83,14 @@ def _map(ax: Any, surface: HeightMap) -> None:
 
 def _distribution(ax: Any, height: Array) -> None:
     values = 1e6 * (height - height.mean()).ravel()
-    ax.hist(values, bins=50, density=True, color=BLUE, alpha=0.6, label="heights")
+    bins = int(np.clip(np.sqrt(values.size), 10, _MOST_BINS))
+    ax.hist(values, bins=bins, density=True, color=BLUE, alpha=0.6, label="heights")
     rms = values.std()
     x = np.linspace(values.min(), values.max(), 201)
     normal = np.exp(-0.5 * (x / rms) ** 2) / (rms * np.sqrt(2.0 * np.pi))
     ax.plot(x, normal, color=VERMILLION, lw=1.2, label="normal")
-    ax.set(xlabel="height [µm]", ylabel="share [1/µm]")
-    ax.legend()
+    ax.set(xlabel="height [µm]", ylabel="share [1/µm]", ylim=(0.0, 1.3 * ax.get_ylim()[1]))
+    ax.legend(ncols=2, loc="upper center")
 
 
 def _correlation(ax: Any, curves: dict[str, Array], steps: dict[str, float], reach: float) -> None:
@@ -103,6 +105,8 @@ def _correlation(ax: Any, curves: dict[str, Array], steps: dict[str, float], rea
 
 
 def _spectrum(ax: Any, spectra: dict[str, Spectrum]) -> None:
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
     for (name, one), colour in zip(spectra.items(), (BLUE, GREEN), strict=False):
         # below, there is rounding and no surface
         drawn = one.density > 1e-12 * one.density.max()
@@ -111,4 +115,8 @@ def _spectrum(ax: Any, spectra: dict[str, Spectrum]) -> None:
             1e6 / one.frequency[drawn], 1e18 * one.density[drawn], color=colour, lw=1.0, label=name
         )
     ax.set(xlabel="wavelength [µm]", ylabel="spectral density [µm³]")
+    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=12))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.tick_params(axis="x", labelsize=7.5)
     ax.invert_xaxis()
