@@ -74,7 +74,7 @@ def wave_amplitudes(
         check_fits(f"correlation_length{name}", length, reach)
     density, inside = _spectral_shape(request.autocorrelation, lay, shape, spacing, band)
     parameters = np.array(asked)
-    got: list[float] = []
+    best: tuple[float, list[float]] = (math.inf, [math.nan for _ in asked])
     for _ in range(_LENGTH_STEPS):
         power = np.where(inside, density(parameters), 0.0)
         correlation = np.fft.irfft2(power, shape)
@@ -82,19 +82,21 @@ def wave_amplitudes(
         steps = (spacing[0], spacing[1] if not lone else 1.0)
         got = [directional_length(correlation, steps, one, level) for one in directions]
         ratio = np.array(asked) / np.where(np.isfinite(got), got, np.inf)
-        if np.abs(ratio - 1.0).max() < _LENGTH_MET:
+        error = float(np.abs(ratio - 1.0).max())
+        best = min(best, (error, got))
+        if error < _LENGTH_MET:
             return np.sqrt(power), got
         # a length that is not reached inside the period is far too long
         parameters = parameters * np.clip(ratio, 0.5, 2.0)
         if not ((parameters / asked) > 1e-6).all() or not ((parameters / asked) < 1e6).all():
             break
     wish, met = (
-        " and ".join(f"{one / MICROMETRE:.4g}" for one in lengths) for lengths in (asked, got)
+        " and ".join(f"{one / MICROMETRE:.4g}" for one in lengths) for lengths in (asked, best[1])
     )
     raise ParameterError(
         f"correlation_length must be one that waves of {band[0] / MICROMETRE:.4g} to "
-        f"{band[1] / MICROMETRE:.4g} um can have, got {wish} um; {met} um is the nearest. "
-        "Widen the band, or ask for that."
+        f"{band[1] / MICROMETRE:.4g} um can have, got {wish} um; the nearest found is {met} um. "
+        "Ask for that, widen the band, lengthen the period or take the other autocorrelation."
     )
 
 

@@ -108,6 +108,13 @@ def make(
     longest_um: Annotated[
         float | None, typer.Option(help="Longest wave [um]. Default: the period.", metavar="UM")
     ] = None,
+    autocorrelation: Annotated[
+        str,
+        typer.Option(
+            help="Shape before the band is cut; gaussian has less short waves.",
+            metavar="exponential|gaussian",
+        ),
+    ] = "exponential",
     period_mm: Annotated[float, typer.Option(help="Period along x [mm].")] = 1.0,
     width_mm: Annotated[
         float | None,
@@ -144,6 +151,7 @@ def make(
             kurtosis=check_finite("--kurtosis", kurtosis),
             shortest_wave=_metres("--shortest-um", shortest_um),
             longest_wave=_metres("--longest-um", longest_um),
+            autocorrelation=autocorrelation,
         )
         period = check_positive("--period-mm", period_mm, "mm") * MILLIMETRE
         random = np.random.default_rng(seed)
