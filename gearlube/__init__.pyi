@@ -62,12 +62,12 @@ from gearlube_core.ehl.point.settings import PointSolverSettings as PointSolverS
 from gearlube_core.ehl.point.solver import solve_point_contact as solve_point_contact
 
 # -- Rough surfaces
-from gearlube_core.surface.heights import Profile as Profile
+from gearlube_core.surface.heights import Profile as SurfaceProfile
 from gearlube_core.surface.heights import HeightMap as HeightMap
 from gearlube_core.surface.files import read_surface as read_surface
 from gearlube_core.surface.files import write_surface as write_surface
-from gearlube_core.surface.levelling import levelled as levelled
-from gearlube_core.surface.gaussian_filter import filtered as filtered
+from gearlube_core.surface.levelling import levelled as levelled_surface
+from gearlube_core.surface.gaussian_filter import filtered as filtered_surface
 from gearlube_core.surface.statistics import profile_statistics as profile_statistics
 from gearlube_core.surface.statistics import map_statistics as map_statistics
 from gearlube_core.surface.generator_request import RoughnessRequest as RoughnessRequest

@@ -137,6 +137,15 @@ class ExtrudedProfile:
     ParameterError
         The profile is not periodic, does not meet at its ends, is too steep, or the periods
         differ.
+
+    Examples
+    --------
+    >>> wave = 1e-7 * np.sin(0.02 * math.pi * np.arange(100))
+    >>> profile = Profile(height=wave, spacing=1e-6, periodic=True)
+    >>> lay = Lay(period=profile.length, width=1e-3, turns=1)
+    >>> drawn = ExtrudedProfile(profile=profile, lay=lay)
+    >>> round(1e9 * float(drawn(np.array(2.5e-5), np.array(1e-3))), 6)
+    100.0
     """
 
     profile: Profile
@@ -258,6 +267,13 @@ def periodic_section(
     ------
     ParameterError
         The profile does not reach so far, or no cut closes.
+
+    Examples
+    --------
+    >>> height = 1e-7 * np.random.default_rng(1).standard_normal(400)
+    >>> part = periodic_section(Profile(height=height, spacing=1e-6), 1e-4, 1.5e-4)
+    >>> part.periodic, part.height.size
+    (True, 150)
     """
     spacing, height = profile.spacing, profile.height
     count = round(length / spacing)

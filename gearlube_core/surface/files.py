@@ -30,6 +30,14 @@ def read_surface(path: str | Path) -> Surface:
     ParameterError
         The file is missing, damaged or of another kind, a point was not measured, or the package
         that reads it is not installed.
+
+    Examples
+    --------
+    >>> try:
+    ...     read_surface("disc.xyz")
+    ... except ParameterError as error:
+    ...     print(str(error)[:60])
+    A surface must be a file that ends in one of .csv, .npz, .nc
     """
     where = Path(path)
     kind = where.suffix.lower()
@@ -54,6 +62,15 @@ def write_surface(surface: Surface, path: str | Path) -> None:
     ------
     ParameterError
         The name ends in something else.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> profile = Profile(height=1e-7 * np.sin(np.arange(50.0)), spacing=1e-6)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_surface(profile, Path(folder) / "profile.csv")
+    ...     read_surface(Path(folder) / "profile.csv").height.size
+    50
     """
     where = Path(path)
     kind = ".csv" if isinstance(surface, Profile) else ".npz"

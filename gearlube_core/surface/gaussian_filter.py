@@ -87,6 +87,14 @@ def filtered(
     ParameterError
         The long cut-off does not exceed the short one, is longer than half the surface, or the
         short one is below two spacings.
+
+    Examples
+    --------
+    >>> x = 1e-6 * np.arange(200.0)
+    >>> wave = Profile(height=1e-7 * np.cos(2e4 * math.pi * x), spacing=1e-6, periodic=True)
+    >>> kept = filtered(wave, cutoff_long=1e-4)  # half of a wave of the cut-off
+    >>> round(1e9 * float(kept.roughness.height[0]), 6)
+    50.0
     """
     check_option("ends", ends, ENDS)
     _check_cutoffs(surface, cutoff_long, cutoff_short)

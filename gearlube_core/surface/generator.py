@@ -125,6 +125,15 @@ def generated_map(
     ------
     ParameterError
         As for a profile.
+
+    Examples
+    --------
+    >>> asked = RoughnessRequest(
+    ...     root_mean_square=2e-7, correlation_length=8e-6, correlation_length_along=2e-5
+    ... )
+    >>> made = generated_map(asked, (1e-4, 1e-4), (64, 64), np.random.default_rng(1))
+    >>> round(1e6 * float(made.surface.height.std()), 6)
+    0.2
     """
     shape = (_checked_count(counts[0]), _checked_count(counts[1]))
     spacing = (periods[0] / counts[0], periods[1] / counts[1])

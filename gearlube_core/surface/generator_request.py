@@ -46,6 +46,11 @@ class RoughnessRequest:
     ParameterError
         A number out of its range, both or no height, no distribution with these moments, or a
         band too long for the correlation length.
+
+    Examples
+    --------
+    >>> RoughnessRequest(root_mean_square=4e-7, correlation_length=8e-6).kurtosis
+    3.0
     """
 
     correlation_length: float

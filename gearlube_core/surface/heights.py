@@ -47,7 +47,7 @@ class Profile:
     Examples
     --------
     >>> import numpy as np
-    >>> Profile(height=np.zeros(100), spacing=1e-6, periodic=True).length
+    >>> round(Profile(height=np.zeros(100), spacing=1e-6, periodic=True).length, 9)
     0.0001
     """
 
@@ -95,6 +95,12 @@ class HeightMap:
     ParameterError
         A height is not finite, there are fewer than four along a side, or a spacing is out of
         its range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> round(float(HeightMap(height=np.zeros((5, 9)), spacing=(1e-6, 2e-6)).y[-1]), 9)
+    1.6e-05
     """
 
     height: Array

@@ -29,6 +29,12 @@ def levelled(surface: S, degree: int = 1) -> S:
     ------
     ParameterError
         The degree is no whole number from 0 to 8, or there are too few points for it.
+
+    Examples
+    --------
+    >>> slope = Profile(height=1e-8 * np.arange(50.0), spacing=1e-6)
+    >>> bool(abs(levelled(slope).height).max() < 1e-18)
+    True
     """
     if isinstance(degree, bool) or degree not in range(_HIGHEST + 1):
         raise ParameterError(

@@ -54,6 +54,13 @@ def peaks_cut(surface: S, height: float) -> RunIn[S]:
     ------
     ParameterError
         More than half of the points would be cut.
+
+    Examples
+    --------
+    >>> from gearlube_core.surface.heights import Profile
+    >>> profile = Profile(height=1e-7 * np.sin(np.arange(500.0)), spacing=1e-5)
+    >>> round(peaks_cut(profile, 0.5e-7).share, 2)  # a third of a sine
+    0.33
     """
     check_finite("height", height, "m")
     deviation = surface.height - surface.height.mean()

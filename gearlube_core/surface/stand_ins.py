@@ -91,6 +91,11 @@ def stand_in(case: str, seed: int = SEEDS[0], *, same_mean: bool = False) -> Sta
     ------
     ParameterError
         Another case, or a seed that is no whole number from 0.
+
+    Examples
+    --------
+    >>> [round(lay.angle * 180.0 / np.pi, 3) for lay in stand_in("A").lays]
+    [8.475, 5.711]
     """
     check_option("case", case, CASES)
     if isinstance(seed, bool) or seed != int(seed) or seed < 0:

@@ -126,6 +126,13 @@ def profile_statistics(profile: Profile) -> ProfileStatistics:
     ------
     ParameterError
         The profile is flat.
+
+    Examples
+    --------
+    >>> x = 1e-6 * np.arange(200.0)
+    >>> wave = Profile(height=1e-7 * np.sin(2e4 * math.pi * x), spacing=1e-6, periodic=True)
+    >>> round(1e9 * profile_statistics(wave).Ra, 1)  # 2/pi of the amplitude
+    63.6
     """
     height = profile.height - profile.height.mean()
     rq = _rms(profile, height)
@@ -159,6 +166,14 @@ def map_statistics(surface: HeightMap) -> MapStatistics:
     ------
     ParameterError
         The map is flat.
+
+    Examples
+    --------
+    >>> wave = 1e-7 * np.sin(0.02 * math.pi * np.arange(100))
+    >>> height = wave[:, None] * np.ones(100)
+    >>> crests = HeightMap(height=height, spacing=(1e-6, 1e-6), periodic=(True, True))
+    >>> round(map_statistics(crests).Sku, 6), map_statistics(crests).Str  # crests have no end
+    (1.5, 0.0)
     """
     height = surface.height - surface.height.mean()
     sq = _rms(surface, height)
