@@ -85,8 +85,8 @@ def filtered(
     Raises
     ------
     ParameterError
-        The long cut-off does not exceed the short one, is longer than half the surface, or the
-        short one is below two spacings.
+        The long cut-off does not exceed the short one, one is longer than half the surface
+        along an open side, or the short one is below two spacings.
 
     Examples
     --------
@@ -128,12 +128,13 @@ def _check_cutoffs(surface: Surface, long: float | None, short: float | None) ->
         if cutoff is not None:
             check_positive(name, cutoff, "m")
     for spacing, periodic, length in _sides(surface):
-        if long is not None and not periodic and long > 0.5 * length:
-            raise ParameterError(
-                f"cutoff_long must be at most half the length of {surface.name}, "
-                f"{0.5 * length / MICROMETRE:.4g} um, got {long / MICROMETRE:.4g} um. "
-                "Measure farther or take a shorter cut-off."
-            )
+        for name, cutoff in (("cutoff_long", long), ("cutoff_short", short)):
+            if cutoff is not None and not periodic and cutoff > 0.5 * length:
+                raise ParameterError(
+                    f"{name} must be at most half the length of {surface.name}, "
+                    f"{0.5 * length / MICROMETRE:.4g} um, got {cutoff / MICROMETRE:.4g} um. "
+                    "Measure farther or take a shorter cut-off."
+                )
         if short is not None and short < 2.0 * spacing:
             raise ParameterError(
                 f"cutoff_short must be at least two spacings of {surface.name}, "

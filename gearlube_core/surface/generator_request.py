@@ -14,6 +14,7 @@ from gearlube_core.surface.spectrum import CORRELATION_LEVEL
 SHAPES = ("exponential", "gaussian")
 _FEWEST_NODES = 2.0  # a wave: shorter ones have no meaning on a grid
 _LARGEST_HEIGHT = 1e-4  # m, of Ra or Rq of a machined surface
+_MOST_SKEWNESS, _MOST_KURTOSIS = 10.0, 150.0  # beyond any machined surface
 _SHARE_OF_PERIOD = 0.25  # longest correlation length in a period
 
 
@@ -83,8 +84,8 @@ class RoughnessRequest:
             value = getattr(self, name)
             if value is not None:
                 check_positive(name, value, "m")
-        check_finite("skewness", self.skewness)
-        check_finite("kurtosis", self.kurtosis)
+        check_within("skewness", self.skewness, -_MOST_SKEWNESS, _MOST_SKEWNESS)
+        check_within("kurtosis", self.kurtosis, 1.0, _MOST_KURTOSIS)
         check_finite("lay", self.lay, "rad")
         check_moments(self.skewness, self.kurtosis)
         check_option("autocorrelation", self.autocorrelation, SHAPES)

@@ -139,6 +139,7 @@ def test_the_lognormal_line_is_that_of_exp():
     [
         ({"kurtosis": 1.2, "skewness": 0.5}, "above skewness^2 + 1 = 1.25"),
         ({"kurtosis": math.nan}, "kurtosis must be finite"),
+        ({"skewness": 1e308}, "skewness must be within -10 to 10"),
         ({"root_mean_square": 1e-7}, "Give one of"),
         ({"arithmetic_mean": None}, "Give one of"),
         ({"arithmetic_mean": 0.31}, "0.3 um is 3e-7 m"),

@@ -170,6 +170,7 @@ def waves(amplitude, **more):
         (lambda: HeightMap(height=HEIGHT, spacing=(1e-6, 2.0)), "spacing along y must be within"),
         (lambda: levelled(waves(1e-7), 9), "within 0 to 8, got 9"),
         (lambda: filtered(waves(1e-7), cutoff_long=1.5e-4), "at most half the length"),
+        (lambda: filtered(waves(1e-7), cutoff_short=1e300), "cutoff_short must be at most half"),
         (lambda: filtered(waves(1e-7), cutoff_short=1e-6), "at least two spacings"),
         (lambda: filtered(waves(1e-7), cutoff_long=1e-5, cutoff_short=2e-5), "must exceed"),
         (lambda: filtered(waves(1e-7), cutoff_long=0.08e-4, ends="mirror"), "regression, cut"),
