@@ -75,7 +75,7 @@ def test_a_map_and_a_stand_in_are_written(tmp_path, caplog):
     [
         (("make",), "--ra-um or --rq-um"),
         (("make", "--ra-um", "nan"), "--ra-um must be finite"),
-        (("make", "--ra-um", 0.3, "--kurtosis", 0.5), "skewness^2 + 1"),
+        (("make", "--ra-um", 0.3, "--skewness", 1, "--kurtosis", 1.5), "skewness^2 + 1"),
         (("make", "--ra-um", 310), "Give it in m"),
         (("extrude", "missing.csv"), "not a readable CSV"),
         (("read", "missing.x3p"), "missing.x3p"),
