@@ -61,6 +61,24 @@ from gearlube_core.ehl.point.problem import elliptical_contact as elliptical_con
 from gearlube_core.ehl.point.settings import PointSolverSettings as PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact as solve_point_contact
 
+# -- Rough surfaces
+from gearlube_core.surface.heights import Profile as SurfaceProfile
+from gearlube_core.surface.heights import HeightMap as HeightMap
+from gearlube_core.surface.files import read_surface as read_surface
+from gearlube_core.surface.files import write_surface as write_surface
+from gearlube_core.surface.levelling import levelled as levelled_surface
+from gearlube_core.surface.gaussian_filter import filtered as filtered_surface
+from gearlube_core.surface.statistics import profile_statistics as profile_statistics
+from gearlube_core.surface.statistics import map_statistics as map_statistics
+from gearlube_core.surface.generator_request import RoughnessRequest as RoughnessRequest
+from gearlube_core.surface.generator import generated_profile as generated_profile
+from gearlube_core.surface.generator import generated_map as generated_map
+from gearlube_core.surface.extrusion import Lay as Lay
+from gearlube_core.surface.extrusion import ExtrudedProfile as ExtrudedProfile
+from gearlube_core.surface.extrusion import periodic_section as periodic_section
+from gearlube_core.surface.running_in import peaks_cut as peaks_cut
+from gearlube_core.surface.stand_ins import stand_in as stand_in
+
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact

@@ -59,6 +59,11 @@ COMMANDS = (
         target="gearlube.studies.films.command:ehl",
         summary="Solve lubricated contacts: film, pressure and friction.",
     ),
+    LazyCommand(
+        name="roughness",
+        target="gearlube.studies.roughness.command:roughness",
+        summary="Read or make rough surfaces: statistics, filters, lay.",
+    ),
 )
 
 

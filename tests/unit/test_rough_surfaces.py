@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gearlube_core.ehl.gap.measured_heights import (
+from gearlube_core.ehl.gap.micro_geometry import Dent, Ridge, RoughGap, Waviness
+from gearlube_core.errors import ParameterError
+from gearlube_core.surface.measured_heights import (
     MeasuredMap,
     MeasuredProfile,
     read_map,
     read_profile,
 )
-from gearlube_core.ehl.gap.micro_geometry import Dent, Ridge, RoughGap, Waviness
-from gearlube_core.errors import ParameterError
 
 X = np.array([-0.002, -0.0013, -0.0002, 0.0001, 0.0012, 0.0021])  # m
 Y = np.array([0.001, 0.0014, 0.0023, 0.0031, 0.0034])

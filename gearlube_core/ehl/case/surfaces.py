@@ -7,14 +7,14 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gearlube_core.ehl.gap.measured_heights import (
+from gearlube_core.ehl.gap.micro_geometry import Dent, Ridge, Waviness
+from gearlube_core.input_file.input_file import Section
+from gearlube_core.surface.measured_heights import (
     MeasuredMap,
     MeasuredProfile,
     read_map,
     read_profile,
 )
-from gearlube_core.ehl.gap.micro_geometry import Dent, Ridge, Waviness
-from gearlube_core.input_file.input_file import Section
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 _MICROMETRE = 1e-6  # m

@@ -1,1 +1,1 @@
-"""Shapes of the gap: ridges, dents, waviness, measured surfaces."""
+"""Shapes of the gap: ridges, dents, waviness, measured heights."""

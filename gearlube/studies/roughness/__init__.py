@@ -1,0 +1,1 @@
+"""Study of roughness: surfaces read or made, their statistics, files and figure."""

@@ -1,0 +1,1 @@
+"""Roughness given or made: profiles and maps, filters, statistics, generator, extrusion."""

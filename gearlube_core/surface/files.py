@@ -1,0 +1,141 @@
+"""Files of surfaces: CSV, npz and NetCDF as case files take them, SDF and X3P of instruments."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
+from gearlube_core.storage.atomic_file import write_arrays, write_text
+from gearlube_core.surface.heights import MICROMETRE, HeightMap, Profile, Surface, evenly_spaced
+from gearlube_core.surface.measured_heights import read_map, read_profile
+from gearlube_core.units import MILLIMETRE
+
+SUFFIXES = (".csv", ".npz", ".nc", ".sdf", ".x3p")
+
+
+def read_surface(path: str | Path) -> Surface:
+    """Return a profile or map from a file; its kind is that of the name's end.
+
+    .csv: a profile, columns x_mm and height_um; .npz, .nc: a map, x and y in mm and height in um;
+    .sdf: [iso_25178_71], .x3p: [iso_25178_72], which need the extra `gearlube[surfaces]`. One row
+    of an .sdf or .x3p file is a profile.
+
+    Raises
+    ------
+    ParameterError
+        The file is missing, damaged or of another kind, a point was not measured, or the package
+        that reads it is not installed.
+
+    Examples
+    --------
+    >>> try:
+    ...     read_surface("disc.xyz")
+    ... except ParameterError as error:
+    ...     print(str(error)[:60])
+    A surface must be a file that ends in one of .csv, .npz, .nc
+    """
+    where = Path(path)
+    kind = where.suffix.lower()
+    if kind == ".csv":
+        return evenly_spaced(read_profile(where))
+    if kind in (".npz", ".nc"):
+        return evenly_spaced(read_map(where))
+    if kind == ".sdf":
+        return _read_sdf(where)
+    if kind == ".x3p":
+        return _read_x3p(where)
+    raise ParameterError(
+        f"A surface must be a file that ends in one of {', '.join(SUFFIXES)}, got {where.name}. "
+        "Export it from the instrument's software as X3P, SDF or CSV."
+    )
+
+
+def write_surface(surface: Surface, path: str | Path) -> None:
+    """Write a profile as CSV or a map as npz, for `read_surface` and case files.
+
+    Raises
+    ------
+    ParameterError
+        The name ends in something else.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> profile = Profile(height=1e-7 * np.sin(np.arange(50.0)), spacing=1e-6)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_surface(profile, Path(folder) / "profile.csv")
+    ...     read_surface(Path(folder) / "profile.csv").height.size
+    50
+    """
+    where = Path(path)
+    kind = ".csv" if isinstance(surface, Profile) else ".npz"
+    if where.suffix.lower() != kind:
+        raise ParameterError(f"{surface.name} is written to a file {kind}, got {where.name}.")
+    if isinstance(surface, Profile):
+        rows = zip(surface.x / MILLIMETRE, surface.height / MICROMETRE, strict=True)
+        text = "".join(f"{x:.9g},{z:.9g}\n" for x, z in rows)
+        write_text(f"x_mm,height_um\n{text}", where)
+        return
+    arrays = {
+        "x": surface.x / MILLIMETRE,
+        "y": surface.y / MILLIMETRE,
+        "height": surface.height / MICROMETRE,
+    }
+    write_arrays(where, arrays, compress=True)
+
+
+def _read_sdf(path: Path) -> Surface:
+    sdfio = _package("sdfio", path)
+    found = _read(path, "SDF", sdfio.read, sdfio.SdfError)
+    header = found.header
+    return _from_rows(path, found.data, (header.x_scale, header.y_scale))
+
+
+def _read_x3p(path: Path) -> Surface:
+    x3pio = _package("x3pio", path)
+    found = _read(path, "X3P", x3pio.read, x3pio.X3pError)
+    kinds = x3pio.Profile | x3pio.Surface
+    if not isinstance(found, kinds) or len(found.layers) != 1 or not found.is_regular_grid:
+        raise ParameterError(
+            f"{path} must hold one profile or surface at even points, got a "
+            f"{type(found).__name__} with {len(found.layers)} layers. Export one layer of heights "
+            "on a regular grid."
+        )
+    layer = found.layers[0]
+    if isinstance(found, x3pio.Profile):
+        return _from_rows(path, layer.z[None, :], (layer.spacing, 0.0))
+    return _from_rows(path, layer.z, layer.spacing)
+
+
+def _from_rows(path: Path, rows: Array, steps: tuple[float, float]) -> Surface:
+    """Return heights (ny, nx) [m] of an instrument as a surface."""
+    height = np.ascontiguousarray(np.asarray(rows, dtype=float).T)
+    name = f"surface {path}"
+    if height.shape[0] == 1:
+        raise ParameterError(
+            f"{name} must have several points along x, got one. Turn it by 90 deg."
+        )
+    if height.shape[1] == 1:
+        return Profile(height=height[:, 0], spacing=steps[0], name=name)
+    return HeightMap(height=height, spacing=steps, name=name)
+
+
+def _package(name: str, path: Path) -> Any:
+    try:
+        return import_module(name)
+    except ImportError:
+        raise ParameterError(
+            f"{path} needs the package {name}. Install it with: pip install 'gearlube[surfaces]'."
+        ) from None
+
+
+def _read(path: Path, kind: str, read: Any, error: type[Exception]) -> Any:
+    try:
+        return read(path)
+    except (error, OSError, ValueError) as reason:
+        raise ParameterError(f"{path} is not a readable {kind} file: {reason}.") from None

@@ -1,0 +1,192 @@
+"""Gaussian filters of profiles [iso_16610_21] and maps [iso_16610_61]."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Generic
+
+import numpy as np
+from scipy.signal import oaconvolve
+
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_option, check_positive
+from gearlube_core.errors import ParameterError
+from gearlube_core.surface.heights import MICROMETRE, Profile, S, Surface
+
+ALPHA = math.sqrt(math.log(2.0) / math.pi)  # half of the amplitude passes at the cut-off
+ENDS = ("regression", "cut")
+_ROUNDING = 1e-6  # of a spacing
+_REACH = 1.0  # cut-offs to each side; beyond, the weights are below 1e-6 of the largest
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Filtered(Generic[S]):
+    """Roughness of a surface with the cut-offs that made it.
+
+    Parameters
+    ----------
+    roughness
+        Waves from lambda_s to lambda_c.
+    waviness
+        Waves longer than lambda_c; zero without it.
+    cutoff_long, cutoff_short
+        lambda_c, lambda_s [m]; None: not applied.
+    ends
+        How ends that are not periodic were treated.
+    """
+
+    roughness: S
+    waviness: S
+    cutoff_long: float | None
+    cutoff_short: float | None
+    ends: str
+
+
+def transmission(wavelength: Array, cutoff: float) -> Array:
+    """Return which share of a wave's amplitude the mean line keeps [-].
+
+    exp(-pi (alpha lambda_c/lambda)^2), alpha = sqrt(ln 2/pi) [iso_16610_21]
+
+    Parameters
+    ----------
+    wavelength
+        [m], any shape, above 0.
+    cutoff
+        lambda_c [m].
+    """
+    return np.asarray(np.exp(-math.pi * (ALPHA * cutoff / wavelength) ** 2))
+
+
+def filtered(
+    surface: S,
+    *,
+    cutoff_long: float | None = None,
+    cutoff_short: float | None = None,
+    ends: str = "regression",
+) -> Filtered[S]:
+    """Return the roughness of a surface: waves between two cut-offs.
+
+    Periodic sides are filtered by the transmission curve itself. A map is filtered along x and y
+    in turn, which is the areal filter, as the Gaussian is a product.
+
+    Parameters
+    ----------
+    surface
+        Levelled profile or map.
+    cutoff_long
+        lambda_c [m]: longer waves are waviness. None: all stay.
+    cutoff_short
+        lambda_s [m]: shorter waves are noise. None: all stay.
+    ends
+        Of sides that are not periodic. regression: near an end a line is fitted with the
+        Gaussian's weights, so that all points stay; cut: half a cut-off is dropped at each end.
+
+    Raises
+    ------
+    ParameterError
+        The long cut-off does not exceed the short one, one is longer than half the surface
+        along an open side, or the short one is below two spacings.
+
+    Examples
+    --------
+    >>> x = 1e-6 * np.arange(200.0)
+    >>> wave = Profile(height=1e-7 * np.cos(2e4 * math.pi * x), spacing=1e-6, periodic=True)
+    >>> kept = filtered(wave, cutoff_long=1e-4)  # half of a wave of the cut-off
+    >>> round(1e9 * float(kept.roughness.height[0]), 6)
+    50.0
+    """
+    check_option("ends", ends, ENDS)
+    _check_cutoffs(surface, cutoff_long, cutoff_short)
+    primary = surface if cutoff_short is None else _smoothed(surface, cutoff_short)
+    if cutoff_long is None:
+        waviness = replace(surface, height=np.zeros_like(surface.height))
+    else:
+        waviness = _smoothed(primary, cutoff_long)
+    roughness = replace(primary, height=primary.height - waviness.height)
+    if ends == "cut":
+        dropped = 0.5 * (cutoff_long or cutoff_short or 0.0)
+        roughness, waviness = _cut(roughness, dropped), _cut(waviness, dropped)
+    return Filtered(
+        roughness=roughness,
+        waviness=waviness,
+        cutoff_long=cutoff_long,
+        cutoff_short=cutoff_short,
+        ends=ends,
+    )
+
+
+def _sides(surface: Surface) -> list[tuple[float, bool, float]]:
+    """Return spacing, whether periodic, and length of each side."""
+    if isinstance(surface, Profile):
+        return [(surface.spacing, surface.periodic, surface.length)]
+    return list(zip(surface.spacing, surface.periodic, surface.lengths, strict=True))
+
+
+def _check_cutoffs(surface: Surface, long: float | None, short: float | None) -> None:
+    for name, cutoff in (("cutoff_long", long), ("cutoff_short", short)):
+        if cutoff is not None:
+            check_positive(name, cutoff, "m")
+    for spacing, periodic, length in _sides(surface):
+        for name, cutoff in (("cutoff_long", long), ("cutoff_short", short)):
+            if cutoff is not None and not periodic and cutoff > 0.5 * length:
+                raise ParameterError(
+                    f"{name} must be at most half the length of {surface.name}, "
+                    f"{0.5 * length / MICROMETRE:.4g} um, got {cutoff / MICROMETRE:.4g} um. "
+                    "Measure farther or take a shorter cut-off."
+                )
+        if short is not None and short < 2.0 * spacing:
+            raise ParameterError(
+                f"cutoff_short must be at least two spacings of {surface.name}, "
+                f"{2.0 * spacing / MICROMETRE:.4g} um, got {short / MICROMETRE:.4g} um. "
+                "Measure finer (the standard asks for five) or take a longer cut-off."
+            )
+    if long is not None and short is not None and long <= short:
+        raise ParameterError(
+            f"cutoff_long must exceed cutoff_short, {short / MICROMETRE:.4g} um, got "
+            f"{long / MICROMETRE:.4g} um. Usual are 800 and 2.5 um."
+        )
+
+
+def _smoothed(surface: S, cutoff: float) -> S:
+    height = surface.height
+    for axis, (spacing, periodic, _) in enumerate(_sides(surface)):
+        along = np.moveaxis(height, axis, -1)
+        smooth = _periodic if periodic else _regression
+        height = np.moveaxis(smooth(along, spacing, cutoff), -1, axis)
+    return replace(surface, height=height)
+
+
+def _periodic(height: Array, spacing: float, cutoff: float) -> Array:
+    count = height.shape[-1]
+    frequency = np.fft.rfftfreq(count, spacing)
+    kept = np.exp(-math.pi * (ALPHA * cutoff * frequency) ** 2)
+    return np.asarray(np.fft.irfft(kept * np.fft.rfft(height), count))
+
+
+def _regression(height: Array, spacing: float, cutoff: float) -> Array:
+    """Fit a line around each point with the Gaussian's weights; inside it is the mean line."""
+    reach = math.ceil(_REACH * cutoff / spacing)
+    # centred in units of the cut-off, so that the sums are of one size
+    place = np.arange(-reach, reach + 1) * spacing / cutoff
+    weight = np.exp(-math.pi * (place / ALPHA) ** 2)
+    ones = np.ones((1,) * (height.ndim - 1) + height.shape[-1:])
+    shape = (1,) * (height.ndim - 1) + place.shape
+
+    def summed(values: Array, weights: Array) -> Array:
+        # correlation: the kernel is turned round
+        turned = weights[::-1].reshape(shape)
+        full = np.asarray(oaconvolve(values, turned, mode="full", axes=-1))
+        return full[..., reach : reach + values.shape[-1]]
+
+    w0, w1, w2 = (summed(ones, weight * place**k) for k in range(3))
+    z0, z1 = (summed(height, weight * place**k) for k in range(2))
+    return np.asarray((w2 * z0 - w1 * z1) / (w0 * w2 - w1 * w1))
+
+
+def _cut(surface: S, dropped: float) -> S:
+    height = surface.height
+    for axis, (spacing, periodic, _) in enumerate(_sides(surface)):
+        points = 0 if periodic else math.ceil(dropped / spacing - _ROUNDING)
+        height = height.take(range(points, height.shape[axis] - points), axis=axis)
+    return replace(surface, height=height)
