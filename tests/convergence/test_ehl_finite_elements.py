@@ -17,9 +17,10 @@ from gearlube_core.ehl.point.equations.finite_elements import (
 from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
 from gearlube_core.ehl.point.equations.stencil import (
     CarriedMass,
-    FlowSlopes,
     FlowTensor,
+    NodeSlopes,
     StencilParameters,
+    TensorSlopes,
 )
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
@@ -111,19 +112,18 @@ def residual_of(grid, pressure, film, source, compliance):
 def derivatives_of(grid, pressure, film, compliance, free=None):
     density, cubic, fluidity = fields(pressure, film)
     by_pressure, by_film = np.empty((2, 9, *pressure.shape))
+    mobility, zero = cubic * fluidity, np.zeros(pressure.shape)
+    # of rho h^3/eta: by p and by ln(h)
+    even = NodeSlopes(mobility * (DENSENING / density - THICKENING), 3.0 * mobility, zero, zero)
     element_derivatives(
         grid,
         pressure,
         FlowTensor(cubic, CROSS * cubic, 0.7 * cubic, fluidity),
-        np.full(pressure.shape, THICKENING),
         CarriedMass(density, np.full(pressure.shape, DENSENING), film),
-        FlowSlopes(
-            cubic,
-            0.7 * cubic,
-            CROSS * cubic,
-            DENSENING / density,
-            np.full(pressure.shape, 3.0),
-            np.ones(pressure.shape),
+        TensorSlopes(
+            even,
+            NodeSlopes(*(CROSS * part for part in even)),
+            NodeSlopes(*(0.7 * part for part in even)),
         ),
         compliance,
         np.ones(pressure.shape, dtype=bool) if free is None else free,

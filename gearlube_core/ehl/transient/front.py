@@ -70,7 +70,9 @@ def relax_band(
                 continue
             rest = right[j, i] - (slope[j, i] - by_pressure[0, j, i]) * change[j, i]
             for k in range(by_pressure.shape[0]):
-                rest -= by_pressure[k, j, i] * change[j + offsets[k, 0], i + offsets[k, 1]]
+                slope_there = by_pressure[k, j, i]
+                if slope_there != 0.0:  # neighbours beyond the border have none
+                    rest -= slope_there * change[j + offsets[k, 0], i + offsets[k, 1]]
             change[j, i] = max(change[j, i] + rest / slope[j, i], -pressure[j, i])
 
 
