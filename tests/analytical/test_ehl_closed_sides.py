@@ -18,9 +18,11 @@ from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.section import moving_section
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil_data import film_oil
+from gearlube_core.oil.film_properties import film_properties
 
 # [jamali_2015] Table 7.1: 720 N over 2 mm, mean 6.71 m/s, slide-roll ratio 0.36
 R, W, FAST, SLOW, MODULUS = 0.014, 3.6e5, 7.9178, 5.5022, 0.5 * 227.5e9
@@ -45,7 +47,7 @@ def section(nodes=(129, 16), *, oil=EYRING, length=L, sides="cyclic", line_load=
     )
 
 
-def line(part, nodes, **settings):
+def line(part, nodes, gap=None, **settings):
     problem = LineProblem(
         lubricant=part.lubricant,
         radius=R,
@@ -54,6 +56,7 @@ def line(part, nodes, **settings):
         speed_1=FAST,
         speed_2=SLOW,
         domain=part.x_limits,
+        gap=gap,
     )
     return solve_line(problem, LineSettings(nodes=nodes, **settings))
 
@@ -116,10 +119,7 @@ def test_what_enters_the_columns_leaves_them(sides):
     part = wavy(section(sides=sides, oil=NEWTONIAN))
     film = solve_point_contact(part, replace(STRICT, wedge="upwind-1"))
     x, p, h = part.x, film.pressure, film.film
-    from gearlube_core.oil.film_oil import density, viscosity
-
-    rho = density(NEWTONIAN, p) / density(NEWTONIAN, np.zeros(1))
-    eta = viscosity(NEWTONIAN, p)
+    eta, _, rho, _ = film_properties(NEWTONIAN, p, None)
     # through faces where pressure falls downstream: plain mean of 1/eta, mean of ln(rho h^3)
     carried = 0.5 * (FAST + SLOW) * (rho * h)[:-1]
     mobility = np.sqrt((rho * h**3)[:-1] * (rho * h**3)[1:]) / 12.0
@@ -165,8 +165,9 @@ def test_two_periods_hold_the_film_of_one_twice():
 def test_elements_find_the_film_of_differences_between_cyclic_sides():
     film = solve_point_contact(wavy(section((257, 16))), QUICK)
     other = solve_point_contact(wavy(section((257, 16))), replace(QUICK, discretisation="elements"))
-    # two discretisations of second order on 16 nodes a wave along y; no seam shows
-    assert other.film == pytest.approx(film.film, rel=0.02)
+    # two discretisations of second order, 8 nodes a wave along y; the constriction differs more
+    flat = np.abs(film.problem.x) < 0.1e-3
+    assert other.film[flat] == pytest.approx(film.film[flat], rel=0.02)
     shifted = wavy(section((257, 16)), phase=np.pi / 4.0)
     moved = solve_point_contact(shifted, replace(STRICT, discretisation="elements"))
     again = solve_point_contact(
@@ -182,7 +183,7 @@ def test_dry_cylinders_that_repeat_are_hertz():
     hertz = pressure * np.sqrt(np.maximum(1.0 - (part.x / a) ** 2, 0.0))
     # cells at the edge of the contact, 100 a half width: (1/100)^(1/2) of 0.1 of p_max
     assert dry.pressure == pytest.approx(np.tile(hertz[:, None], 16), abs=0.03 * pressure)
-    assert dry.pressure[200] == pytest.approx(np.full(16, pressure), rel=1e-3)
+    assert dry.pressure[np.abs(part.x).argmin()] == pytest.approx(np.full(16, pressure), rel=1e-3)
     assert not dry.touches_border
 
 
@@ -193,29 +194,34 @@ def straight_wave(x, time, amplitude=0.1e-6, wavelength=0.2e-3):
     return amplitude * grown * np.cos(2.0 * np.pi * (x - FAST * time) / wavelength)
 
 
-def test_straight_waves_in_time_are_the_line_in_time():
-    # every step, of 2 columns; both march by the same formula in time, first-order wedges
-    part = section((201, 16))
-    film = moving_section(
-        part, lambda x, y, t: straight_wave(x[:, None], t) + 0.0 * y, SolidContact()
-    )
+@pytest.mark.parametrize(
+    ("nodes", "steps", "closest"),
+    [
+        # of the smallest film and the largest pressure, on half the spacing a third of it
+        (201, 30, 0.018),
+        pytest.param(801, 220, 1.2e-3, marks=pytest.mark.slow),
+    ],
+)
+def test_straight_waves_in_time_are_the_line_in_time(nodes, steps, closest):
+    # every step, of 2 columns; both march by the same formula, with other means on the faces
+    part = section((nodes, 16))
+    film = moving_section(part, lambda x, y, t: straight_wave(x[:, None], t) + 0.0 * y)
     dt = 2.0 * part.spacing[0] / FAST
-    march = FilmMarch(film, dt, settings=replace(QUICK, wedge="upwind-1", tolerance=1e-7))
-    start = line(part, 201, stencil="upwind-1")
-    gap = start.problem.undeformed_gap
-    history = LineHistory(gap=lambda x, t: gap(x) - straight_wave(x, t))
-    reference = LineMarch(start, history, dt)
-    changed = 0.0
-    for _ in range(60):
+    march = FilmMarch(film, dt, settings=replace(QUICK, wedge="upwind-2", tolerance=1e-7))
+
+    def gap(x, t):
+        return x * x / (2.0 * R) - straight_wave(x, t)
+
+    start = line(part, nodes, gap=lambda x: gap(x, 0.0))
+    reference, changed = LineMarch(start, LineHistory(gap=gap), dt), 0.0
+    for _ in range(steps):
         now, then = march.step(), reference.step()
-        # the discretisations differ in the mean of 1/eta and at the broken film's edge
-        assert now.pressure.mean(axis=1) == pytest.approx(
-            then.pressure, abs=0.01 * then.pressure.max()
-        )
-        assert now.minimum_film == pytest.approx(then.minimum_film, rel=0.01)
+        off = np.abs(now.pressure.mean(axis=1) - then.pressure).max()
+        assert off < closest * then.pressure.max()
+        assert now.minimum_film == pytest.approx(then.minimum_film, rel=closest)
         assert np.ptp(now.film, axis=1).max() < 1e-6 * now.minimum_film
         changed = max(changed, abs(now.minimum_film / start.minimum_film - 1.0))
-    assert changed > 0.1
+    assert changed > 0.03
 
 
 def test_shifted_roughness_that_touches_moves_the_film_by_rows():
@@ -235,7 +241,7 @@ def test_shifted_roughness_that_touches_moves_the_film_by_rows():
     films = []
     for rows in (0, 3):
         march = FilmMarch(
-            moving_section(part, heights(rows), SolidContact(thickness=60e-9)),
+            moving_section(part, heights(rows), SolidContact(thickness=0.15e-6)),
             0.5 * part.spacing[0] / FAST,
             settings=replace(QUICK, wedge="quick", tolerance=1e-7, load_tolerance=1e-8),
         )
@@ -248,8 +254,6 @@ def test_shifted_roughness_that_touches_moves_the_film_by_rows():
 
 
 def test_march_between_cyclic_sides_resumes_bit_for_bit(tmp_path):
-    from gearlube_core.ehl.transient.record import MarchRecord
-
     part = section((65, 16))
     k = 2.0 * np.pi / L
 
@@ -282,7 +286,7 @@ def test_deflection_of_single_precision_is_that_of_double():
         ({"nodes": (129, 17)}, "nodes along y must be even, within 16 to 2048"),
         ({"nodes": (129, 14)}, "got 14. Take 16"),
         ({"entrainment": (6.71, 1.0)}, "entrainment along y must be 0 m/s"),
-        ({"oil_beyond": True}, "oil_beyond and inlet_layer do not go with sides cyclic"),
+        ({"inlet_layer": 1e-6}, "oil_beyond and inlet_layer do not go with sides cyclic"),
         ({"sides": "round"}, "sides must be one of"),
         ({"sides": "no_flow", "sliding": (1.0, 1.0)}, "drives oil through them"),
     ],
