@@ -45,6 +45,11 @@ class FedFromInlet:
     growth
         Length of the surface over which its heights grow from none to full [m]; the Hertzian
         half-width in [jamali_2015 7.7].
+
+    Examples
+    --------
+    >>> FedFromInlet(inlet=-5.9e-4, growth=2.4e-4).growth
+    0.00024
     """
 
     inlet: float
@@ -66,6 +71,11 @@ class GrownInPlace:
     ----------
     duration
         From none to full [s].
+
+    Examples
+    --------
+    >>> GrownInPlace(duration=1e-4).duration
+    0.0001
     """
 
     duration: float
@@ -95,6 +105,15 @@ class MovingSurface:
     ParameterError
         Heights are not periodic, do not meet at their ends, are below 1 nm or too steep; the
         periods differ; or the period of a map along y does not divide the width.
+
+    Examples
+    --------
+    >>> wave = 1e-7 * np.sin(0.02 * math.pi * np.arange(100))
+    >>> profile = Profile(height=wave, spacing=1e-6, periodic=True)
+    >>> lay = Lay(period=1e-4, width=1e-3, turns=1)
+    >>> surface = MovingSurface(heights=profile, lay=lay, speed=2.0)
+    >>> [round(1e6 * wave, 3) for wave in surface.shortest_waves()]
+    [100.0, 1000.0]
     """
 
     heights: Surface
