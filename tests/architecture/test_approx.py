@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-
-def test_a_relative_tolerance_holds_for_small_numbers_too():
-    assert 1.1e-14 != pytest.approx(1e-14, rel=0.01)
-    assert [1.1e-14] != pytest.approx([1e-14], rel=0.01)
-    assert np.array([1.1e-14]) != pytest.approx(np.array([1e-14]), rel=0.01)
+SMALL = 1e-14
 
 
-def test_a_tolerance_that_a_test_names_holds():
-    assert 1.1e-14 == pytest.approx(1e-14, abs=1e-14)
+@pytest.mark.parametrize("expected", [SMALL, [SMALL], np.array([SMALL])], ids=type)
+def test_a_relative_tolerance_holds_for_small_numbers_too(expected: object):
+    found = np.multiply(expected, 1.1)
+    assert found != pytest.approx(expected, rel=0.01)
+    assert found == pytest.approx(expected, rel=0.11)
+    assert found == pytest.approx(expected, abs=SMALL)
