@@ -1,8 +1,8 @@
 """Rewrite docs/helical.md and its pictures: python -m docs.helical.make [workdir].
 
 Under two minutes on two cores; about fifteen the first time, until the elastic teeth of all
-refinements and helix angles lie in the cache. Finished positions of the loaded contact and rows of the maps are
-kept in the folder given as argument, by default build/helical.
+refinements and helix angles lie in the cache. Finished positions of the loaded contact and rows
+of the maps are kept in the folder given as argument, by default build/helical.
 """
 
 from __future__ import annotations
