@@ -57,6 +57,7 @@ from gearlube_core.ehl.line.problem import LineSettings as LineSettings
 from gearlube_core.ehl.line.solver import solve_line as solve_line
 from gearlube_core.ehl.point.problem import PointContactProblem as PointContactProblem
 from gearlube_core.ehl.point.problem import ContactDomain as ContactDomain
+from gearlube_core.ehl.point.line_section import line_section as line_section
 from gearlube_core.ehl.point.problem import elliptical_contact as elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings as PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact as solve_point_contact
@@ -78,6 +79,15 @@ from gearlube_core.surface.extrusion import ExtrudedProfile as ExtrudedProfile
 from gearlube_core.surface.extrusion import periodic_section as periodic_section
 from gearlube_core.surface.running_in import peaks_cut as peaks_cut
 from gearlube_core.surface.stand_ins import stand_in as stand_in
+from gearlube_core.surface.moving import MovingSurface as MovingSurface
+from gearlube_core.surface.moving import MovingRoughness as MovingRoughness
+from gearlube_core.surface.moving import FedFromInlet as FedFromInlet
+from gearlube_core.surface.moving import GrownInPlace as GrownInPlace
+from gearlube_core.surface.schedule import RoughSchedule as RoughSchedule
+from gearlube_core.ehl.statistics.zone import FilmZone as FilmZone
+from gearlube_core.ehl.statistics.rough_film import FilmFriction as FilmFriction
+from gearlube_core.ehl.statistics.rough_film import RoughFilmStatistics as RoughFilmStatistics
+from gearlube_core.ehl.statistics.rough_film import statistics_of_run as statistics_of_run
 
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings

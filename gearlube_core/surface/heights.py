@@ -187,27 +187,39 @@ def check_plausible(surface: Surface) -> None:
             )
 
 
-def check_closed(profile: Profile) -> None:
-    """Refuse a periodic profile whose ends do not meet.
+def check_closed(surface: Surface) -> None:
+    """Refuse a profile or map that is not periodic or whose ends do not meet.
 
     Raises
     ------
     ParameterError
-        It is not periodic, or its step from the last point to the first is more than four times
-        the rms of the others.
+        A side is not periodic, or the rms step from its last points to its first is more than
+        four times the rms of the others.
     """
-    if not profile.periodic:
-        raise ParameterError(
-            f"{profile.name} must be periodic. Close it with periodic_section, or generate it."
-        )
-    typical = float(np.sqrt(np.mean(np.diff(profile.height) ** 2)))
-    jump = float(abs(profile.height[0] - profile.height[-1]))
+    if isinstance(surface, Profile):
+        _check_seam(surface.name, surface.height, 0, surface.periodic, "")
+        return
+    for axis, closed in enumerate(surface.periodic):
+        _check_seam(surface.name, surface.height, axis, closed, f" along {'xy'[axis]}")
+
+
+def _check_seam(name: str, height: Array, axis: int, closed: bool, along: str) -> None:
+    if not closed:
+        cure = "Close it with periodic_section" if height.ndim == 1 else "Take a map that repeats"
+        raise ParameterError(f"{name} must be periodic{along}. {cure}, or generate it.")
+    typical = float(np.sqrt(np.mean(np.diff(height, axis=axis) ** 2)))
+    step = height.take(0, axis) - height.take(-1, axis)
+    jump = float(np.sqrt(np.mean(step**2)))
     if jump > _CLOSED * typical:
         raise ParameterError(
-            f"{profile.name}: the heights at both ends must meet within "
+            f"{name}: the heights at both ends{along} must meet within "
             f"{_CLOSED * typical / MICROMETRE:.3g} um, {_CLOSED:g} times the rms step between "
-            f"neighbours, got a jump of {jump / MICROMETRE:.3g} um. Cut it with periodic_section, "
-            "which seeks a place where they meet."
+            f"neighbours, got a jump of {jump / MICROMETRE:.3g} um. "
+            + (
+                "Cut it with periodic_section, which seeks a place where they meet."
+                if height.ndim == 1
+                else "Take another part, or generate the map."
+            )
         )
 
 

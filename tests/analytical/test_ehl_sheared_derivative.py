@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.limiter import limited_faces
 from gearlube_core.ehl.point.equations.mesh import Grading
 from gearlube_core.ehl.point.grid_film import nested_film
 from gearlube_core.ehl.point.level import PointLevel
+from gearlube_core.ehl.point.line_section import line_section
 from gearlube_core.ehl.point.problem import elliptical_contact, expected_film
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.conditions import FilmConditions
@@ -49,6 +53,11 @@ def wavy(level: PointLevel, problem) -> tuple[np.ndarray, float]:
     pressure *= 1.0 + 0.1 * np.random.default_rng(0).normal(size=pressure.shape)
     lowest = float(level.film(pressure, 0.0).min())
     return pressure, 1.3 * expected_film(problem) / level.scales.film - lowest
+
+
+def galerkin(grid: PointGrid) -> Elements:
+    """Return elements without upwinding, whose share the operator would hold."""
+    return Elements(grid, compliance=0.0)
 
 
 def error_of_the_operator(
@@ -124,14 +133,47 @@ def test_operator_of_a_film_in_motion_is_the_derivative_of_its_residual(limits, 
     assert error_of_the_operator(level, pressure, approach, limited) < 1e-6
 
 
+@pytest.mark.parametrize(
+    ("sides", "across", "scheme"),
+    [
+        ("cyclic", 0.0, Differences),
+        ("cyclic", 1.2, Differences),
+        ("no_flow", 0.0, Differences),
+        ("cyclic", 1.2, galerkin),
+        ("no_flow", 0.0, galerkin),
+    ],
+)
+def test_operator_of_a_film_between_closed_sides_is_the_derivative_of_its_residual(
+    sides, across, scheme
+):
+    """Factors of the rows at a side follow the pressure of rows at the other, or of mirrored."""
+    problem = line_section(
+        R_x=0.012,
+        length=2e-4,
+        line_load=1e5,
+        speed_1=2.4,
+        speed_2=1.2,
+        contact_modulus=115e9,
+        lubricant=film_oil(eta0=0.04, alpha=1.8e-8, eyring_stress=TAU0),
+        nodes=(NODES, 16),
+        sides=sides,
+    )
+    problem = replace(problem, sliding=(1.2, across))
+    wedge = "quick" if scheme is Differences else "central"
+    level = PointLevel(problem, PointScales.of(problem), (16, NODES), wedge, scheme=scheme)
+    rng = np.random.default_rng(2)
+    x = level.grid.x / problem.hertz_contact[0]
+    pressure = np.sqrt(np.maximum(1.0 - x**2, 0.0)) * (1.0 + 0.1 * rng.normal(size=(18, NODES)))
+    pressure[:, [0, -1]] = 0.0
+    pressure[[0, -1]] = 0.0
+    pressure *= level.load / level.grid.integral(pressure)
+    approach = 0.5 - float(level.film(pressure, 0.0)[1:-1].min())
+    assert error_of_the_operator(level, pressure, approach, thinned) < 1e-6
+
+
 @pytest.mark.parametrize("sliding", DIRECTIONS)
 def test_operator_of_elements_is_the_derivative_of_their_residual(sliding):
-    """With no upwinding, whose share the operator holds."""
     problem = contact(sliding)
-
-    def galerkin(grid):
-        return Elements(grid, compliance=0.0)
-
     level = PointLevel(problem, PointScales.of(problem), (NODES, NODES), "central", scheme=galerkin)
     assert error_of_the_operator(level, *wavy(level, problem), thinned) < 1e-6
 

@@ -23,6 +23,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     StencilParameters,
     TensorSlopes,
 )
+from gearlube_core.ehl.point.sides import AMBIENT
 
 STEP = 1e-4  # of the differences that stand for derivatives of the smooth fields
 
@@ -148,7 +149,7 @@ def test_derivatives_of_the_cross_flow_match_differences(oblique: bool) -> None:
     for _ in range(3):
         dp, dh = rng.normal(size=(2, *shape))
         change = np.empty(shape)
-        apply_derivatives(OFFSETS, by_pressure, by_film, dp, dh, change)
+        apply_derivatives(OFFSETS, by_pressure, by_film, AMBIENT.reach(len(dp)), dp, dh, change)
         up, down = (cross_flow(p + e * dp, h + e * dh) for e in (1e-5, -1e-5))
         # differences of 1e-5: truncation 1e-10, roundings 1e-16/1e-5
         inner = np.s_[1:-1, 1:-1]
@@ -181,7 +182,9 @@ def test_both_flows_across_the_slope_answer_to_a_change_of_pressure_by_one_facto
         by_film,
     )
     change, residual = np.empty(shape), np.zeros(shape)
-    apply_derivatives(OFFSETS, by_pressure, by_film, 1.0 + x * y, zero, change)
+    apply_derivatives(
+        OFFSETS, by_pressure, by_film, AMBIENT.reach(len(zero)), 1.0 + x * y, zero, change
+    )
     factors.add_cross_flow(parameters, metric, 1.0 + x * y, flow, residual)
     inner, mobility = np.s_[1:-1, 1:-1], 2.0 * 0.7 * 0.4 * math.sqrt(9.0 * 4.0)
     for found in (residual, change):

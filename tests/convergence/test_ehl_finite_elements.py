@@ -30,6 +30,7 @@ from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
@@ -242,7 +243,9 @@ def test_derivatives_match_differences(upwind):
     for _ in range(5):
         dp, dh = rng.normal(size=(2, *shape))
         change = np.empty(shape)
-        apply_derivatives(ELEMENT_OFFSETS, by_pressure, by_film, dp, dh, change)
+        apply_derivatives(
+            ELEMENT_OFFSETS, by_pressure, by_film, AMBIENT.reach(len(dp)), dp, dh, change
+        )
         up, down = (
             residual_of(grid, pressure + e * dp, film + e * dh, np.zeros(shape), 0.0)
             for e in (1e-6, -1e-6)
@@ -275,7 +278,9 @@ def test_matrix_rows_are_the_applied_derivatives():
     by_pressure, by_film = derivatives_of(parameters(8, 7), pressure, film, 0.2, free)
     dp, dh = np.where(free, rng.normal(size=shape), 0.0), rng.normal(size=shape)
     applied = np.empty(shape)
-    apply_derivatives(ELEMENT_OFFSETS, by_pressure, by_film, dp, dh, applied)
+    apply_derivatives(
+        ELEMENT_OFFSETS, by_pressure, by_film, AMBIENT.reach(len(dp)), dp, dh, applied
+    )
     matrix = matrix_of(by_pressure, by_film, free)
     product = matrix.real @ dp.ravel() + matrix.imag @ dh.ravel()
     assert product == pytest.approx(applied.ravel(), abs=1e-12 * np.abs(applied).max())

@@ -22,6 +22,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     TensorSlopes,
     mean_fluidity,
 )
+from gearlube_core.ehl.point.sides import AMBIENT
 from tests.helpers.source_of import interpret, source_of
 
 SHAPE = (6, 7)
@@ -109,7 +110,9 @@ def test_derivatives_of_a_sheared_film_are_those_of_the_residual(monkeypatch) ->
         h = of_film * rng.standard_normal(SHAPE)
         expected = _difference(lambda e, p=p, h=h: sheared.residual(pressure + e * p, film + e * h))
         found = np.empty(SHAPE)
-        source_of(apply_derivatives)(OFFSETS, by_pressure, by_film, p, h, found)
+        source_of(apply_derivatives)(
+            OFFSETS, by_pressure, by_film, AMBIENT.reach(SHAPE[0]), p, h, found
+        )
         assert np.abs(found - np.where(free, expected, 0.0)).max() < 1e-8
         assert found[2, 3] == 0.0
         assert np.abs(expected).max() > 1.0

@@ -9,6 +9,7 @@ import pytest
 
 from gearlube_core.ehl.point.equations import factor_fields
 from gearlube_core.ehl.point.equations.factor_fields import ShearUnits
+from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.time_error import TimeError
 from gearlube_core.ehl.transient import deflection_window
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
@@ -28,7 +29,9 @@ def window(monkeypatch):
         return np.ones_like
 
     monkeypatch.setattr(deflection_window, "HalfSpaceConvolution", convolution)
-    grid = SimpleNamespace(shape=SHAPE, graded=False, coefficients=np.zeros(SHAPE))
+    grid = SimpleNamespace(
+        shape=SHAPE, graded=False, coefficients=np.zeros(SHAPE), modes=None, sides=AMBIENT
+    )
     return WindowedDeflection(grid), made
 
 

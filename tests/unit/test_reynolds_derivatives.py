@@ -14,6 +14,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     NodeSlopes,
     StencilParameters,
 )
+from gearlube_core.ehl.point.sides import AMBIENT
 from tests.helpers.source_of import interpret
 
 SHAPE = (6, 8)
@@ -86,7 +87,9 @@ def test_derivatives_are_those_of_differences(monkeypatch, along_y: float, weigh
         below = residual_of(parameters, p - step * change_p, h - step * change_h, sheared)
         numerical = np.where(free, (above - below) / (2.0 * step), 0.0)
         found = np.empty(SHAPE)
-        reynolds.apply_derivatives(OFFSETS, by_pressure, by_film, change_p, change_h, found)
+        reynolds.apply_derivatives(
+            OFFSETS, by_pressure, by_film, AMBIENT.reach(SHAPE[0]), change_p, change_h, found
+        )
         # truncation of 1e-12 and rounding of 1e-10
         assert found == pytest.approx(numerical, abs=1e-7 * np.abs(numerical).max())
 

@@ -21,6 +21,7 @@ from gearlube_core.ehl.point.equations.shear_factors import (
     ObliqueFactors,
 )
 from gearlube_core.ehl.point.equations.stencil import NodeSlopes, TensorSlopes
+from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import FilmOil
 
@@ -42,6 +43,7 @@ class FilmShear:
     central: Array | None = None  # spacing along x over that of every column, (nx,); None: 1
     limit: float = 0.0  # limiting stress over tau0 at ambient pressure
     limit_slope: float = 0.0  # its slope with pressure
+    sides: Sides = AMBIENT  # of the rows
 
     @classmethod
     def of(
@@ -55,6 +57,7 @@ class FilmShear:
         pressure: float = 1.0,
         viscosity: float = 1.0,
         central: Array | None = None,
+        sides: Sides = AMBIENT,
     ) -> FilmShear:
         """Return the constants.
 
@@ -73,6 +76,8 @@ class FilmShear:
         central
             Spacing along x over half the distance between the neighbours of each column of
             nodes, shape (nx,) [-]; None: 1.
+        sides
+            Of the rows.
 
         Raises
         ------
@@ -104,6 +109,7 @@ class FilmShear:
             central=central,
             limit=lubricant.tau_limit / tau0,
             limit_slope=lubricant.limit_slope * pressure / tau0,
+            sides=sides,
         )
 
     def with_sliding(self, along: Array, across: float) -> FilmShear:
@@ -150,11 +156,17 @@ class FilmShear:
         )
         along, across = np.empty((2, *pressure.shape))
         fill_shear_factors(self.law, pressure, film, fluidity, units, along, across)
+        for one in (along, across):
+            self.sides.fill(one)
         c, s = self.cosine, self.sine
 
         def rates(thickening: Array) -> TensorSlopes:
             by = np.empty((2, 4, *pressure.shape))
             fill_factor_slopes(self.law, pressure, film, fluidity, thickening, units, *by)
+            for one in by:
+                for k in range(3):
+                    self.sides.fill(one[k])
+                self.sides.fill_rises(one[3])
             return self._turned(*by)
 
         if abs(c * s) >= ALIGNED:

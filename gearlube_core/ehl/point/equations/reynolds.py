@@ -214,6 +214,7 @@ def apply_derivatives(
     offsets: np.ndarray,
     by_pressure: np.ndarray,
     by_film: np.ndarray,
+    reach: np.ndarray,
     pressure: np.ndarray,
     film: np.ndarray,
     result: np.ndarray,
@@ -226,6 +227,8 @@ def apply_derivatives(
         Steps to the neighbours along y and x, at least.
     by_pressure, by_film : ndarray, shape (m, ny, nx), m <= n
         Derivatives with respect to each of them.
+    reach : ndarray of int, shape (ny + 2,)
+        Of the sides: rows that hold those from one before the first to one behind the last.
     pressure, film : ndarray, shape (ny, nx)
         Changes.
     result : ndarray, shape (ny, nx)
@@ -236,12 +239,11 @@ def apply_derivatives(
     for j in range(1, ny - 1):
         for k in range(by_pressure.shape[0]):
             down, right = offsets[k, 0], offsets[k, 1]
-            if not 0 <= j + down < ny:
-                continue
             first, last = max(1, -right), min(nx - 1, nx - right)
             row = result[j, first:last]
-            p = pressure[j + down, first + right : last + right]
-            h = film[j + down, first + right : last + right]
+            there = reach[j + down + 1]
+            p = pressure[there, first + right : last + right]
+            h = film[there, first + right : last + right]
             a, b = by_pressure[k, j, first:last], by_film[k, j, first:last]
             for i in range(row.size):
                 row[i] += a[i] * p[i] + b[i] * h[i]

@@ -1,0 +1,1 @@
+"""Statistics of rough films in time, from solved films alone."""
