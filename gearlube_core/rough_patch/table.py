@@ -190,6 +190,15 @@ def greenwood_tripp_fit(
     ------
     ParameterError
         Fewer than two film ratios with contact lie between the limits.
+
+    Examples
+    --------
+    >>> ratios, load, area = [1.0, 2.0], [2.2e-3, 2.7e-4], [0.11, 0.012]
+    >>> columns = {"asperity_pressure": load, "asperity_area": area}
+    >>> data = {name: ("film_ratio", one) for name, one in columns.items()}
+    >>> table = xr.Dataset(data, {"film_ratio": ratios}, {"roughness": 4e-7})
+    >>> round(greenwood_tripp_fit(table).surface.xi_beta_sigma, 2)
+    0.39
     """
     ratios = table.film_ratio.values
     if "asperity_pressure" not in table:
