@@ -19,6 +19,9 @@ collect_ignore = ["helpers"]
 settings.register_profile("compiled kernels", deadline=None)
 settings.load_profile("compiled kernels")
 
+# `rel=` alone would also allow an absolute 1e-12: more than many a curvature, flow or area in SI
+type(pytest.approx(1.0)).DEFAULT_ABSOLUTE_TOLERANCE = 0.0
+
 _folder = open_session_folder()
 
 

@@ -71,8 +71,9 @@ def _step_counts(store: Store) -> Verdict:
         "; ".join(f"{count}: {p:.2f} %, {h:.2f} %" for count, (p, h) in off.items())
         + f" off {COUNTS[-1]} (pressure, film)",
         judge(max(off[400]) < 1.0),
-        f"steps {at[0]:.0f} to {at[-1]:.0f} of design A, from rest at step {first}; see the "
-        "smallest film in motion, below",
+        f"steps {at[0]:.0f} to {at[-1]:.0f} of design A, from rest at step {first}; with a "
+        "first-order wedge four times the steps change the film by 0.5 % on 97 x 81 and 6 % on "
+        "182 x 161 nodes: see the smallest film in motion, below",
     )
 
 

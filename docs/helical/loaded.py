@@ -18,6 +18,7 @@ from gearlube_core.helical_contact.strips import StripSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.iso_6336_stiffness import IsoStiffness, iso_stiffness
 from gearlube_core.helical_geometry.modification import Crown, FlankModification, ModifiedPair
+from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.tip_relief import TipRelief
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
@@ -28,8 +29,9 @@ PLAIN = ModifiedPair(pair=HE)
 CROWN = 4e-6  # m, on both members
 CROWNED_TORQUES = (25.0, 50.0, 100.0, PINION_TORQUE, 450.0)  # N.m
 SPUR_TORQUES = (25.0, 50.0, 100.0, 160.0, PINION_TORQUE, 300.0)
+NEAR_TORQUES = (160.0, PINION_TORQUE, 300.0)
 RELIEF, RELIEF_EXTENT = 15e-6, 1.5e-3  # m
-_COARSE = CondensationSettings(
+COARSE = CondensationSettings(
     profile_hats=4,
     lengthwise_hats=7,
     density=MeshDensity(profile=6, lengthwise=12, thickness=3, growth=1.8, fillet=3, slot=1, rim=2),
@@ -52,9 +54,19 @@ def crowned(store: Path) -> tuple[xr.Dataset, LineMesh]:
     return contact_dataset(modified, settings, record), line_mesh(modified, settings, record)
 
 
+def table_of_torques(
+    pair: HelicalPair, condensation: CondensationSettings, store: Path
+) -> LineMesh:
+    """Return the line mesh of a pair with plain flanks, at torques around that of the paper."""
+    modified = ModifiedPair(pair=pair)
+    settings = CycleSettings(torques=NEAR_TORQUES, positions=16)
+    teeth = pair_stiffness(pair, HelicalBodySettings(condensation=condensation))
+    return line_mesh(modified, settings, run_cycle(modified, teeth, settings, store=store))
+
+
 def spur_harris(store: Path) -> dict[str, xr.Dataset]:
     """Return loaded contact of the spur pair with plain and with relieved tips, coarse teeth."""
-    teeth = pair_stiffness(SPUR, HelicalBodySettings(condensation=_COARSE))
+    teeth = pair_stiffness(SPUR, HelicalBodySettings(condensation=COARSE))
     cells = LoadedSettings(strips=StripSettings(cells_along=16))
     settings = CycleSettings(torques=SPUR_TORQUES, positions=16, stations=2, loaded=cells)
     relief = FlankModification(tip_relief=TipRelief(amount=RELIEF, extent=RELIEF_EXTENT, k=0.0))
@@ -100,7 +112,7 @@ def refinements() -> list[Finer]:
         "9 hats from root to tip, 16 elements": replace(
             c, profile_hats=9, density=MeshDensity(profile=16)
         ),
-        "coarse: 4 x 7 hats": _COARSE,
+        "coarse: 4 x 7 hats": COARSE,
     }
     rows = [
         _stiffness("default: 31 x 48 cells, 7 x 13 hats", default, LoadedSettings()),

@@ -1,8 +1,8 @@
 """Rewrite docs/helical.md and its pictures: python -m docs.helical.make [workdir].
 
-Under two minutes on two cores; about six the first time, until the elastic teeth of all refinements
-lie in the cache. Finished positions of the loaded contact and rows of the maps are
-kept in the folder given as argument, by default build/helical.
+Under two minutes on two cores; about fifteen the first time, until the elastic teeth of all
+refinements and helix angles lie in the cache. Finished positions of the loaded contact and rows
+of the maps are kept in the folder given as argument, by default build/helical.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from docs.helical.film_pages import (
     moved_table,
 )
 from docs.helical.loaded import bodies, crowned, refinements, sharing, spur_harris
+from docs.helical.loaded_claims import PLACE, loaded_claims_table
 from docs.helical.pages import (
     branch_table,
     choice_table,
@@ -95,7 +96,8 @@ def main() -> None:
     thesis = [claim.evaluate(evidence) for claim in rows]
     found, ends = choices(), bodies()
 
-    page = _text("method")
+    logger.info("other helix angles")
+    page = _text("method").replace(PLACE, loaded_claims_table(store))
     page += verdict_counts(he) + claims_table(named, he) + _text("thesis")
     page += verdict_counts(thesis) + claims_table(rows, thesis)
     page += _text("structure").replace("REJUDGED\n", helical_section())

@@ -63,6 +63,7 @@ _NAMES = {
     "EllipticParaboloid": "point.problem",
     "ContactDomain": "point.problem",
     "elliptical_contact": "point.problem",
+    "line_section": "point.line_section",
     "SolidContact": "point.solid_contact",
     "PointSolverSettings": "point.settings",
     "PointSolution": "point.solution",

@@ -134,8 +134,10 @@ def peak_error(fine: OnGrid, coarse: OnGrid) -> float:
     first order.
     """
     places = np.stack(np.meshgrid(*fine.axes, indexing="ij"), axis=-1)
-    # a graded grid of half the nodes may end a rounding error earlier
-    beside = interpn(coarse.axes, coarse.pressure, places, bounds_error=False, fill_value=0.0)
+    # a graded grid of half the nodes may end a rounding error earlier, rows of cells half a cell
+    for side, axis in enumerate(coarse.axes):
+        places[..., side] = np.clip(places[..., side], axis[0], axis[-1])
+    beside = interpn(coarse.axes, coarse.pressure, places)
     most = float(fine.pressure.max())
     return float((fine.pressure + np.abs(fine.pressure - beside)).max()) / most - 1.0
 
@@ -202,15 +204,22 @@ def spacing_ratio(fine: tuple[int, ...], coarse: tuple[int, ...]) -> float:
     return min((f - 1) / (c - 1) for f, c in zip(fine, coarse, strict=True))
 
 
-def halved(nodes: tuple[int, ...]) -> tuple[int, ...] | None:
-    """Return the nodes of a grid of twice the spacing; None: they would be too few."""
+def halved(nodes: tuple[int, ...], closed: bool = False) -> tuple[int, ...] | None:
+    """Return the nodes of a grid of twice the spacing; None: they would be too few.
+
+    `closed`: those along y are cells between closed sides, whose number stays even.
+    """
     coarse = tuple((n - 1) // 2 + 1 for n in nodes)
+    if closed:
+        even = coarse[1] % 2 == 0 and coarse[1] >= FEWEST_NODES - 1
+        return coarse if even and coarse[0] >= FEWEST_NODES else None
     return coarse if min(coarse) >= FEWEST_NODES else None
 
 
-def doubled(nodes: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the nodes of a grid of half the spacing."""
-    return tuple(2 * n - 1 for n in nodes)
+def doubled(nodes: tuple[int, ...], closed: bool = False) -> tuple[int, ...]:
+    """Return the nodes of a grid of half the spacing; `closed` as in `halved`."""
+    finer = tuple(2 * n - 1 for n in nodes)
+    return (finer[0], 2 * nodes[1]) if closed else finer
 
 
 def check_search(film_error: float | None, most_nodes: int, limit: int) -> None:
@@ -224,7 +233,9 @@ Solution = TypeVar("Solution", bound=OnGrid)
 
 
 def coarser_films(
-    solution: Solution, on_grid: Callable[[tuple[int, ...], Solution], Solution | None]
+    solution: Solution,
+    on_grid: Callable[[tuple[int, ...], Solution], Solution | None],
+    closed: bool = False,
 ) -> tuple[Solution, ...]:
     """Return the film on two coarser grids, fewer where the nodes become too few or one fails.
 
@@ -235,15 +246,17 @@ def coarser_films(
     on_grid
         Returns the converged film on a grid of so many nodes, with the next finer film to start
         from; None: not found.
+    closed
+        As in `halved`.
     """
     found: list[Solution] = []
-    last, nodes = solution, halved(solution.nodes)
+    last, nodes = solution, halved(solution.nodes, closed)
     while nodes is not None and len(found) < COARSER_GRIDS:
         coarse = on_grid(nodes, last)
         if coarse is None:
             break
         found.append(coarse)
-        last, nodes = coarse, halved(nodes)
+        last, nodes = coarse, halved(nodes, closed)
     return tuple(found)
 
 
@@ -252,6 +265,7 @@ def refined_film(
     goal: float,
     most: int,
     on_grid: Callable[[tuple[int, ...], tuple[Solution, ...]], Solution],
+    closed: bool = False,
 ) -> tuple[Solution, str]:
     """Return the film on the first grid that meets an error of its films, and what happened.
 
@@ -265,6 +279,8 @@ def refined_film(
         Nodes along a side that no grid may exceed.
     on_grid
         Returns the film on a finer grid, given the films on coarser grids, the finest first.
+    closed
+        As in `halved`.
 
     Returns
     -------
@@ -273,7 +289,7 @@ def refined_film(
     """
     first = solution.nodes
     while not FilmError.of(solution).film <= goal:
-        finer = doubled(solution.nodes)
+        finer = doubled(solution.nodes, closed)
         if max(finer) > most:
             return solution, (
                 f" The films' error of {100.0 * goal:g} % that was asked for is not met: the next "

@@ -65,7 +65,10 @@ class Eyring(NamedTuple):
         """Return G = sinh(t)/t and dG/dq, q = t^2."""
         if q < _SMALL_SQUARE:
             G = 1.0 + q / 6.0 * (
-                1.0 + q / 20.0 * (1.0 + q / 42.0 * (1.0 + q / 72.0 * (1.0 + q / 110.0)))
+                1.0
+                + q
+                / 20.0
+                * (1.0 + q / 42.0 * (1.0 + q / 72.0 * (1.0 + q / 110.0 * (1.0 + q / 156.0))))
             )
             slope = (
                 1.0

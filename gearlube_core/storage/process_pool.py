@@ -83,6 +83,12 @@ def single_threaded() -> threadpool_limits:
     return threadpool_limits(1)
 
 
+def stop_on_interrupt() -> None:
+    """Let Ctrl-C end this process at once: for a worker whose result nobody then waits for."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    single_threaded()
+
+
 def _start_worker(prepare: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the parent, which stops us
     single_threaded()

@@ -8,8 +8,8 @@ from scipy.integrate import quad
 from scipy.special import k0
 
 from gearlube_core.contact.half_space import love_coefficients
+from gearlube_core.contact.half_space_periodic import PeriodicDeflection, periodic_modes
 from gearlube_core.errors import ParameterError
-from tests.references.deflection_periodic import PeriodicDeflection, periodic_modes
 
 E = 1.1375e11  # contact modulus of steel on steel, E' 227.5 GPa
 

@@ -141,7 +141,8 @@ def test_slow_rolling_film_is_isothermal():
     cold = solve_point_contact(slow)
     # heat of compression and of flow by pressure grow with the square of the speed
     assert abs(found.temperature - T0).max() < 0.05
-    assert found.film.film == pytest.approx(cold.film, rel=1e-3)
+    # 0.05 K thin the oil by 0.2 %, which is the most that the film can lose
+    assert found.film.film == pytest.approx(cold.film, rel=2e-3)
 
 
 @pytest.mark.slow

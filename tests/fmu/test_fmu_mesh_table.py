@@ -239,10 +239,12 @@ def test_the_cache_keeps_one_fmu_for_each_table(
     table: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("platformdirs.user_cache_path", lambda name: tmp_path / name)
-    own, default = fmu_cache.cached_hypoid_axle(table), fmu_cache.cached_hypoid_axle()
+    own, default = (
+        fmu_cache.cached_hypoid_axle(mesh_table, native=False) for mesh_table in (table, None)
+    )
     assert own != default
     written = own.stat().st_mtime_ns
-    assert fmu_cache.cached_hypoid_axle(table) == own
+    assert fmu_cache.cached_hypoid_axle(table, native=False) == own
     assert own.stat().st_mtime_ns == written
 
 

@@ -42,7 +42,9 @@ def test_starved_inlets_need_mass_conservation():
 
 
 def test_touching_solids_go_with_the_other_cavitation_alone():
-    contact = SimpleNamespace(solids=object(), lubricant=NEWTONIAN, sliding=None, inlet_layer=None)
+    contact = SimpleNamespace(
+        solids=object(), lubricant=NEWTONIAN, sliding=None, inlet_layer=None, sides="ambient"
+    )
     check_cavitation(contact, REYNOLDS)
     with pytest.raises(ParameterError, match="solids that touch"):
         check_cavitation(contact, CONSERVING)

@@ -10,6 +10,7 @@ import pytest
 from gearlube_core.ehl.point.equations import film_shear
 from gearlube_core.ehl.point.equations.film_shear import FactorArrays, ShearUnits
 from gearlube_core.ehl.point.equations.stencil import FlowSlopes, node_slopes
+from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.time_error import TimeError
 from gearlube_core.ehl.transient import deflection_window
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
@@ -29,7 +30,9 @@ def window(monkeypatch):
         return np.ones_like
 
     monkeypatch.setattr(deflection_window, "HalfSpaceConvolution", convolution)
-    grid = SimpleNamespace(shape=SHAPE, graded=False, coefficients=np.zeros(SHAPE))
+    grid = SimpleNamespace(
+        shape=SHAPE, graded=False, coefficients=np.zeros(SHAPE), modes=None, sides=AMBIENT
+    )
     return WindowedDeflection(grid), made
 
 

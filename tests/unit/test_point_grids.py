@@ -12,6 +12,7 @@ from gearlube_core.ehl.point.newton import hierarchy, smoother
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
 from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection
+from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.elements import Elements
 from tests.helpers.row_operators import dense_row, operator_of, some_entries
@@ -57,10 +58,9 @@ def test_sides_are_halved_until_the_grid_is_solved_directly(nodes, steps, coarse
 def test_grids_of_a_problem_are_those_of_its_limits(monkeypatch, swap: bool, ratio, shapes):
     made = []
     monkeypatch.setattr(hierarchy, "PointLevel", lambda *given, **more: made.append((given, more)))
-    monkeypatch.setattr(hierarchy, "Transfer", lambda fine, coarse: (fine, coarse))
-    problem = SimpleNamespace(
-        nodes=(65, 60), x_limits=(-24.0, 40.0), y_limits=(-20.0, 59.0 * ratio - 20.0)
-    )
+    monkeypatch.setattr(hierarchy, "Transfer", lambda fine, coarse, sides: (fine, coarse))
+    # 64 steps along x over 64 m, 59 along y over 59 ratio m
+    problem = SimpleNamespace(nodes=(65, 60), spacing=(1.0, ratio), sides="ambient")
     scales = SimpleNamespace(swap=swap)
     grids = hierarchy.build_hierarchy(problem, scales, "quick", "elements", "jfo")
     if swap:
@@ -80,7 +80,7 @@ def test_grids_below_keep_the_transfers_between_them():
 
 
 SHAPE = (7, 16)
-GRID = SimpleNamespace(shape=SHAPE, modulus=0.02, graded=False)
+GRID = SimpleNamespace(shape=SHAPE, modulus=0.02, graded=False, sides=AMBIENT)
 
 
 def solved(entries, free, residual, halved, spacing) -> np.ndarray:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import BrokenExecutor
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
+from multiprocessing import get_context
 from pathlib import Path
 
 import xarray as xr
@@ -31,7 +33,7 @@ from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.process_pool import Pool, ProcessPool
+from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.result_store import DATASETS, ResultStore
 from gearlube_core.storage.resumable import resumable_results
 
@@ -144,9 +146,11 @@ def run_sweep(
     car_axle = chosen_axle(fmu, mesh_table, axle)
     settings = settings or settings_of(car_axle.axle)
     check_operation(car_axle, settings, speeds)
-    archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
     folder = None if out is None else Path(out)
-    with unpacked(archive) as directory:
+    with ExitStack() as stack:
+        modes = _modes_aside(stack, model, loads, speeds[len(speeds) // 2], settings, car_axle)
+        archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
+        directory = stack.enter_context(unpacked(archive))
         guid, kind = fmu_guid(directory), fmu_kind(directory)
         keys = {
             (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=code_version())
@@ -156,6 +160,8 @@ def run_sweep(
         compute, pool = _workers(archive, directory, settings, model, jobs, scheduler)
         began = time.monotonic()
         points, computed = _points(keys, compute, pool, folder, progress)
+        wall_time = time.monotonic() - began
+        mode_frequency = modes()
     sweep = merge(loads, speeds, points).assign_attrs(
         {
             "title": "Speed sweep of a lubricated hypoid axle",
@@ -170,17 +176,45 @@ def run_sweep(
             "command_line": command_line,
             "scheduler": scheduler or "local processes",
             "computed_points": computed,
-            "wall_time": time.monotonic() - began,
+            "wall_time": wall_time,
             **{f"setting_{name}": value for name, value in settings.as_dict().items()},
         }
     )
-    if model.natural_frequencies is not None:
-        middle = speeds[len(speeds) // 2]
-        sweep["mode_frequency"] = model.natural_frequencies(loads, middle, settings, car_axle)
+    if mode_frequency is not None:
+        sweep["mode_frequency"] = mode_frequency
     described(sweep)
     if folder is not None:
         save(sweep, folder)
     return sweep
+
+
+def _modes_aside(
+    stack: ExitStack,
+    model: SweepModel,
+    preloads: Sequence[float],
+    speed_kmh: float,
+    settings: SweepSettings,
+    car_axle: CarAxle,
+) -> Callable[[], xr.DataArray | None]:
+    """Begin the natural frequencies in a process of their own; return what waits for them.
+
+    They compile kernels when the machine has none yet, as long as the FMU takes to build.
+    """
+    if model.natural_frequencies is None:
+        return lambda: None
+    executor = stack.enter_context(
+        ProcessPoolExecutor(1, mp_context=get_context("spawn"), initializer=stop_on_interrupt)
+    )
+    found = executor.submit(model.natural_frequencies, preloads, speed_kmh, settings, car_axle)
+
+    def result() -> xr.DataArray | None:
+        try:
+            return found.result()
+        except BrokenExecutor as error:
+            logger.warning("No natural frequencies, their process died: %s", error)
+            return None
+
+    return result
 
 
 def _workers(

@@ -42,7 +42,9 @@ class BorderPressure(NamedTuple):
         )
 
 
-def border_pressure(pressure: Array, film: Array, beyond: Array | None = None) -> BorderPressure:
+def border_pressure(
+    pressure: Array, film: Array, beyond: Array | None = None, *, closed: bool = False
+) -> BorderPressure:
     """Return the largest pressure one node from the border, and the side it lies on.
 
     A border where the film is twenty times that of the node beside it is an end of the solids,
@@ -54,6 +56,8 @@ def border_pressure(pressure: Array, film: Array, beyond: Array | None = None) -
         Of any unit, shape (nx, ny), 3 nodes and more either way.
     beyond : ndarray, shape (nx, ny), or None
         Pressure one node from the border of oil that goes on beyond it; None: it does not.
+    closed
+        The sides along y are closed: pressure there is no sign of a cut.
     """
     off = pressure if beyond is None else abs(pressure - beyond)
     sides = {
@@ -62,6 +66,8 @@ def border_pressure(pressure: Array, film: Array, beyond: Array | None = None) -
         "small y": (off[:, 1], film[:, 1], film[:, 0]),
         "large y": (off[:, -2], film[:, -2], film[:, -1]),
     }
+    if closed:
+        sides = {name: side for name, side in sides.items() if name.endswith("x")}
     highest = float(pressure.max())
     found = BorderPressure(0.0, "", beyond is not None)
     for side, (beside, thin, thick) in sides.items():

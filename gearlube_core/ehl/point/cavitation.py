@@ -26,6 +26,11 @@ def check_cavitation(problem: PointContactProblem, settings: PointSolverSettings
                 "mass_conserving."
             )
         return
+    if problem.sides != "ambient":
+        raise ParameterError(
+            f"mass-conserving cavitation needs sides ambient, got {problem.sides}. Take cavitation "
+            "reynolds."
+        )
     if problem.solids is not None:
         raise ParameterError(
             "mass-conserving cavitation does not go with solids that touch. Leave one out."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,9 +10,11 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
+from gearlube_core.contact.half_space_periodic import PeriodicDeflection, periodic_modes
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import Outcome, UnilateralProblem
 from gearlube_core.ehl.point.problem import PointContactProblem
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.errors import ParameterError
 
 
@@ -39,6 +42,18 @@ class DryContact:
     outcome: Outcome
 
 
+def _displacement(
+    dx: float, dy: float, nx: int, ny: int, contact_modulus: float, repeated: bool
+) -> Callable[[Array], Array]:
+    """Return the displacement [m] under cell forces [N], shape (nx, ny), as a function."""
+    if not repeated:
+        return HalfSpaceConvolution(love_coefficients(dx, dy, nx, ny, contact_modulus))
+    # a distance beyond the domain keeps the logarithm of all pairs of cells above zero
+    modes = periodic_modes(dx, dy, nx, ny, contact_modulus, 2.0 * nx * dx)
+    periodic = PeriodicDeflection(modes, ny)
+    return lambda forces: periodic(forces / (dx * dy))
+
+
 def dry_contact_of_gap(
     gap: Array,
     dx: float,
@@ -48,6 +63,7 @@ def dry_contact_of_gap(
     *,
     tolerance: float = 1e-6,
     start: Array | None = None,
+    repeated: bool = False,
     throw: bool = True,
 ) -> DryContact:
     """Return the dry contact of a gap given at the nodes of a uniform grid.
@@ -68,6 +84,9 @@ def dry_contact_of_gap(
         Of complementarity, relative [-], 1e-12 to 1e-2.
     start : ndarray, shape (nx, ny), optional
         Pressure [Pa] of a similar contact.
+    repeated
+        Solids and pressure repeat along y, beyond the cells of the last row; the load is that of
+        one period.
     throw
         Raise when the iteration does not converge; else `outcome` tells.
 
@@ -89,7 +108,7 @@ def dry_contact_of_gap(
     check_positive("load", load, "N")
     area = check_positive("dx", dx, "m") * check_positive("dy", dy, "m")
     nx, ny = gap.shape
-    grid = HalfSpaceConvolution(love_coefficients(dx, dy, nx, ny, contact_modulus))
+    grid = _displacement(dx, dy, nx, ny, contact_modulus, repeated)
     if start is not None and np.shape(start) != gap.shape:
         raise ParameterError(
             f"start must have the shape of gap, {gap.shape}, got {np.shape(start)}. Leave it out."
@@ -111,7 +130,7 @@ def dry_contact_of_gap(
     )
     pressure = solution.pressure.reshape(gap.shape)
     border = np.ones(gap.shape, dtype=bool)
-    border[1:-1, 1:-1] = False
+    border[1:-1, slice(None) if repeated else slice(1, -1)] = False
     return DryContact(
         pressure=pressure,
         separation=solution.separation.reshape(gap.shape),
@@ -152,5 +171,6 @@ def dry_contact(
         problem.load,
         tolerance=tolerance,
         start=start,
+        repeated=Sides(problem.sides).closed,
         throw=throw,
     )

@@ -15,6 +15,7 @@ from gearlube_core.ehl.point.newton.newton import NewtonRecord
 from gearlube_core.ehl.point.problem import PointContactProblem, expected_film
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solution import PointOutcome, PointSolution
 from gearlube_core.ehl.point.start.continuation import solve_level
 from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, interpolated_state, zero_border
@@ -35,9 +36,13 @@ def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:
     film = expected_film(problem)
     scales, x, y = level.scales, level.grid.x, level.grid.y
     a_x = max(math.sqrt(a_x**2 + problem.hertz.R_x * film), 2.5 * (x[1] - x[0]))
-    a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
+    if Sides(problem.sides).closed:
+        a_y = math.inf
+    else:
+        a_y = max(math.sqrt(a_y**2 + problem.hertz.R_y * film), 2.5 * (y[1] - y[0]))
     ellipse = 1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2
-    pressure = zero_border(scales.inward(np.sqrt(np.maximum(0.0, ellipse))))
+    ellipse = scales.inward(np.sqrt(np.maximum(0.0, ellipse)))
+    pressure = zero_border(level.grid.sides.extended(ellipse))
     pressure *= level.load / level.grid.integral(pressure)
     return level.state(pressure, film / scales.film - float(level.film(pressure, 0.0).min()))
 
@@ -78,16 +83,16 @@ def point_solution(
     throw: bool,
 ) -> PointSolution:
     """Return a state of the finest grid in SI with its outcome; `begin` [s] of the clock."""
-    scales = hierarchy.levels[-1].scales
+    scales, inner = hierarchy.levels[-1].scales, Sides(problem.sides).inner
     outcome = PointOutcome.of(hierarchy.levels[-1], state, record, settings, problem)
     if throw and not outcome.converged:
         raise ConvergenceError(outcome.sentence)
     return PointSolution(
         problem=problem,
-        pressure=scales.outward(state.pressure) * scales.pressure,
-        film=scales.outward(state.film) * scales.film,
+        pressure=scales.outward(inner(state.pressure)) * scales.pressure,
+        film=scales.outward(inner(state.film)) * scales.film,
         approach=state.approach * scales.film,
-        fill=scales.outward(state.mass / (state.density * state.film)),
+        fill=scales.outward(inner(state.mass / (state.density * state.film))),
         outcome=outcome,
         residuals=tuple(record.residuals),
         krylov_steps=record.krylov,
@@ -121,8 +126,9 @@ def film_on_coarser_grid(
         level = hierarchy.levels[-1]
         x, y = np.meshgrid(problem.x, problem.y, indexing="ij")
         pressure = interpn((fine.problem.x, fine.problem.y), fine.pressure, (x, y))
+        pressure = level.scales.inward(pressure / level.scales.pressure)
         start = level.state(
-            zero_border(level.scales.inward(pressure / level.scales.pressure)),
+            zero_border(level.grid.sides.extended(pressure)),
             fine.approach / level.scales.film,
         )
         record = NewtonRecord()

@@ -31,7 +31,7 @@ class PointLevel:
     Parameters
     ----------
     problem, scales, shape
-        Contact, its units, rows and columns.
+        Contact, its units, rows and columns without copied rows.
     wedge
         Stencil of the wedge.
     grading
@@ -43,6 +43,8 @@ class PointLevel:
 
     Attributes
     ----------
+    shape : tuple
+        Rows, copied ones included, and columns.
     grid : PointGrid
         Nodes, cells and deflection.
     terms : FilmTerms
@@ -68,11 +70,13 @@ class PointLevel:
         scheme: Callable[[PointGrid], Scheme] = Differences,
         cavitation: str = "reynolds",
     ) -> None:
-        self.shape, self.scales, self.load = shape, scales, scales.load
+        self.scales, self.load = scales, scales.load
         self.grid = grid = PointGrid(problem, scales, shape, grading)
+        self.shape = grid.shape
         x, y = grid.x, grid.y
         gap = np.broadcast_to(problem.gap(x[:, None], y[None, :]), (x.size, y.size))
-        self.gap = scales.inward(np.asarray(gap, dtype=np.float64) / scales.film)
+        gap = scales.inward(np.asarray(gap, dtype=np.float64) / scales.film)
+        self.gap = grid.sides.extended(gap)
         u, v = (abs(component) / scales.speed for component in problem.entrainment)
         semi_x, semi_y, _ = problem.hertz_contact
         if scales.swap:
@@ -231,6 +235,7 @@ class PointLevel:
             right=np.where(free, -state.residual, 0.0),
             result=np.empty(self.shape),
             centre=self._scheme.centre,
+            sides=self.grid.sides,
         )
         balance = self._balance(stencil)
         terms.storage.add_derivatives(linear, state, balance)

@@ -12,6 +12,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.ehl.point.far_field import FarField
+from gearlube_core.ehl.point.line_scales import hertz_line, line_film
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import central_film_thickness, film_geometry
@@ -90,6 +92,9 @@ class PointContactProblem:
     inlet_layer
         Thickness of the oil that both surfaces together bring to the upstream border [m], for
         mass-conserving cavitation; None: the gap is full there.
+    sides : {"ambient", "cyclic", "no_flow"}
+        What the film meets at both limits of y, see `Sides`; other than "ambient" for a part of
+        a line contact, whose scales follow from `hertz.R_x` alone.
 
     Raises
     ------
@@ -98,7 +103,8 @@ class PointContactProblem:
 
     Examples
     --------
-    `elliptical_contact` builds the problem of two smooth solids.
+    `elliptical_contact` builds the problem of two smooth solids, `line_section` that of a part of
+    a line contact.
 
     >>> from gearlube_core.oil.film_oil_data import film_oil
     >>> oil = film_oil(eta0=0.04, alpha=2e-8)
@@ -121,6 +127,7 @@ class PointContactProblem:
     solids: SolidContact | None = None
     oil_beyond: bool = False
     inlet_layer: float | None = None
+    sides: str = "ambient"
 
     def __post_init__(self) -> None:
         for axis, speed in zip("xy", self.entrainment, strict=True):
@@ -147,7 +154,11 @@ class PointContactProblem:
                     f"{axis}_limits must lie on both sides of 0 m where oil goes on beyond them, "
                     f"got {low:.4g} to {limits[1]:.4g} m."
                 )
-        for axis, count in zip("xy", self.nodes, strict=True):
+        sides = Sides(self.sides)
+        if sides.closed:
+            beyond = self.oil_beyond or self.inlet_layer is not None
+            sides.check_goes_with(self.nodes[1], self.entrainment[1], self.sliding, beyond)
+        for axis, count in zip("x" if sides.closed else "xy", self.nodes, strict=False):
             if not 17 <= count <= MOST_NODES:
                 raise ParameterError(
                     f"nodes along {axis} must be within 17 to {MOST_NODES}, got {count}."
@@ -161,11 +172,30 @@ class PointContactProblem:
     @property
     def y(self) -> Array:
         """Return the nodes along y [m], shape (ny,)."""
-        return np.linspace(*self.y_limits, self.nodes[1])
+        return Sides(self.sides).rows(self.y_limits, self.nodes[1])
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Return the spacing along x, as if uniform, and along y [m]."""
+        (x0, x1), (y0, y1), (nx, ny) = self.x_limits, self.y_limits, self.nodes
+        return (x1 - x0) / (nx - 1), (y1 - y0) / Sides(self.sides).intervals(ny)
+
+    @property
+    def middle(self) -> float:
+        """Return y of the centre of the dry contact [m]: 0, or half way between closed sides."""
+        return 0.5 * sum(self.y_limits) if Sides(self.sides).closed else 0.0
+
+    @property
+    def line_load(self) -> float:
+        """Return the load over the length along y [N/m]."""
+        return self.load / float(np.diff(self.y_limits)[0])
 
     @property
     def hertz_contact(self) -> tuple[float, float, float]:
-        """Return the dry semi-axes along x and y [m] and the largest pressure [Pa]."""
+        """Return the dry semi-axes along x and y (of a line half its length) [m], p_max [Pa]."""
+        if Sides(self.sides).closed:
+            a, pressure = hertz_line(self.hertz.R_x, self.contact_modulus, self.line_load)
+            return a, 0.5 * (self.y_limits[1] - self.y_limits[0]), pressure
         a_x, a_y, mean = hertz_ellipse(
             self.hertz.R_x, self.hertz.R_y, self.contact_modulus, self.load
         )
@@ -197,7 +227,13 @@ def expected_film(problem: PointContactProblem) -> float:
     Elastic: [chittenden_1985] and the isoviscous limit of `regime_films`. Rigid: [kapitza_1955],
     p = -12 eta u x/[(3 + 2 R_x/R_y) h^2] where it is positive, so
     W = 12 pi eta u R_x/(3 + 2 R_x/R_y) (2 R_y/h)^(1/2).
+    Of a part of a line contact: `central_film_group`.
     """
+    touching = 0.0 if problem.solids is None else problem.solids.film(problem.hertz_contact[2])
+    if Sides(problem.sides).closed:
+        R, modulus, speed = problem.hertz.R_x, problem.contact_modulus, problem.entrainment[0]
+        film = line_film(R, modulus, problem.line_load, problem.lubricant, abs(speed))
+        return max(film, touching)
     R_x, R_y = problem.hertz.R_x, problem.hertz.R_y
     u, v = (abs(speed) for speed in problem.entrainment)
     psi = math.atan2(v, u)
@@ -218,7 +254,6 @@ def expected_film(problem: PointContactProblem) -> float:
     films = regime_films(M, 0.0, min(1.0, max(0.01, R_e / R_s)))
     # that of light loads bounds the elastic film; the rigid one is above it there
     soft = min(films.elastic_isoviscous, films.light_load) * R_e * math.sqrt(2.0 * U)
-    touching = 0.0 if problem.solids is None else problem.solids.film(problem.hertz_contact[2])
     return max(elastic, rigid, soft if R_e <= R_s else 0.0, touching)
 
 

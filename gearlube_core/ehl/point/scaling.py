@@ -39,9 +39,7 @@ class PointScales:
         length = math.sqrt(a_x * a_y)
         film = length * pressure / problem.contact_modulus
         lubricant = problem.lubricant
-        nx, ny = problem.nodes
-        dx = (problem.x_limits[1] - problem.x_limits[0]) / (nx - 1)
-        dy = (problem.y_limits[1] - problem.y_limits[0]) / (ny - 1)
+        dx, dy = problem.spacing
         return cls(
             length=length,
             pressure=pressure,

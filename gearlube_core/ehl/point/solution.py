@@ -13,6 +13,7 @@ from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solid_contact import Touch
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.traction import point_traction
@@ -74,7 +75,7 @@ class PointOutcome:
         smallest = float(state.film.min()) * scales.film
         touch = Touch.of(
             problem.solids,
-            state.film * scales.film,
+            level.grid.sides.inner(state.film) * scales.film,
             level.grid.cells * scales.length**2,
             problem.load,
         )
@@ -166,9 +167,13 @@ class PointSolution:
 
     @property
     def central_film(self) -> float:
-        """Return the film in the centre of the dry contact, by linear interpolation [m]."""
+        """Return the film in the centre of the dry contact, by linear interpolation [m].
+
+        With closed sides: at x = 0 half way along y.
+        """
         x, y = self.problem.x, self.problem.y
-        column = np.array([np.interp(0.0, y, row) for row in self.film])
+        middle = self.problem.middle
+        column = np.array([np.interp(middle, y, row) for row in self.film])
         return float(np.interp(0.0, x, column))
 
     @property
@@ -199,6 +204,7 @@ class PointSolution:
                 problem.sliding,
                 problem.lubricant,
                 self.fill,
+                closed=Sides(problem.sides).closed,
             ).force
             / problem.load
         )

@@ -10,6 +10,7 @@ from gearlube_core.ehl.point.cavitation import check_cavitation
 from gearlube_core.ehl.point.grid_film import film_on_coarser_grid, nested_film, point_solution
 from gearlube_core.ehl.point.problem import MOST_NODES, PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solution import PointSolution
 from gearlube_core.errors import ConvergenceError
 
@@ -85,9 +86,9 @@ def solve_point_contact(
         raise ConvergenceError(solution.outcome.sentence)
     if not solution.converged or not (settings.estimate_error or film_error):
         return solution
-    begin = time.perf_counter()
+    begin, closed = time.perf_counter(), Sides(problem.sides).closed
     coarser = coarser_films(
-        solution, lambda nodes, near: film_on_coarser_grid(nodes, near, settings)
+        solution, lambda nodes, near: film_on_coarser_grid(nodes, near, settings), closed
     )
     solution = replace(solution, coarser=coarser)
     searched = ""
@@ -97,5 +98,6 @@ def solve_point_contact(
             film_error,
             most_nodes,
             lambda nodes, coarse: replace(on_grid(nodes), coarser=coarse),
+            closed,
         )
     return solution.with_words(solution.error.sentence + searched, time.perf_counter() - begin)

@@ -30,6 +30,8 @@ def point_traction(
     sliding: tuple[float, float],
     oil: FilmOil,
     fill: Array | None = None,
+    *,
+    closed: bool = False,
 ) -> PointTraction:
     """Return the shear stress at mid-film, along the velocity of body 2 against body 1.
 
@@ -47,6 +49,8 @@ def point_traction(
         Newtonian where its Eyring stress is zero.
     fill : ndarray, shape (nx, ny)
         Share of the gap that holds oil [-], which sheared streaks fill; None: 1.
+    closed
+        The rows are cells between closed sides, see `Sides`.
 
     Notes
     -----
@@ -65,5 +69,6 @@ def point_traction(
     void = np.zeros(p.size) if fill is None else np.ascontiguousarray(1.0 - fill).ravel()
     fill_mean_stress(p, slope, h, void, eta, speed, oil, tau)
     stress = tau.reshape(shape)
-    force = float(np.trapezoid(np.trapezoid(stress, y, axis=1), x))
+    across = stress.sum(axis=1) * (y[1] - y[0]) if closed else np.trapezoid(stress, y, axis=1)
+    force = float(np.trapezoid(across, x))
     return PointTraction(eta.reshape(shape), rho.reshape(shape), stress, force)

@@ -9,6 +9,7 @@ import numpy as np
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.contact.half_space import HalfSpaceConvolution
 from gearlube_core.contact.half_space_graded import GradedConvolution
+from gearlube_core.ehl.point.equations.closed_deflection import ClosedDeflection
 from gearlube_core.ehl.point.equations.grid import PointGrid
 
 _Span = tuple[int, int]
@@ -36,6 +37,8 @@ class WindowedDeflection:
         self._whole: GradedConvolution | None = None
         if grid.graded:
             self._whole = GradedConvolution(grid.coefficients, single=True)
+        self._modes, self._sides = grid.modes, grid.sides
+        self._convolution: HalfSpaceConvolution | ClosedDeflection
         self._spans: tuple[_Span, _Span] | None = None
         self._result: Any = np.zeros(grid.shape, dtype=np.float32)
 
@@ -53,6 +56,14 @@ class WindowedDeflection:
             if inside and _area(*self._spans) <= _LOOSE * _area(*wide):
                 return
         self._spans = rows, columns = wide[0], wide[1]
+        if self._modes is not None:
+            # rows repeat: the box has them all
+            rows = 0, free.shape[0]
+            self._spans = rows, columns
+            modes = self._modes[: columns[1] - columns[0]]
+            self._convolution = ClosedDeflection(modes, self._sides, rows[1] - 2, single=True)
+            self._result[:] = 0.0
+            return
         self._convolution = HalfSpaceConvolution(
             self._coefficients[: rows[1] - rows[0], : columns[1] - columns[0]], single=True
         )

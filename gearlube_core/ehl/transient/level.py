@@ -61,8 +61,14 @@ class MovingLevel(PointLevel):
         self.set_load(conditions.load / (scales.pressure * scales.length**2))
         # of a row's own speed along x
         self.stencil = self.stencil._replace(wedge_y=conditions.slope / self.grid.dy)
-        self.gap = np.ascontiguousarray(conditions.gap.T / scales.film)
-        sliding = conditions.speed_2 - conditions.speed_1
+        sides = self.grid.sides
+        if sides.closed and (conditions.slope != 0.0 or conditions.side_sliding != 0.0):
+            sides.check_goes_with(
+                self.grid.y.size, conditions.slope, (0.0, conditions.side_sliding)
+            )
+        self.gap = np.ascontiguousarray(sides.extended(conditions.gap.T / scales.film))
+        mean = sides.extended(mean)
+        sliding = sides.extended(conditions.speed_2 - conditions.speed_1)
         self.terms = replace(
             self.terms,
             entrainment=RowEntrainment(mean / scales.speed),
@@ -71,7 +77,7 @@ class MovingLevel(PointLevel):
 
     def hold_ambient_above(self, film: Array, limit: float) -> None:
         """Hold ambient pressure where a film, (ny, nx) [-], passes a limit [m]."""
-        self.set_boundary(AmbientOutside(film <= limit / self.scales.film))
+        self.set_boundary(AmbientOutside(film <= limit / self.scales.film, self.grid.sides))
 
     def set_storage(self, rate: Array | float, source: Array) -> None:
         """Set the rate at which rho h is stored and what is stored already, (ny, nx) [-]."""

@@ -6,8 +6,6 @@ import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-import numpy as np
-
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.mesh import Grading, x_nodes
 from gearlube_core.ehl.point.level import PointLevel
@@ -15,6 +13,7 @@ from gearlube_core.ehl.point.newton.hierarchy import Hierarchy, grid_shapes
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solid_contact import SolidContact
 from gearlube_core.ehl.transient.conditions import Conditions
 from gearlube_core.ehl.transient.level import MovingLevel
@@ -54,6 +53,9 @@ class MovingFilm:
         What carries load where the film vanishes; None: the oil alone.
     grading
         Of the spacing along x; None: uniform.
+    sides : {"ambient", "cyclic", "no_flow"}
+        What the film meets at both limits of y, see `Sides`. Closed sides take `hertz.R_x` for the
+        scales and a uniform spacing; conditions get the rows in the middle of their cells.
 
     Raises
     ------
@@ -73,6 +75,7 @@ class MovingFilm:
     open_film: float = math.inf
     solids: SolidContact | None = None
     grading: Grading | None = None
+    sides: str = "ambient"
 
     def __post_init__(self) -> None:
         self.reference()
@@ -90,6 +93,7 @@ class MovingFilm:
             nodes=self.nodes,
             hertz=self.hertz,
             solids=self.solids,
+            sides=self.sides,
         )
 
     @property
@@ -100,7 +104,7 @@ class MovingFilm:
     @property
     def y(self) -> Array:
         """Return the nodes along y [m], shape (ny,)."""
-        return np.linspace(*self.y_limits, self.nodes[1])
+        return Sides(self.sides).rows(self.y_limits, self.nodes[1])
 
     def with_nodes(self, nx: int, ny: int) -> MovingFilm:
         """Return the same film on another grid."""
@@ -109,15 +113,13 @@ class MovingFilm:
     @property
     def long(self) -> bool:
         """Tell whether rows along x are so far apart that they are best solved whole."""
-        (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
-        return (y1 - y0) * (nx - 1) > _LONG * (x1 - x0) * (ny - 1)
+        dx, dy = self.reference().spacing
+        return dy > _LONG * dx and not Sides(self.sides).closed
 
     def grids(self, wedge: str) -> Hierarchy:
         """Return the nested grids with the conditions of no time yet."""
-        (nx, ny), (x0, x1), (y0, y1) = self.nodes, self.x_limits, self.y_limits
-        return self._hierarchy(
-            grid_shapes((ny, nx), ((y1 - y0) / (ny - 1), (x1 - x0) / (nx - 1))), wedge
-        )
+        (nx, ny), (dx, dy) = self.nodes, self.reference().spacing
+        return self._hierarchy(grid_shapes((ny, nx), (dy, dx), Sides(self.sides)), wedge)
 
     def row_grids(self, wedge: str) -> Hierarchy:
         """Return grids that differ in the number of their rows alone."""
@@ -143,7 +145,8 @@ class MovingFilm:
         ]
         if finest is not None:
             levels.append(finest)
-        transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
+        sides = Sides(self.sides)
+        transfers = [Transfer(fine, coarse, sides) for coarse, fine in pairwise(shapes)]
         return Hierarchy(levels, transfers)
 
 

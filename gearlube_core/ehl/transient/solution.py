@@ -14,6 +14,7 @@ from gearlube_core.ehl.point.border_pressure import border_pressure
 from gearlube_core.ehl.point.equations.mesh import cell_faces
 from gearlube_core.ehl.point.newton.newton import flow_residual
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.solid_contact import NO_TOUCH, Touch
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.time_error import time_error_sentence
@@ -48,6 +49,7 @@ class FilmSolution:
     )  # estimated, of the smallest film by the time steps [-]; at rest: nan
     formal_order: float = SECOND_ORDER  # of its grid
     coarser: tuple[FilmSolution, ...] = ()  # a film at rest on coarser grids, finest first
+    sides: str = "ambient"  # along y
 
     @property
     def nodes(self) -> tuple[int, ...]:
@@ -61,8 +63,12 @@ class FilmSolution:
 
     @property
     def numbers(self) -> FilmNumbers:
-        """Return films and largest pressure; no film at the origin where it is not loaded."""
-        origin = np.zeros(2)
+        """Return films and largest pressure; no film at the origin where it is not loaded.
+
+        With closed sides: of x = 0 and half way along y.
+        """
+        closed = Sides(self.sides).closed
+        origin = np.array([0.0, 0.5 * (self.y[0] + self.y[-1]) if closed else 0.0])
         central = math.nan
         if float(interpn(self.axes, self.pressure, origin)[0]) > 0.0:
             central = float(interpn(self.axes, self.film, origin)[0])
@@ -98,11 +104,12 @@ class FilmSolution:
     @property
     def border_pressure(self) -> float:
         """Return the largest pressure one node from the border over the largest of all [-]."""
-        return border_pressure(self.pressure, self.film).share
+        closed = Sides(self.sides).closed
+        return border_pressure(self.pressure, self.film, closed=closed).share
 
     @property
     def loaded_length(self) -> float:
-        """Return the extent along y over which pressure passes 1 MPa [m]."""
+        """Return the extent along y over which pressure passes 1 MPa, from row to row [m]."""
         rows = self.y[(self.pressure > 1.0e6).any(axis=0)]
         return float(rows[-1] - rows[0]) if rows.size else 0.0
 
@@ -145,12 +152,13 @@ def film_solution(
     scales = level.scales
     residual = flow_residual(level, state)
     failed = _failures(state.pressure, state.film, residual, state.load_error, settings)
-    pressure = scales.outward(state.pressure) * scales.pressure
-    height = scales.outward(state.film) * scales.film
+    sides = level.grid.sides
+    pressure = scales.outward(sides.inner(state.pressure)) * scales.pressure
+    height = scales.outward(sides.inner(state.film)) * scales.film
     load = level.grid.integral(state.pressure) * scales.pressure * scales.length**2
     cells = level.grid.cells[:, None] * scales.length**2
     touch = Touch.of(film.solids, height, cells, load)
-    cut = border_pressure(pressure, height).sentence
+    cut = border_pressure(pressure, height, closed=sides.closed).sentence
     return FilmSolution(
         time=time,
         x=film.x,
@@ -171,6 +179,7 @@ def film_solution(
         touch=touch,
         time_error=time_error,
         formal_order=formal_order(settings.wedge),
+        sides=sides.name,
     )
 
 
@@ -215,11 +224,12 @@ def unpack_solutions(
             film=height,
             converged=not failed,
             outcome=_outcome(failed, newton_steps, touch)
-            + border_pressure(pressure, height).sentence
+            + border_pressure(pressure, height, closed=Sides(film.sides).closed).sentence
             + time_error_sentence(numbers["time_error"]),
             newton_steps=newton_steps,
             krylov_steps=int(krylov_steps),
             touch=touch,
             formal_order=formal_order(settings.wedge),
+            sides=film.sides,
         )
     return solutions

@@ -15,6 +15,7 @@ from gearlube_core.ehl.point.newton.newton import Build, NewtonRecord
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.problem import MOST_NODES, expected_film
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.start.continuation import solve_level
 from gearlube_core.ehl.point.start.nested import COARSE_TOLERANCE, interpolated_state, zero_border
 from gearlube_core.ehl.point.terms.state import FilmState
@@ -31,7 +32,8 @@ def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
     length = scales.length
     # on a uniform grid of as many nodes
     x = np.linspace(*film.x_limits, level.grid.x.size)
-    gap = np.array([np.interp(x, level.grid.x, row) for row in level.gap])
+    sides = level.grid.sides
+    gap = np.array([np.interp(x, level.grid.x, row) for row in sides.inner(level.gap)])
     dry = dry_contact_of_gap(
         gap.T * scales.film,
         x[1] - x[0],
@@ -39,9 +41,10 @@ def dry_start(film: MovingFilm, level: MovingLevel) -> FilmState:
         film.contact_modulus,
         level.load * scales.pressure * length**2,
         tolerance=1e-3,
+        repeated=sides.closed,
     )
     spread = [np.interp(level.grid.x, x, column) for column in dry.pressure.T / scales.pressure]
-    pressure = zero_border(np.array(spread))
+    pressure = zero_border(sides.extended(np.array(spread)))
     pressure *= level.load / level.grid.integral(pressure)
     lowest = float(level.film(pressure, 0.0).min())
     approach = expected_film(film.reference()) / scales.film - lowest
@@ -123,7 +126,8 @@ def solve_steady_film(
         coarse = on_grid(nodes, wedge)[0]
         return coarse if coarse.converged else None
 
-    solution = replace(solution, coarser=coarser_films(solution, found))
+    closed = Sides(film.sides).closed
+    solution = replace(solution, coarser=coarser_films(solution, found, closed))
     searched = ""
     if film_error is not None:
         solution, searched = refined_film(
@@ -131,6 +135,7 @@ def solve_steady_film(
             film_error,
             most_nodes,
             lambda nodes, coarser: replace(on_grid(nodes, settings.wedge)[0], coarser=coarser),
+            closed,
         )
     return replace(
         solution,

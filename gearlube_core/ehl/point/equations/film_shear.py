@@ -15,6 +15,7 @@ from gearlube_core.ehl.point.equations.shear_factors import (
     NewtonianFactors,
     ObliqueFactors,
 )
+from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_oil import FilmOil
@@ -135,6 +136,7 @@ class FilmShear:
     central: Array | None = None  # spacing along x over that of every column, (nx,); None: 1
     limit: float = 0.0  # limiting stress over tau0 at ambient pressure
     limit_slope: float = 0.0  # its slope with pressure
+    sides: Sides = AMBIENT  # of the rows
 
     @classmethod
     def of(
@@ -148,6 +150,7 @@ class FilmShear:
         pressure: float = 1.0,
         viscosity: float = 1.0,
         central: Array | None = None,
+        sides: Sides = AMBIENT,
     ) -> FilmShear:
         """Return the constants.
 
@@ -166,6 +169,8 @@ class FilmShear:
         central
             Spacing along x over half the distance between the neighbours of each column of
             nodes, shape (nx,) [-]; None: 1.
+        sides
+            Of the rows.
 
         Raises
         ------
@@ -197,6 +202,7 @@ class FilmShear:
             central=central,
             limit=lubricant.tau_limit / tau0,
             limit_slope=lubricant.limit_slope * pressure / tau0,
+            sides=sides,
         )
 
     def with_sliding(self, along: Array, across: float) -> FilmShear:
@@ -243,6 +249,8 @@ class FilmShear:
             self.limit_slope,
         )
         fill_shear_factors(self.law, pressure, film, fluidity, units, factors)
+        for one in factors:
+            self.sides.fill(one)
         along, across, steepness, stiffness = factors
         c, s = self.cosine, self.sine
         slope = along * steepness

@@ -7,6 +7,8 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.contact.half_space import HalfSpaceConvolution, love_coefficients
 from gearlube_core.contact.half_space_graded import GradedConvolution, graded_coefficients
+from gearlube_core.contact.half_space_periodic import periodic_coefficients, periodic_modes
+from gearlube_core.ehl.point.equations.closed_deflection import ClosedDeflection
 from gearlube_core.ehl.point.equations.mesh import (
     Grading,
     cell_faces,
@@ -17,6 +19,10 @@ from gearlube_core.ehl.point.equations.mesh import (
 from gearlube_core.ehl.point.equations.stencil import MeshMetric
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.errors import ParameterError
+
+_REFERENCE = 2.0  # lengths of the domain, where a repeated load leaves the solids as they were
 
 
 class PointGrid:
@@ -25,14 +31,18 @@ class PointGrid:
     Parameters
     ----------
     problem, scales, shape
-        Contact, its units, rows and columns.
+        Contact, its units, rows and columns without copied rows.
     grading
         Of the spacing along x, for entrainment along x; None: uniform.
 
     Attributes
     ----------
+    shape : tuple
+        Rows, those included that `sides` copies, and columns.
+    sides : Sides
+        Of the rows.
     x, y : ndarray
-        Nodes along the axes of the problem [m].
+        Nodes along the axes of the problem [m], without copied rows.
     dx, dy : float
         Spacing; the smallest along x [-].
     positions : ndarray, shape (nx,)
@@ -58,10 +68,12 @@ class PointGrid:
         shape: tuple[int, int],
         grading: Grading | None = None,
     ) -> None:
-        self.shape = ny, nx = shape
+        ny, nx = shape
+        self.sides = sides = Sides(problem.sides)
+        self.shape = sides.whole(ny), nx
         nodes = (ny, nx) if scales.swap else (nx, ny)
         self.x = x = x_nodes(problem.x_limits, nodes[0], grading)
-        self.y = y = np.linspace(*problem.y_limits, nodes[1])
+        self.y = y = sides.rows(problem.y_limits, nodes[1])
         step_x, step_y = float(np.diff(x).min()) if grading else x[1] - x[0], y[1] - y[0]
         if scales.swap:
             step_x, step_y = step_y, step_x
@@ -69,7 +81,17 @@ class PointGrid:
         self.modulus = problem.contact_modulus * scales.film / (scales.pressure * scales.length)
         self.positions = x / scales.length if grading else np.arange(nx) * self.dx
         self.graded = grading is not None
-        if self.graded:
+        if self.graded and sides.closed:
+            raise ParameterError(
+                f"a grading does not go with sides {sides.name}. Leave the spacing uniform."
+            )
+        self.modes: Array | None = None
+        if sides.closed:
+            self.metric = MeshMetric(np.ones(nx), np.ones(nx))
+            reference = _REFERENCE * (problem.x_limits[1] - problem.x_limits[0]) / scales.length
+            self.modes = periodic_modes(self.dx, self.dy, nx, ny, self.modulus, reference)
+            self.coefficients = periodic_coefficients(self.modes, ny)
+        elif self.graded:
             self.metric = mesh_metric(self.positions, self.dx)
             self.coefficients = graded_coefficients(
                 cell_faces(self.positions), self.positions, self.dy, ny, self.modulus
@@ -84,8 +106,12 @@ class PointGrid:
         self.cells = self.cell / self.metric.narrow
         self._dense: Array | None = None
 
-    def convolution(self, single: bool = False) -> HalfSpaceConvolution | GradedConvolution:
+    def convolution(
+        self, single: bool = False
+    ) -> HalfSpaceConvolution | GradedConvolution | ClosedDeflection:
         """Return the deflection under a pressure as a function, in float32 for preconditioners."""
+        if self.modes is not None:
+            return ClosedDeflection(self.modes, self.sides, self.shape[0] - 2, single=single)
         kind = GradedConvolution if self.graded else HalfSpaceConvolution
         return kind(self.coefficients, single=single)
 
@@ -99,6 +125,9 @@ class PointGrid:
         """Return the matrix of deflection per unit pressure, shape (ny nx, ny nx) [-]."""
         if self._dense is None:
             rows, columns = (n.ravel() for n in np.indices(self.shape))
+            if self.sides.closed:
+                # of a copied row that of the row itself will do: it carries no pressure
+                rows = (rows - 1) % (self.shape[0] - 2)
             apart = abs(columns[:, None] - columns)
             along = (columns[:, None], columns) if self.graded else (apart,)
             self._dense = self.coefficients[(abs(rows[:, None] - rows), *along)]
@@ -111,4 +140,4 @@ class PointGrid:
     # of the pressure: the load [jamali_2015 (4.5)]
     def integral(self, values: Array) -> float:
         """Return the sum of values, shape (ny, nx), times the areas of their cells."""
-        return float(values.sum(axis=0) @ self.cells)
+        return float(self.sides.inner(values).sum(axis=0) @ self.cells)

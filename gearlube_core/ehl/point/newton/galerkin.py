@@ -23,6 +23,7 @@ def stencil_entries(
     by_pressure: np.ndarray,
     by_film: np.ndarray,
     free: np.ndarray,
+    own: np.ndarray,
     start: np.ndarray,
     column: np.ndarray,
     entry: np.ndarray,
@@ -39,6 +40,8 @@ def stencil_entries(
         Real and imaginary part of the entries.
     free : ndarray of bool, shape (ny, nx)
         Other nodes have no row and no pressure.
+    own : ndarray of int, shape (ny,)
+        Row whose values a row holds: another one where it is a copy.
     start, column, entry : ndarray
         Result, of size ny nx + 1 and at least n times the free nodes.
 
@@ -58,6 +61,7 @@ def stencil_entries(
                 p, h = by_pressure[k, j, i], by_film[k, j, i]
                 if (p == 0.0 and h == 0.0) or jj < 0 or ii < 0:
                     continue
+                jj = own[jj]
                 if not free[jj, ii]:
                     p = 0.0
                 column[count] = jj * nx + ii
@@ -123,6 +127,7 @@ def sparse_operator(linear: Linearisation) -> SparseOperator:
         linear.by_pressure,
         linear.by_film,
         linear.free,
+        linear.sides.own_rows(linear.free.shape[0]),
         start,
         column,
         entry,

@@ -10,6 +10,7 @@ from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
+from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.elements import Elements
 
@@ -29,7 +30,9 @@ class Hierarchy:
         return Hierarchy(self.levels[:count], self.transfers[: count - 1])
 
 
-def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tuple[int, int]]:
+def grid_shapes(
+    nodes: tuple[int, int], steps: tuple[float, float], sides: Sides = AMBIENT
+) -> list[tuple[int, int]]:
     """Return shapes from coarse to fine; the side of the smaller spacing is halved first.
 
     Parameters
@@ -38,20 +41,23 @@ def grid_shapes(nodes: tuple[int, int], steps: tuple[float, float]) -> list[tupl
         (ny, nx) of the finest grid.
     steps
         Its spacings (dy, dx).
+    sides
+        Of the rows.
     """
     shapes = [nodes]
-    sides, spacing = list(nodes), list(steps)
-    while sides[0] * sides[1] > _DIRECT_NODES:
+    counts, spacing = list(nodes), list(steps)
+    while counts[0] * counts[1] > _DIRECT_NODES:
         ratio = spacing[0] / spacing[1]
-        halve = [ratio < 1.5 and sides[0] > _SHORTEST, ratio > 1.0 / 1.5 and sides[1] > _SHORTEST]
+        halve = [ratio < 1.5 and counts[0] > _SHORTEST, ratio > 1.0 / 1.5 and counts[1] > _SHORTEST]
         if not any(halve):
-            halve = [side > _SHORTEST for side in sides]
+            halve = [count > _SHORTEST for count in counts]
         for axis in range(2):
             if halve[axis]:
-                coarse = (sides[axis] - 1) // 2 + 1
-                spacing[axis] *= (sides[axis] - 1) / (coarse - 1)
-                sides[axis] = coarse
-        shapes.insert(0, (sides[0], sides[1]))
+                ends = sides if axis == 0 else AMBIENT
+                coarse = ends.halved(counts[axis])
+                spacing[axis] *= ends.intervals(counts[axis]) / ends.intervals(coarse)
+                counts[axis] = coarse
+        shapes.insert(0, (counts[0], counts[1]))
     return shapes
 
 
@@ -63,15 +69,13 @@ def build_hierarchy(
     cavitation: str = "reynolds",
 ) -> Hierarchy:
     """Return the grids of a problem."""
-    nx, ny = problem.nodes
-    dx = (problem.x_limits[1] - problem.x_limits[0]) / (nx - 1)
-    dy = (problem.y_limits[1] - problem.y_limits[0]) / (ny - 1)
+    (nx, ny), (dx, dy), sides = problem.nodes, problem.spacing, Sides(problem.sides)
     nodes, steps = ((nx, ny), (dx, dy)) if scales.swap else ((ny, nx), (dy, dx))
-    shapes = grid_shapes(nodes, steps)
+    shapes = grid_shapes(nodes, steps, sides)
     scheme = Elements if discretisation == "elements" else Differences
     levels = [
         PointLevel(problem, scales, shape, wedge, scheme=scheme, cavitation=cavitation)
         for shape in shapes
     ]
-    transfers = [Transfer(fine, coarse) for coarse, fine in pairwise(shapes)]
+    transfers = [Transfer(fine, coarse, sides) for coarse, fine in pairwise(shapes)]
     return Hierarchy(levels, transfers)

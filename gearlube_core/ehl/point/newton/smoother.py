@@ -24,6 +24,7 @@ def fill_rows(
     free: np.ndarray,
     local: np.ndarray,
     across: np.ndarray,
+    period: int,
     band: np.ndarray,
 ) -> None:
     """Fill the LAPACK band of all rows of nodes, uncoupled from each other.
@@ -38,6 +39,8 @@ def fill_rows(
         Deflection at the nodes of a row per unit pressure on its cells.
     across : ndarray, shape (5,)
         Share of it that neighbours 0 to 4 rows away see.
+    period
+        Rows after which the film repeats; 0: it does not.
     band : ndarray, shape (ny nx, 2 _BELOW + _ABOVE + 1)
         Result, transposed band storage; zero on entry.
     """
@@ -56,7 +59,10 @@ def fill_rows(
                     continue  # oil that came through broken film: beyond the band
                 if jj == j and free[jj, ii]:
                     band[row + ii - i, diagonal - ii + i] += entry[k].real
-                slope = entry[k].imag * across[min(abs(jj - j), 4)]
+                apart = abs(jj - j)
+                if period > 0:
+                    apart = min(apart, period - apart)
+                slope = entry[k].imag * across[min(apart, 4)]
                 for m in range(-REACH, REACH + 1):
                     offset = ii - i + m
                     if 0 <= i + offset < nx and free[j, i + offset]:
@@ -89,6 +95,7 @@ class RowSmoother:
             operator.free,
             wave_deflection(grid, wave_number),
             across,
+            grid.sides.period(ny),
             band,
         )
         self._factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csr_matrix, kron
 
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.point.sides import AMBIENT, Sides
 
 _SPARSE = 5000  # entries, from which on a matrix with two or three a row is kept sparse
 
@@ -38,16 +39,53 @@ def cubic_interpolation(coarse: int, fine: int) -> Array:
     return matrix
 
 
-class Transfer:
-    """Between a fine and a coarse grid of shapes (ny, nx)."""
+def closed_interpolation(coarse: int, fine: int, sides: Sides, points: int) -> Array:
+    """Return the matrix, shape (fine + 2, coarse + 2), between rows with closed sides.
 
-    def __init__(self, fine: tuple[int, int], coarse: tuple[int, int]) -> None:
+    Through 2 or 4 `points`; copied rows give and get nothing.
+    """
+    position = (np.arange(fine) + 0.5) * (coarse / fine) - 0.5
+    first = np.floor(position).astype(int) - (points // 2 - 1)
+    t = position - first
+    matrix = np.zeros((fine + 2, coarse + 2))
+    for k in range(points):
+        weight = np.ones(fine)
+        for m in range(points):
+            if m != k:
+                weight *= (t - m) / (k - m)
+        row = first + k
+        if sides.name == "cyclic":
+            row = row % coarse
+        else:  # mirrored
+            row = np.where(row < 0, -1 - row, np.where(row >= coarse, 2 * coarse - 1 - row, row))
+        np.add.at(matrix, (np.arange(fine) + 1, row + 1), weight)
+    return matrix
+
+
+class Transfer:
+    """Between a fine and a coarse grid of so many rows and columns.
+
+    Parameters
+    ----------
+    fine, coarse
+        Rows and columns of the grids, without copied rows.
+    sides
+        Of the rows. Fields have copied rows where they are closed; results have zeros there.
+    """
+
+    def __init__(
+        self, fine: tuple[int, int], coarse: tuple[int, int], sides: Sides = AMBIENT
+    ) -> None:
         self._linear = [linear_interpolation(c, f) for c, f in zip(coarse, fine, strict=True)]
         self._cubic = [cubic_interpolation(c, f) for c, f in zip(coarse, fine, strict=True)]
+        if sides.closed:
+            self._linear[0] = closed_interpolation(coarse[0], fine[0], sides, 2)
+            self._cubic[0] = closed_interpolation(coarse[0], fine[0], sides, 4)
         self._restriction = []
         for matrix in self._linear:
             weights = matrix.T
-            self._restriction.append(weights / weights.sum(axis=1, keepdims=True))
+            shares = weights.sum(axis=1, keepdims=True)
+            self._restriction.append(weights / np.where(shares > 0.0, shares, 1.0))
         self.interpolation: csr_matrix = kron(*self._linear, format="csr")
         self.restriction: csr_matrix = kron(*self._restriction, format="csr")
         self._short_up = [_short(m) for m in self._linear]

@@ -12,6 +12,7 @@ from scipy.special import iti0k0
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.mesh import cell_faces
+from gearlube_core.ehl.point.sides import AMBIENT, Sides
 
 _SPECTRUM = 512
 
@@ -34,6 +35,7 @@ class TransposedGrid:
     modulus: float
     positions: Array  # of the columns along x [-]
     graded: bool = False
+    sides: Sides = AMBIENT  # of its rows
 
     @classmethod
     def of(cls, grid: PointGrid) -> TransposedGrid:

@@ -9,18 +9,33 @@ import numpy as np
 from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.border_pressure import BorderPressure, border_pressure
 from gearlube_core.ehl.point.equations.grid import PointGrid
+from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 
 
 class AmbientBorder:
-    """Ambient pressure on the border; oil anywhere inside may have pressure."""
+    """Ambient pressure on the border; oil anywhere inside may have pressure.
+
+    Parameters
+    ----------
+    sides
+        Copied rows in the place of the first and the last row of the border.
+    """
+
+    _sides = AMBIENT
+
+    def __init__(self, sides: Sides = AMBIENT) -> None:
+        self._sides = sides
 
     def impose(self, pressure: Array, approach: float) -> Array:
         """Return a pressure, (ny, nx), with what the boundary sets."""
-        return pressure
+        return self._sides.filled(pressure)
 
     def within(self, nodes: Flags) -> Flags:
         """Return the nodes whose pressure the boundary leaves free, of shape (ny, nx)."""
+        if self._sides.closed:
+            nodes = nodes.copy()
+            nodes[[0, -1]] = False
         return nodes
 
     def load(self, approach: float) -> tuple[float, float]:
@@ -54,7 +69,10 @@ class AmbientBorder:
         outward
             Turns an array into the order of the problem, (nx, ny).
         """
-        return border_pressure(outward(pressure), outward(film))
+        sides = self._sides
+        return border_pressure(
+            outward(sides.inner(pressure)), outward(sides.inner(film)), closed=sides.closed
+        )
 
 
 class AmbientOutside(AmbientBorder):
@@ -64,15 +82,18 @@ class AmbientOutside(AmbientBorder):
     ----------
     region : ndarray of bool, shape (ny, nx)
         Nodes where oil may be above ambient pressure.
+    sides
+        As in `AmbientBorder`.
     """
 
-    def __init__(self, region: Flags) -> None:
+    def __init__(self, region: Flags, sides: Sides = AMBIENT) -> None:
+        super().__init__(sides)
         self._region = region
 
     def impose(self, pressure: Array, approach: float) -> Array:
         """Return a pressure, (ny, nx), that is ambient outside the region."""
-        return np.where(self._region, pressure, 0.0)
+        return super().impose(np.where(self._region, pressure, 0.0), approach)
 
     def within(self, nodes: Flags) -> Flags:
         """Return the nodes inside the region."""
-        return nodes & self._region
+        return super().within(nodes) & self._region

@@ -77,7 +77,9 @@ class FilmTerms:
             storage=NoStorage(np.zeros(grid.shape)),
             solids=_solids(problem, scales),
             boundary=(
-                OpenBorder(problem, scales, grid.shape) if problem.oil_beyond else AmbientBorder()
+                OpenBorder(problem, scales, grid.shape)
+                if problem.oil_beyond
+                else AmbientBorder(grid.sides)
             ),
             cavitation=breaks,
         )
@@ -101,6 +103,7 @@ def film_shear(
         pressure=scales.pressure,
         viscosity=problem.lubricant.eta0,
         central=grid.central_spacing(),
+        sides=grid.sides,
     )
 
 

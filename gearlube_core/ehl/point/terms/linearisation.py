@@ -10,6 +10,7 @@ import numpy as np
 from gearlube_core.arrays import Array, Flags, Offsets
 from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
 from gearlube_core.ehl.point.equations.stencil import CENTRE
+from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.ehl.point.terms.ruptured_transport import NoTransport, Transport
 
 # steps to the neighbours, derivatives by their pressure and by their film, (n, ny, nx)
@@ -30,6 +31,7 @@ class Linearisation:
     load_by_approach: float = 0.0  # change of the load that is carried over the load
     transport: Transport = field(default_factory=NoTransport)  # of oil through ruptured nodes
     centre: int = CENTRE  # number of the node itself among its neighbours
+    sides: Sides = AMBIENT  # of the rows
 
     @property
     def neighbours(self) -> Offsets:
@@ -52,7 +54,7 @@ class Linearisation:
             self.offsets,
             self.by_pressure,
             self.by_film,
-            pressure,
+            self.sides.filled(pressure),
             deflection(pressure),
             self.result,
         )

@@ -273,6 +273,10 @@ def check_thermal(problem: PointContactProblem, settings: PointSolverSettings) -
     """Refuse a contact that has no thermal film; see `solve_thermal_point`."""
     check_cavitation(problem, settings)
     refuse_rupture(settings, "with heat")
+    if problem.sides != "ambient":
+        raise ParameterError(
+            f"a thermal film needs sides ambient, got {problem.sides}. Leave heat out."
+        )
     if problem.sliding is None:
         raise ParameterError(
             "A thermal film needs `sliding`: the velocity of body 2 against body 1, (0, 0) where "

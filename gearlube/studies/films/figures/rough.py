@@ -1,0 +1,283 @@
+"""Rough films in motion: what they do over time, how films and pressures are distributed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
+
+_MICROMETRE, _NANOMETRE, _MILLIMETRE, _GIGAPASCAL = 1e-6, 1e-9, 1e-3, 1e9
+_LEAST_FILM = 1.0  # nm, end of logarithmic film scales: a film is a continuum no thinner
+_DASHES = ("-", "--", "-.", ":")
+_EDGE = 0.02  # of the load, under which a curve of pressure is not shown
+Runs = Mapping[str, xr.Dataset]
+
+
+def rough_history(runs: Runs, time_step: float | None = None) -> Any:
+    """Draw largest pressure, smallest film, contact and load of solids of runs over time.
+
+    Parameters
+    ----------
+    runs
+        Statistics of `RoughFilmStatistics` by label.
+    time_step
+        [s]; with it the axis counts time steps.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As [jamali_2015 Fig. 7.18, 7.24, 7.25] for the pressure.
+    """
+    _check(runs)
+    with house_style():
+        figure = new_figure(8.0, 8.4)
+        axes = figure.subplots(4, 1, sharex=True)
+        for k, (label, run) in enumerate(runs.items()):
+            scale = time_step or _MICROMETRE
+            at = run["time"].values / scale
+            line = {"color": SERIES[k % len(SERIES)], "lw": 1.0, "label": label}
+            axes[0].plot(at, run["pressure_max"] / _GIGAPASCAL, **line)
+            axes[1].semilogy(at, np.maximum(run["film_min"] / _NANOMETRE, _LEAST_FILM / 2), **line)
+            limit = run["threshold"].values[-1]
+            axes[2].plot(at, 100.0 * run["contact_share"].sel(threshold=limit), **line)
+            axes[3].plot(at, 100.0 * run["solid_share"], **line)
+        words = f"{next(iter(runs.values()))['threshold'].values[-1] / _NANOMETRE:g} nm"
+        for ax, name in zip(
+            axes,
+            (
+                "Largest pressure\n[GPa]",
+                "Smallest film\n[nm]",
+                f"Zone with a film\nbelow {words} [%]",
+                "Load on solids\n[%]",
+            ),
+            strict=True,
+        ):
+            ax.set_ylabel(name)
+            ax.margins(x=0.0)
+        for ax in (axes[0], axes[2], axes[3]):
+            ax.set_ylim(bottom=0.0)
+        axes[-1].set_xlabel("Time [µs]" if time_step is None else "Time step")
+        if len(runs) > 1:
+            axes[0].legend(ncols=min(len(runs), 4), loc="lower right")
+        axes[0].set_title("Rough film in motion")
+    return figure
+
+
+def rough_distributions(runs: Runs) -> Any:
+    """Draw the distribution functions of film and pressure in the Hertz zone over all times.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As [jamali_2015 Fig. 7.29, 7.31]: the share of the zone with a film below, and with a
+        pressure above, a value.
+    """
+    _check(runs)
+    with house_style():
+        figure = new_figure(9.0, 4.2)
+        left, right = figure.subplots(1, 2)
+        for k, (label, run) in enumerate(runs.items()):
+            line = {"color": SERIES[k % len(SERIES)], "ls": _DASHES[k % len(_DASHES)]}
+            film, share = run["film_edge"].values / _MICROMETRE, run["film_function"].values
+            left.plot(film, 100.0 * share, label=label, **line)
+            pressure = run["pressure_edge"].values / _GIGAPASCAL
+            above = 1.0 - run["pressure_function"].values
+            right.semilogy(pressure, 100.0 * np.where(above > 0.0, above, np.nan), **line)
+        left.set_xlim(0.0, _end(runs, "film", 0.999) / _MICROMETRE)
+        right.set_xlim(0.0, _end(runs, "pressure", 1.0 - 1e-6) / _GIGAPASCAL)
+        left.set(xlabel="Film [µm]", ylabel="Zone with a film below [%]", ylim=(0.0, 100.0))
+        right.set(xlabel="Pressure [GPa]", ylabel="Zone with a pressure above [%]")
+        right.set_ylim(1e-4, 100.0)
+        if len(runs) > 1:
+            left.legend()
+        figure.suptitle("Films and pressures of the Hertz zone, all times")
+    return figure
+
+
+def rough_thin_films(runs: Runs) -> Any:
+    """Draw which share of the Hertz zone has which film below 25 nm, over all times.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As [jamali_2015 Fig. 7.30].
+    """
+    _check(runs)
+    with house_style():
+        figure = new_figure(8.0, 4.2)
+        ax = figure.subplots()
+        width = 0.8 / len(runs)
+        for k, (label, run) in enumerate(runs.items()):
+            edges = run["film_edge"].values / _NANOMETRE
+            thin = np.flatnonzero(edges[1:] <= 25.0 * (1.0 + 1e-9))
+            middle = 0.5 * (edges[thin] + edges[thin + 1]) + (k - 0.5 * (len(runs) - 1)) * width
+            shares = 100.0 * run["film_histogram"].values[thin]
+            ax.bar(middle, shares, width, color=SERIES[k % len(SERIES)], label=label)
+        ax.set(xlabel="Film [nm]", ylabel="Share of the zone [%]", xlim=(0.0, 25.0))
+        ax.set_title("Thin films of the Hertz zone, all times, in bins of 1 nm")
+        if len(runs) > 1:
+            ax.legend()
+    return figure
+
+
+def rough_frame(frame: xr.Dataset, highest: float | None = None) -> Any:
+    """Draw film and pressure of one moment as maps, with the middle row below.
+
+    Parameters
+    ----------
+    frame
+        `film` [m] and `pressure` [Pa] over `x` and `y` [m], with the coordinate `time` [s].
+    highest
+        Pressure at the end of the colours [Pa]; None: the largest of the frame.
+    """
+    x, y = frame["x"].values / _MILLIMETRE, frame["y"].values / _MILLIMETRE
+    film = frame["film"].transpose("y", "x").values
+    pressure = frame["pressure"].transpose("y", "x").values
+    with house_style():
+        figure = new_figure(8.5, 7.0)
+        axes = figure.subplots(3, 1, sharex=True, height_ratios=(1.0, 1.0, 1.1))
+        top = (float(pressure.max()) if highest is None else highest) / _GIGAPASCAL
+        colours = axes[0].pcolormesh(
+            x, y, pressure / _GIGAPASCAL, vmin=0.0, vmax=top, cmap="inferno", shading="nearest"
+        )
+        figure.colorbar(colours, ax=axes[0], label="Pressure [GPa]")
+        colours = axes[1].pcolormesh(
+            x, y, film / _MICROMETRE, vmin=0.0, vmax=_loaded_film(film, pressure) / _MICROMETRE,
+            cmap="viridis", shading="nearest",
+        )  # fmt: skip
+        figure.colorbar(colours, ax=axes[1], label="Film [µm]", extend="max")
+        for ax in axes[:2]:
+            ax.set_ylabel("y [mm]")
+            ax.grid(visible=False)
+        j = y.size // 2
+        _section(axes[2], x, film[j], pressure[j], top)
+        axes[2].set_title(f"Row y = {y[j]:.3g} mm", loc="left", fontsize=9)
+        axes[2].set_xlabel("x [mm], along the motion")
+        if "time" in frame.coords:
+            axes[0].set_title(f"Rough film at {float(frame['time']) / _MICROMETRE:.2f} µs")
+    return figure
+
+
+def rough_difference(first: xr.Dataset, second: xr.Dataset, x: float = 0.0) -> Any:
+    """Draw how films and pressures along y differ between two runs at the same times.
+
+    Parameters
+    ----------
+    first, second
+        Frames over `time`, `x` and `y` on the same nodes; drawn is the first less the second.
+    x
+        Place of the section [m]; the nearest node is taken.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As [jamali_2015 Fig. 7.36, 7.45].
+
+    Raises
+    ------
+    ParameterError
+        The runs have other nodes or times.
+    """
+    for name in ("time", "x", "y"):
+        one, other = (np.atleast_1d(run[name].values) for run in (first, second))
+        if one.shape != other.shape or not np.allclose(one, other, rtol=1e-9, atol=1e-12):
+            raise ParameterError(f"{name} of both runs must be the same. Take the same case.")
+    difference = (first[["film", "pressure"]] - second[["film", "pressure"]]).sel(
+        x=x, method="nearest"
+    )
+    y = difference["y"].values / _MILLIMETRE
+    with house_style():
+        figure = new_figure(8.0, 5.6)
+        upper, lower = figure.subplots(2, 1, sharex=True)
+        for k, time in enumerate(np.atleast_1d(difference["time"].values)):
+            row = difference.sel(time=time) if "time" in difference.dims else difference
+            line = {"color": SERIES[k % len(SERIES)], "ls": _DASHES[k // len(SERIES) % 4]}
+            upper.plot(y, row["pressure"] / _GIGAPASCAL, **line)
+            lower.plot(y, row["film"] / _MICROMETRE, label=f"{time / _MICROMETRE:.2f} µs", **line)
+        upper.set_ylabel("Pressure, difference\n[GPa]")
+        lower.set_ylabel("Film, difference\n[µm]")
+        lower.set_xlabel("y [mm]")
+        lower.legend(ncols=4)
+        place = 1e6 * float(difference["x"])
+        upper.set_title(f"Difference of two runs at x = {place:.0f} µm")
+        upper.margins(x=0.0)
+    return figure
+
+
+def save_rough_animation(
+    frames: xr.Dataset,
+    path: Path | str,
+    *,
+    per_second: int = 12,
+    progress: Progress = no_progress,
+) -> Path:
+    """Write frames over `time` as an animated GIF with one colour scale; return the file.
+
+    Examples
+    --------
+    >>> save_rough_animation(frames, "film.gif")  # doctest: +SKIP
+    """
+    from io import BytesIO
+
+    from PIL import Image
+
+    highest = float(frames["pressure"].max())
+    pictures = []
+    for k in range(frames.sizes["time"]):
+        buffer = BytesIO()
+        rough_frame(frames.isel(time=k), highest).savefig(buffer, format="png", dpi=80)
+        buffer.seek(0)
+        pictures.append(Image.open(buffer).convert("P", palette=Image.Palette.ADAPTIVE))
+        progress((k + 1) / frames.sizes["time"], "animation")
+    path = Path(path)
+    whole = path.with_name(path.name + ".part")
+    pictures[0].save(
+        whole,
+        format="GIF",
+        save_all=True,
+        append_images=pictures[1:],
+        duration=round(1000 / per_second),
+        loop=0,
+    )
+    whole.replace(path)
+    return path
+
+
+def _section(ax: Any, x: Array, film: Array, pressure: Array, top: float) -> None:
+    (line,) = ax.plot(x, pressure / _GIGAPASCAL, color=SERIES[1], lw=1.1, label="pressure")
+    ax.set(ylabel="Pressure [GPa]", ylim=(0.0, 1.05 * top))
+    right = ax.twinx()
+    right.spines["right"].set_visible(True)
+    right.grid(visible=False)
+    (other,) = right.plot(x, film / _MICROMETRE, color=SERIES[0], lw=1.1, label="film")
+    right.set(ylabel="Film [µm]", ylim=(0.0, 2.0 * _loaded_film(film, pressure) / _MICROMETRE))
+    ax.legend(handles=[line, other], loc="upper left")
+
+
+def _loaded_film(film: Array, pressure: Array) -> float:
+    """Return a film that most loaded nodes stay below [m]."""
+    loaded = film[pressure > _EDGE * pressure.max()]
+    return float(np.percentile(loaded, 95.0)) if loaded.size else float(film.max())
+
+
+def _end(runs: Runs, quantity: str, share: float) -> float:
+    """Return the value below which all runs have that share of the zone."""
+    ends = []
+    for run in runs.values():
+        function = run[f"{quantity}_function"].values
+        reached = np.searchsorted(function, share * function[-1])
+        ends.append(run[f"{quantity}_edge"].values[min(int(reached) + 1, function.size - 1)])
+    return float(max(ends))
+
+
+def _check(runs: Runs | Sequence[object]) -> None:
+    if not isinstance(runs, Mapping) or not runs:
+        raise ParameterError('runs must be statistics by label, such as {"crossed": dataset}.')

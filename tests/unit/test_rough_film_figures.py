@@ -1,0 +1,124 @@
+"""Figures of rough films show the statistics that they are given."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from PIL import Image
+
+from gearlube.studies.films.figures.rough import (
+    rough_difference,
+    rough_distributions,
+    rough_frame,
+    rough_history,
+    rough_thin_films,
+    save_rough_animation,
+)
+from gearlube_core.ehl.statistics.rough_film import RoughFilmStatistics
+from gearlube_core.ehl.statistics.zone import FilmZone
+from gearlube_core.errors import ParameterError
+
+X = np.linspace(-4e-4, 4e-4, 41)
+Y = np.arange(16) * 1e-3 / 16
+HALF_WIDTH = 2.1e-4
+STEP = 1e-7
+
+
+def frames(thin: float) -> xr.Dataset:
+    """Films that are `thin` on every fourth row, under a pressure that grows with time."""
+    film = np.full((3, X.size, Y.size), 4e-7)
+    film[:, :, ::4] = thin
+    pressure = (
+        np.array([1e9, 2e9, 3e9])[:, None, None]
+        * np.maximum(1.0 - (X / HALF_WIDTH) ** 2, 0.0)[:, None]
+    )
+    pressure = np.broadcast_to(pressure, film.shape)
+    dims = ("time", "x", "y")
+    return xr.Dataset(
+        {"film": (dims, film), "pressure": (dims, pressure)},
+        {"time": STEP * np.arange(3), "x": X, "y": Y},
+    )
+
+
+def statistics(thin: float) -> xr.Dataset:
+    found = RoughFilmStatistics(zone=FilmZone.line(X, Y, HALF_WIDTH), roughness=2e-7)
+    run = frames(thin)
+    for k in range(3):
+        one = run.isel(time=k)
+        found.add(float(one["time"]), one["film"].values, one["pressure"].values)
+    return found.dataset()
+
+
+@pytest.fixture(scope="module")
+def runs() -> dict[str, xr.Dataset]:
+    return {"crossed": statistics(4.5e-9), "straight": statistics(2e-7)}
+
+
+def test_history_counts_steps_and_shows_every_run(runs):
+    pressure, film, share, _ = rough_history(runs, STEP).axes
+    for line in pressure.lines:
+        assert line.get_xdata() == pytest.approx([0.0, 1.0, 2.0], abs=1e-12)
+        assert line.get_ydata() == pytest.approx([1.0, 2.0, 3.0], rel=1e-12)
+    assert [line.get_ydata()[0] for line in film.lines] == pytest.approx([4.5, 200.0], rel=1e-9)
+    # one row in four is below 25 nm
+    assert [line.get_ydata()[0] for line in share.lines] == pytest.approx([25.0, 0.0], rel=1e-9)
+
+
+def test_distributions_tell_shares_below_films_and_above_pressures(runs):
+    film, pressure = rough_distributions(runs).axes
+    crossed = film.lines[0]
+    # all thin rows and none of the others lie below 0.3 um
+    assert np.interp(0.3, crossed.get_xdata(), crossed.get_ydata()) == pytest.approx(25.0, rel=1e-9)
+    above = pressure.lines[0]
+    inside = np.abs(X) < HALF_WIDTH
+    expected = np.mean(frames(2e-7)["pressure"].values[:, inside] > 1.5e9)
+    # a bin of 10 MPa holds a hundredth of the zone at most
+    found = np.interp(1.5, above.get_xdata(), above.get_ydata())
+    assert found == pytest.approx(100.0 * expected, abs=1.0)
+
+
+def test_thin_films_stand_in_their_bins_beside_each_other(runs):
+    bars = rough_thin_films(runs).axes[0].patches
+    high = [bar for bar in bars if bar.get_height() > 0.0]
+    assert len(high) == 1
+    assert high[0].get_height() == pytest.approx(25.0, rel=1e-9)
+    assert 4.0 < high[0].get_x() < 5.0
+
+
+def test_difference_is_the_first_less_the_second_at_the_place_asked_for():
+    first, second = frames(4.5e-9), frames(2e-7)
+    upper, lower = rough_difference(first, second, x=1e-4).axes
+    assert len(lower.lines) == 3
+    assert lower.lines[0].get_ydata()[::4] == pytest.approx(np.full(4, -0.1955), rel=1e-9)
+    assert upper.lines[0].get_ydata() == pytest.approx(np.zeros(16), abs=1e-12)
+    assert "x = 100 µm" in upper.get_title()
+
+
+def test_runs_on_other_nodes_have_no_difference():
+    other = frames(2e-7).assign_coords(y=1.01 * Y)
+    with pytest.raises(ParameterError, match="y of both runs must be the same"):
+        rough_difference(frames(2e-7), other)
+
+
+def test_frame_shows_pressure_film_and_a_row():
+    figure = rough_frame(frames(4.5e-9).isel(time=1))
+    maps = [ax.collections[0] for ax in figure.axes[:2]]
+    assert float(np.max(maps[0].get_array())) == pytest.approx(2.0, rel=1e-12)
+    assert float(np.min(maps[1].get_array())) == pytest.approx(0.0045, rel=1e-12)
+    assert "0.10 µs" in figure.axes[0].get_title()
+
+
+def test_animation_has_a_picture_for_every_frame_and_leaves_no_part(tmp_path: Path):
+    path = save_rough_animation(frames(4.5e-9), tmp_path / "film.gif", per_second=10)
+    with Image.open(path) as animation:
+        assert animation.n_frames == 3
+        assert animation.info["duration"] == 100
+    assert [file.name for file in tmp_path.iterdir()] == ["film.gif"]
+
+
+def test_figures_ask_for_runs_by_name():
+    with pytest.raises(ParameterError, match="statistics by label"):
+        rough_history([statistics(2e-7)])
