@@ -72,6 +72,20 @@ def test_oblique_crests_turn_the_tensor_of_flow():
     assert found.pressure_xy == pytest.approx(0.5 * (across - along), rel=3e-3)
 
 
+def test_flow_converges_with_the_second_order():
+    # heights without any symmetry, at ever more points of one Fourier series
+    found = []
+    for n in (16, 32, 64):
+        x, y = np.meshgrid(*(2.0 * math.pi * np.arange(n) / n,) * 2, indexing="ij")
+        waves = np.cos(x) + np.cos(y + 0.3) + 0.7 * np.cos(x + y + 1.0) + 0.4 * np.sin(2 * x - y)
+        patch = HeightMap(height=A * waves, spacing=(16e-6 / n, 16e-6 / n), periodic=(True, True))
+        of = flow_factors(patch, 4.0 * A)
+        found.append((of.pressure_x, of.pressure_y, of.shear_x))
+    first, second = np.diff(np.array(found), axis=0)
+    # 4 of the second order, and a share (2 pi/16)^2 of the next
+    assert first / second == pytest.approx(4.0, rel=0.15)
+
+
 def test_thick_films_have_the_factors_of_second_order():
     # phi = 1 + 3 (sigma/h)^2 (1 - 3 c), Phi_s = 3 (sigma/h) c, c the mean of (k_x/k)^2
     for peklenik in (1.0, 0.25, 4.0):
