@@ -1,4 +1,4 @@
-"""The commands `gearlube roughness read`, `make`, `extrude` and `stand-in`."""
+"""The commands `gearlube roughness read`, `make`, `extrude`, `stand-in`, `flow-factors`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import typer
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
+from gearlube.studies.roughness.flow_command import flow_factors
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import DEGREE, MILLIMETRE
@@ -43,6 +44,7 @@ roughness = typer.Typer(
     help="Rough surfaces: read or make them, filter them, draw them out along a lay.",
     no_args_is_help=True,
 )
+roughness.command("flow-factors")(flow_factors)
 
 
 @roughness.command("read")
