@@ -324,11 +324,12 @@ def shear_flow(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float)
     The no-slip conditions have one solution, since they are the gradient of a convex function,
     mean(cosh|tau|) for Eyring; it is found to 1e-9. Damped Newton solves them in T with both sides
     taken through asinh, which makes Eyring's linear where Sigma is zero: two or three sets of
-    moments. Where it does not, T_s is held in a bracket and T_r, for each T_s, in |T_r| < Sigma_r:
-    either rate rises with its own stress. Where dp/ds is zero S_s is its limit d(flow_s)/d(Sigma_s). Without sliding or pumping
-    S is 1; without dp/dr S_s of Eyring is `eyring_flow_factor`. Beyond |Sigma| = 100 and
-    |a| = 1e86 all values are those there. The quadrature is exact to 1e-10 for Eyring's law and
-    for any that grows as slowly and as smoothly with stress.
+    moments. Where it does not end, T_s is held in a bracket and T_r, for each T_s, within
+    |Sigma_r|: either rate rises with its own stress. Where dp/ds is zero S_s is its limit
+    d(flow_s)/d(Sigma_s). Without sliding or pumping S is 1; without dp/dr S_s of Eyring is
+    `eyring_flow_factor`. Beyond |Sigma| = 100 and |a| = 1e86 all values are those there. The
+    quadrature is exact to 1e-10 for Eyring's law and for any that grows as slowly and as smoothly
+    with stress.
 
     With a limit, sliding beyond what mid-film stress T_s = limit shears is slip; the rest of the
     film flows as if the surfaces slid no faster. Slip is taken as equal at both walls, so that
