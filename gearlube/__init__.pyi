@@ -84,6 +84,11 @@ from gearlube_core.surface.moving import MovingRoughness as MovingRoughness
 from gearlube_core.surface.moving import FedFromInlet as FedFromInlet
 from gearlube_core.surface.moving import GrownInPlace as GrownInPlace
 from gearlube_core.surface.schedule import RoughSchedule as RoughSchedule
+from gearlube_core.rough_patch.table import gaussian_patches as gaussian_patches
+from gearlube_core.rough_patch.table import patch_table as patch_table
+from gearlube_core.rough_patch.table import greenwood_tripp_fit as greenwood_tripp_fit
+from gearlube_core.rough_patch.flow import flow_factors as flow_factors
+from gearlube_core.rough_patch.dry_contact import press_patch as press_patch
 from gearlube_core.ehl.statistics.zone import FilmZone as FilmZone
 from gearlube_core.ehl.statistics.rough_film import FilmFriction as FilmFriction
 from gearlube_core.ehl.statistics.rough_film import RoughFilmStatistics as RoughFilmStatistics

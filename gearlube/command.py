@@ -24,7 +24,7 @@ COMMANDS = (
     LazyCommand(
         name="build-fmu",
         target="gearlube.cli.build_fmu:build_fmu",
-        summary="Build HypoidAxle.fmu and HelicalPair.fmu (FMI 2.0 co-simulation).",
+        summary="Build the FMUs of axle, helical pair and car, for any platform.",
     ),
     LazyCommand(
         name="axle",

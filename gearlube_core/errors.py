@@ -44,3 +44,21 @@ class InterruptedRunError(GearLubeError):
 
 class FileError(GearLubeError):
     """A file is missing, damaged or of another kind."""
+
+
+def why(error: Exception) -> str:
+    """Return the reason of an error in words: of the operating system's without its number.
+
+    Examples
+    --------
+    >>> why(FileNotFoundError(2, "No such file or directory", "my_axle.toml"))
+    'there is no such file'
+    """
+    for kind, words in (
+        (FileNotFoundError, "there is no such file"),
+        (IsADirectoryError, "it is a folder"),
+        (PermissionError, "its permissions forbid reading it"),
+    ):
+        if isinstance(error, kind):
+            return words
+    return (getattr(error, "strerror", None) or str(error)).rstrip(".")

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import ParameterError, why
 from gearlube_core.input_file.field_notes import field_notes, sentence
 
 
@@ -91,4 +91,4 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     try:
         return tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
-        raise ParameterError(f"{path} is not a readable TOML file: {reason}.") from None
+        raise ParameterError(f"{path} is not a readable TOML file: {why(reason)}.") from None

@@ -17,8 +17,8 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_flow import eyring_mean_stress
 from gearlube_core.oil.shear_law import rate_ratio
 
-_LARGEST_SIGMA = 100.0  # as in one dimension
-_LARGEST_COUETTE = 1.0e86  # e^198: products of two rates stay below the largest double
+LARGEST_SIGMA = 100.0  # as in one dimension
+LARGEST_COUETTE = 1.0e86  # e^198: products of two rates stay below the largest double
 _SMALL_SIGMA = 1.0e-5  # below, a ratio of two small numbers gives way to its limit
 _STEPS = 40
 _NEAR = 1.0e-5  # a Newton step of that size leaves an error of its square
@@ -29,8 +29,8 @@ _THERE = 1.0e-9  # a smaller one need not be taken
 _RULES = ((4, 0.13), (6, 0.95), (8, 2.6), (12, 8.0), (20, 27.0), (40, 1e300))
 _STARTS = np.cumsum([0] + [n // 2 for n, _ in _RULES])
 _REACHES = np.array([reach for _, reach in _RULES])
-_NODES = np.concatenate([np.polynomial.legendre.leggauss(n)[0][n // 2 :] for n, _ in _RULES])
-_WEIGHTS = np.concatenate([np.polynomial.legendre.leggauss(n)[1][n // 2 :] for n, _ in _RULES])
+NODES = np.concatenate([np.polynomial.legendre.leggauss(n)[0][n // 2 :] for n, _ in _RULES])
+WEIGHTS = np.concatenate([np.polynomial.legendre.leggauss(n)[1][n // 2 :] for n, _ in _RULES])
 
 
 class ShearFlow(NamedTuple):
@@ -58,7 +58,7 @@ class _Moments(NamedTuple):
     rr: float
 
 
-class _Equilibrium(NamedTuple):
+class Equilibrium(NamedTuple):
     """Mid-film stress that lets the walls slide as they do, and the means there."""
 
     sigma_s: float  # kept within its bound
@@ -86,7 +86,7 @@ def _moments(
 ) -> _Moments:
     g0 = g1 = g2 = ss = sr = rr = 0.0
     for k in range(first, last):
-        Z, weight = _NODES[k], 0.5 * _WEIGHTS[k]
+        Z, weight = NODES[k], 0.5 * WEIGHTS[k]
         us, ur = stress_s + sigma_s * Z, stress_r + sigma_r * Z
         ls, lr = stress_s - sigma_s * Z, stress_r - sigma_r * Z
         upper, upper_slope = rate_ratio(law, us * us + ur * ur)
@@ -104,13 +104,14 @@ def _moments(
 
 
 @kernel
-def _equilibrium(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float) -> _Equilibrium:
+def equilibrium(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float) -> Equilibrium:
+    """Return the mid-film stress of a point of a film; arguments are those of `shear_flow`."""
     size = math.sqrt(sigma_s * sigma_s + sigma_r * sigma_r)
-    if size > _LARGEST_SIGMA:
-        sigma_s *= _LARGEST_SIGMA / size
-        sigma_r *= _LARGEST_SIGMA / size
-        size = _LARGEST_SIGMA
-    a = min(max(a, -_LARGEST_COUETTE), _LARGEST_COUETTE)
+    if size > LARGEST_SIGMA:
+        sigma_s *= LARGEST_SIGMA / size
+        sigma_r *= LARGEST_SIGMA / size
+        size = LARGEST_SIGMA
+    a = min(max(a, -LARGEST_COUETTE), LARGEST_COUETTE)
     rule = 0
     while size > _REACHES[rule]:
         rule += 1
@@ -157,16 +158,16 @@ def _equilibrium(law: Any, sigma_s: float, sigma_r: float, a: float, limit: floa
             m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
     if slips:
         a = T_s * m.g0 + sigma_s * m.g1
-    return _Equilibrium(sigma_s, sigma_r, a, T_s, T_r, slips, first, last, m.g0, m.g1, m.g2)
+    return Equilibrium(sigma_s, sigma_r, a, T_s, T_r, slips, first, last, m.g0, m.g1, m.g2)
 
 
 @kernel
-def _slopes(law: Any, e: _Equilibrium) -> tuple[float, float, float, float, float]:
+def _slopes(law: Any, e: Equilibrium) -> tuple[float, float, float, float, float]:
     # d(flow)/d(Sigma) = 3 (K2 - K1 K0^-1 K1): ss, sr, rr; d(flow)/da = 3 K1 K0^-1: s, r
     g0, g1, g2 = e.g0, e.g1, e.g2
     ss0 = sr0 = rr0 = ss1 = sr1 = rr1 = ss2 = sr2 = rr2 = 0.0
     for k in range(e.first, e.last):
-        Z, weight = _NODES[k], _WEIGHTS[k]
+        Z, weight = NODES[k], WEIGHTS[k]
         us, ur = e.stress_s + e.sigma_s * Z, e.stress_r + e.sigma_r * Z
         ls, lr = e.stress_s - e.sigma_s * Z, e.stress_r - e.sigma_r * Z
         _, upper = rate_ratio(law, us * us + ur * ur)
@@ -206,7 +207,8 @@ def _slopes(law: Any, e: _Equilibrium) -> tuple[float, float, float, float, floa
 
 
 @kernel
-def _factors(law: Any, e: _Equilibrium) -> tuple[float, float]:
+def flow_factors(law: Any, e: Equilibrium) -> tuple[float, float]:
+    """Return the flow factors along and across sliding at a mid-film stress [-]."""
     across = 3.0 * (e.g2 - e.g1 * e.g1 / e.g0)
     if abs(e.sigma_s) < _SMALL_SIGMA:
         return _slopes(law, e)[0], across
@@ -218,7 +220,7 @@ def shear_factors(
     law: Any, sigma_s: float, sigma_r: float, a: float, limit: float
 ) -> tuple[float, float]:
     """Return the flow factors along and across sliding alone; see `shear_flow`."""
-    return _factors(law, _equilibrium(law, sigma_s, sigma_r, a, limit))
+    return flow_factors(law, equilibrium(law, sigma_s, sigma_r, a, limit))
 
 
 @kernel
@@ -267,7 +269,7 @@ def shear_flow(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float)
     [jamali_2015 (3.39)] [jamali_2015 (3.40)] [jamali_2015 (3.43)]
     (3.38) prints u for v.
     """
-    e = _equilibrium(law, sigma_s, sigma_r, a, limit)
-    along, across = _factors(law, e)
+    e = equilibrium(law, sigma_s, sigma_r, a, limit)
+    along, across = flow_factors(law, e)
     ss, sr, rr, s_a, r_a = _slopes(law, e)
     return ShearFlow(along, across, e.stress_s, e.stress_r, ss, sr, rr, s_a, r_a)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import ParameterError, why
 from gearlube_core.storage.atomic_file import write_arrays, write_text
 from gearlube_core.surface.heights import MICROMETRE, HeightMap, Profile, Surface, evenly_spaced
 from gearlube_core.surface.measured_heights import read_map, read_profile
@@ -138,4 +138,4 @@ def _read(path: Path, kind: str, read: Any, error: type[Exception]) -> Any:
     try:
         return read(path)
     except (error, OSError, ValueError) as reason:
-        raise ParameterError(f"{path} is not a readable {kind} file: {reason}.") from None
+        raise ParameterError(f"{path} is not a readable {kind} file: {why(reason)}.") from None

@@ -11,7 +11,7 @@ import xarray as xr
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from gearlube_core.arrays import Array
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import ParameterError, why
 from gearlube_core.units import MILLIMETRE
 
 _MICROMETRE = 1e-6  # m
@@ -110,7 +110,7 @@ def read_profile(path: str | Path) -> MeasuredProfile:
     try:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as reason:
-        raise ParameterError(f"{path} is not a readable CSV file: {reason}.") from None
+        raise ParameterError(f"{path} is not a readable CSV file: {why(reason)}.") from None
     rows = [
         (number, row)
         for number, row in enumerate(csv.reader(lines), 1)
@@ -152,7 +152,9 @@ def read_map(path: str | Path) -> MeasuredMap:
             f"{path} must hold x and y in mm and height in um, {missing} is missing."
         ) from None
     except (OSError, ValueError, TypeError) as reason:
-        raise ParameterError(f"{path} is not a readable NetCDF or npz file: {reason}.") from None
+        raise ParameterError(
+            f"{path} is not a readable NetCDF or npz file: {why(reason)}."
+        ) from None
     return MeasuredMap(
         x * MILLIMETRE, y * MILLIMETRE, height * _MICROMETRE, name=f"height map {path}"
     )

@@ -209,10 +209,13 @@ def test_arrays_hold_the_tensor_of_every_node_and_turn_with_sliding():
     # sliding turned by 180 degrees changes nothing; the tensor stays positive definite
     at_angle = shear_of(oil, (0.4, 0.3), x, y).factors(*fields)
     reverse = shear_of(oil, (-0.4, -0.3), x, y).factors(*fields)
-    for name in ("xx", "xy", "yy", "slope_xx", "slope_xy", "slope_yy", "stiffness"):
+    for name in ("xx", "xy", "yy"):
         assert getattr(at_angle, name) == pytest.approx(getattr(reverse, name), rel=1e-9)
     assert np.all(at_angle.xx * at_angle.yy > at_angle.xy**2)
-    assert np.all(at_angle.slope_xx * at_angle.slope_yy > at_angle.slope_xy**2)
+    one, other = (factors.rates(np.ones(film.shape)) for factors in (at_angle, reverse))
+    for here, there in zip(one, other, strict=True):
+        for rate, back in zip(here, there, strict=True):
+            assert rate == pytest.approx(back, rel=1e-9, abs=1e-9 * np.abs(rate).max())
 
 
 def test_series_of_small_stress_meet_the_factors():
@@ -225,10 +228,16 @@ def test_series_of_small_stress_meet_the_factors():
         pressure = size * np.array([[0.0, 0.0, 0.6], [0.0, 0.3, 1.0], [0.4, 0.5, 1.2]])
         ones = np.ones((3, 3))
         values.append(shear.factors(pressure, ones, ones))
-    for name in ("xx", "yy", "slope_xx", "stiffness"):
+    for name in ("xx", "yy"):
         low, high = (getattr(value, name)[1, 1] - 1.0 for value in values)
         # both grow with the square of the stress
         assert high == pytest.approx(low * (1.001 / 0.999) ** 2, abs=1e-7)
+    low, high = (value.rates(np.ones((3, 3))) for value in values)
+    for before, after in ((low.xx, high.xx), (low.yy, high.yy)):
+        # slopes by pressure differences grow with the stress, those by ln(h) with its square
+        for name, power in (("by_film", 2), ("by_rise_x", 1), ("by_rise_y", 1)):
+            expected = getattr(before, name)[1, 1] * (1.001 / 0.999) ** power
+            assert getattr(after, name)[1, 1] == pytest.approx(expected, rel=1e-3, abs=0.0)
 
 
 def test_border_and_nodes_without_film_are_newtonian():
@@ -239,37 +248,46 @@ def test_border_and_nodes_without_film_are_newtonian():
     plain[1:-1, 1:-1] = False
     plain[6, 9] = True
     found = shear_of(oil, (0.5, 0.0), x, y).factors(pressure, film, 1.0 / eta)
-    for name in ("xx", "yy", "slope_xx", "slope_yy", "stiffness"):
-        assert np.all(getattr(found, name)[plain] == 1.0)
-    assert np.all(found.film_power[plain] == 3.0)  # h^3
-    assert np.all(found.xx[~plain] > 1.0)
+    for factor in (found.xx, found.yy):
+        assert np.all(factor[plain] == 1.0)
+        assert np.all(factor[~plain] > 1.0)
+    for part in found.rates(np.ones(film.shape)):
+        for rate in part:
+            assert np.all(rate[plain] == 0.0)
 
 
 @pytest.mark.parametrize("law", [{}, {"limiting_shear": (1e4, 0.02)}])
 @pytest.mark.parametrize(("size", "a"), [(0.004, 0.006), (0.5, 0.7), (1.5, 3.0)])
 def test_powers_of_the_flow_are_its_logarithmic_derivatives(size, a, law):
-    """Flow along sliding goes as G(s, a) s/eta with a as eta: steepness and stiffness."""
+    """Flow along sliding goes as G(s, a)/eta, s as h dp/dx and a as eta/h."""
     oil = film_oil(eta0=0.01, alpha=2e-8, eyring_stress=1e4, **law)
+    rise = size * np.array([[-0.5, 0.0, 0.5]] * 3)
 
-    def factors(slope=1.0, viscosity=1.0):
+    def factors(slope=1.0, viscosity=1.0, film=1.0, level=0.0):
         shear = FilmShear.of(oil, (1.0, 0.0), (0.25, 0.25), 3, pressure=1e4)
         shear.couette[:] = a
-        pressure = 1.0 + slope * size * np.array([[-0.5, 0.0, 0.5]] * 3)
-        return shear.factors(pressure, np.ones((3, 3)), np.full((3, 3), 1.0 / viscosity))
+        pressure = 1.0 + slope * rise + level
+        fluidity = np.full((3, 3), 1.0 / viscosity)
+        return shear.factors(pressure, np.full((3, 3), film), fluidity)
 
-    def power(**given):
-        name, step = next(iter(given)), 1e-3
-        low, high = (math.log(factors(**{name: 1.0 + s}).xx[1, 1]) for s in (-step, step))
-        return (high - low) / (math.log1p(step) - math.log1p(-step))
+    def power(step=1e-3, **given):
+        name, value = next(iter(given.items()))
+        low, high = (math.log(factors(**{name: value + s}).xx[1, 1]) for s in (-step, step))
+        return (high - low) / (2.0 * step)
 
-    found = factors()
+    thickening = 0.8
+    found = factors().rates(np.full((3, 3), thickening)).xx
+    xx = factors().xx[1, 1]
     # differences over 1e-3 are right to 1e-6; the series of small stress leaves out 1e-8
-    steepness, stiffness = 1.0 + power(slope=1.0), 1.0 - power(viscosity=1.0)
-    assert found.slope_xx[1, 1] / found.xx[1, 1] == pytest.approx(steepness, abs=3e-6)
-    assert found.stiffness[1, 1] == pytest.approx(stiffness, abs=3e-6)
-    assert found.film_power[1, 1] == pytest.approx(1.0 + steepness + stiffness, abs=6e-6)
+    by_viscosity = power(viscosity=1.0)
+    expected = thickening * by_viscosity + power(level=0.0)
+    assert found.by_pressure[1, 1] / xx == pytest.approx(expected, abs=3e-6)
+    assert found.by_film[1, 1] / xx == pytest.approx(power(film=1.0), abs=3e-6)
+    assert found.by_rise_x[1, 1] * size / xx == pytest.approx(power(slope=1.0), abs=3e-6)
+    # without a slope of pressure across the motion a small one changes nothing
+    assert found.by_rise_y[1, 1] == 0.0
     slips = bool(law) and a > 1.0
-    assert (abs(stiffness - 1.0) < 1e-9) == slips
+    assert (abs(by_viscosity) < 1e-9) == slips
 
 
 def test_units_of_the_arrays_do_not_matter():

@@ -38,12 +38,18 @@ def test_slipping_film_flows_as_one_sheared_up_to_the_limit(slope):
     pumped = 3.0 * (s * math.cosh(s) - math.sinh(s)) / s**3
     assert factors.xx[1, 1] == pytest.approx(pumped * math.cosh(limit / TAU0), rel=1e-6)
     # slip leaves the flow with the viscosity of the Newtonian share alone
-    assert factors.stiffness[1, 1] == 1.0
+    thickening = np.full((3, 3), 2e-8)
+    rates, without = factors.rates(thickening).xx, factors.rates(0.0 * thickening).xx
+    assert np.array_equal(rates.by_pressure, without.by_pressure)
     step = 1e-4
     up = shear((1e6, 0.05)).factors(*_steeper(p, step), h, fluidity).xx[1, 1]
     down = shear((1e6, 0.05)).factors(*_steeper(p, -step), h, fluidity).xx[1, 1]
-    slope_found = 1.0 + (math.log(up) - math.log(down)) / (2.0 * step)
-    assert factors.slope_xx[1, 1] / factors.xx[1, 1] == pytest.approx(slope_found, rel=1e-4)
+    slope_found = (math.log(up) - math.log(down)) / (2.0 * step)
+    steeper = rates.by_rise_x[1, 1] * 2.0 * slope * 1e-5 / factors.xx[1, 1]
+    assert steeper == pytest.approx(slope_found, rel=1e-4)
+    # and the limit follows the pressure: S goes as cosh(limit/tau0)
+    harder = 0.05 / TAU0 * math.tanh(limit / TAU0)
+    assert rates.by_pressure[1, 1] / factors.xx[1, 1] == pytest.approx(harder, rel=1e-9, abs=0.0)
 
 
 def _steeper(p: np.ndarray, share: float) -> tuple[np.ndarray]:
@@ -55,7 +61,9 @@ def test_a_limit_that_is_not_met_changes_no_bit():
     far = shear((1e6, 0.9)).factors(p, h, fluidity)
     without = shear((0.0, 0.0)).factors(p, h, fluidity)
     assert np.array_equal(far.xx, without.xx)
-    assert np.array_equal(far.film_power, without.film_power)
+    thickening = np.full((3, 3), 2e-8)
+    one, other = far.rates(thickening), without.rates(thickening)
+    assert np.array_equal(one.xx.by_film, other.xx.by_film)
 
 
 def _solved(oil: FilmOil) -> tuple[float, float, float]:

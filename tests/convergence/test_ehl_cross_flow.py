@@ -19,8 +19,11 @@ from gearlube_core.ehl.point.equations.stencil import (
     OFFSETS,
     FilmFlow,
     FlowSlopes,
+    NodeSlopes,
     StencilParameters,
+    TensorSlopes,
 )
+from gearlube_core.ehl.point.sides import AMBIENT
 
 STEP = 1e-4  # of the differences that stand for derivatives of the smooth fields
 
@@ -69,7 +72,7 @@ def error(nodes: int, graded: bool, oblique: bool) -> float:
     dx, dy = float(np.diff(x).min()), y[1] - y[0]
     X, Y = x[None, :], y[:, None]
     f, g, t = (part(X, Y) for part in (fluidity_x, fluidity_y, fluidity_xy))
-    cross = CrossFlow(t / f, t / g, t / f, t / g)
+    cross = CrossFlow(t / f, t / g)
     flow = FilmFlow(cubic(X, Y), f, g, -np.log(f), -np.log(g))
     wedge = 1.0 if oblique else 0.0
     parameters = StencilParameters(dx**-2, dy**-2, 1.0, wedge, 1.5, -0.5, 0.0, 0.0)
@@ -97,36 +100,46 @@ def test_derivatives_of_the_cross_flow_match_differences(oblique: bool) -> None:
     metric = mesh_metric(x, float(np.diff(x).min()))
     wedge = 1.0 if oblique else 0.0
     parameters = StencilParameters(40.0, 70.0, 1.0, wedge, 1.5, -0.5, 0.0, 0.0)
-    along, across, ratio_x, ratio_y = 0.5 + rng.random((4, *shape))
-    # laws with exact slopes: rho ~ exp(0.3 p), fluidity ~ exp(-0.6 x 1.5 p) h^-0.4
-    dense, stiffness, thickening, thin = 0.3, 0.6, 1.5, -0.4
-    cross = CrossFlow(ratio_x, ratio_y, ratio_x, ratio_y)
+    along, aside, ratio_x, ratio_y = 0.5 + rng.random((4, *shape))
+    # laws with exact slopes: rho ~ exp(0.3 p), fluidity ~ exp(-0.9 p) h^-0.4, and both the
+    # fluidity and the ratio rise with pressure across their node, inside the border
+    dense, thinner, thin = 0.3, -0.9, -0.4
+    of_fluidity, of_ratio = (0.5, -0.2), (0.3, 0.6)
+    inside = np.zeros(shape)
+    inside[1:-1, 1:-1] = 1.0
+
+    def across(p: np.ndarray, weights: tuple[float, float]) -> np.ndarray:
+        rises = np.zeros(shape)
+        rises[1:-1, 1:-1] = weights[0] * (p[1:-1, 2:] - p[1:-1, :-2])
+        rises[1:-1, 1:-1] += weights[1] * (p[2:, 1:-1] - p[:-2, 1:-1])
+        return rises
 
     def film_flow(p: np.ndarray, h: np.ndarray) -> FilmFlow:
-        fluidity = np.exp(-stiffness * thickening * p) * h**thin
-        f, g = along * fluidity, across * fluidity
+        fluidity = np.exp(thinner * p + across(p, of_fluidity)) * h**thin
+        f, g = along * fluidity, aside * fluidity
         return FilmFlow(np.exp(dense * p) * h**3, f, g, -np.log(f), -np.log(g))
+
+    def cross_of(p: np.ndarray, h: np.ndarray) -> CrossFlow:
+        change = 0.2 * p + 0.1 * np.log(h) + across(p, of_ratio)
+        return CrossFlow(ratio_x + change, ratio_y + change)
 
     def cross_flow(p: np.ndarray, h: np.ndarray) -> np.ndarray:
         residual = np.zeros(shape)
-        add_cross_flow(parameters, metric, p, film_flow(p, h), cross, residual)
+        add_cross_flow(parameters, metric, p, film_flow(p, h), cross_of(p, h), residual)
         return residual
 
     p, h = rng.random(shape), 1.0 + rng.random(shape)
-    slopes = FlowSlopes(
-        *np.ones((3, *shape)),
-        by_pressure=np.full(shape, dense + (1.0 - stiffness) * thickening),
-        film_power=np.full(shape, 3.0 + thin),
-        stiffness=np.full(shape, stiffness),
-    )
+    full = np.ones(shape)
+    through = NodeSlopes(thinner * full, thin * full, *(w * inside for w in of_fluidity))
+    turned = NodeSlopes(0.2 * full, 0.1 * full, *(w * inside for w in of_ratio))
+    slopes = FlowSlopes(dense * full, through, through, turned, turned)
     by_pressure, by_film = np.zeros((2, len(OFFSETS), *shape))
     add_cross_derivatives(
         parameters,
         metric,
         p,
         film_flow(p, h),
-        cross,
-        np.full(shape, thickening),
+        cross_of(p, h),
         h,
         slopes,
         np.ones(shape, dtype=bool),
@@ -136,7 +149,7 @@ def test_derivatives_of_the_cross_flow_match_differences(oblique: bool) -> None:
     for _ in range(3):
         dp, dh = rng.normal(size=(2, *shape))
         change = np.empty(shape)
-        apply_derivatives(OFFSETS, by_pressure, by_film, dp, dh, change)
+        apply_derivatives(OFFSETS, by_pressure, by_film, AMBIENT.reach(len(dp)), dp, dh, change)
         up, down = (cross_flow(p + e * dp, h + e * dh) for e in (1e-5, -1e-5))
         # differences of 1e-5: truncation 1e-10, roundings 1e-16/1e-5
         inner = np.s_[1:-1, 1:-1]
@@ -147,19 +160,12 @@ def test_derivatives_of_the_cross_flow_match_differences(oblique: bool) -> None:
 def test_both_flows_across_the_slope_answer_to_a_change_of_pressure_by_one_factor() -> None:
     """Even film, pressure 1 + x y: d/dx(F_xy dp/dy) + d/dy(F_xy dp/dx) = 2 F_xy."""
     shape = (6, 7)
-    of, answers = (0.8, 1.3, 0.2), (1.1, 1.7, 0.35)  # xx, yy, xy: of the flow, of its changes
-    even = {
-        name: np.full(shape, value)
-        for name, value in zip(
-            ("xx", "yy", "xy", "slope_xx", "slope_yy", "slope_xy", "stiffness", "film_power"),
-            (*of, *answers, 1.0, 3.0),
-            strict=True,
-        )
-    }
-    factors = ObliqueFactors(**even)
+    xx, yy, xy = (np.full(shape, value) for value in (0.8, 1.3, 0.2))
+    zero, metric = np.zeros(shape), mesh_metric(np.arange(7.0), 1.0)
+    none = NodeSlopes(*(zero,) * 4)
+    factors = ObliqueFactors(xx, yy, lambda _: TensorSlopes(none, none, none), xy)
     cubic, fluidity = np.full(shape, 0.7), np.full(shape, 0.4)
     flow = factors.flow(cubic * factors.xx, fluidity, -np.log(fluidity))
-    zero, metric = np.zeros(shape), mesh_metric(np.arange(7.0), 1.0)
     parameters = StencilParameters(9.0, 4.0, 1.0, 0.0, 1.5, -0.5, 0.0, 0.0)
     y, x = np.indices(shape, dtype=float)
 
@@ -169,16 +175,17 @@ def test_both_flows_across_the_slope_answer_to_a_change_of_pressure_by_one_facto
         metric,
         zero,
         flow,
-        zero,
         zero + 1.0,
-        factors.slopes(cubic, zero, zero),
+        factors.slopes(zero, zero),
         zero == 0.0,
         by_pressure,
         by_film,
     )
     change, residual = np.empty(shape), np.zeros(shape)
-    apply_derivatives(OFFSETS, by_pressure, by_film, 1.0 + x * y, zero, change)
+    apply_derivatives(
+        OFFSETS, by_pressure, by_film, AMBIENT.reach(len(zero)), 1.0 + x * y, zero, change
+    )
     factors.add_cross_flow(parameters, metric, 1.0 + x * y, flow, residual)
     inner, mobility = np.s_[1:-1, 1:-1], 2.0 * 0.7 * 0.4 * math.sqrt(9.0 * 4.0)
-    assert residual[inner] == pytest.approx(np.full((4, 5), mobility * of[2]), rel=1e-12)
-    assert change[inner] == pytest.approx(np.full((4, 5), mobility * answers[2]), rel=1e-12)
+    for found in (residual, change):
+        assert found[inner] == pytest.approx(np.full((4, 5), mobility * 0.2), rel=1e-12)

@@ -17,9 +17,10 @@ from gearlube_core.ehl.point.equations.finite_elements import (
 from gearlube_core.ehl.point.equations.reynolds import apply_derivatives
 from gearlube_core.ehl.point.equations.stencil import (
     CarriedMass,
-    FlowSlopes,
     FlowTensor,
+    NodeSlopes,
     StencilParameters,
+    TensorSlopes,
 )
 from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.galerkin import sparse_operator
@@ -29,6 +30,7 @@ from gearlube_core.ehl.point.newton.transfer import Transfer
 from gearlube_core.ehl.point.problem import elliptical_contact
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.point.solver import solve_point_contact
 from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
@@ -111,19 +113,18 @@ def residual_of(grid, pressure, film, source, compliance):
 def derivatives_of(grid, pressure, film, compliance, free=None):
     density, cubic, fluidity = fields(pressure, film)
     by_pressure, by_film = np.empty((2, 9, *pressure.shape))
+    mobility, zero = cubic * fluidity, np.zeros(pressure.shape)
+    # of rho h^3/eta: by p and by ln(h)
+    even = NodeSlopes(mobility * (DENSENING / density - THICKENING), 3.0 * mobility, zero, zero)
     element_derivatives(
         grid,
         pressure,
         FlowTensor(cubic, CROSS * cubic, 0.7 * cubic, fluidity),
-        np.full(pressure.shape, THICKENING),
         CarriedMass(density, np.full(pressure.shape, DENSENING), film),
-        FlowSlopes(
-            cubic,
-            0.7 * cubic,
-            CROSS * cubic,
-            DENSENING / density,
-            np.full(pressure.shape, 3.0),
-            np.ones(pressure.shape),
+        TensorSlopes(
+            even,
+            NodeSlopes(*(CROSS * part for part in even)),
+            NodeSlopes(*(0.7 * part for part in even)),
         ),
         compliance,
         np.ones(pressure.shape, dtype=bool) if free is None else free,
@@ -242,7 +243,9 @@ def test_derivatives_match_differences(upwind):
     for _ in range(5):
         dp, dh = rng.normal(size=(2, *shape))
         change = np.empty(shape)
-        apply_derivatives(ELEMENT_OFFSETS, by_pressure, by_film, dp, dh, change)
+        apply_derivatives(
+            ELEMENT_OFFSETS, by_pressure, by_film, AMBIENT.reach(len(dp)), dp, dh, change
+        )
         up, down = (
             residual_of(grid, pressure + e * dp, film + e * dh, np.zeros(shape), 0.0)
             for e in (1e-6, -1e-6)
@@ -275,7 +278,9 @@ def test_matrix_rows_are_the_applied_derivatives():
     by_pressure, by_film = derivatives_of(parameters(8, 7), pressure, film, 0.2, free)
     dp, dh = np.where(free, rng.normal(size=shape), 0.0), rng.normal(size=shape)
     applied = np.empty(shape)
-    apply_derivatives(ELEMENT_OFFSETS, by_pressure, by_film, dp, dh, applied)
+    apply_derivatives(
+        ELEMENT_OFFSETS, by_pressure, by_film, AMBIENT.reach(len(dp)), dp, dh, applied
+    )
     matrix = matrix_of(by_pressure, by_film, free)
     product = matrix.real @ dp.ravel() + matrix.imag @ dh.ravel()
     assert product == pytest.approx(applied.ravel(), abs=1e-12 * np.abs(applied).max())

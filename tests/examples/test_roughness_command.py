@@ -7,6 +7,7 @@ import logging
 
 import numpy as np
 import pytest
+import xarray as xr
 from typer.testing import CliRunner
 
 from gearlube.command import app
@@ -76,8 +77,10 @@ def test_a_map_and_a_stand_in_are_written(tmp_path, caplog):
         (("make",), "--ra-um or --rq-um"),
         (("make", "--ra-um", "nan"), "--ra-um must be finite"),
         (("make", "--ra-um", 0.3, "--skewness", 1, "--kurtosis", 1.5), "skewness^2 + 1"),
-        (("make", "--ra-um", 310), "Give it in m"),
-        (("extrude", "missing.csv"), "not a readable CSV"),
+        (("make", "--ra-um", 310), "--ra-um must be within 0 to 100 um, got 310 um"),
+        (("make", "--ra-um", 0.3, "--along-um", 40), "got no --width-mm"),
+        (("make", "--ra-um", 0.3, "--lay-deg", 8), "got no --width-mm"),
+        (("extrude", "missing.csv"), "not a readable CSV file: there is no such file."),
         (("read", "missing.x3p"), "missing.x3p"),
         (("stand-in", "D"), "A, B, C"),
     ],
@@ -87,3 +90,39 @@ def test_wrong_input_is_told_and_writes_nothing(arguments, words, tmp_path, capl
     assert run(*arguments).exit_code == 2
     assert words in caplog.text
     assert not list(tmp_path.iterdir())
+
+
+def test_flow_factors_of_made_patches_and_of_files(tmp_path):
+    made = tmp_path / "made"
+    arguments = ("--points", 48, "--seeds", 2, "--film-ratios", "3,6", "--no-contact")
+    assert run("flow-factors", *arguments, "--peklenik", 3, "--out", made).exit_code == 0
+    with (made / "flow_factors.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["film_ratio"]) for row in rows] == [3.0, 6.0]
+    # a lay along the motion lets more pass along than across it
+    assert all(float(row["pressure_x"]) > float(row["pressure_y"]) for row in rows)
+    assert (made / "flow_factors.png").read_bytes().startswith(b"\x89PNG")
+    with xr.open_dataset(made / "flow_factors.nc") as table:
+        assert float(table.pressure_x[0]) == pytest.approx(float(rows[0]["pressure_x"]), rel=1e-8)
+
+    # crests along y with h = 3 a: 1/(27 mean(h^-3)) = 2 8^2.5/(19 27)
+    turn = 2.0 * np.pi * np.arange(64) / 64
+    np.savez(
+        tmp_path / "waves.npz",
+        x=1e-3 * np.arange(64),
+        y=1e-3 * np.arange(8),
+        height=0.3 * np.cos(turn)[:, None] + np.zeros(8),
+    )
+    ratio = 3.0 * np.sqrt(2.0)
+    again = ("--film-ratios", ratio, "--no-contact", "--out", tmp_path / "read")
+    assert run("flow-factors", tmp_path / "waves.npz", *again).exit_code == 0
+    with xr.open_dataset(tmp_path / "read" / "flow_factors.nc") as table:
+        assert float(table.pressure_x[0]) == pytest.approx(2.0 * 8.0**2.5 / 513.0, rel=1e-6)
+
+
+def test_flow_factors_refuse_profiles_and_words(tmp_path, caplog):
+    assert run("flow-factors", "--film-ratios", "1;2", "--out", tmp_path / "a").exit_code == 2
+    assert "got '1;2'" in caplog.text
+    (tmp_path / "p.csv").write_text("x_mm,height_um\n0,0\n1,1\n2,0\n3,1\n")
+    assert run("flow-factors", tmp_path / "p.csv", "--out", tmp_path / "b").exit_code == 2
+    assert "must hold a map, got a profile" in caplog.text

@@ -17,9 +17,12 @@ from gearlube_core.ehl.point.equations.stencil import (
     FilmFlow,
     FlowSlopes,
     MeshMetric,
+    NodeSlopes,
     StencilParameters,
+    TensorSlopes,
     mean_fluidity,
 )
+from gearlube_core.ehl.point.sides import AMBIENT
 from tests.helpers.source_of import interpret, source_of
 
 SHAPE = (6, 7)
@@ -55,13 +58,16 @@ class _SlidingFilm:
         x, y = self.offset_x + log, self.offset_y + log
         return FilmFlow(self.density(pressure) * film**3, np.exp(x), np.exp(y), -x, -y)
 
-    def residual(self, pressure, film, grad_p_of=None, stencil=STENCIL):
-        """Residual; `grad_p_of` a pressure: the slopes of that, all else of the others."""
+    def slopes(self):
+        zero = np.zeros(SHAPE)
+        node = NodeSlopes(-self.stiffness * self.thickening, self.power - 3.0, zero, zero)
+        return FlowSlopes(self.compressibility, node, node, node, node)
+
+    def residual(self, pressure, film):
         flow, mass = self.flow(pressure, film), self.density(pressure) * film
-        shown = pressure if grad_p_of is None else grad_p_of
         result = np.empty(SHAPE)
         source_of(reynolds_residual)(
-            stencil, self.metric, shown, mass, flow, np.zeros(SHAPE), result
+            STENCIL, self.metric, pressure, mass, flow, np.zeros(SHAPE), result
         )
         return result
 
@@ -84,43 +90,29 @@ def test_derivatives_of_a_sheared_film_are_those_of_the_residual(monkeypatch) ->
     free = np.ones(SHAPE, dtype=np.bool_)
     free[2, 3] = False
     density = sheared.density(pressure)
-    # slopes of flow by grad p larger than the flow over it, as in a film that shear thins
-    grown_x, grown_y = 1.7, 1.4
-    slopes = FlowSlopes(
-        grown_x * flow.cubic,
-        grown_y * flow.cubic,
-        np.zeros(SHAPE),
-        sheared.compressibility + (1.0 - sheared.stiffness) * sheared.thickening,
-        sheared.power,
-        sheared.stiffness,
-    )
     by_pressure, by_film = np.empty((2, 7, *SHAPE))
     source_of(reynolds_derivatives)(
         STENCIL,
         sheared.metric,
         pressure,
         flow,
-        sheared.thickening,
         density,
         sheared.compressibility * density,
         film,
-        slopes,
+        sheared.slopes(),
         free,
         by_pressure,
         by_film,
     )
-    only_x, only_y = STENCIL._replace(poiseuille_y=0.0), STENCIL._replace(poiseuille_x=0.0)
     rng = np.random.default_rng(6)
     for of_pressure, of_film in ((1.0, 0.0), (0.0, 1.0)):
         p = of_pressure * rng.standard_normal(SHAPE)
         h = of_film * rng.standard_normal(SHAPE)
         expected = _difference(lambda e, p=p, h=h: sheared.residual(pressure + e * p, film + e * h))
-        for part, grown in ((only_x, grown_x), (only_y, grown_y)):
-            expected += (grown - 1.0) * _difference(
-                lambda e, p=p, part=part: sheared.residual(pressure, film, pressure + e * p, part)
-            )
         found = np.empty(SHAPE)
-        source_of(apply_derivatives)(OFFSETS, by_pressure, by_film, p, h, found)
+        source_of(apply_derivatives)(
+            OFFSETS, by_pressure, by_film, AMBIENT.reach(SHAPE[0]), p, h, found
+        )
         assert np.abs(found - np.where(free, expected, 0.0)).max() < 1e-8
         assert found[2, 3] == 0.0
         assert np.abs(expected).max() > 1.0
@@ -144,9 +136,16 @@ def test_logarithmic_mean_and_its_slopes(rise) -> None:
 @pytest.mark.parametrize("oblique", [False, True])
 def test_flow_factors_multiply_the_flow_of_both_forms(oblique) -> None:
     rng = np.random.default_rng(8)
-    xx, yy, slope_xx, slope_yy, stiffness, power, xy, slope_xy = rng.uniform(0.5, 3.0, (8, 3, 4))
-    aligned = (xx, yy, slope_xx, slope_yy, stiffness, power)
-    factors = ObliqueFactors(*aligned, xy, slope_xy) if oblique else AlignedFactors(*aligned)
+    xx, yy, xy = rng.uniform(0.5, 3.0, (3, 3, 4))
+    # slopes of the factors as if ln(eta) were all that they depend on by pressure
+    growth = TensorSlopes(*(NodeSlopes(*rng.uniform(0.5, 3.0, (4, 3, 4))) for _ in range(3)))
+
+    def rates(thickening):
+        return TensorSlopes(
+            *(part._replace(by_pressure=part.by_pressure * thickening) for part in growth)
+        )
+
+    factors = ObliqueFactors(xx, yy, rates, xy) if oblique else AlignedFactors(xx, yy, rates)
     cubic, log_viscosity, thickening, dense = rng.uniform(0.5, 3.0, (4, 3, 4))
     fluidity = np.exp(-log_viscosity)
     flow = factors.flow(factors.cubic_x(cubic), fluidity, log_viscosity)
@@ -159,14 +158,27 @@ def test_flow_factors_multiply_the_flow_of_both_forms(oblique) -> None:
     np.testing.assert_allclose(flow.cubic * flow.fluidity_y, cubic * fluidity * yy)
     np.testing.assert_allclose(flow.resistance_x, -np.log(flow.fluidity_x))
     np.testing.assert_allclose(flow.resistance_y, -np.log(flow.fluidity_y))
-    slopes = factors.slopes(cubic, dense, thickening)
-    np.testing.assert_allclose(slopes.slope_x, cubic * slope_xx)
-    np.testing.assert_allclose(slopes.slope_y, cubic * slope_yy)
-    np.testing.assert_allclose(slopes.slope_xy, cubic * slope_xy if oblique else 0.0 * cubic)
-    # the flow itself goes with rho/eta^S: d ln(flow)/dp = d ln(rho)/dp - S d ln(eta)/dp
-    np.testing.assert_allclose(
-        slopes.by_pressure - thickening, dense - stiffness * thickening, atol=1e-13
-    )
-    relative = factors.relative(slopes)
-    np.testing.assert_allclose(relative.slope_x * xx, slopes.slope_x)
-    np.testing.assert_allclose(relative.slope_y * yy, slopes.slope_y)
+    slopes = factors.slopes(dense, thickening)
+    np.testing.assert_array_equal(slopes.dense, dense)
+    for found, part, own in ((slopes.x, growth.xx, xx), (slopes.y, growth.yy, yy)):
+        # d ln(factor/eta)/dp
+        by_pressure = part.by_pressure * thickening / own - thickening
+        np.testing.assert_allclose(found.by_pressure, by_pressure, atol=1e-13)
+        for name in ("by_film", "by_rise_x", "by_rise_y"):
+            np.testing.assert_allclose(getattr(found, name), getattr(part, name) / own)
+    if oblique:
+        for found, part, own in ((slopes.cross_x, growth.xx, xx), (slopes.cross_y, growth.yy, yy)):
+            # quotient rule
+            by_film = (growth.xy.by_film * own - xy * part.by_film) / own**2
+            np.testing.assert_allclose(found.by_film, by_film, atol=1e-13)
+    # elements: (rho h^3/eta factor)' by p and by ln(h)
+    mobility = cubic * fluidity
+    tensor = factors.tensor_slopes(mobility, dense, thickening)
+    components = ((tensor.xx, growth.xx, xx), (tensor.yy, growth.yy, yy))
+    if oblique:
+        components += ((tensor.xy, growth.xy, xy),)
+    for found, part, own in components:
+        by_pressure = part.by_pressure * thickening + own * (dense - thickening)
+        np.testing.assert_allclose(found.by_pressure, mobility * by_pressure, atol=1e-12)
+        np.testing.assert_allclose(found.by_film, mobility * (part.by_film + 3.0 * own))
+        np.testing.assert_allclose(found.by_rise_y, mobility * part.by_rise_y)

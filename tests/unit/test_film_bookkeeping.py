@@ -7,15 +7,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gearlube_core.ehl.point.equations import film_shear
-from gearlube_core.ehl.point.equations.film_shear import FactorArrays, ShearUnits
-from gearlube_core.ehl.point.equations.stencil import FlowSlopes, node_slopes
+from gearlube_core.ehl.point.equations import factor_fields
+from gearlube_core.ehl.point.equations.factor_fields import ShearUnits
 from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.time_error import TimeError
 from gearlube_core.ehl.transient import deflection_window
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
 from gearlube_core.oil.eyring_1936 import Eyring
-from tests.helpers.source_of import interpret, source_of
+from tests.helpers.source_of import interpret
 
 SHAPE = (60, 110)
 
@@ -71,21 +70,6 @@ def test_box_is_cut_anew_when_it_is_larger_by_three_tenths(window):
     assert len(made) == 3
 
 
-def test_slopes_of_a_node_are_those_of_flow_factor_viscosity_and_density():
-    # flow f(p, h)/eta^s with f the density times h^n: by hand from the definitions
-    rng = np.random.default_rng(3)
-    slopes = FlowSlopes(*rng.random((6, 4, 5)))
-    thickening = rng.random((4, 5))
-    for j, i in np.ndindex(4, 5):
-        thick, thin, dense = source_of(node_slopes)(slopes, thickening, j, i)
-        s = slopes.stiffness[j, i]
-        assert thick == pytest.approx(s * thickening[j, i])
-        assert thin == pytest.approx(slopes.film_power[j, i] - 3.0)
-        # what is left of the slope by pressure, where part of it stands with the viscosity
-        total = dense - thick + thickening[j, i]
-        assert total == pytest.approx(slopes.by_pressure[j, i], abs=1e-14)
-
-
 @pytest.mark.parametrize("way", [0.4, -0.4])
 def test_error_of_a_step_is_carried_where_the_oil_is_pressed_or_has_left_the_contact(way: float):
     x = np.linspace(0.0, 10.0, 11)
@@ -102,13 +86,19 @@ def test_error_of_a_step_is_carried_where_the_oil_is_pressed_or_has_left_the_con
 
 
 def test_film_without_slopes_and_sliding_flows_as_a_newtonian(monkeypatch):
-    interpret(monkeypatch, film_shear)
-    factors = FactorArrays(*np.full((4, 5, 6), np.nan))
+    interpret(monkeypatch, factor_fields)
+    along, across = np.full((2, 5, 6), np.nan)
     units = ShearUnits(np.zeros(5), np.full(6, 0.3), 0.2, 0.8, 0.6, 0.0, 0.0)
     flat, thick = np.full((5, 6), 0.4), np.ones((5, 6))
-    film_shear.fill_shear_factors(Eyring(5e6), flat, thick, thick, units, factors)
-    for one in factors:
+    arguments = Eyring(5e6), flat, thick, thick
+    factor_fields.fill_shear_factors(*arguments, units, along, across)
+    for one in (along, across):
         assert one == pytest.approx(np.ones((5, 6)), abs=1e-12)
+    slopes = np.full((2, 4, 5, 6), np.nan)
+    factor_fields.fill_factor_slopes(*arguments, thick, units, *slopes)
+    assert (slopes == 0.0).all()
     # beside the border a film without height keeps its factors too
-    film_shear.fill_shear_factors(Eyring(5e6), flat, 0.0 * thick, thick, units, factors)
-    assert (factors.along == 1.0).all()
+    factor_fields.fill_shear_factors(Eyring(5e6), flat, 0.0 * thick, thick, units, along, across)
+    assert (along == 1.0).all()
+    factor_fields.fill_factor_slopes(Eyring(5e6), flat, 0.0 * thick, thick, thick, units, *slopes)
+    assert (slopes == 0.0).all()

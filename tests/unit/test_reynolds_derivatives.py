@@ -11,33 +11,57 @@ from gearlube_core.ehl.point.equations.stencil import (
     FilmFlow,
     FlowSlopes,
     MeshMetric,
+    NodeSlopes,
     StencilParameters,
 )
+from gearlube_core.ehl.point.sides import AMBIENT
 from tests.helpers.source_of import interpret
 
 SHAPE = (6, 8)
 DENSER, THINNER, POWER = 0.3, 2.1, -0.8  # d ln rho/dp, -d ln f/dp, d ln f/d ln h
+# d ln f/d(rise of pressure across the node) along x and y, of the fluidity along x and along y
+RISES = ((0.7, -0.3), (0.2, 0.9))
 RNG = np.random.default_rng(15)
 METRIC = MeshMetric(1.0 + 0.2 * RNG.random(SHAPE[1]), 1.0 + 0.2 * RNG.random(SHAPE[1]))
 
 
-def flow_of(p: np.ndarray, h: np.ndarray) -> tuple[np.ndarray, FilmFlow]:
-    """Return rho and the flow of a film whose fluidity falls with pressure and with its height."""
+def flow_of(p: np.ndarray, h: np.ndarray, sheared: bool) -> tuple[np.ndarray, FilmFlow]:
+    """Return rho and the flow of a film whose fluidity falls with pressure and with its height.
+
+    Where it is sheared, fluidity inside the border rises with the pressure across its node too.
+    """
     rho = np.exp(DENSER * p)
-    f = np.exp(-THINNER * p) * h**POWER
-    return rho, FilmFlow(rho * h**3, f, 1.3 * f, -np.log(f), -np.log(1.3 * f))
+    log = np.tile(-THINNER * p + POWER * np.log(h), (2, 1, 1))
+    if sheared:
+        for part, (x, y) in zip(log, RISES, strict=True):
+            part[1:-1, 1:-1] += x * (p[1:-1, 2:] - p[1:-1, :-2]) + y * (p[2:, 1:-1] - p[:-2, 1:-1])
+    log[1] += np.log(1.3)
+    return rho, FilmFlow(rho * h**3, *np.exp(log), *-log)
 
 
-def residual_of(parameters: StencilParameters, p: np.ndarray, h: np.ndarray) -> np.ndarray:
-    rho, flow = flow_of(p, h)
+def residual_of(
+    parameters: StencilParameters, p: np.ndarray, h: np.ndarray, sheared: bool
+) -> np.ndarray:
+    rho, flow = flow_of(p, h, sheared)
     found = np.empty(SHAPE)
     reynolds.reynolds_residual(parameters, METRIC, p, rho * h, flow, 0.2 * np.ones(SHAPE), found)
     return found
 
 
+def slopes_of(sheared: bool) -> FlowSlopes:
+    inner, full = np.zeros(SHAPE), np.ones(SHAPE)
+    inner[1:-1, 1:-1] = float(sheared)
+    x, y = (
+        NodeSlopes(-THINNER * full, POWER * full, along * inner, across * inner)
+        for along, across in RISES
+    )
+    return FlowSlopes(DENSER * full, x, y, x, y)  # cross flow is not asked for
+
+
 @pytest.mark.parametrize("along_y", [0.0, 0.6])
 @pytest.mark.parametrize("weights", [(1.5, -0.5, 0.0), (0.5, 0.0, 0.5)])
-def test_derivatives_are_those_of_differences(monkeypatch, along_y: float, weights):
+@pytest.mark.parametrize("sheared", [False, True])
+def test_derivatives_are_those_of_differences(monkeypatch, along_y: float, weights, sheared: bool):
     interpret(monkeypatch, reynolds, stencil)
     here, upstream, downstream = weights
     parameters = StencilParameters(
@@ -46,22 +70,12 @@ def test_derivatives_are_those_of_differences(monkeypatch, along_y: float, weigh
     )  # fmt: skip
     p = 0.2 + 0.6 * RNG.random(SHAPE)
     h = 0.5 + 0.5 * RNG.random(SHAPE)
-    rho, flow = flow_of(p, h)
-    stiffness = 0.7
-    thickening = np.full(SHAPE, THINNER / stiffness)
-    slopes = FlowSlopes(
-        slope_x=flow.cubic,
-        slope_y=flow.cubic,
-        slope_xy=np.zeros(SHAPE),
-        by_pressure=DENSER + (1.0 - stiffness) * thickening,
-        film_power=np.full(SHAPE, 3.0 + POWER),
-        stiffness=np.full(SHAPE, stiffness),
-    )
+    rho, flow = flow_of(p, h, sheared)
     free = np.ones(SHAPE, dtype=bool)
     free[2, 3] = False
-    by_pressure, by_film = np.full((2, 7, *SHAPE), np.nan)
+    by_pressure, by_film = np.full((2, 13 if sheared else 7, *SHAPE), np.nan)
     reynolds.reynolds_derivatives(
-        parameters, METRIC, p, flow, thickening, rho, DENSER * rho, h, slopes, free, by_pressure,
+        parameters, METRIC, p, flow, rho, DENSER * rho, h, slopes_of(sheared), free, by_pressure,
         by_film,
     )  # fmt: skip
     assert not by_pressure[:, 2, 3].any()
@@ -69,11 +83,13 @@ def test_derivatives_are_those_of_differences(monkeypatch, along_y: float, weigh
     step = 1e-6
     for dp, dh in ((1.0, 0.0), (0.0, 1.0)):
         change_p, change_h = dp * RNG.normal(size=SHAPE), dh * RNG.normal(size=SHAPE)
-        above = residual_of(parameters, p + step * change_p, h + step * change_h)
-        below = residual_of(parameters, p - step * change_p, h - step * change_h)
+        above = residual_of(parameters, p + step * change_p, h + step * change_h, sheared)
+        below = residual_of(parameters, p - step * change_p, h - step * change_h, sheared)
         numerical = np.where(free, (above - below) / (2.0 * step), 0.0)
         found = np.empty(SHAPE)
-        reynolds.apply_derivatives(OFFSETS, by_pressure, by_film, change_p, change_h, found)
+        reynolds.apply_derivatives(
+            OFFSETS, by_pressure, by_film, AMBIENT.reach(SHAPE[0]), change_p, change_h, found
+        )
         # truncation of 1e-12 and rounding of 1e-10
         assert found == pytest.approx(numerical, abs=1e-7 * np.abs(numerical).max())
 

@@ -1,4 +1,4 @@
-"""The commands `gearlube roughness read`, `make`, `extrude` and `stand-in`."""
+"""The commands `gearlube roughness read`, `make`, `extrude`, `stand-in`, `flow-factors`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import typer
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
+from gearlube.studies.roughness.flow_command import flow_factors
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import DEGREE, MILLIMETRE
@@ -23,6 +24,7 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
 
 logger = logging.getLogger("gearlube")
 _MICRO = 1e-6  # m
+_HIGHEST_UM = 100.0
 
 FileArgument = Annotated[
     str, typer.Argument(help="CSV, npz, NetCDF, SDF or X3P file of heights.", metavar="FILE")
@@ -42,6 +44,7 @@ roughness = typer.Typer(
     help="Rough surfaces: read or make them, filter them, draw them out along a lay.",
     no_args_is_help=True,
 )
+roughness.command("flow-factors")(flow_factors)
 
 
 @roughness.command("read")
@@ -138,12 +141,17 @@ def make(
 
         if ra_um is None and rq_um is None:
             raise ParameterError("Give --ra-um or --rq-um, the height of the roughness in um.")
+        if width_mm is None and (along_um is not None or lay_deg != 0.0):
+            raise ParameterError(
+                "--along-um and --lay-deg are of a map, got no --width-mm. Give the width of the "
+                "map, or leave them out for a profile."
+            )
         check_within("--seed", seed, 0, 2**63)
         check_within("--points", points, 16, 1_000_000)
         check_within("--rows", rows, 16, 100_000)
         request = RoughnessRequest(
-            arithmetic_mean=_metres("--ra-um", ra_um),
-            root_mean_square=_metres("--rq-um", rq_um),
+            arithmetic_mean=_height("--ra-um", ra_um),
+            root_mean_square=_height("--rq-um", rq_um),
             correlation_length=check_positive("--correlation-um", correlation_um, "um") * _MICRO,
             correlation_length_along=_metres("--along-um", along_um),
             lay=check_within("--lay-deg", lay_deg, -90.0, 90.0, "deg") * DEGREE,
@@ -243,6 +251,12 @@ def stand_in(
 
 def _metres(name: str, value_um: float | None) -> float | None:
     return None if value_um is None else check_positive(name, value_um, "um") * _MICRO
+
+
+def _height(name: str, value_um: float | None) -> float | None:
+    if value_um is not None:
+        check_within(name, value_um, 0.0, _HIGHEST_UM, "um", "A ground flank has 0.2 to 1 um.")
+    return _metres(name, value_um)
 
 
 def _run_in(surface: Any, height_um: float | None) -> Any:

@@ -213,18 +213,17 @@ class PointLevel:
 
         Notes
         -----
-        Flow factors depend on the slope of pressure along sliding, on viscosity and on the film.
+        The derivatives are complete: flow factors depend on the slopes of pressure along and
+        across sliding, on viscosity, on the film and on the limiting stress. Which of two rules
+        holds at a face, a limit or a side of the upwinding, is taken as it is.
         """
         terms = self.terms
         free = state.free if rows is None else rows
-        slopes = state.shear.slopes(
-            state.cubic, state.density_slope / state.density, state.viscosity_slope
-        )
         entrainment = terms.entrainment
         density = entrainment.carried(state.density), entrainment.carried(state.density_slope)
         stencil = self.stencil._replace(squeeze=self.stencil.squeeze + squeeze)
         offsets, by_pressure, by_film = self._scheme.derivatives(
-            stencil, state, density, slopes, terms.cavitation.rows(free, state)
+            stencil, state, density, terms.cavitation.rows(free, state)
         )
         linear = Linearisation(
             offsets,

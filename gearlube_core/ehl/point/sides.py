@@ -125,6 +125,17 @@ class Sides:
             rows[[0, -1]] = 1, count - 2
         return rows
 
+    def reach(self, count: int) -> np.ndarray:
+        """Return `own_rows` with one row more on each side, shape (count + 2,).
+
+        Rows beyond a border of ambient pressure, which nothing depends on, are those of the border.
+        """
+        own = self.own_rows(count)
+        if not self.closed:
+            return np.concatenate(([0], own, [count - 1]))
+        beyond = (count - 3, 2) if self.name == "cyclic" else (2, count - 3)
+        return np.concatenate((beyond[:1], own, beyond[1:]))
+
     def inner(self, values: Array) -> Array:
         """Return an array without its copied rows, a view."""
         return values[1:-1] if self.closed else values
@@ -141,6 +152,12 @@ class Sides:
         if self.closed:
             first, last = (-2, 1) if self.name == "cyclic" else (1, -2)
             values[0], values[-1] = values[first], values[last]
+
+    def fill_rises(self, slopes: Array) -> None:
+        """Write the copied rows of slopes over a difference along y: turned where mirrored."""
+        self.fill(slopes)
+        if self.name == "no_flow":
+            slopes[[0, -1]] *= -1.0
 
     def filled(self, values: Array) -> Array:
         """Return an array whose copied rows hold what they copy; itself where there are none."""

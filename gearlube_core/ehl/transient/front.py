@@ -63,6 +63,7 @@ def relax_band(
     change : ndarray, shape (ny, nx)
         Result; zero on entry. Pressure does not become negative.
     """
+    ny, nx = change.shape
     for _ in range(sweeps):
         for m in range(places.shape[0]):
             j, i = places[m, 0], places[m, 1]
@@ -70,7 +71,9 @@ def relax_band(
                 continue
             rest = right[j, i] - (slope[j, i] - by_pressure[0, j, i]) * change[j, i]
             for k in range(by_pressure.shape[0]):
-                rest -= by_pressure[k, j, i] * change[j + offsets[k, 0], i + offsets[k, 1]]
+                jj, ii = j + offsets[k, 0], i + offsets[k, 1]
+                if 0 <= jj < ny and 0 <= ii < nx:
+                    rest -= by_pressure[k, j, i] * change[jj, ii]
             change[j, i] = max(change[j, i] + rest / slope[j, i], -pressure[j, i])
 
 

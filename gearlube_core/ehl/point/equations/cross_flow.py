@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.ehl.point.equations.stencil import (
+    BESIDE,
     CENTRE,
     EAST,
     NORTH,
@@ -25,8 +26,8 @@ from gearlube_core.ehl.point.equations.stencil import (
     FlowSlopes,
     MeshMetric,
     StencilParameters,
+    add_rises,
     mean_fluidity,
-    node_slopes,
 )
 from gearlube_core.kernels.jit import kernel
 
@@ -36,8 +37,6 @@ class CrossFlow(NamedTuple):
 
     ratio_x: np.ndarray  # xy/xx
     ratio_y: np.ndarray  # xy/yy
-    slope_x: np.ndarray  # flow factor xy of a change of grad p, over xx
-    slope_y: np.ndarray  # over yy
 
 
 @kernel
@@ -119,7 +118,6 @@ def add_cross_derivatives(
     pressure: np.ndarray,
     film_flow: FilmFlow,
     cross: CrossFlow,
-    viscosity_slope: np.ndarray,
     film: np.ndarray,
     slopes: FlowSlopes,
     free: np.ndarray,
@@ -132,14 +130,14 @@ def add_cross_derivatives(
     ----------
     parameters, metric, pressure, film_flow, cross
         As in `add_cross_flow`.
-    viscosity_slope, film, slopes, free
+    film, slopes, free
         As in `reynolds_derivatives`.
-    by_pressure, by_film : ndarray, shape (11, ny, nx)
+    by_pressure, by_film : ndarray, shape (13, ny, nx)
         Result [-].
     """
     ny, nx = pressure.shape
     unit = 0.25 * math.sqrt(parameters.poiseuille_x * parameters.poiseuille_y)
-    cubic = film_flow.cubic
+    cubic, dense = film_flow.cubic, slopes.dense
     fluidity_x, resistance_x = film_flow.fluidity_x, film_flow.resistance_x
     fluidity_y, resistance_y = film_flow.fluidity_y, film_flow.resistance_y
     beside = (EAST, WEST, NORTH, SOUTH)
@@ -154,7 +152,6 @@ def add_cross_derivatives(
         for i in range(1, nx - 1):
             if not free[j, i]:
                 continue
-            thick, thin, dense = node_slopes(slopes, viscosity_slope, j, i)
             h = max(film[j, i], 1e-30)
             for k in range(4):
                 jj, ii = j + down[k], i + right[k]
@@ -165,7 +162,7 @@ def add_cross_derivatives(
                     steep = step > 0.0
                     scale = unit * metric.narrow[i]
                     ratio = 0.5 * (cross.ratio_x[j, i] + cross.ratio_x[jj, ii])
-                    slope = 0.5 * (cross.slope_x[j, i] + cross.slope_x[jj, ii])
+                    through, turned = slopes.x, slopes.cross_x
                     along = (pressure[j + 1, i] - pressure[j - 1, i]) + (
                         pressure[jj + 1, ii] - pressure[jj - 1, ii]
                     )
@@ -176,22 +173,30 @@ def add_cross_derivatives(
                     near, next_near = metric.near[i], metric.near[i + 1]
                     scale = unit * 2.0 * near * next_near / (near + next_near)
                     ratio = 0.5 * (cross.ratio_y[j, i] + cross.ratio_y[jj, ii])
-                    slope = 0.5 * (cross.slope_y[j, i] + cross.slope_y[jj, ii])
+                    through, turned = slopes.y, slopes.cross_y
                     along = (pressure[j, i + 1] - pressure[j, i - 1]) + (
                         pressure[jj, ii + 1] - pressure[jj, ii - 1]
                     )
                 mean, m, mt = mean_fluidity(f, there_f, rise, steep)
                 drive = (right[k] + down[k]) * scale * math.sqrt(cubic[j, i] * cubic[jj, ii])
-                share = drive * mean * slope
+                share = drive * mean * ratio
                 by_pressure[ahead[k], j, i] += share
                 by_pressure[behind[k], j, i] -= share
                 by_pressure[ahead_there[k], j, i] += share
                 by_pressure[behind_there[k], j, i] -= share
-                total = drive * ratio * along
-                c = 0.5 * total * mean
-                by_pressure[CENTRE, j, i] += c * dense - total * m * thick
-                by_film[CENTRE, j, i] += (3.0 * c + total * m * thin) / h
-                thick_there, thin_there, dense_there = node_slopes(slopes, viscosity_slope, jj, ii)
-                there_h = max(film[jj, ii], 1e-30)
-                by_pressure[beside[k], j, i] += c * dense_there - total * mt * thick_there
-                by_film[beside[k], j, i] += (3.0 * c + total * mt * thin_there) / there_h
+                total, of_ratio = drive * ratio * along, 0.5 * drive * mean * along
+                c, of_here, of_there = 0.5 * total * mean, total * m, total * mt
+                by_pressure[CENTRE, j, i] += c * dense[j, i] + of_here * through.by_pressure[j, i]
+                by_pressure[CENTRE, j, i] += of_ratio * turned.by_pressure[j, i]
+                steeper = of_here * through.by_film[j, i] + of_ratio * turned.by_film[j, i]
+                by_film[CENTRE, j, i] += (3.0 * c + steeper) / h
+                add_rises(through, of_here, j, i, BESIDE[CENTRE], j, i, by_pressure)
+                add_rises(turned, of_ratio, j, i, BESIDE[CENTRE], j, i, by_pressure)
+                there, there_h = beside[k], max(film[jj, ii], 1e-30)
+                by_pressure[there, j, i] += c * dense[jj, ii]
+                by_pressure[there, j, i] += of_there * through.by_pressure[jj, ii]
+                by_pressure[there, j, i] += of_ratio * turned.by_pressure[jj, ii]
+                steeper = of_there * through.by_film[jj, ii] + of_ratio * turned.by_film[jj, ii]
+                by_film[there, j, i] += (3.0 * c + steeper) / there_h
+                add_rises(through, of_there, jj, ii, BESIDE[there], j, i, by_pressure)
+                add_rises(turned, of_ratio, jj, ii, BESIDE[there], j, i, by_pressure)

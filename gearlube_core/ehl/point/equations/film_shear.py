@@ -4,122 +4,29 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_finite, check_positive
+from gearlube_core.ehl.point.equations.factor_fields import (
+    ShearUnits,
+    fill_factor_slopes,
+    fill_shear_factors,
+)
 from gearlube_core.ehl.point.equations.shear_factors import (
     AlignedFactors,
     NewtonianFactors,
     ObliqueFactors,
 )
+from gearlube_core.ehl.point.equations.stencil import NodeSlopes, TensorSlopes
 from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.errors import ParameterError
-from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_oil import FilmOil
-from gearlube_core.oil.shear_flow import shear_factors
-from gearlube_core.oil.shear_law import rate_ratio
-from gearlube_core.oil.sheared_film import flow_factor, mid_stress
 
-# below, series to the second order are right to 1e-8
-_SMALL_STRESS = 1.0e-2
-# of the product of cosine and sine: flow along an axis does not feel the slope along the other
-ALIGNED = 1.0e-12
+ALIGNED = 1.0e-12  # product of cosine and sine: flow along an axis feels no slope along the other
 _EVEN = 1.0e-9  # spread of sliding along x over sliding along y
-
-
-class ShearUnits(NamedTuple):
-    """Stresses over tau0 per unit of the fields, sliding, and the limiting stress."""
-
-    couette: np.ndarray  # of sliding, times film and fluidity, of every row, shape (ny,) [-]
-    # stress drop over half the film, over film and difference of pressure between the nodes on
-    # both sides [-]; along x of every column, shape (nx,)
-    sigma_x: np.ndarray
-    sigma_y: float
-    cosine: float  # of the angle from x to sliding
-    sine: float
-    limit: float  # limiting stress at ambient pressure [-]
-    limit_slope: float  # its slope with pressure [-]; both 0: none
-
-
-class FactorArrays(NamedTuple):
-    """Flow factors of every node and their slopes; arrays of shape (ny, nx) [-]."""
-
-    along: np.ndarray  # flow along sliding over its Newtonian value
-    across: np.ndarray
-    steepness: np.ndarray  # d ln(flow)/d ln(dp/ds) along sliding, as without dp/dr
-    stiffness: np.ndarray  # -d ln(flow)/d ln(eta) along sliding, likewise
-
-
-@kernel
-def fill_shear_factors(
-    law: Any,
-    pressure: np.ndarray,
-    film: np.ndarray,
-    fluidity: np.ndarray,
-    units: ShearUnits,
-    factors: FactorArrays,
-) -> None:
-    """Fill the flow factors of a shear-thinning film, by rows of other sliding in one direction.
-
-    Parameters
-    ----------
-    law
-        Shear law.
-    pressure, film, fluidity : ndarray, shape (ny, nx)
-        p, h and 1/eta [-].
-    units
-        Stresses and sliding.
-    factors
-        Result; 1 on the border.
-
-    Notes
-    -----
-    Pressure slopes are central. Small stresses: flow along grows by Sigma^2/10 + a^2/2, across
-    by Sigma^2/10 + a^2/6, both times 6 dG/dq: the first terms of the series of `shear_flow`. A
-    film that slips at the limiting stress has the flow of one that is sheared just so far.
-    """
-    ny, nx = pressure.shape
-    couette, sigma_x, sigma_y, cosine, sine, limit, limit_slope = units
-    along, across, steepness, stiffness = factors
-    # of the series G = 1 + g q/6: Eyring's g is 1
-    g = 6.0 * rate_ratio(law, 0.0)[1]
-    along[:] = 1.0
-    across[:] = 1.0
-    steepness[:] = 1.0
-    stiffness[:] = 1.0
-    for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
-            h = film[j, i]
-            if h <= 0.0:
-                continue
-            x = sigma_x[i] * h * (pressure[j, i + 1] - pressure[j, i - 1])
-            y = sigma_y * h * (pressure[j + 1, i] - pressure[j - 1, i])
-            s, r = cosine * x + sine * y, cosine * y - sine * x
-            a = couette[j] / (h * fluidity[j, i])
-            most, slips = math.inf, False
-            if limit + limit_slope > 0.0:
-                most = limit + limit_slope * max(pressure[j, i], 0.0)
-                slips = abs(mid_stress(law, s, a)) > most
-            if max(abs(s), abs(r), abs(a)) < min(_SMALL_STRESS, most):
-                pumped = 0.1 * g * (s * s + r * r)
-                along[j, i] = 1.0 + pumped + 0.5 * g * a * a
-                across[j, i] = 1.0 + pumped + g * a * a / 6.0
-                steepness[j, i] = 1.0 + 0.2 * g * s * s
-                stiffness[j, i] = 1.0 - g * a * a
-                continue
-            along[j, i], across[j, i] = shear_factors(law, s, r, a, most)
-            if slips:
-                # S = F cosh(limit): F alone depends on the slope of pressure, nothing on viscosity
-                F, by_sigma, _ = flow_factor(law, s, 0.0)
-                steepness[j, i] = 1.0 + s * by_sigma / F
-                stiffness[j, i] = 1.0
-                continue
-            S, by_sigma, by_a = flow_factor(law, s, a)
-            steepness[j, i] = 1.0 + s * by_sigma / S
-            stiffness[j, i] = 1.0 - a * by_a / S
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,7 +145,6 @@ class FilmShear:
 
     def factors(self, pressure: Array, film: Array, fluidity: Array) -> AlignedFactors:
         """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
-        factors = FactorArrays(*np.empty((4, *pressure.shape)))
         units = ShearUnits(
             self.couette,
             self.sigma_x * (np.ones(pressure.shape[1]) if self.central is None else self.central),
@@ -248,26 +154,43 @@ class FilmShear:
             self.limit,
             self.limit_slope,
         )
-        fill_shear_factors(self.law, pressure, film, fluidity, units, factors)
-        for one in factors:
+        along, across = np.empty((2, *pressure.shape))
+        fill_shear_factors(self.law, pressure, film, fluidity, units, along, across)
+        for one in (along, across):
             self.sides.fill(one)
-        along, across, steepness, stiffness = factors
         c, s = self.cosine, self.sine
-        slope = along * steepness
-        film_power = 1.0 + steepness + stiffness
+
+        def rates(thickening: Array) -> TensorSlopes:
+            by = np.empty((2, 4, *pressure.shape))
+            fill_factor_slopes(self.law, pressure, film, fluidity, thickening, units, *by)
+            for one in by:
+                for k in range(3):
+                    self.sides.fill(one[k])
+                self.sides.fill_rises(one[3])
+            return self._turned(*by)
+
+        if abs(c * s) >= ALIGNED:
+            return ObliqueFactors(
+                xx=c * c * along + s * s * across,
+                yy=s * s * along + c * c * across,
+                rates=rates,
+                xy=c * s * (along - across),
+            )
+        if abs(c) > abs(s):
+            return AlignedFactors(along, across, rates)
+        return AlignedFactors(across, along, rates)
+
+    def _turned(self, along: Array, across: Array) -> TensorSlopes:
+        c, s = self.cosine, self.sine
         if abs(c * s) < ALIGNED:
-            if abs(c) > abs(s):
-                return AlignedFactors(along, across, slope, across, stiffness, film_power)
-            return AlignedFactors(across, along, across, slope, stiffness, film_power)
-        return ObliqueFactors(
-            xx=c * c * along + s * s * across,
-            xy=c * s * (along - across),
-            yy=s * s * along + c * c * across,
-            slope_xx=c * c * slope + s * s * across,
-            slope_xy=c * s * (slope - across),
-            slope_yy=s * s * slope + c * c * across,
-            stiffness=stiffness,
-            film_power=film_power,
+            none = NodeSlopes(*(np.zeros(along.shape[1:]),) * 4)
+            if abs(c) < abs(s):
+                along, across = across, along
+            return TensorSlopes(NodeSlopes(*along), none, NodeSlopes(*across))
+        return TensorSlopes(
+            NodeSlopes(*(c * c * along + s * s * across)),
+            NodeSlopes(*(c * s * (along - across))),
+            NodeSlopes(*(s * s * along + c * c * across)),
         )
 
 

@@ -11,17 +11,29 @@ import numpy as np
 
 from gearlube_core.ehl.point.equations.stencil import (
     CarriedMass,
-    FlowSlopes,
     FlowTensor,
     StencilParameters,
+    TensorSlopes,
 )
 from gearlube_core.kernels.jit import kernel
 
 # a node and its eight neighbours: row by row from south-west to north-east
 ELEMENT_NEIGHBOURS = 9
 ELEMENT_CENTRE = 4
+# and those whose pressure tells how a film shears at these
+SHEARED_ELEMENT_NEIGHBOURS = 21
+_FAR = [(down, right) for down in (-2, 2) for right in (-1, 0, 1)]
 # steps to them along y and along x
-ELEMENT_OFFSETS = np.array([[n // 3 - 1, n % 3 - 1] for n in range(ELEMENT_NEIGHBOURS)])
+ELEMENT_OFFSETS = np.array(
+    [[n // 3 - 1, n % 3 - 1] for n in range(ELEMENT_NEIGHBOURS)]
+    + [[down, right] for down, right in _FAR]
+    + [[right, down] for down, right in _FAR]
+)
+# number of a neighbour by its steps, two more than they are
+_NUMBER = np.full((5, 5), -1)
+_NUMBER[ELEMENT_OFFSETS[:, 0] + 2, ELEMENT_OFFSETS[:, 1] + 2] = np.arange(
+    SHEARED_ELEMENT_NEIGHBOURS
+)
 
 # values and slopes of the four shape functions at the four Gauss points of the unit square;
 # node k lies k // 2 above and k % 2 to the right of the element's first one
@@ -172,9 +184,8 @@ def element_derivatives(
     parameters: StencilParameters,
     pressure: np.ndarray,
     flow: FlowTensor,
-    viscosity_slope: np.ndarray,
     carried: CarriedMass,
-    slopes: FlowSlopes,
+    slopes: TensorSlopes,
     compliance: float,
     free: np.ndarray,
     by_pressure: np.ndarray,
@@ -186,22 +197,23 @@ def element_derivatives(
     ----------
     parameters, pressure, flow
         As in `element_residual`.
-    viscosity_slope : ndarray, shape (ny, nx)
-        d ln eta/dp [-].
     carried
         Density and film.
     slopes
-        As in `reynolds_derivatives`.
+        Of rho h^3/eta times the components of the flow factor tensor.
     compliance
         As in `element_residual`; the shares of upwinding are held.
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero, as on the border.
-    by_pressure, by_film : ndarray, shape (9, ny, nx)
-        Result [-], neighbour 3 (j' - j + 1) + i' - i + 1.
+    by_pressure, by_film : ndarray, shape (n, ny, nx)
+        Result [-], n = 9, neighbour 3 (j' - j + 1) + i' - i + 1, or 21 where the flow factors
+        depend on the rise of pressure across their node: that is taken then, too.
     """
     ny, nx = pressure.shape
     by_pressure[:] = 0.0
     by_film[:] = 0.0
+    sheared = by_pressure.shape[0] > ELEMENT_NEIGHBOURS
+    xx, xy, yy = slopes
     cubic_x, cubic_xy, cubic_y, fluidity = flow
     density, density_slope, film = carried
     px, py = parameters.poiseuille_x, parameters.poiseuille_y
@@ -217,36 +229,49 @@ def element_derivatives(
                     slope_x += _NX[g, k] * pressure[jj, ii]
                     slope_y += _NY[g, k] * pressure[jj, ii]
                     share = _N[g, k] * fluidity[jj, ii]
-                    sx += share * slopes.slope_x[jj, ii]
-                    sxy += share * slopes.slope_xy[jj, ii]
-                    sy += share * slopes.slope_y[jj, ii]
+                    sx += share * cubic_x[jj, ii]
+                    sxy += share * cubic_xy[jj, ii]
+                    sy += share * cubic_y[jj, ii]
                 for n in range(4):
                     jj, ii = j + n // 2, i + n % 2
-                    N, NX, NY, f = _N[g, n], _NX[g, n], _NY[g, n], fluidity[jj, ii]
-                    rho, rho_p, h = density[jj, ii], density_slope[jj, ii], film[jj, ii]
-                    pumped_x = px * cubic_x[jj, ii] * slope_x + pxy * cubic_xy[jj, ii] * slope_y
-                    pumped_y = py * cubic_y[jj, ii] * slope_y + pxy * cubic_xy[jj, ii] * slope_x
-                    steep = slopes.by_pressure[jj, ii] - viscosity_slope[jj, ii]
-                    cubed = slopes.film_power[jj, ii] / max(h, 1e-30)
+                    N, NX, NY, h = _N[g, n], _NX[g, n], _NY[g, n], film[jj, ii]
+                    rho, rho_p, thin = density[jj, ii], density_slope[jj, ii], max(h, 1e-30)
+                    # of the flow by xx, xy and yy of the node
+                    by_xx, by_xy_x = N * px * slope_x, N * pxy * slope_y
+                    by_yy, by_xy_y = N * py * slope_y, N * pxy * slope_x
                     carried_x, carried_y = ux * (N - back_x * NX), uy * (N - back_y * NY)
-                    x_p = px * sx * NX + pxy * sxy * NY + N * f * pumped_x * steep
-                    x_p -= carried_x * rho_p * h
-                    y_p = py * sy * NY + pxy * sxy * NX + N * f * pumped_y * steep
-                    y_p -= carried_y * rho_p * h
-                    x_h = N * f * pumped_x * cubed - carried_x * rho
-                    y_h = N * f * pumped_y * cubed - carried_y * rho
+                    x_p = px * sx * NX + pxy * sxy * NY - carried_x * rho_p * h
+                    x_p += by_xx * xx.by_pressure[jj, ii] + by_xy_x * xy.by_pressure[jj, ii]
+                    y_p = py * sy * NY + pxy * sxy * NX - carried_y * rho_p * h
+                    y_p += by_yy * yy.by_pressure[jj, ii] + by_xy_y * xy.by_pressure[jj, ii]
+                    x_h = by_xx * xx.by_film[jj, ii] + by_xy_x * xy.by_film[jj, ii]
+                    x_h = x_h / thin - carried_x * rho
+                    y_h = by_yy * yy.by_film[jj, ii] + by_xy_y * xy.by_film[jj, ii]
+                    y_h = y_h / thin - carried_y * rho
                     gathered = parameters.squeeze * N
                     for k in range(4):
                         row, column = j + k // 2, i + k % 2
                         if not free[row, column]:
                             continue
                         a, b, c = _WEIGHT * _NX[g, k], _WEIGHT * _NY[g, k], _WEIGHT * _N[g, k]
-                        neighbour = 3 * (n // 2 - k // 2 + 1) + n % 2 - k % 2 + 1
+                        down, right = n // 2 - k // 2, n % 2 - k % 2
+                        neighbour = 3 * (down + 1) + right + 1
                         by_pressure[neighbour, row, column] -= (
                             a * x_p + b * y_p + c * gathered * rho_p * h
                         )
                         by_film[neighbour, row, column] -= a * x_h + b * y_h + c * gathered * rho
-    for neighbour in range(9):
+                        if not sheared:
+                            continue
+                        by_xy = a * by_xy_x + b * by_xy_y
+                        rise_x = a * by_xx * xx.by_rise_x[jj, ii] + by_xy * xy.by_rise_x[jj, ii]
+                        rise_x += b * by_yy * yy.by_rise_x[jj, ii]
+                        rise_y = a * by_xx * xx.by_rise_y[jj, ii] + by_xy * xy.by_rise_y[jj, ii]
+                        rise_y += b * by_yy * yy.by_rise_y[jj, ii]
+                        by_pressure[_NUMBER[down + 2, right + 3], row, column] -= rise_x
+                        by_pressure[_NUMBER[down + 2, right + 1], row, column] += rise_x
+                        by_pressure[_NUMBER[down + 3, right + 2], row, column] -= rise_y
+                        by_pressure[_NUMBER[down + 1, right + 2], row, column] += rise_y
+    for neighbour in range(by_pressure.shape[0]):
         for values in (by_pressure, by_film):
             values[neighbour, 0] = 0.0
             values[neighbour, ny - 1] = 0.0

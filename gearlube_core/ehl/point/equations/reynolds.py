@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from gearlube_core.ehl.point.equations.stencil import (
+    BESIDE,
     CENTRE,
     EAST,
     NEIGHBOURS,
@@ -20,9 +21,9 @@ from gearlube_core.ehl.point.equations.stencil import (
     FlowSlopes,
     MeshMetric,
     StencilParameters,
+    add_rises,
     face_weights,
     mean_fluidity,
-    node_slopes,
 )
 from gearlube_core.kernels.jit import kernel
 
@@ -114,7 +115,6 @@ def reynolds_derivatives(
     metric: MeshMetric,
     pressure: np.ndarray,
     film_flow: FilmFlow,
-    viscosity_slope: np.ndarray,
     density: np.ndarray,
     density_slope: np.ndarray,
     film: np.ndarray,
@@ -129,19 +129,21 @@ def reynolds_derivatives(
     ----------
     parameters, metric, pressure, film_flow
         As in `reynolds_residual`.
-    viscosity_slope, density, density_slope, film : ndarray, shape (ny, nx)
-        d ln eta/dp, rho, d rho/dp, h [-].
+    density, density_slope, film : ndarray, shape (ny, nx)
+        rho, d rho/dp, h [-].
     slopes
-        Of the flow by pressure; `slope_x` and `slope_y` over their flow factors.
+        Of the flow by pressure.
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero.
-    by_pressure, by_film : ndarray, shape (7 or 11, ny, nx)
-        Result [-]; corners are zero.
+    by_pressure, by_film : ndarray, shape (n, ny, nx)
+        Result [-], n = 7, or 13 where fluidity depends on the rise of pressure across its node:
+        that of the film is taken then, too. Derivatives by film of the last six are zero.
     """
     ny, nx = pressure.shape
     by_pressure[:] = 0.0
     by_film[:] = 0.0
-    cubic = film_flow.cubic
+    sheared = by_pressure.shape[0] > NEIGHBOURS
+    cubic, dense = film_flow.cubic, slopes.dense
     fluidity_x, resistance_x = film_flow.fluidity_x, film_flow.resistance_x
     fluidity_y, resistance_y = film_flow.fluidity_y, film_flow.resistance_y
     px, py = 0.5 * parameters.poiseuille_x, 0.5 * parameters.poiseuille_y
@@ -163,7 +165,6 @@ def reynolds_derivatives(
             n0, n1, n2 = face_weights(parameters, j, south, here, north)
             p = pressure[j, i]
             ux = parameters.wedge_x * metric.narrow[i]
-            thick, thin, dense = node_slopes(slopes, viscosity_slope, j, i)
             h = max(film[j, i], 1e-30)
             for k in (WEST, EAST, SOUTH, NORTH):
                 jj, ii = j + down[k], i + right[k]
@@ -171,24 +172,28 @@ def reynolds_derivatives(
                     unit = px * metric.narrow[i] * metric.near[max(i, ii)]
                     f, there_f = fluidity_x[j, i], fluidity_x[jj, ii]
                     rise = resistance_x[j, i] - resistance_x[jj, ii]
-                    slope = slopes.slope_x[j, i] * slopes.slope_x[jj, ii]
+                    along = slopes.x
                 else:
                     unit = py
                     f, there_f = fluidity_y[j, i], fluidity_y[jj, ii]
                     rise = resistance_y[j, i] - resistance_y[jj, ii]
-                    slope = slopes.slope_y[j, i] * slopes.slope_y[jj, ii]
+                    along = slopes.y
                 step = pressure[jj, ii] - p
                 steep = (right[k] + down[k]) * step > 0.0 and (right[k] != 0 or uy > 0.0)
                 mean, m, mt = mean_fluidity(f, there_f, rise, steep)
-                flow = 2.0 * unit * mean * math.sqrt(slope)
-                total = 2.0 * unit * math.sqrt(cubic[j, i] * cubic[jj, ii]) * step
-                c = 0.5 * total * mean
-                by_pressure[CENTRE, j, i] += c * dense - total * m * thick - flow
-                by_film[CENTRE, j, i] += c * (3.0 / h) + total * m * thin / h
-                thick_there, thin_there, dense_there = node_slopes(slopes, viscosity_slope, jj, ii)
+                pumped = 2.0 * unit * math.sqrt(cubic[j, i] * cubic[jj, ii])
+                flow, total = pumped * mean, pumped * step
+                c, of_here, of_there = 0.5 * total * mean, total * m, total * mt
+                by_pressure[CENTRE, j, i] += c * dense[j, i] - flow
+                by_pressure[CENTRE, j, i] += of_here * along.by_pressure[j, i]
+                by_film[CENTRE, j, i] += (3.0 * c + of_here * along.by_film[j, i]) / h
                 there_h = max(film[jj, ii], 1e-30)
-                by_pressure[k, j, i] = flow + c * dense_there - total * mt * thick_there
-                by_film[k, j, i] = c * 3.0 / there_h + total * mt * thin_there / there_h
+                by_pressure[k, j, i] += flow + c * dense[jj, ii]
+                by_pressure[k, j, i] += of_there * along.by_pressure[jj, ii]
+                by_film[k, j, i] += (3.0 * c + of_there * along.by_film[jj, ii]) / there_h
+                if sheared:
+                    add_rises(along, of_here, j, i, BESIDE[CENTRE], j, i, by_pressure)
+                    add_rises(along, of_there, jj, ii, BESIDE[k], j, i, by_pressure)
             wedge = (
                 -ux * (e0 - w2) - uy * (n0 - s2) - parameters.squeeze,
                 -ux * (e1 - w0),
@@ -209,6 +214,7 @@ def apply_derivatives(
     offsets: np.ndarray,
     by_pressure: np.ndarray,
     by_film: np.ndarray,
+    reach: np.ndarray,
     pressure: np.ndarray,
     film: np.ndarray,
     result: np.ndarray,
@@ -221,6 +227,8 @@ def apply_derivatives(
         Steps to the neighbours along y and x, at least.
     by_pressure, by_film : ndarray, shape (m, ny, nx), m <= n
         Derivatives with respect to each of them.
+    reach : ndarray of int, shape (ny + 2,)
+        Of the sides: rows that hold those from one before the first to one behind the last.
     pressure, film : ndarray, shape (ny, nx)
         Changes.
     result : ndarray, shape (ny, nx)
@@ -231,12 +239,11 @@ def apply_derivatives(
     for j in range(1, ny - 1):
         for k in range(by_pressure.shape[0]):
             down, right = offsets[k, 0], offsets[k, 1]
-            if j + down < 0:
-                continue
-            first = max(1, -right)
-            row = result[j, first : nx - 1]
-            p = pressure[j + down, first + right : nx - 1 + right]
-            h = film[j + down, first + right : nx - 1 + right]
-            a, b = by_pressure[k, j, first : nx - 1], by_film[k, j, first : nx - 1]
+            first, last = max(1, -right), min(nx - 1, nx - right)
+            row = result[j, first:last]
+            there = reach[j + down + 1]
+            p = pressure[there, first + right : last + right]
+            h = film[there, first + right : last + right]
+            a, b = by_pressure[k, j, first:last], by_film[k, j, first:last]
             for i in range(row.size):
                 row[i] += a[i] * p[i] + b[i] * h[i]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,19 +14,17 @@ from gearlube_core.ehl.point.equations.cross_flow import (
     add_cross_flow,
 )
 from gearlube_core.ehl.point.equations.stencil import (
-    CROSS_NEIGHBOURS,
-    NEIGHBOURS,
     FilmFlow,
     FlowSlopes,
     MeshMetric,
+    NodeSlopes,
     StencilParameters,
+    TensorSlopes,
 )
 
 
 class NoCrossFlow:
     """Pressure drives no oil across its slope."""
-
-    neighbours = NEIGHBOURS  # of a node in the derivatives
 
     def cubic_xy(self, cubic: Array) -> Array:
         """Return rho h^3 times the flow factor along x by dp/dy, (ny, nx)."""
@@ -47,7 +46,6 @@ class NoCrossFlow:
         metric: MeshMetric,
         pressure: Array,
         flow: FilmFlow,
-        viscosity_slope: Array,
         film: Array,
         slopes: FlowSlopes,
         free: Flags,
@@ -76,9 +74,11 @@ class NewtonianFactors(NoCrossFlow):
         Rows and columns.
     """
 
+    sheared = False  # the factors depend on the rise of pressure across their node
+
     def __init__(self, shape: tuple[int, int]) -> None:
-        self._film_power, self._stiffness = np.full(shape, 3.0), np.ones(shape)
         self._zero = np.zeros(shape)
+        self._none = NodeSlopes(*(self._zero,) * 4)
 
     def cubic_x(self, cubic: Array) -> Array:
         """Return rho h^3 times the flow factor along x, (ny, nx)."""
@@ -96,17 +96,17 @@ class NewtonianFactors(NoCrossFlow):
         """Return what pressure along x and y drives oil with."""
         return FilmFlow(cubic_x, fluidity, fluidity, log_viscosity, log_viscosity)
 
-    def slopes(
-        self, cubic: Array, log_density_slope: Array, log_viscosity_slope: Array
-    ) -> FlowSlopes:
+    def slopes(self, dense: Array, thickening: Array) -> FlowSlopes:
         """Return the derivatives of the flow, from d ln(rho)/dp and d ln(eta)/dp."""
-        return FlowSlopes(
-            cubic, cubic, self._zero, log_density_slope, self._film_power, self._stiffness
-        )
+        x = self._none._replace(by_pressure=-thickening)
+        return FlowSlopes(dense, x, x, self._none, self._none)
 
-    def relative(self, slopes: FlowSlopes) -> FlowSlopes:
-        """Return slopes whose `slope_x` and `slope_y` are over their flow factors."""
-        return slopes
+    def tensor_slopes(self, mobility: Array, dense: Array, thickening: Array) -> TensorSlopes:
+        """Return the derivatives of the factors times a mobility rho h^3/eta."""
+        even = self._none._replace(
+            by_pressure=mobility * (dense - thickening), by_film=3.0 * mobility
+        )
+        return TensorSlopes(even, self._none, even)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,10 +118,9 @@ class AlignedFactors(NoCrossFlow):
 
     xx: Array
     yy: Array
-    slope_xx: Array  # flow factor of a change of dp/dx
-    slope_yy: Array
-    stiffness: Array  # -d ln(flow)/d ln(eta) along sliding
-    film_power: Array  # d ln(flow)/d ln(h) along sliding
+    rates: Callable[[Array], TensorSlopes]  # derivatives of the factors, from d ln(eta)/dp
+
+    sheared = True
 
     def cubic_x(self, cubic: Array) -> Array:
         """Return rho h^3 times the flow factor along x, (ny, nx)."""
@@ -141,25 +140,32 @@ class AlignedFactors(NoCrossFlow):
             log_viscosity - np.log(self.yy),
         )
 
-    def _slope_xy(self, cubic: Array) -> Array:
-        return np.zeros_like(cubic)
+    def _cross_slopes(self, rates: TensorSlopes) -> tuple[NodeSlopes, NodeSlopes]:
+        return rates.xy, rates.xy
 
-    def slopes(
-        self, cubic: Array, log_density_slope: Array, log_viscosity_slope: Array
-    ) -> FlowSlopes:
+    def slopes(self, dense: Array, thickening: Array) -> FlowSlopes:
         """Return the derivatives of the flow, from d ln(rho)/dp and d ln(eta)/dp."""
-        return FlowSlopes(
-            cubic * self.slope_xx,
-            cubic * self.slope_yy,
-            self._slope_xy(cubic),
-            log_density_slope + (1.0 - self.stiffness) * log_viscosity_slope,
-            self.film_power,
-            self.stiffness,
+        rates = self.rates(thickening)
+        x, y = (
+            NodeSlopes(*(rate / own for rate in part))
+            for part, own in ((rates.xx, self.xx), (rates.yy, self.yy))
         )
+        cross = self._cross_slopes(rates)
+        x, y = (part._replace(by_pressure=part.by_pressure - thickening) for part in (x, y))
+        return FlowSlopes(dense, x, y, *cross)
 
-    def relative(self, slopes: FlowSlopes) -> FlowSlopes:
-        """Return slopes whose `slope_x` and `slope_y` are over their flow factors."""
-        return slopes._replace(slope_x=slopes.slope_x / self.xx, slope_y=slopes.slope_y / self.yy)
+    def tensor_slopes(self, mobility: Array, dense: Array, thickening: Array) -> TensorSlopes:
+        """Return the derivatives of the factors times a mobility rho h^3/eta."""
+        rates = self.rates(thickening)
+        own = self.xx, self.cubic_xy(np.ones_like(mobility)), self.yy
+        grown = (
+            part._replace(
+                by_pressure=part.by_pressure + factor * (dense - thickening),
+                by_film=part.by_film + 3.0 * factor,
+            )
+            for part, factor in zip(rates, own, strict=True)
+        )
+        return TensorSlopes(*(NodeSlopes(*(mobility * rate for rate in part)) for part in grown))
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,21 +176,25 @@ class ObliqueFactors(AlignedFactors):
     """
 
     xy: Array
-    slope_xy: Array  # flow factor along x of a change of dp/dy
-
-    neighbours = CROSS_NEIGHBOURS
 
     def cubic_xy(self, cubic: Array) -> Array:
         """Return rho h^3 times the flow factor along x by dp/dy, (ny, nx)."""
         return cubic * self.xy
 
-    def _slope_xy(self, cubic: Array) -> Array:
-        return cubic * self.slope_xy
+    def _cross_slopes(self, rates: TensorSlopes) -> tuple[NodeSlopes, NodeSlopes]:
+        x, y = (
+            NodeSlopes(
+                *(
+                    (turned - self.xy / own * rate) / own
+                    for turned, rate in zip(rates.xy, part, strict=True)
+                )
+            )
+            for part, own in ((rates.xx, self.xx), (rates.yy, self.yy))
+        )
+        return x, y
 
     def _cross(self) -> CrossFlow:
-        return CrossFlow(
-            self.xy / self.xx, self.xy / self.yy, self.slope_xy / self.xx, self.slope_xy / self.yy
-        )
+        return CrossFlow(self.xy / self.xx, self.xy / self.yy)
 
     def add_cross_flow(
         self,
@@ -203,21 +213,19 @@ class ObliqueFactors(AlignedFactors):
         metric: MeshMetric,
         pressure: Array,
         flow: FilmFlow,
-        viscosity_slope: Array,
         film: Array,
         slopes: FlowSlopes,
         free: Flags,
         by_pressure: Array,
         by_film: Array,
     ) -> None:
-        """Add the derivatives of that flow, by pressure and film of 11 neighbours."""
+        """Add the derivatives of that flow, by pressure and film of 13 neighbours."""
         add_cross_derivatives(
             stencil,
             metric,
             pressure,
             flow,
             self._cross(),
-            viscosity_slope,
             film,
             slopes,
             free,

@@ -17,9 +17,9 @@ from gearlube_core.kernels.jit import kernel
 # coefficients of a node and its neighbours, in this order
 CENTRE, WEST, EAST, FAR_WEST, SOUTH, NORTH, FAR_SOUTH = range(7)
 NEIGHBOURS = 7
-# and of those that flow across the slope of pressure adds
-SOUTH_WEST, SOUTH_EAST, NORTH_WEST, NORTH_EAST = range(7, 11)
-CROSS_NEIGHBOURS = 11
+# and of those whose pressure tells how a film shears at the nodes beside
+SOUTH_WEST, SOUTH_EAST, NORTH_WEST, NORTH_EAST, FAR_EAST, FAR_NORTH = range(7, 13)
+SHEARED_NEIGHBOURS = 13
 # steps to them along y and along x
 OFFSETS = np.array(
     [
@@ -34,6 +34,19 @@ OFFSETS = np.array(
         [-1, 1],
         [1, -1],
         [1, 1],
+        [0, 2],
+        [2, 0],
+    ]
+)
+# for each of the first seven but the far ones: its own neighbours east, west, north and south
+BESIDE = np.array(
+    [
+        [EAST, WEST, NORTH, SOUTH],
+        [CENTRE, FAR_WEST, NORTH_WEST, SOUTH_WEST],
+        [FAR_EAST, CENTRE, NORTH_EAST, SOUTH_EAST],
+        [-1, -1, -1, -1],
+        [SOUTH_EAST, SOUTH_WEST, CENTRE, FAR_SOUTH],
+        [NORTH_EAST, NORTH_WEST, FAR_NORTH, CENTRE],
     ]
 )
 
@@ -164,22 +177,63 @@ class CarriedMass(NamedTuple):
     film: np.ndarray  # h
 
 
-class FlowSlopes(NamedTuple):
-    """Derivatives of the flow by pressure at every node; arrays of shape (ny, nx) [-]."""
+class NodeSlopes(NamedTuple):
+    """Derivatives of a quantity of a node, arrays of shape (ny, nx) [-]."""
 
-    slope_x: np.ndarray  # rho h^3 times the flow factor of a change of dp/dx
-    slope_y: np.ndarray
-    slope_xy: np.ndarray  # of dp/dy, in the flow along x
-    by_pressure: np.ndarray  # d ln(rho h^3 times its flow factor)/dp
-    film_power: np.ndarray  # d ln(the same)/d ln(h), 3 where the film is Newtonian
-    stiffness: np.ndarray  # -d ln(flow)/d ln(eta), 1 where the film is Newtonian
+    by_pressure: np.ndarray  # by its own pressure
+    by_film: np.ndarray  # by ln(h)
+    by_rise_x: np.ndarray  # by the pressure of the node to the east less that to the west
+    by_rise_y: np.ndarray  # by the pressure of the node to the north less that to the south
+
+
+class FlowSlopes(NamedTuple):
+    """Derivatives of what pressure drives oil with at every node [-]."""
+
+    dense: np.ndarray  # d ln(rho)/dp, shape (ny, nx)
+    x: NodeSlopes  # of ln(fluidity along x)
+    y: NodeSlopes  # of ln(fluidity along y)
+    cross_x: NodeSlopes  # of the flow across over that along x
+    cross_y: NodeSlopes  # of the flow across over that along y
+
+
+class TensorSlopes(NamedTuple):
+    """Derivatives of the components of the flow factor tensor at every node [-]."""
+
+    xx: NodeSlopes
+    xy: NodeSlopes
+    yy: NodeSlopes
 
 
 @kernel
-def node_slopes(
-    slopes: FlowSlopes, viscosity_slope: np.ndarray, j: int, i: int
-) -> tuple[float, float, float]:
-    """Return -d ln(f)/dp, d ln(f)/d ln(h) and d ln(rho)/dp of a node, f its fluidity [-]."""
-    stiffness, thickening = slopes.stiffness[j, i], viscosity_slope[j, i]
-    dense = slopes.by_pressure[j, i] - (1.0 - stiffness) * thickening
-    return stiffness * thickening, slopes.film_power[j, i] - 3.0, dense
+def add_rises(
+    slopes: NodeSlopes,
+    weight: float,
+    j: int,
+    i: int,
+    beside: np.ndarray,
+    row: int,
+    column: int,
+    by_pressure: np.ndarray,
+) -> None:
+    """Add to a row what a quantity of a node changes as pressure rises across that node.
+
+    Parameters
+    ----------
+    slopes
+        Of the quantity.
+    weight
+        Derivative of the residual of the row by the quantity [-].
+    j, i
+        Node of the quantity.
+    beside : ndarray of int, shape (4,)
+        Numbers of its neighbours east, west, north and south among those of the row's node.
+    row, column
+        Node of the row.
+    by_pressure : ndarray, shape (n, ny, nx)
+        Changed.
+    """
+    x, y = weight * slopes.by_rise_x[j, i], weight * slopes.by_rise_y[j, i]
+    by_pressure[beside[0], row, column] += x
+    by_pressure[beside[1], row, column] -= x
+    by_pressure[beside[2], row, column] += y
+    by_pressure[beside[3], row, column] -= y

@@ -23,7 +23,7 @@ def stencil_entries(
     by_pressure: np.ndarray,
     by_film: np.ndarray,
     free: np.ndarray,
-    own: np.ndarray,
+    reach: np.ndarray,
     start: np.ndarray,
     column: np.ndarray,
     entry: np.ndarray,
@@ -40,8 +40,8 @@ def stencil_entries(
         Real and imaginary part of the entries.
     free : ndarray of bool, shape (ny, nx)
         Other nodes have no row and no pressure.
-    own : ndarray of int, shape (ny,)
-        Row whose values a row holds: another one where it is a copy.
+    reach : ndarray of int, shape (ny + 2,)
+        Of the sides: rows that hold those from one before the first to one behind the last.
     start, column, entry : ndarray
         Result, of size ny nx + 1 and at least n times the free nodes.
 
@@ -59,9 +59,9 @@ def stencil_entries(
             for k in order:
                 jj, ii = j + offsets[k, 0], i + offsets[k, 1]
                 p, h = by_pressure[k, j, i], by_film[k, j, i]
-                if (p == 0.0 and h == 0.0) or jj < 0 or ii < 0:
+                if (p == 0.0 and h == 0.0) or ii < 0:
                     continue
-                jj = own[jj]
+                jj = reach[jj + 1]
                 if not free[jj, ii]:
                     p = 0.0
                 column[count] = jj * nx + ii
@@ -127,7 +127,7 @@ def sparse_operator(linear: Linearisation) -> SparseOperator:
         linear.by_pressure,
         linear.by_film,
         linear.free,
-        linear.sides.own_rows(linear.free.shape[0]),
+        linear.sides.reach(linear.free.shape[0]),
         start,
         column,
         entry,

@@ -9,8 +9,9 @@ from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.reynolds import reynolds_derivatives, reynolds_residual
 from gearlube_core.ehl.point.equations.stencil import (
     CENTRE,
+    NEIGHBOURS,
     OFFSETS,
-    FlowSlopes,
+    SHEARED_NEIGHBOURS,
     StencilParameters,
 )
 from gearlube_core.ehl.point.terms.linearisation import Derivatives
@@ -66,7 +67,6 @@ class Differences:
         stencil: StencilParameters,
         state: FilmState,
         density: tuple[Array, Array],
-        slopes: FlowSlopes,
         rows: Flags,
     ) -> Derivatives:
         """Return steps to the neighbours and derivatives by their pressure and film, (n, ny, nx).
@@ -77,20 +77,18 @@ class Differences:
             As in `residual`.
         density : tuple of ndarray, shapes (ny, nx)
             rho and d rho/dp times the entrainment of the row [-].
-        slopes
-            Of the flow by pressure, flow factors included.
         rows : ndarray of bool, shape (ny, nx)
             Nodes whose derivatives are wanted; those of the others are zero.
         """
-        shear = state.shear
-        slopes, flow = shear.relative(slopes), state.film_flow
-        by_pressure, by_film = np.empty((2, shear.neighbours, *state.film.shape))
+        shear, flow = state.shear, state.film_flow
+        count = SHEARED_NEIGHBOURS if shear.sheared else NEIGHBOURS
+        slopes = shear.slopes(state.dense, state.viscosity_slope)
+        by_pressure, by_film = np.empty((2, count, *state.film.shape))
         reynolds_derivatives(
             stencil,
             self._metric,
             state.oil,
             flow,
-            state.viscosity_slope,
             *density,
             state.film,
             slopes,
@@ -99,15 +97,6 @@ class Differences:
             by_film,
         )
         shear.add_cross_derivatives(
-            stencil,
-            self._metric,
-            state.oil,
-            flow,
-            state.viscosity_slope,
-            state.film,
-            slopes,
-            rows,
-            by_pressure,
-            by_film,
+            stencil, self._metric, state.oil, flow, state.film, slopes, rows, by_pressure, by_film
         )
         return OFFSETS, by_pressure, by_film

@@ -11,13 +11,13 @@ from gearlube_core.ehl.point.equations.finite_elements import (
     ELEMENT_CENTRE,
     ELEMENT_NEIGHBOURS,
     ELEMENT_OFFSETS,
+    SHEARED_ELEMENT_NEIGHBOURS,
     element_derivatives,
     element_residual,
 )
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.stencil import (
     CarriedMass,
-    FlowSlopes,
     FlowTensor,
     StencilParameters,
 )
@@ -69,18 +69,19 @@ class Elements:
         stencil: StencilParameters,
         state: FilmState,
         density: tuple[Array, Array],
-        slopes: FlowSlopes,
         rows: Flags,
     ) -> Derivatives:
         """Return neighbours and derivatives, as `Differences.derivatives`."""
-        by_pressure, by_film = np.empty((2, ELEMENT_NEIGHBOURS, *state.film.shape))
+        count = SHEARED_ELEMENT_NEIGHBOURS if state.shear.sheared else ELEMENT_NEIGHBOURS
+        by_pressure, by_film = np.empty((2, count, *state.film.shape))
         element_derivatives(
             stencil,
             state.oil,
             _flow(state),
-            state.viscosity_slope,
             CarriedMass(*density, state.film),
-            slopes,
+            state.shear.tensor_slopes(
+                state.cubic * state.fluidity, state.dense, state.viscosity_slope
+            ),
             self._compliance,
             rows,
             by_pressure,

@@ -54,6 +54,7 @@ class Linearisation:
             self.offsets,
             self.by_pressure,
             self.by_film,
+            self.sides.reach(self.free.shape[0]),
             self.sides.filled(pressure),
             deflection(pressure),
             self.result,

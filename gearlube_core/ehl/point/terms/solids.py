@@ -98,13 +98,16 @@ class ContactPressure:
         # the equations were taken at an oil pressure of zero where p - p_s is below
         change, lacking = np.empty(right.shape), self.oil - self.left
         none = np.zeros(right.shape)
-        apply_derivatives(offsets, by_pressure, by_film, lacking, none, change)
+        reach = linear.sides.reach(right.shape[0])
+        apply_derivatives(offsets, by_pressure, by_film, reach, lacking, none, change)
         right += change
         right[dry] = self.weight * self.left[dry]
+        rows = np.arange(right.shape[0])
         for k in range(by_film.shape[0]):
             down, along = offsets[k]
-            # rows on the border are zero: what comes round does not count
-            by_film[k] -= by_pressure[k] * np.roll(self.slope, (-down, -along), axis=(0, 1))
+            there = self.slope[reach[np.clip(rows + down + 1, 0, reach.size - 1)]]
+            # columns on the border are zero: what comes round does not count
+            by_film[k] -= by_pressure[k] * np.roll(there, -along, axis=1)
         by_pressure[linear.centre][dry] = -self.weight
         by_film[linear.centre][dry] = self.weight * self.slope[dry]
         linear.free |= dry

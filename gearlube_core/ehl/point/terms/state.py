@@ -49,6 +49,11 @@ class FilmState:
         return self.contact.oil
 
     @property
+    def dense(self) -> Array:
+        """Return d ln(rho)/dp."""
+        return self.density_slope / self.density
+
+    @property
     def film_flow(self) -> FilmFlow:
         """Return what pressure drives oil with along x and y."""
         return self.shear.flow(self.cubic_x, self.fluidity, self.log_viscosity)

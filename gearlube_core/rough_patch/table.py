@@ -1,0 +1,254 @@
+"""Flow factors and asperity load over the film ratio, means over patches."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_positive, check_within
+from gearlube_core.contact.greenwood_tripp_1971 import (
+    SurfaceParameters,
+    asperity_area_factor,
+    asperity_integrals,
+    asperity_load_factor,
+)
+from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.rough_patch.dry_contact import press_patch
+from gearlube_core.rough_patch.flow import FlowFactors, flow_factors
+from gearlube_core.surface.generator import generated_map
+from gearlube_core.surface.generator_request import RoughnessRequest
+from gearlube_core.surface.heights import HeightMap
+
+FILM_RATIOS = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0)
+_UNIT = 1.0e11  # Pa: E* of the contact; only ratios to it come out
+_LOADS = np.geomspace(5e-5, 0.8, 14)  # mean pressure over E* and the rms slope [-]
+_FACTORS = ("pressure_x", "pressure_y", "pressure_xy", "shear_x", "contact_share")
+_WORDS = {
+    "pressure_x": "pressure flow factor along x",
+    "pressure_y": "pressure flow factor along y",
+    "pressure_xy": "flow along y by a slope along x",
+    "shear_x": "shear flow factor along x of one rough surface",
+    "contact_share": "share of the area where heights overlap",
+    "mean_film": "mean local film over the rms height",
+    "asperity_pressure": "mean pressure of asperities over E*",
+    "asperity_area": "share of the area in elastic contact",
+}
+
+
+def gaussian_patches(
+    roughness: float,
+    length_x: float,
+    length_y: float,
+    seeds: Sequence[int],
+    *,
+    nodes: int = 256,
+    nodes_per_length: float = 16.0,
+) -> list[HeightMap]:
+    """Return periodic patches with Gaussian heights and autocorrelation.
+
+    Parameters
+    ----------
+    roughness
+        Rms height [m].
+    length_x, length_y
+        Along x and y the autocorrelation falls to 0.2 [m].
+    seeds
+        One patch each.
+    nodes
+        Along each side.
+    nodes_per_length
+        To a correlation length; a patch is `nodes/nodes_per_length` of them long each way.
+
+    Examples
+    --------
+    >>> patch = gaussian_patches(4e-7, 1e-5, 3e-5, [1], nodes=64)[0]
+    >>> round(1e7 * float(patch.height.std()), 6), patch.spacing[1] / patch.spacing[0]
+    (4.0, 3.0)
+    """
+    check_positive("roughness", roughness, "m")
+    check_within("nodes", nodes, 16, 1024)
+    check_positive("length_x", length_x, "m")
+    check_positive("length_y", length_y, "m")
+    request = RoughnessRequest(
+        root_mean_square=roughness, correlation_length=length_x, autocorrelation="gaussian"
+    )
+    side, stretched = (one * nodes / nodes_per_length for one in (length_x, length_y))
+    # alike along x and y, then drawn out along y
+    alike = [
+        generated_map(request, (side, side), (nodes, nodes), np.random.default_rng(seed)).surface
+        for seed in seeds
+    ]
+    return [replace(one, spacing=(side / nodes, stretched / nodes)) for one in alike]
+
+
+def patch_table(
+    patches: Sequence[HeightMap],
+    film_ratios: Sequence[float] = FILM_RATIOS,
+    *,
+    contact: bool = True,
+    progress: Progress = no_progress,
+) -> xr.Dataset:
+    """Return flow factors and asperity load over the film ratio, means over patches.
+
+    Parameters
+    ----------
+    patches
+        Periodic, of one kind: seeds of one generator or cuts of one surface.
+    film_ratios
+        Distance of the mean planes over the rms height of each patch [-], rising.
+    contact
+        Also the dry elastic contact; its loads lie between film ratios of about 0 and 4.
+    progress
+        Told the share done.
+
+    Returns
+    -------
+    xr.Dataset
+        Over `film_ratio` the mean of each factor and, as `..._spread`, its standard deviation over
+        patches (NaN of one): pressure_x, pressure_y, pressure_xy, shear_x, contact_share, mean_film
+        and, with contact, asperity_pressure (over E*) and asperity_area. NaN beyond the loads that
+        were solved.
+
+    Examples
+    --------
+    >>> patches = gaussian_patches(4e-7, 1e-5, 1e-5, [1, 2], nodes=32, nodes_per_length=8)
+    >>> found = patch_table(patches, [3.0, 6.0], contact=False)
+    >>> bool(found.pressure_x[0] < found.pressure_x[1] < 1.0)
+    True
+    """
+    ratios = np.array(film_ratios, dtype=float)
+    if not patches or ratios.size == 0 or ratios.min() <= 0.0 or (np.diff(ratios) <= 0.0).any():
+        raise ParameterError(
+            "patch_table must have at least one patch and rising film ratios above 0, got "
+            f"{len(patches)} patches and {ratios.tolist()}."
+        )
+    total = len(patches) * (ratios.size + (_LOADS.size if contact else 0))
+    done = 0
+    columns: list[dict[str, Array]] = []
+    for k, patch in enumerate(patches):
+        sigma = float(patch.height.std())
+        rows: list[FlowFactors] = []
+        for ratio in ratios:
+            rows.append(flow_factors(patch, float(ratio) * sigma))
+            done += 1
+            progress(done / total, f"flow, patch {k + 1} of {len(patches)}")
+        column = {name: np.array([getattr(row, name) for row in rows]) for name in _FACTORS}
+        column["mean_film"] = np.array([row.mean_film for row in rows]) / sigma
+        if contact:
+            pressure, area = _asperities(patch, ratios)
+            column |= {"asperity_pressure": pressure, "asperity_area": area}
+            done += _LOADS.size
+            progress(done / total, f"contact, patch {k + 1} of {len(patches)}")
+        columns.append(column)
+    data = {}
+    for name in columns[0]:
+        values = np.array([column[name] for column in columns])
+        spread = values.std(axis=0, ddof=1) if len(patches) > 1 else np.full(ratios.size, math.nan)
+        data[name] = _noted(values.mean(axis=0), _WORDS[name])
+        data[f"{name}_spread"] = _noted(spread, f"standard deviation of: {_WORDS[name]}")
+    coordinate = _noted(ratios, "distance of the mean planes over the rms height")
+    attributes = {
+        "patches": len(patches),
+        "roughness": float(np.mean([one.height.std() for one in patches])),
+        "rms_slope": float(np.mean([_slope(one) for one in patches])),
+        "nodes": "x".join(map(str, patches[0].height.shape)),
+    }
+    return xr.Dataset(data, {"film_ratio": coordinate}, attributes)
+
+
+class GreenwoodTrippFit(NamedTuple):
+    """Greenwood and Tripp's surface that stands for computed asperities."""
+
+    surface: SurfaceParameters
+    load_misfit: float  # largest factor between load of the law and of the table, at least 1 [-]
+    area_misfit: float  # the same of the areas
+
+
+def greenwood_tripp_fit(
+    table: xr.Dataset, low: float = 0.5, high: float = 3.0
+) -> GreenwoodTrippFit:
+    """Return the parameters with which Greenwood and Tripp's law follows a table.
+
+    The two products of the law are set by the mean logarithms of load and area between two film
+    ratios; the misfits tell what its shape cannot follow.
+
+    Parameters
+    ----------
+    table
+        From `patch_table` with contact.
+    low, high
+        Film ratios [-].
+
+    Raises
+    ------
+    ParameterError
+        Fewer than two film ratios with contact lie between the limits.
+
+    Examples
+    --------
+    >>> ratios, load, area = [1.0, 2.0], [2.2e-3, 2.7e-4], [0.11, 0.012]
+    >>> columns = {"asperity_pressure": load, "asperity_area": area}
+    >>> data = {name: ("film_ratio", one) for name, one in columns.items()}
+    >>> table = xr.Dataset(data, {"film_ratio": ratios}, {"roughness": 4e-7})
+    >>> round(greenwood_tripp_fit(table).surface.xi_beta_sigma, 2)
+    0.39
+    """
+    ratios = table.film_ratio.values
+    if "asperity_pressure" not in table:
+        raise ParameterError("table must hold asperity_pressure. Make it with contact=True.")
+    load, area = table.asperity_pressure.values, table.asperity_area.values
+    used = (ratios >= low) & (ratios <= high) & np.isfinite(load)
+    if used.sum() < 2:
+        raise ParameterError(
+            f"table must hold asperities at two film ratios within {low:g} to {high:g}, got "
+            f"{int(used.sum())}. Take more film ratios."
+        )
+    integrals = np.array([asperity_integrals(float(one)) for one in ratios[used]])
+    area_rest = np.log(area[used] / integrals[:, 0])
+    load_rest = np.log(load[used] / integrals[:, 1])
+    unit = SurfaceParameters(1.0, 1.0, 1.0)
+    squared = math.exp(float(area_rest.mean())) / asperity_area_factor(unit)
+    root = math.exp(float(load_rest.mean())) / asperity_load_factor(unit) / squared
+    return GreenwoodTrippFit(
+        SurfaceParameters(float(table.attrs["roughness"]), math.sqrt(squared), root**2),
+        math.exp(float(np.abs(load_rest - load_rest.mean()).max())),
+        math.exp(float(np.abs(area_rest - area_rest.mean()).max())),
+    )
+
+
+def _asperities(patch: HeightMap, ratios: Array) -> tuple[Array, Array]:
+    """Return mean pressure over E* and contact area at film ratios, between solved loads."""
+    sigma, slope = float(patch.height.std()), _slope(patch)
+    found, start = [], None
+    for load in _LOADS:
+        contact = press_patch(patch, float(load) * _UNIT * slope, _UNIT, start, tolerance=1e-5)
+        start = contact.pressure
+        found.append(
+            (contact.film / sigma, math.log(load * slope), math.log(contact.contact_share))
+        )
+    films, pressures, areas = np.array(found[::-1]).T  # films rise
+    inside = (ratios >= films[0]) & (ratios <= films[-1])
+    return tuple(  # type: ignore[return-value]
+        np.where(inside, np.exp(np.interp(ratios, films, one)), math.nan)
+        for one in (pressures, areas)
+    )
+
+
+def _slope(patch: HeightMap) -> float:
+    """Return the rms slope of a periodic map, of its Fourier series [-]."""
+    nx, ny = patch.height.shape
+    k_x = 2.0 * math.pi * np.fft.fftfreq(nx, patch.spacing[0])
+    k_y = 2.0 * math.pi * np.fft.fftfreq(ny, patch.spacing[1])
+    power = np.abs(np.fft.fft2(patch.height)) ** 2 * (k_x[:, None] ** 2 + k_y**2)
+    return float(math.sqrt(power.sum()) / patch.height.size)
+
+
+def _noted(values: Array, words: str) -> tuple[str, Array, dict[str, str]]:
+    return "film_ratio", values, {"units": "1", "long_name": words}
