@@ -28,7 +28,7 @@ from gearlube_core.surface.moving import (
 from gearlube_core.surface.schedule import RoughSchedule
 from gearlube_core.units import MILLIMETRE
 
-_NANO, _GIGA = 1e-9, 1e9
+_MICRO, _GIGA = 1e-6, 1e9
 
 PartLength = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
 HalfWidths = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
@@ -38,7 +38,7 @@ Moment = Annotated[int, Field(ge=0, le=1_000_000)]
 Columns = Annotated[int, Field(ge=17, le=2049)]
 Rows = Annotated[int, Field(ge=1, le=2048)]
 Reach = Annotated[float, Field(ge=1.05, le=100.0, allow_inf_nan=False)]
-Layer = Annotated[float, Field(ge=0.1, le=1000.0, allow_inf_nan=False)]
+Layer = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Pressure = Annotated[float, Field(ge=1e-3, le=1000.0, allow_inf_nan=False)]
 Friction = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False)]
 
@@ -68,7 +68,9 @@ class RoughTimes(Section):
 class RoughSolids(Section):
     """What carries load where the film vanishes."""
 
-    thickness_nm: Layer = Field(default=10.0, description="Of the layer on both solids together")
+    thickness_um: Layer = Field(
+        default=0.01, description="Of the layer on both solids together; 0: the oil carries all"
+    )
     pressure_gpa: Pressure = Field(default=1.0, description="At which the layer is half as thick")
     friction: Friction = Field(default=0.1, description="Friction coefficient where solids touch")
 
@@ -107,6 +109,8 @@ class RoughCase(ContactCase):
 
     Examples
     --------
+    >>> RoughCase.shipped()[:2]
+    ('jamali_2015_a', 'jamali_2015_a_straight')
     >>> case = RoughCase.named("jamali_2015_a")
     >>> case.schedule().until_rough, case.schedule().rough
     (1444, 800)
@@ -124,7 +128,7 @@ class RoughCase(ContactCase):
     surface_1: RoughSurface | None = None
     surface_2: RoughSurface | None = None
     times: RoughTimes = RoughTimes()
-    touching: RoughSolids | None = RoughSolids()
+    touching: RoughSolids = RoughSolids()
     domain: RoughDomain = RoughDomain()
     solver: RoughSolver = RoughSolver()
     frames: RoughFrames = RoughFrames()
@@ -199,10 +203,10 @@ class RoughCase(ContactCase):
 
     def touching_solids(self) -> SolidContact | None:
         """Return what carries load where the film vanishes, in SI units."""
-        if self.touching is None:
+        if self.touching.thickness_um == 0.0:
             return None
         return SolidContact(
-            thickness=self.touching.thickness_nm * _NANO,
+            thickness=self.touching.thickness_um * _MICRO,
             pressure=self.touching.pressure_gpa * _GIGA,
         )
 

@@ -45,9 +45,10 @@ def new_statistics(case: RoughCase, *, smooth: bool = True) -> RoughFilmStatisti
     section, schedule = case.section(), case.schedule()
     friction = None
     if section.sliding is not None:
-        given = 0.0 if case.touching is None else case.touching.friction
         friction = FilmFriction(
-            oil=section.lubricant, sliding=section.sliding, solid_coefficient=given
+            oil=section.lubricant,
+            sliding=section.sliding,
+            solid_coefficient=case.touching.friction,
         )
     film = solve_point_contact(section, case.settings(), throw=False) if smooth else None
     known = film is not None and film.converged
