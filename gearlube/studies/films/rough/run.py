@@ -79,6 +79,7 @@ def run_rough(
     if folder is not None:
         need = disk_need(case, folder)
         logger.info("%s %.0f MB are free.", need.sentence, 1e-6 * need.free)
+        folder.mkdir(parents=True, exist_ok=True)
     record = None if folder is None else _record(folder, key)
     progress(0.0, "smooth film")
     gathered = Gathered(case)
