@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from gearlube_core.arrays import Array
@@ -105,6 +107,11 @@ class PointGrid:
         self.cell = self.dx * self.dy
         self.cells = self.cell / self.metric.narrow
         self._dense: Array | None = None
+
+    @cached_property
+    def rough_deflection(self) -> HalfSpaceConvolution | GradedConvolution | ClosedDeflection:
+        """Return the deflection in single precision, for preconditioners."""
+        return self.convolution(single=True)
 
     def convolution(
         self, single: bool = False

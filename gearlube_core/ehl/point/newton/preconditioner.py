@@ -23,7 +23,7 @@ class MultigridCycle:
     """One V-cycle as an approximate inverse; linearisations on all grids follow from the finest.
 
     Pressure and approach are found together: the load is an equation of every grid and is met on
-    the coarsest.
+    the coarsest. Operators and deflections are in single precision.
     """
 
     def __init__(self, hierarchy: Hierarchy, linear: Linearisation) -> None:
@@ -31,7 +31,7 @@ class MultigridCycle:
         self._transfers = hierarchy.transfers
         self._smoothers: list[list[Lines]] = []
         operator = sparse_operator(linear)
-        self._operators = [operator]
+        self._operators = [operator.rough()]
         for k in range(len(self._levels) - 1, 0, -1):
             fine, coarse = self._levels[k], self._levels[k - 1]
             halved = (coarse.shape[0] < fine.shape[0], coarse.shape[1] < fine.shape[1])
@@ -40,7 +40,7 @@ class MultigridCycle:
                 lines.append(ColumnSmoother(fine.grid, operator, halved, _DAMPING))
             self._smoothers.insert(0, lines)
             operator = coarse_operator(operator, self._transfers[k - 1])
-            self._operators.insert(0, operator)
+            self._operators.insert(0, operator.rough())
         self._direct = CoarseSolution(self._levels[0].grid, operator, self._levels[0].load)
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
