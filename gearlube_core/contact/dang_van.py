@@ -163,6 +163,11 @@ def passage_history(stress: Array) -> Array:
     -------
     ndarray, shape (nx, 6, ...)
         For `dang_van_number`.
+
+    Examples
+    --------
+    >>> passage_history(np.zeros((6, 101, 16))).shape
+    (101, 6, 16)
     """
     return np.moveaxis(stress, 1, 0)
 
@@ -186,6 +191,12 @@ def followed_history(stress: Array, x: Array, travel: Array, places: Array) -> A
     -------
     ndarray, shape (steps, 6, n, ...)
         Straight between nodes.
+
+    Examples
+    --------
+    >>> x, travel = np.linspace(0.0, 1e-3, 11), 1e-5 * np.arange(4.0)
+    >>> followed_history(np.zeros((4, 6, 11, 16)), x, travel, np.array([2e-4, 4e-4])).shape
+    (4, 6, 2, 16)
     """
     if stress.shape[0] != travel.size or stress.shape[2] != x.size:
         raise ParameterError(

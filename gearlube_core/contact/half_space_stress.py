@@ -50,9 +50,10 @@ class HalfSpaceStress:
     Notes
     -----
     Tension is positive. Waves are exact for loads that the grid resolves. Open sides are padded:
-    all around to four widths, which leaves 1e-3 of the largest pressure under a round load
-    and 1 % under one that fills the domain; of a line contact the mean over y is taken from closed forms for strips instead, without any image. A mean
-    pressure that is periodic along both sides is held sideways, sigma_xx = -nu/(1 - nu) p.
+    all around to four widths, which leaves 1e-3 of the largest pressure under a round load and 1 %
+    under one that fills the domain. Of a line contact the mean over y is taken from closed forms
+    for strips instead, without any image. A mean pressure that is periodic along both sides is held
+    sideways, sigma_xx = -nu/(1 - nu) p.
     Source: Airy's function of each wave, [johnson_1985 sec. 2.2]; strips, [johnson_1985 sec. 2.5].
 
     Examples
@@ -196,7 +197,13 @@ def hydrostatic_stress(stress: Array) -> Array:
 
 
 def mises_stress(stress: Array) -> Array:
-    """Return the equivalent stress of von Mises [Pa] of a stress (6, ...)."""
+    """Return the equivalent stress of von Mises [Pa] of a stress (6, ...).
+
+    Examples
+    --------
+    >>> float(mises_stress(np.array([250e6, 0.0, 0.0, 0.0, 0.0, 0.0])))
+    250000000.0
+    """
     return np.asarray(np.sqrt(3.0 * _second_invariant(stress)))
 
 
@@ -217,7 +224,13 @@ def principal_stresses(stress: Array) -> Array:
 
 
 def greatest_shear(stress: Array) -> Array:
-    """Return the greatest shear stress, half the difference of principal ones [Pa], of (6, ...)."""
+    """Return the greatest shear stress, half the difference of principal ones [Pa], of (6, ...).
+
+    Examples
+    --------
+    >>> round(float(greatest_shear(np.array([0.0, 0.0, 0.0, 80e6, 0.0, 0.0]))))
+    80000000
+    """
     first, _, last = principal_stresses(stress)
     return np.asarray(0.5 * (first - last))
 

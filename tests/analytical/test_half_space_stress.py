@@ -20,7 +20,7 @@ N = 129
 X = np.linspace(-2.0, 2.0, N)  # half-widths
 STEP = 4.0 / (N - 1)
 LINE = np.sqrt(np.maximum(1.0 - X**2, 0.0))[:, None] + np.zeros(4)
-# The pressure rises with an infinite slope: nodes of 1/32 half-width miss (1/32)^1.5 near its edges.
+# The pressure begins with an infinite slope: nodes of 1/32 half-width miss (1/32)^1.5 there.
 NEAR = 5e-3
 
 
