@@ -7,6 +7,7 @@ from pathlib import Path
 from docs.field_tables import field_tables
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.ehl.case.rough_case import RoughCase
 
 PAGE = Path(__file__).with_suffix(".md")
 OIL = {
@@ -29,6 +30,15 @@ POINT = {
     "solver": "[solver]",
 }
 HYPOID = {"": "Hypoid flank: the file", "solver": "[solver]"}
+ROUGH = {
+    "": "Rough line contact: the file",
+    "surface_1": "[surface_1] and [surface_2]: give one of file, stand_in, ra_um, amplitude_um",
+    "times": "[times]",
+    "touching": "[touching]: solids where the film vanishes",
+    "domain": "[domain]",
+    "solver": "[solver]",
+    "frames": "[frames]: films that are kept, and records",
+}
 
 HEAD = """# The case files of lubricated line and point contacts and of hypoid flanks
 
@@ -145,6 +155,8 @@ def page() -> str:
         + field_tables(PointCase, POINT)
         + "\n## Fields of a hypoid flank\n"
         + field_tables(HypoidCase, HYPOID)
+        + "\n## Fields of a rough line contact\n"
+        + field_tables(RoughCase, ROUGH)
         + TAIL
     )
 
