@@ -7,6 +7,7 @@ from pathlib import Path
 from docs.field_tables import field_tables
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.ehl.case.rough_case import RoughCase
 
 PAGE = Path(__file__).with_suffix(".md")
 OIL = {
@@ -29,6 +30,15 @@ POINT = {
     "solver": "[solver]",
 }
 HYPOID = {"": "Hypoid flank: the file", "solver": "[solver]"}
+ROUGH = {
+    "": "Rough line contact: the file",
+    "surface_1": "[surface_1] and [surface_2]: give one of file, stand_in, ra_um, amplitude_um",
+    "times": "[times]",
+    "touching": "[touching]: solids where the film vanishes",
+    "domain": "[domain]",
+    "solver": "[solver]",
+    "frames": "[frames]: films that are kept, and records",
+}
 
 HEAD = """# The case files of lubricated line and point contacts and of hypoid flanks
 
@@ -36,8 +46,10 @@ The tables and the text are written by `python -m docs.ehl_case_file` from the d
 `gearlube_core/ehl/case/`; do not edit them by hand.
 
 `gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts
-ship, `jamali_2015` and `jamali_2015_thermal`, and three point contacts, `mourier_2006`,
-`elliptical` and `elliptical_thermal` (`gearlube_core/ehl/case/data/`).
+ship, `jamali_2015` and `jamali_2015_thermal`, and four point contacts, `mourier_2006`,
+`elliptical`, `elliptical_thermal` and `jamali_2015_section`, a part of a line contact whose film
+repeats (`gearlube_core/ehl/case/data/`). `gearlube ehl rough my_case.toml` reads rough line
+contacts; `jamali_2015_a`, `_a_straight`, `_b`, `_c` and `_d` ship.
 `gearlube ehl line --example` prints one to start from.
 Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md), whose
 `[film_mesh]` can set the nodes denser where the film leaves the contact. A hypoid
@@ -145,6 +157,8 @@ def page() -> str:
         + field_tables(PointCase, POINT)
         + "\n## Fields of a hypoid flank\n"
         + field_tables(HypoidCase, HYPOID)
+        + "\n## Fields of a rough line contact\n"
+        + field_tables(RoughCase, ROUGH)
         + TAIL
     )
 

@@ -25,6 +25,7 @@ _RESULTS = frozenset(
         "point.nc",
         "helical.nc",
         "hypoid.nc",
+        "rough.nc",
         "compare.png",
         "line_mesh.nc",
         "geometry.nc",

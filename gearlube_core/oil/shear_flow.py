@@ -20,9 +20,11 @@ from gearlube_core.oil.shear_law import rate_ratio
 LARGEST_SIGMA = 100.0  # as in one dimension
 LARGEST_COUETTE = 1.0e86  # e^198: products of two rates stay below the largest double
 _SMALL_SIGMA = 1.0e-5  # below, a ratio of two small numbers gives way to its limit
-_STEPS = 40
+_STEPS = 20
 _NEAR = 1.0e-5  # a Newton step of that size leaves an error of its square
-_THERE = 1.0e-9  # a smaller one need not be taken
+_THERE = 1.0e-9  # a smaller one is the last
+_BRACKETS = 200  # halvings of a bracket, with room to widen it first
+_END = 1.0e-13  # a step of roundings
 
 # Gauss-Legendre nodes above zero and their weights, one rule after the other; a rule with n
 # nodes is exact to 1e-10 up to the Sigma beside it
@@ -104,6 +106,70 @@ def _moments(
 
 
 @kernel
+def _side_stress(
+    law: Any,
+    stress_s: float,
+    stress_r: float,
+    sigma_s: float,
+    sigma_r: float,
+    first: int,
+    last: int,
+) -> float:
+    # T_r at a given T_s: no flow across sliding at rest. |T_r| <= |Sigma_r|, where every layer is
+    # sheared one way; the rate rises with T_r, so that a bracket holds its root
+    low, high = -abs(sigma_r), abs(sigma_r)
+    T = min(max(stress_r, low), high)
+    step = math.inf
+    for _ in range(_BRACKETS):
+        m = _moments(law, stress_s, T, sigma_s, sigma_r, first, last)
+        rate = T * m.g0 + sigma_r * m.g1
+        if rate < 0.0:
+            low = T
+        else:
+            high = T
+        before = step
+        step = -math.asinh(rate) * math.hypot(1.0, rate) / m.rr
+        if abs(step) <= _END:
+            break
+        if abs(step) > 0.5 * abs(before) or not low <= T + step <= high:
+            step = 0.5 * (low + high) - T
+        T += step
+    return T
+
+
+@kernel
+def _bracketed(
+    law: Any,
+    sigma_s: float,
+    sigma_r: float,
+    a: float,
+    stress: float,
+    first: int,
+    last: int,
+) -> tuple[float, float]:
+    # T_s and T_r for a >= 0: with T_r at its own root the rate rises with T_s, from 0 at T_s = 0
+    low, high, goal = 0.0, math.inf, math.asinh(a)
+    T, T_r, step = stress, 0.0, math.inf
+    for _ in range(_BRACKETS):
+        T_r = _side_stress(law, T, T_r, sigma_s, sigma_r, first, last)
+        m = _moments(law, T, T_r, sigma_s, sigma_r, first, last)
+        rate = T * m.g0 + sigma_s * m.g1
+        if rate < a:
+            low = T
+        else:
+            high = T
+        before = step
+        slope = m.ss - m.sr * m.sr / m.rr
+        step = (goal - math.asinh(rate)) * math.hypot(1.0, rate) / slope
+        if abs(step) <= _END:
+            break
+        if not low <= T + step <= high or (high < math.inf and abs(step) > 0.5 * abs(before)):
+            step = 0.5 * (low + high) - T if high < math.inf else max(T, 1.0)
+        T += step
+    return T, T_r
+
+
+@kernel
 def equilibrium(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float) -> Equilibrium:
     """Return the mid-film stress of a point of a film; arguments are those of `shear_flow`."""
     size = math.sqrt(sigma_s * sigma_s + sigma_r * sigma_r)
@@ -117,21 +183,20 @@ def equilibrium(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float
         rule += 1
     first, last = _STARTS[rule], _STARTS[rule + 1]
     goal = math.asinh(a)
-    T_s, T_r, slips = eyring_mean_stress(size, a, 1.0), 0.0, False
-    step_s, step_r, length, share = 0.0, 0.0, math.inf, 1.0
+    start = eyring_mean_stress(size, a, 1.0)
+    T_s, T_r, found = start, 0.0, False
+    step_s, step_r, share = 0.0, 0.0, 1.0
     best, best_s, best_r = math.inf, T_s, T_r
     m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
     for _ in range(_STEPS):
-        rate_s = 0.0 if slips else T_s * m.g0 + sigma_s * m.g1
-        rate_r = T_r * m.g0 + sigma_r * m.g1
+        rate_s, rate_r = T_s * m.g0 + sigma_s * m.g1, T_r * m.g0 + sigma_r * m.g1
         rate = math.sqrt(rate_s * rate_s + rate_r * rate_r)
         lag = math.asinh(rate) / rate if rate > 1.0e-8 else 1.0
-        miss_s = 0.0 if slips else goal - lag * rate_s
-        miss_r = -lag * rate_r
+        miss_s, miss_r = goal - lag * rate_s, -lag * rate_r
         miss = math.sqrt(miss_s * miss_s + miss_r * miss_r)
         # a step that leaves a larger miss is halved: the slopes are never singular, so that a
         # short enough one does better
-        if miss > best and share > 1.0e-3 and length > _NEAR:
+        if miss > best and share > 1.0e-3:
             share *= 0.5
         else:
             best, best_s, best_r, share = miss, T_s, T_r, 1.0
@@ -141,22 +206,29 @@ def equilibrium(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float
                 turned = (miss_s * rate_s + miss_r * rate_r) / (rate * rate) * (root - 1.0 / lag)
             miss_s = miss_s / lag + turned * rate_s
             miss_r = miss_r / lag + turned * rate_r
-            if slips:
-                step_s, step_r = 0.0, miss_r / m.rr
-            else:
-                determinant = m.ss * m.rr - m.sr * m.sr
-                step_s = (m.rr * miss_s - m.sr * miss_r) / determinant
-                step_r = (m.ss * miss_r - m.sr * miss_s) / determinant
+            determinant = m.ss * m.rr - m.sr * m.sr
+            step_s = (m.rr * miss_s - m.sr * miss_r) / determinant
+            step_r = (m.ss * miss_r - m.sr * miss_s) / determinant
             length = math.sqrt(step_s * step_s + step_r * step_r)
+            # where stress across the film is large T is small and its scale smaller yet: there a
+            # short step says nothing about the next one
+            found = length <= _END or (length <= _NEAR and miss <= _NEAR)
         T_s, T_r = best_s + share * step_s, best_r + share * step_r
-        if length > _THERE:
-            m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
-        if length <= _NEAR:
-            if slips or abs(T_s) <= limit:
-                break
-            T_s, slips, length, best = math.copysign(limit, a), True, math.inf, math.inf
-            m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
+        if found and length <= _THERE:
+            break
+        m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
+        if found:
+            break
+    if not found:
+        T_s, T_r = _bracketed(law, sigma_s, sigma_r, abs(a), abs(start), first, last)
+        if a < 0.0:
+            T_s, T_r = -T_s, -T_r
+        m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
+    slips = abs(T_s) > limit
     if slips:
+        T_s = math.copysign(limit, a)
+        T_r = _side_stress(law, T_s, T_r, sigma_s, sigma_r, first, last)
+        m = _moments(law, T_s, T_r, sigma_s, sigma_r, first, last)
         a = T_s * m.g0 + sigma_s * m.g1
     return Equilibrium(sigma_s, sigma_r, a, T_s, T_r, slips, first, last, m.g0, m.g1, m.g2)
 
@@ -252,10 +324,12 @@ def shear_flow(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float)
     The no-slip conditions have one solution, since they are the gradient of a convex function,
     mean(cosh|tau|) for Eyring; it is found to 1e-9. Damped Newton solves them in T with both sides
     taken through asinh, which makes Eyring's linear where Sigma is zero: two or three sets of
-    moments. Where dp/ds is zero S_s is its limit d(flow_s)/d(Sigma_s). Without sliding or pumping
-    S is 1; without dp/dr S_s of Eyring is `eyring_flow_factor`. Beyond |Sigma| = 100 and
-    |a| = 1e86 all values are those there. The quadrature is exact to 1e-10 for Eyring's law and
-    for any that grows as slowly and as smoothly with stress.
+    moments. Where it does not end, T_s is held in a bracket and T_r, for each T_s, within
+    |Sigma_r|: either rate rises with its own stress. Where dp/ds is zero S_s is its limit
+    d(flow_s)/d(Sigma_s). Without sliding or pumping S is 1; without dp/dr S_s of Eyring is
+    `eyring_flow_factor`. Beyond |Sigma| = 100 and |a| = 1e86 all values are those there. The
+    quadrature is exact to 1e-10 for Eyring's law and for any that grows as slowly and as smoothly
+    with stress.
 
     With a limit, sliding beyond what mid-film stress T_s = limit shears is slip; the rest of the
     film flows as if the surfaces slid no faster. Slip is taken as equal at both walls, so that

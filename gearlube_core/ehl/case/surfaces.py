@@ -18,7 +18,7 @@ from gearlube_core.surface.measured_heights import (
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 _MICROMETRE = 1e-6  # m
-FILES = ("profile", "height_map")  # sections that name a file
+FILES = ("profile", "height_map", "surface_1", "surface_2")  # sections that name a file
 
 FileName = Annotated[str, Field(min_length=1)]
 Size = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]

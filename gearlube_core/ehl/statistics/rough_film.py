@@ -143,6 +143,34 @@ class RoughFilmStatistics:
             )
         )
 
+    def gathered(self) -> Array:
+        """Return all that was gathered as one array, shape (n,), for `resume`."""
+        rows = np.array(self._rows, dtype=np.float64).ravel()
+        return np.concatenate(
+            ([float(len(self._rows))], rows, self._films.areas, self._pressures.areas)
+        )
+
+    def resume(self, gathered: Array) -> None:
+        """Go on from what `gathered` returned, to the bit as if it had not stopped.
+
+        Raises
+        ------
+        ParameterError
+            The array does not hold such statistics.
+        """
+        films, pressures = self._films.areas.size, self._pressures.areas.size
+        count = int(gathered[0]) if gathered.size else 0
+        rest = gathered.size - 1 - films - pressures
+        if count < 1 or rest <= 0 or rest % count:
+            raise ParameterError(
+                f"gathered must hold statistics of at least one film, got {gathered.size} numbers. "
+                "Start anew."
+            )
+        rows = gathered[1 : 1 + rest].reshape(count, -1)
+        self._rows = [tuple(row) for row in rows.tolist()]
+        self._films.areas = gathered[1 + rest : 1 + rest + films].copy()
+        self._pressures.areas = gathered[1 + rest + films :].copy()
+
     def _forces(self, film: Array, pressure: Array, solids: Array) -> tuple[float, float]:
         given = self.friction
         if given is None:

@@ -1,0 +1,1 @@
+"""Rough line contacts in time: plan, march, files."""

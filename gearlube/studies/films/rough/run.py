@@ -1,0 +1,216 @@
+"""The film between rough surfaces in motion: march, records, kept films, statistics."""
+
+from __future__ import annotations
+
+import errno
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.films.rough.files import read_frames, write_frame, write_rough_results
+from gearlube.studies.films.rough.gather import Gathered, new_statistics
+from gearlube.studies.films.rough.plan import disk_need
+from gearlube_core.checks import check_within
+from gearlube_core.ehl.case.rough_case import RoughCase
+from gearlube_core.ehl.statistics.rough_film import statistics_of_run
+from gearlube_core.ehl.transient.march import FilmMarch
+from gearlube_core.ehl.transient.record import MarchRecord
+from gearlube_core.ehl.transient.solution import FilmSolution
+from gearlube_core.errors import ConvergenceError, FileError, ParameterError
+from gearlube_core.progress import Progress, no_progress
+
+logger = logging.getLogger("gearlube")
+
+_LOST = 10  # steps in turn that do not converge, after which a march stops
+
+
+def run_rough(
+    case: RoughCase,
+    *,
+    steps: int | None = None,
+    folder: Path | None = None,
+    progress: Progress = no_progress,
+) -> xr.Dataset:
+    """Return the statistics of a contact that becomes rough, step by step.
+
+    Parameters
+    ----------
+    case
+        Contact, surfaces, time steps, grid.
+    steps
+        To march; None: all of the case. A later call in the same folder goes on.
+    folder
+        Where rough.nc, summary.csv, figures, kept films and the record of the march are written.
+        A march goes on from its record there, to the bit as if it had not stopped. None: nothing
+        is written.
+    progress
+        Called with the share done and what is done now.
+
+    Returns
+    -------
+    xr.Dataset
+        Of `RoughFilmStatistics`, with the work of every step; `converged` is 0 if any step did
+        not converge.
+
+    Raises
+    ------
+    ParameterError
+        The disk has too little space, or the record is of another case or damaged.
+    ConvergenceError
+        Ten steps in turn did not converge, or a film is not finite; the last record stays.
+    FileError
+        A file could not be written; the last record stays.
+
+    Examples
+    --------
+    >>> case = RoughCase.named("jamali_2015_a")
+    >>> small = case.varied({"solver.nodes_x": 321, "solver.rows": 48, "frames.steps": []})
+    >>> run_rough(small, steps=2).sizes["time"]  # doctest: +SKIP
+    3
+    """
+    schedule = case.schedule()
+    last = schedule.steps if steps is None else steps
+    check_within("steps", last, 1, schedule.steps, "", "The case ends there.")
+    key = case.key()
+    if folder is not None:
+        need = disk_need(case, folder)
+        logger.info("%s %.0f MB are free.", need.sentence, 1e-6 * need.free)
+        folder.mkdir(parents=True, exist_ok=True)
+    record = None if folder is None else _record(folder, key)
+    progress(0.0, "smooth film")
+    gathered = Gathered(case)
+    if record is not None:
+        gathered.unpack(record.curves)
+    march = FilmMarch(
+        case.film(), schedule.time_step, settings=case.settings(), record=record, throw=True
+    )
+    if record is None:
+        gathered.add(march.solution)
+        _keep(case, folder, 0, march.solution, key)
+    else:
+        logger.info("Going on from step %d.", march.steps)
+    lost = 0
+    while march.steps < last:
+        solution = march.step(throw=False)
+        step = march.steps
+        _check_finite(step, solution)
+        gathered.add(solution)
+        lost = 0 if solution.converged else lost + 1
+        if lost == _LOST:
+            raise ConvergenceError(
+                f"Steps {step - _LOST + 1} to {step} did not converge. {solution.outcome}"
+            )
+        _keep(case, folder, step, solution, key)
+        if folder is not None and (step % case.frames.record_every == 0 or step == last):
+            with _told(folder, step):
+                march.save(_record_file(folder, key), gathered.packed())
+        progress(
+            step / (last + 1),
+            f"step {step}: {1e-9 * solution.maximum_pressure:.2f} GPa, smallest film "
+            f"{1e9 * solution.minimum_film:.0f} nm",
+        )
+    dataset = _with_attributes(gathered.dataset(), case, key)
+    if folder is not None:
+        progress(last / (last + 1), "files and figures")
+        with _told(folder, march.steps):
+            write_rough_results(dataset, folder)
+    progress(1.0, "done")
+    return dataset
+
+
+def statistics_again(case: RoughCase, folder: Path) -> xr.Dataset:
+    """Return the statistics of the kept films in a folder; nothing is marched.
+
+    Of the kept films alone, also where rough.nc holds those of every step; they are written to
+    frames.nc.
+
+    Raises
+    ------
+    ParameterError
+        There is no kept film, or one is damaged or of another case.
+    """
+    from gearlube_core.storage.atomic_file import write_dataset
+
+    key = case.key()
+    found = statistics_of_run(read_frames(folder, key), new_statistics(case))
+    dataset = _with_attributes(found, case, key)
+    write_dataset(dataset, folder / "frames.nc")
+    return dataset
+
+
+def _record_file(folder: Path, key: str) -> Path:
+    return folder / f"march_{key}.npz"
+
+
+def _record(folder: Path, key: str) -> MarchRecord | None:
+    """Return the record of the march in a folder; None: there is none."""
+    path = _record_file(folder, key)
+    others = sorted(one.name for one in folder.glob("march_*.npz") if one != path)
+    if others:
+        raise ParameterError(
+            f"{folder} must hold marches of this case alone, got {others[0]} of another case. "
+            "Give another --out, or remove that file and the folder frames."
+        )
+    return MarchRecord.read(path) if path.exists() else None
+
+
+def _keep(
+    case: RoughCase, folder: Path | None, step: int, solution: FilmSolution, key: str
+) -> None:
+    if folder is not None and step in case.kept_steps():
+        with _told(folder, step):
+            write_frame(folder, step, solution, key)
+
+
+@contextmanager
+def _told(folder: Path, step: int) -> Iterator[None]:
+    """Turn a full disk into an error that says what is kept."""
+    try:
+        yield
+    except OSError as reason:
+        why = "the disk is full" if reason.errno == errno.ENOSPC else (reason.strerror or reason)
+        raise FileError(
+            f"Step {step} could not be written to {folder}: {why}. The record before it is whole. "
+            "Make space and run the same command again: it goes on from there."
+        ) from reason
+
+
+def _check_finite(step: int, solution: FilmSolution) -> None:
+    if not (np.isfinite(solution.film).all() and np.isfinite(solution.pressure).all()):
+        raise ConvergenceError(
+            f"Step {step}: the film is not finite. Take more nodes or shorter time steps; the last "
+            "record stays."
+        )
+
+
+def _with_attributes(dataset: xr.Dataset, case: RoughCase, key: str) -> xr.Dataset:
+    schedule, section = case.schedule(), case.section()
+    half_width, _, hertz = section.hertz_contact
+    failed = int((dataset["converged"] == 0.0).sum()) if "converged" in dataset else 0
+    count = dataset.sizes["time"]
+    outcome = f"All {count} films converged."
+    if failed:
+        outcome = (
+            f"{failed} of {count} films did not converge. Take more nodes or shorter time steps."
+        )
+    dataset.attrs |= {
+        "contact": "rough",
+        "name": case.name,
+        "source": case.source,
+        "march": key,
+        "side_conditions": case.side_conditions,
+        "half_width": half_width,
+        "hertz_pressure": hertz,
+        "length": float(np.diff(section.y_limits)[0]),
+        "time_step": schedule.time_step,
+        "rough_time": schedule.time(schedule.until_rough),
+        "nodes_x": case.solver.nodes_x,
+        "rows": case.solver.rows,
+        "converged": int(not failed),
+        "outcome": outcome,
+    }
+    return dataset

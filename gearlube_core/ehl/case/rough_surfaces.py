@@ -1,0 +1,168 @@
+"""The sections of a rough case for its two surfaces: a file, a stand-in, generated, or a wave."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from gearlube_core.ehl.case.surfaces import FileName
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_file import Section
+from gearlube_core.surface.extrusion import Lay, periodic_section
+from gearlube_core.surface.files import read_surface
+from gearlube_core.surface.gaussian_filter import filtered
+from gearlube_core.surface.generator import generated_profile
+from gearlube_core.surface.generator_request import RoughnessRequest
+from gearlube_core.surface.heights import HeightMap, Profile, Surface
+from gearlube_core.surface.moving import MovingSurface
+from gearlube_core.surface.stand_ins import stand_in
+from gearlube_core.units import DEGREE
+
+_MICRO = 1e-6  # m
+_WAVE_POINTS = 256  # of one period of a wave
+_POINTS = 10.0  # of the shortest generated wave
+_SPACING = 1e-6  # m, of generated heights without a shortest wave
+_SOURCES = ("file", "stand_in", "ra_um", "amplitude_um")
+
+Length = Annotated[float, Field(gt=0.0, le=1e5, allow_inf_nan=False)]
+Height = Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(gt=-89.0, lt=89.0, allow_inf_nan=False)]
+Turns = Annotated[int, Field(ge=-1000, le=1000)]
+Moment = Annotated[float, Field(ge=-10.0, le=150.0, allow_inf_nan=False)]
+Seed = Annotated[int, Field(ge=0)]
+
+
+class RoughSurface(Section):
+    """A rough surface that repeats along x and over the length; it moves with its solid."""
+
+    file: FileName | None = Field(
+        default=None,
+        description="Profile (CSV) or map (npz, NetCDF, SDF, X3P); its place counts from the case "
+        "file",
+    )
+    stand_in: Literal["A", "B", "C"] | None = Field(
+        default=None,
+        description="Made up in the place of Jamali's unpublished profiles: the part of the "
+        "faster surface for the faster one",
+    )
+    ra_um: Height | None = Field(default=None, description="Ra of generated heights")
+    amplitude_um: Height | None = Field(
+        default=None, description="Of a sine: half the height from trough to crest"
+    )
+    period_um: Length | None = Field(
+        default=None,
+        description="Along x, of a sine or of generated heights, or of the part of a profile",
+    )
+    start_um: Length | None = Field(
+        default=None,
+        description="Where the part of a profile begins, about; left out: all of it is one period",
+    )
+    correlation_um: Length = Field(
+        default=8.0, description="Of generated heights: where their autocorrelation is 0.2"
+    )
+    skewness: Moment = Field(default=0.0, description="Of generated heights")
+    kurtosis: Moment = Field(default=3.0, description="Of generated heights")
+    shortest_um: Length | None = Field(
+        default=None, description="Shortest wave of generated heights; left out: 8 um"
+    )
+    seed: Seed = Field(default=1, description="Of a stand-in or of generated heights")
+    same_ra: bool = Field(
+        default=False, description="Scale the part of a stand-in to the Ra of the whole, 0.31 um"
+    )
+    cutoff_um: Length | None = Field(
+        default=None, description="lambda_s of a Gaussian filter: shorter waves are taken off"
+    )
+    turns: Turns | None = Field(
+        default=None,
+        description="Periods that a crest moves along x over the length; left out with lay_deg: 0, "
+        "crests along y",
+    )
+    lay_deg: Angle | None = Field(
+        default=None, description="Angle of the crests from y towards x, in the place of turns"
+    )
+
+    @model_validator(mode="after")
+    def _one_source(self) -> RoughSurface:
+        given = [name for name in _SOURCES if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise ValueError(
+                f"give one of {', '.join(_SOURCES)}, got {' and '.join(given) or 'none'}"
+            )
+        if given[0] in ("ra_um", "amplitude_um") and self.period_um is None:
+            raise ValueError(f"period_um is missing; {given[0]} needs it")
+        if self.start_um is not None and (self.file is None or self.period_um is None):
+            raise ValueError("start_um needs a file and period_um, the length of the part")
+        if self.turns is not None and self.lay_deg is not None:
+            raise ValueError("give one of turns and lay_deg, got both")
+        return self
+
+    def heights(self, fast: bool) -> Surface:
+        """Return the heights of one period, mean zero [m]; `fast`: of the faster surface."""
+        heights = self._whole(fast)
+        if self.cutoff_um is not None:
+            cutoff = self.cutoff_um * _MICRO
+            if isinstance(heights, Profile):
+                heights = filtered(heights, cutoff_short=cutoff).roughness
+            else:
+                heights = filtered(heights, cutoff_short=cutoff).roughness
+        return replace(heights, height=heights.height - heights.height.mean())
+
+    def moving(self, length: float, speed: float, fast: bool) -> MovingSurface:
+        """Return the surface over a length [m] along y at its speed [m/s]."""
+        heights = self.heights(fast)
+        period = heights.length if isinstance(heights, Profile) else heights.lengths[0]
+        if self.lay_deg is not None:
+            lay = Lay.closing(period, length, self.lay_deg * DEGREE)
+        else:
+            lay = Lay(period=period, width=length, turns=self.turns or 0)
+        return MovingSurface(heights=heights, lay=lay, speed=speed)
+
+    def _whole(self, fast: bool) -> Surface:
+        period = (self.period_um or 0.0) * _MICRO
+        if self.stand_in is not None:
+            fast_part, slow_part = _stand_in(self.stand_in, self.seed, self.same_ra)
+            return fast_part if fast else slow_part
+        if self.file is not None:
+            return self._of_file(read_surface(self.file), period)
+        if self.amplitude_um is not None:
+            phase = 2.0 * math.pi * np.arange(_WAVE_POINTS) / _WAVE_POINTS
+            return Profile(
+                height=self.amplitude_um * _MICRO * np.cos(phase),
+                spacing=period / _WAVE_POINTS,
+                periodic=True,
+                name="wave",
+            )
+        shortest = None if self.shortest_um is None else self.shortest_um * _MICRO
+        spacing = _SPACING if shortest is None else shortest / _POINTS
+        request = RoughnessRequest(
+            arithmetic_mean=(self.ra_um or 0.0) * _MICRO,
+            correlation_length=self.correlation_um * _MICRO,
+            skewness=self.skewness,
+            kurtosis=self.kurtosis,
+            shortest_wave=shortest,
+        )
+        count = math.ceil(period / spacing)
+        return generated_profile(request, period, count, np.random.default_rng(self.seed)).surface
+
+    def _of_file(self, surface: Surface, period: float) -> Surface:
+        if isinstance(surface, HeightMap):
+            if self.period_um is not None:
+                raise ParameterError(
+                    f"period_um is for a profile, got it for {surface.name}, a map. Leave it out: "
+                    "a map is one period."
+                )
+            return replace(surface, periodic=(True, True))
+        if self.period_um is None:
+            return replace(surface, periodic=True)
+        return periodic_section(surface, (self.start_um or 0.0) * _MICRO, period)
+
+
+@lru_cache(maxsize=16)
+def _stand_in(case: str, seed: int, same_mean: bool) -> tuple[Profile, Profile]:
+    made = stand_in(case, seed, same_mean=same_mean)
+    return made.fast, made.slow
