@@ -46,8 +46,10 @@ The tables and the text are written by `python -m docs.ehl_case_file` from the d
 `gearlube_core/ehl/case/`; do not edit them by hand.
 
 `gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts
-ship, `jamali_2015` and `jamali_2015_thermal`, and three point contacts, `mourier_2006`,
-`elliptical` and `elliptical_thermal` (`gearlube_core/ehl/case/data/`).
+ship, `jamali_2015` and `jamali_2015_thermal`, and four point contacts, `mourier_2006`,
+`elliptical`, `elliptical_thermal` and `jamali_2015_section`, a part of a line contact whose film
+repeats (`gearlube_core/ehl/case/data/`). `gearlube ehl rough my_case.toml` reads rough line
+contacts; `jamali_2015_a`, `_a_straight`, `_b`, `_c` and `_d` ship.
 `gearlube ehl line --example` prints one to start from.
 Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md), whose
 `[film_mesh]` can set the nodes denser where the film leaves the contact. A hypoid

@@ -89,6 +89,13 @@ from gearlube_core.rough_patch.table import patch_table as patch_table
 from gearlube_core.rough_patch.table import greenwood_tripp_fit as greenwood_tripp_fit
 from gearlube_core.rough_patch.flow import flow_factors as flow_factors
 from gearlube_core.rough_patch.dry_contact import press_patch as press_patch
+from gearlube_core.contact.half_space_stress import HalfSpaceStress as HalfSpaceStress
+from gearlube_core.contact.half_space_stress import greatest_shear as greatest_shear
+from gearlube_core.contact.half_space_stress import mises_stress as mises_stress
+from gearlube_core.contact.dang_van import FatigueLimits as FatigueLimits
+from gearlube_core.contact.dang_van import dang_van_number as dang_van_number
+from gearlube_core.contact.dang_van import followed_history as followed_history
+from gearlube_core.contact.dang_van import passage_history as passage_history
 from gearlube_core.ehl.statistics.zone import FilmZone as FilmZone
 from gearlube_core.ehl.statistics.rough_film import FilmFriction as FilmFriction
 from gearlube_core.ehl.statistics.rough_film import RoughFilmStatistics as RoughFilmStatistics

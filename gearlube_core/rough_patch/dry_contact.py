@@ -78,7 +78,7 @@ def press_patch(
     near E* times half of the rms slope, which steel with slopes above 0.05 cannot bear.
     Theories and solutions of others find areas of 1.6 to 2.5 times p/(E* rms slope)
     [campana_mueser_2007] and p ~ exp(-film/(0.48 sigma)) [almqvist_2011].
-    Source of the compliance: [johnson_1985 (13.6)]; of the solver: [polonsky_keer_1999].
+    Source of the compliance: [johnson_1985 sec. 13.2]; of the solver: [polonsky_keer_1999].
 
     Examples
     --------

@@ -51,6 +51,8 @@ def line_film_formulas(problem: LineProblem) -> list[FilmFormula]:
 def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
     """Return films of formulas for a point contact; none for a constant viscosity.
 
+    Of a part of a line contact between closed sides: those of the line.
+
     Notes
     -----
     Hamrock and Dowson's and Nijenbanning's are given where entrainment lies within a degree of
@@ -64,6 +66,17 @@ def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
     if R_x > R_y:
         R_x, R_y, psi = R_y, R_x, 0.5 * math.pi - psi
     modulus = 2.0 * problem.contact_modulus
+    if problem.sides != "ambient":
+        return line_film_formulas(
+            LineProblem(
+                lubricant=oil,
+                radius=problem.hertz.R_x,
+                line_load=problem.line_load,
+                reduced_modulus=modulus,
+                speed_1=u,
+                speed_2=u,
+            )
+        )
     operation = (oil.eta0, alpha, speed, problem.load, modulus)
     central = central_film_thickness(*film_geometry(R_x, R_y, psi), *operation)
     smallest = minimum_film_thickness(*minimum_film_geometry(R_x, R_y, psi), *operation)

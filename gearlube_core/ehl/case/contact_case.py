@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -24,8 +24,10 @@ from gearlube_core.ehl.case.surfaces import (
 from gearlube_core.ehl.gap.micro_geometry import RoughGap
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.point.cavitation import check_cavitation
+from gearlube_core.ehl.point.line_section import DOMAIN, check_repeats, line_section
 from gearlube_core.ehl.point.problem import ContactDomain, PointContactProblem, elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings
+from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.ehl.point.thermal.solver import check_thermal
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.input_file import read_toml
@@ -35,6 +37,7 @@ _GIGA, _MICRO = 1e9, 1e-6
 
 Radius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Speed = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
+PartLength = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
 LineLoad = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Load = Annotated[float, Field(gt=0.0, le=1e8, allow_inf_nan=False)]
 Layer = Annotated[float, Field(ge=1e-4, le=1e6, allow_inf_nan=False)]
@@ -200,7 +203,20 @@ class PointCase(ContactCase):
     prefix: ClassVar[str] = "point_"
 
     radius_x_mm: Radius = Field(description="Relative radius of curvature along x")
-    radius_y_mm: Radius = Field(description="Relative radius of curvature along y")
+    radius_y_mm: Radius | None = Field(
+        default=None,
+        description="Relative radius of curvature along y; left out with length_mm",
+    )
+    length_mm: PartLength | None = Field(
+        default=None,
+        description="Of a part of a line contact along y, over which all repeats; load_n is its "
+        "load",
+    )
+    side_conditions: Literal["ambient", "cyclic", "no_flow"] = Field(
+        default="ambient",
+        description="At both ends along y: ambient pressure; of a part of a line contact: the film "
+        "repeats, or no oil passes",
+    )
     load_n: Load = Field(description="Load")
     side_speed_1_m_s: Speed = Field(default=0.0, description="Of body 1 along y")
     side_speed_2_m_s: Speed = Field(default=0.0, description="Of body 2 along y")
@@ -221,6 +237,14 @@ class PointCase(ContactCase):
 
     @model_validator(mode="after")
     def _consistent(self) -> PointCase:
+        wanted, other = "radius_y_mm", "length_mm"
+        if self.closed:
+            wanted, other = other, wanted
+        if getattr(self, wanted) is None or getattr(self, other) is not None:
+            raise ValueError(
+                f"{wanted} must be given and {other} left out with side_conditions "
+                f"{self.side_conditions}"
+            )
         with refused("In SI units: "):
             smooth, settings = self._smooth(), self.settings()
             check_cavitation(smooth, settings)
@@ -229,6 +253,11 @@ class PointCase(ContactCase):
             if self.temperature == "thermal":
                 check_thermal(smooth, settings)
         return self
+
+    @property
+    def closed(self) -> bool:
+        """Tell whether the contact is a part of a line contact between closed sides."""
+        return self.side_conditions != "ambient"
 
     @property
     def entrainment(self) -> tuple[float, float]:
@@ -258,16 +287,41 @@ class PointCase(ContactCase):
             return smooth
         for one in shapes:
             one.check_serves(smooth.x, smooth.y)
+            if self.closed:
+                check_repeats(one, smooth)
         if self.height_map is not None and self.height_map.holds == "gap":
             *heights, whole = shapes
             return replace(smooth, gap=RoughGap(whole, tuple(heights)), oil_beyond=False)
         return replace(smooth, gap=RoughGap(smooth.gap, tuple(shapes)))
 
+    def _section(self) -> PointContactProblem:
+        d, length = self.domain, (self.length_mm or 0.0) * MILLIMETRE
+        return line_section(
+            R_x=self.radius_x_mm * MILLIMETRE,
+            length=length,
+            line_load=self.load_n / length,
+            speed_1=self.speed_1_m_s,
+            speed_2=self.speed_2_m_s,
+            contact_modulus=0.5 * self.modulus,
+            lubricant=self.oil.film_oil(),
+            nodes=(self.solver.nodes_x, self.solver.nodes_y),
+            domain=(
+                DOMAIN[0] if d.inlet is None else -d.inlet,
+                DOMAIN[1] if d.outlet is None else d.outlet,
+            ),
+            sides=self.side_conditions,
+        )
+
     def _smooth(self) -> PointContactProblem:
         oil = self.oil.film_oil()
+        if self.closed:
+            beyond = bool(self.domain.oil_beyond) or self.inlet_layer_um is not None
+            sides, across = Sides(self.side_conditions), self.entrainment[1]
+            sides.check_goes_with(self.solver.nodes_y, across, self.sliding, beyond)
+            return replace(self._section(), sliding=self.sliding)
         return elliptical_contact(
             R_x=self.radius_x_mm * MILLIMETRE,
-            R_y=self.radius_y_mm * MILLIMETRE,
+            R_y=(self.radius_y_mm or 0.0) * MILLIMETRE,
             entrainment=self.entrainment,
             load=self.load_n,
             contact_modulus=0.5 * self.modulus,

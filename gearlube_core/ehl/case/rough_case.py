@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from gearlube_core.ehl.case.contact_case import ContactCase, LineLoad, Radius
+from gearlube_core.ehl.case.contact_case import ContactCase, LineLoad, PartLength, Radius
 from gearlube_core.ehl.case.film_case import Wedge, refused
 from gearlube_core.ehl.case.grids import Steps, Tolerance
 from gearlube_core.ehl.case.rough_surfaces import RoughSurface
@@ -30,7 +30,6 @@ from gearlube_core.units import MILLIMETRE
 
 _MICRO, _GIGA = 1e-6, 1e9
 
-PartLength = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
 HalfWidths = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
 Growth = Annotated[float, Field(ge=1e-3, le=100.0, allow_inf_nan=False)]
 StepCount = Annotated[int, Field(ge=1, le=1_000_000)]

@@ -9,10 +9,12 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
-from gearlube_core.ehl.point.problem import EllipticParaboloid, PointContactProblem
+from gearlube_core.ehl.point.problem import EllipticParaboloid, Gap, PointContactProblem
+from gearlube_core.errors import ParameterError
 from gearlube_core.oil.film_oil import FilmOil
 
 DOMAIN = (-2.5, 1.5)  # half widths of the dry contact, as [jamali_2015] section 7.5 has them
+_REPEATS = 1e-3  # of the range of heights, that may lie between both sides
 _FLAT = 1e6  # m, radius along y that the scales of a closed film do not see
 
 
@@ -39,6 +41,33 @@ class Cylinder:
     def paraboloid(self) -> EllipticParaboloid:
         """Return the paraboloid that sets the scales: of the same radius, straight along y."""
         return EllipticParaboloid(self.R_x, _FLAT)
+
+
+def check_repeats(heights: Gap, section: PointContactProblem) -> None:
+    """Refuse heights that do not repeat over the length of a section.
+
+    Parameters
+    ----------
+    heights
+        Of x and y [m].
+    section
+        With closed sides.
+
+    Raises
+    ------
+    ParameterError
+        Heights at both sides differ by more than a thousandth of their range.
+    """
+    x, sides = section.x, section.y_limits
+    first, last = (heights(x, np.full_like(x, y)) for y in sides)
+    jump = float(np.abs(last - first).max())
+    most = _REPEATS * float(np.ptp(heights(x[:, None], section.y[None, :])))
+    if jump > most:
+        raise ParameterError(
+            f"heights must repeat over the length of {1e3 * (sides[1] - sides[0]):.4g} mm within "
+            f"{1e6 * most:.3g} um, got a jump of {1e6 * jump:.3g} um between both sides. Take a "
+            "length of whole waves along y, a lay that closes, or crests along x or y."
+        )
 
 
 def line_section(

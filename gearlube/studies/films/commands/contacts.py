@@ -108,7 +108,8 @@ def point(
 ) -> None:
     """Solve a lubricated point contact; write point.nc, summary.csv and figures.
 
-    Shipped cases: mourier_2006, elliptical. Options given here replace those of the case.
+    Shipped cases: mourier_2006, elliptical, jamali_2015_section. Options given here replace those
+    of the case.
     """
     from gearlube.studies.films import run_steady
     from gearlube_core.ehl.case.contact_case import PointCase

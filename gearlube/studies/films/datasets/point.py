@@ -57,12 +57,22 @@ def point_dataset(
     u, v = problem.entrainment
     a_x, a_y, largest = problem.hertz_contact
     x, y, plane = problem.x, problem.y, ("x", "y")
+    closed = problem.sides != "ambient"
+    if closed:  # as wide at all places along y
+        a_y = math.inf
     dry = largest * np.sqrt(
         np.maximum(1.0 - (x[:, None] / a_x) ** 2 - (y[None, :] / a_y) ** 2, 0.0)
     )
     shear = (
         point_traction(
-            x, y, solution.pressure, solution.film, sliding, problem.lubricant, solution.fill
+            x,
+            y,
+            solution.pressure,
+            solution.film,
+            sliding,
+            problem.lubricant,
+            solution.fill,
+            closed=closed,
         )
         if thermal is None
         else PointTraction(
@@ -93,7 +103,7 @@ def point_dataset(
         coordinates["height"] = film_heights(thermal.temperature)
         variables |= _temperatures(thermal)
     groups = {}
-    if pressure_viscosity(problem.lubricant) > 0.0:
+    if pressure_viscosity(problem.lubricant) > 0.0 and not closed:
         groups = point_contact_groups(
             viscosity=problem.lubricant.eta0,
             pressure_viscosity=pressure_viscosity(problem.lubricant),
@@ -110,7 +120,8 @@ def point_dataset(
             "name": name,
             "source": source,
             "radius_x": problem.hertz.R_x,
-            "radius_y": problem.hertz.R_y,
+            "radius_y": math.inf if closed else problem.hertz.R_y,
+            "side_conditions": problem.sides,
             "load": problem.load,
             "reduced_modulus": modulus,
             "entrainment_x": u,

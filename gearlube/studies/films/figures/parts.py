@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -47,7 +48,14 @@ def film_contours(
 
 
 def dry_outline(ax: Any, semi_axes: tuple[float, float], colour: str, line_width: float) -> None:
-    """Draw the ellipse of the dry contact, its semi-axes [m] along the axes of the figure."""
+    """Draw the ellipse of the dry contact, its semi-axes [m] along the axes of the figure.
+
+    An infinite one up the figure: both edges of a line.
+    """
+    if math.isinf(semi_axes[1]):
+        for edge in (-1e3 * semi_axes[0], 1e3 * semi_axes[0]):
+            ax.axvline(edge, color=colour, lw=line_width, ls="--")
+        return
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
     across, up = (1e3 * one for one in semi_axes)
     ax.plot(across * np.cos(turn), up * np.sin(turn), color=colour, lw=line_width, ls="--")

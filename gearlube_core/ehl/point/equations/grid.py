@@ -108,11 +108,6 @@ class PointGrid:
         self.cells = self.cell / self.metric.narrow
         self._dense: Array | None = None
 
-    @cached_property
-    def rough_deflection(self) -> HalfSpaceConvolution | GradedConvolution | ClosedDeflection:
-        """Return the deflection in single precision, for preconditioners."""
-        return self.convolution(single=True)
-
     def convolution(
         self, single: bool = False
     ) -> HalfSpaceConvolution | GradedConvolution | ClosedDeflection:
@@ -121,6 +116,11 @@ class PointGrid:
             return ClosedDeflection(self.modes, self.sides, self.shape[0] - 2, single=single)
         kind = GradedConvolution if self.graded else HalfSpaceConvolution
         return kind(self.coefficients, single=single)
+
+    @cached_property
+    def single_deflection(self) -> HalfSpaceConvolution | GradedConvolution | ClosedDeflection:
+        """Return the deflection in float32, kept for preconditioners."""
+        return self.convolution(single=True)
 
     @property
     def own_deflection(self) -> Array:

@@ -96,13 +96,9 @@ class SparseOperator:
     free: Flags
     by_approach: Array
 
-    def rough(self) -> SparseOperator:
-        """Return the operator in single precision, for preconditioners."""
-        return SparseOperator(self.matrix.astype(np.complex64), self.free, self.by_approach)
-
     def apply(self, grid: PointGrid, pressure: Array, approach: float) -> Array:
-        """Return the change of the residual, shape (ny, nx), with deflection to seven digits."""
-        film = np.ascontiguousarray(grid.rough_deflection(pressure))
+        """Return the change of the residual, shape (ny, nx)."""
+        film = np.ascontiguousarray(grid.deflection(pressure))
         result = np.empty(grid.shape)
         multiply_rows(
             self.matrix.indptr,
