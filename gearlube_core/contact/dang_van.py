@@ -111,8 +111,8 @@ def dang_van_number(
     --------
     Torsion to and fro at the fatigue limit:
 
-    >>> turn = np.linspace(0.0, 2.0 * np.pi, 24)
-    >>> history = np.zeros((24, 6))
+    >>> turn = np.linspace(0.0, 2.0 * np.pi, 25)
+    >>> history = np.zeros((25, 6))
     >>> history[:, 3] = 260e6 * np.cos(turn)
     >>> round(float(dang_van_number(history, QUENCHED_42CRMO4)), 3)
     1.0

@@ -201,7 +201,7 @@ def mises_stress(stress: Array) -> Array:
 
     Examples
     --------
-    >>> float(mises_stress(np.array([250e6, 0.0, 0.0, 0.0, 0.0, 0.0])))
+    >>> round(float(mises_stress(np.array([250e6, 0.0, 0.0, 0.0, 0.0, 0.0]))), 3)
     250000000.0
     """
     return np.asarray(np.sqrt(3.0 * _second_invariant(stress)))

@@ -84,7 +84,7 @@ def press_patch(
     --------
     >>> crests = np.cos(2.0 * np.pi * np.arange(64) / 64)[:, None] + np.zeros(8)
     >>> wave = HeightMap(height=1e-7 * crests, spacing=(1e-6, 1e-6), periodic=(True, True))
-    >>> round(press_patch(wave, 5e8, 1e11).contact_share, 2)
+    >>> round(press_patch(wave, 2.3e8, 1e11).contact_share, 2)
     0.48
     """
     check_positive("mean_pressure", mean_pressure, "Pa")

@@ -81,7 +81,7 @@ class RoughFilmStatistics:
     Examples
     --------
     >>> x, y = np.linspace(-1e-4, 1e-4, 21), np.linspace(0.0, 1e-3, 16)
-    >>> zone = FilmZone.line(x, y, 5e-5)
+    >>> zone = FilmZone.line(x, y, 5.5e-5)
     >>> found = RoughFilmStatistics(zone=zone, roughness=4e-7)
     >>> film = np.where(np.abs(x)[:, None] < 1.5e-5, 4e-9, 8e-7) + 0.0 * y
     >>> found.add(0.0, film, np.full((21, 16), 1e9))

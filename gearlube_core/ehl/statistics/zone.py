@@ -29,7 +29,7 @@ class FilmZone:
 
     Examples
     --------
-    >>> zone = FilmZone.line(np.linspace(-4e-4, 4e-4, 401), np.linspace(0.0, 1e-3, 33), 2e-4)
+    >>> zone = FilmZone.line(np.linspace(-4e-4, 4e-4, 401), np.linspace(0.0, 1e-3, 33), 2.01e-4)
     >>> int(zone.inside.sum())
     6633
     """
