@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+from scipy.fft import next_fast_len
 from scipy.special import iti0k0, zeta
 
 from gearlube_core.arrays import Array
@@ -154,7 +155,8 @@ class PeriodicDeflection:
                 f"{modes.shape}. Take them from periodic_modes."
             )
         nx = modes.shape[0]
-        length = pyfftw.next_fast_len(2 * nx - 1)
+        # even, of factors 2, 3 and 5: three times as fast as 1617 = 3 7 7 11, say
+        length = 2 * next_fast_len(nx, real=True)
         row = np.zeros((length, modes.shape[1]))
         row[:nx] = modes
         row[length - nx + 1 :] = modes[:0:-1]

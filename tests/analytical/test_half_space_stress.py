@@ -58,12 +58,12 @@ def test_line_contact_has_the_field_of_mcewen(z: float):
 
 def test_greatest_shear_lies_where_hertz_has_it():
     # a line: 0.300 p0 at 0.786 of the half-width
-    z = np.linspace(0.6, 1.0, 81)
+    z = np.linspace(0.7, 0.87, 18)
     shear = [float(greatest_shear(line()(one))[N // 2, 0]) for one in z]
     assert max(shear) == pytest.approx(0.300, abs=0.0015)
     assert z[int(np.argmax(shear))] == pytest.approx(0.786, abs=0.01)
     # a circle, nu 0.3: 0.310 p0 at 0.48 of the radius
-    z = np.linspace(0.4, 0.56, 17)
+    z = np.linspace(0.44, 0.52, 9)
     round_one = circle()
     shear = [float(greatest_shear(round_one(one))[N // 2, N // 2]) for one in z]
     assert max(shear) == pytest.approx(0.310, abs=0.0015)
@@ -172,10 +172,9 @@ def test_line_of_repeated_loads_is_that_of_many_single_ones():
             pressure=bump, traction_x=share * bump, periodic=(False, True), **given
         )
         single = HalfSpaceStress(pressure=many, traction_x=share * many, **given)
-        for z in (0.4, 1.0):
-            # bumps beyond the last and images at four widths: 3e-3 of the largest pressure
-            middle = single(z)[:, 66:-66, 12 * 16 : 13 * 16]
-            assert repeated(z) == pytest.approx(middle, abs=3e-3)
+        # bumps beyond the last and images at four widths: 3e-3 of the largest pressure
+        middle = single(0.4)[:, 66:-66, 12 * 16 : 13 * 16]
+        assert repeated(0.4) == pytest.approx(middle, abs=3e-3)
 
 
 def test_mean_pressure_that_repeats_everywhere_is_held_sideways():

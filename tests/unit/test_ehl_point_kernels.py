@@ -162,20 +162,21 @@ def test_cycle_is_exact_where_lines_and_the_coarse_grid_share_the_solution() -> 
         return 0.5 * (residual - column * approach), float(approach)
 
     grid = SimpleNamespace(integral=lambda field: share * field.sum())
-    operator = SimpleNamespace(free=free, apply=lambda grid, p, h: 2.0 * p + by_approach * h)
+    operator = SimpleNamespace(apply=lambda p, h: 2.0 * p + by_approach * h)
     cycle = object.__new__(MultigridCycle)
     cycle._levels = (None, SimpleNamespace(shape=shape, grid=grid, load=1.0))
-    cycle._operators, cycle._direct = [None, operator], direct
+    cycle._operators, cycle._free, cycle._direct = [operator], [free], direct
     cycle._transfers = (SimpleNamespace(down=down, up=up),)
     expected, approach = rng.standard_normal(shape), 0.7
-    residual = operator.apply(grid, expected, approach)
+    residual = operator.apply(expected, approach)
     load = grid.integral(expected)
     # lines along rows alone, and lines both ways: the second ones find what the first have left
     for lines in ([lambda r: 0.5 * r], [lambda r: 0.2 * r, lambda r: 0.5 * r]):
         cycle._smoothers = [lines]
         found, found_approach = cycle(residual, load)
-        np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-13)
-        assert found_approach == pytest.approx(approach, rel=1e-12)
+        # single precision
+        np.testing.assert_allclose(found, expected, rtol=2e-6, atol=2e-6)
+        assert found_approach == pytest.approx(approach, rel=2e-6)
     # nodes that are not free keep no pressure
     free[1, 2:5] = False
     found, _ = cycle(residual, load)

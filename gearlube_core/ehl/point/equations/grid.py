@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from gearlube_core.arrays import Array
@@ -114,6 +116,11 @@ class PointGrid:
             return ClosedDeflection(self.modes, self.sides, self.shape[0] - 2, single=single)
         kind = GradedConvolution if self.graded else HalfSpaceConvolution
         return kind(self.coefficients, single=single)
+
+    @cached_property
+    def single_deflection(self) -> HalfSpaceConvolution | GradedConvolution | ClosedDeflection:
+        """Return the deflection in float32, kept for preconditioners."""
+        return self.convolution(single=True)
 
     @property
     def own_deflection(self) -> Array:

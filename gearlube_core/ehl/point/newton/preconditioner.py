@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.ehl.point.newton.coarse import CoarseSolution
 from gearlube_core.ehl.point.newton.galerkin import coarse_operator, sparse_operator
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
+from gearlube_core.ehl.point.newton.single_operator import SingleOperator
+from gearlube_core.ehl.point.newton.single_stencil import Single
 from gearlube_core.ehl.point.newton.smoother import ColumnSmoother, RowSmoother
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 
@@ -23,7 +27,7 @@ class MultigridCycle:
     """One V-cycle as an approximate inverse; linearisations on all grids follow from the finest.
 
     Pressure and approach are found together: the load is an equation of every grid and is met on
-    the coarsest.
+    the coarsest. All but the coarsest grid is computed in single precision.
     """
 
     def __init__(self, hierarchy: Hierarchy, linear: Linearisation) -> None:
@@ -31,7 +35,8 @@ class MultigridCycle:
         self._transfers = hierarchy.transfers
         self._smoothers: list[list[Lines]] = []
         operator = sparse_operator(linear)
-        self._operators = [operator]
+        self._operators: list[SingleOperator] = []
+        self._free: list[Flags] = []
         for k in range(len(self._levels) - 1, 0, -1):
             fine, coarse = self._levels[k], self._levels[k - 1]
             halved = (coarse.shape[0] < fine.shape[0], coarse.shape[1] < fine.shape[1])
@@ -39,42 +44,49 @@ class MultigridCycle:
             if fine.stencil.wedge_y > _OBLIQUE * fine.stencil.wedge_x and not fine.grid.graded:
                 lines.append(ColumnSmoother(fine.grid, operator, halved, _DAMPING))
             self._smoothers.insert(0, lines)
+            self._operators.insert(0, SingleOperator(fine.grid, operator))
+            self._free.insert(0, operator.free)
             operator = coarse_operator(operator, self._transfers[k - 1])
-            self._operators.insert(0, operator)
         self._direct = CoarseSolution(self._levels[0].grid, operator, self._levels[0].load)
 
     def __call__(self, residual: Array, load_residual: float) -> tuple[Array, float]:
         """Return pressure, shape (ny, nx), and approach that cancel most of a residual."""
-        return self._cycle(len(self._levels) - 1, residual, load_residual)
+        # of order one, far from the limits of float32
+        size = float(np.abs(residual).max()) or 1.0
+        pressure, approach = self._cycle(
+            len(self._levels) - 1, (residual / size).astype(Single), load_residual / size
+        )
+        return size * pressure.astype(np.float64), size * approach
 
-    def _cycle(self, k: int, residual: Array, load_residual: float) -> tuple[Array, float]:
+    def _cycle(self, k: int, residual: Any, load_residual: float) -> tuple[Any, float]:
         if k == 0:
-            return self._direct(residual, load_residual)
-        level, operator, transfer = self._levels[k], self._operators[k], self._transfers[k - 1]
+            pressure, approach = self._direct(residual, load_residual)
+            return pressure.astype(Single), approach
+        level, operator, transfer = self._levels[k], self._operators[k - 1], self._transfers[k - 1]
         pressure = self._smooth(k, residual)
         carried = level.grid.integral(pressure) / level.load
-        rest = residual - operator.apply(level.grid, pressure, 0.0)
+        rest = residual - operator.apply(pressure, 0.0)
         coarse, approach = self._cycle(k - 1, transfer.down(rest), load_residual - carried)
         correction = transfer.up(coarse)
-        correction[~operator.free] = 0.0
+        correction *= self._free[k - 1]
         pressure += correction
-        rest = residual - operator.apply(level.grid, pressure, approach)
+        rest = residual - operator.apply(pressure, approach)
         pressure += self._smooth(k, rest)
         return pressure, approach
 
-    def _smooth(self, k: int, residual: Array) -> Array:
+    def _smooth(self, k: int, residual: Any) -> Any:
         """Return line solutions without the part that the coarser grid represents.
 
         Rows with a local deflection are too soft for long waves, by the ratio of their length to
         the spacing, and would amplify them.
         """
-        level, operator, transfer = self._levels[k], self._operators[k], self._transfers[k - 1]
-        pressure, rest = np.zeros(level.shape), residual
-        for count, lines in enumerate(self._smoothers[k - 1]):
-            if count:
-                rest = residual - operator.apply(level.grid, pressure, 0.0)
+        transfer, rest = self._transfers[k - 1], residual
+        pressure: Any = None
+        for lines in self._smoothers[k - 1]:
+            if pressure is not None:
+                rest = residual - self._operators[k - 1].apply(pressure, 0.0)
             change = lines(rest)
             change -= transfer.up(transfer.down(change))
-            change[~operator.free] = 0.0
-            pressure += change
+            change *= self._free[k - 1]
+            pressure = change if pressure is None else pressure + change
         return pressure

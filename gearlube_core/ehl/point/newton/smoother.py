@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg.lapack import sgbtrf, sgbtrs
+from scipy.linalg.lapack import sgbtrf
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
+from gearlube_core.ehl.point.newton.single_stencil import Single
 from gearlube_core.ehl.point.newton.wave import TransposedGrid, wave_deflection
 from gearlube_core.kernels.jit import kernel
 
 REACH = 4  # nodes over which the local deflection acts to each side
 _BELOW = REACH + 2  # the far upstream neighbour
 _ABOVE = REACH + 2
+_DIAGONAL = _BELOW + _ABOVE  # its place in the band of factors
 
 
 @kernel
@@ -69,6 +71,54 @@ def fill_rows(
                         band[row + offset, diagonal - offset] += slope * local[ii, i + offset]
 
 
+@kernel
+def solve_bands(
+    factors: np.ndarray, pivots: np.ndarray, free: np.ndarray, scale: float, values: np.ndarray
+) -> None:
+    """Solve with the factors of `sgbtrf`, in place, and scale; LAPACK calls BLAS for every node.
+
+    Parameters
+    ----------
+    factors : ndarray, shape (n, 2 _BELOW + _ABOVE + 1)
+        Transposed band storage of L and U, the reciprocal of the diagonal in its place.
+    pivots : ndarray of int, shape (n,)
+        Rows exchanged.
+    free : ndarray of bool, shape (n,)
+        Other nodes have zero on the right and in the result.
+    scale
+        Of the result.
+    values : ndarray, shape (n,)
+        Right-hand side on entry.
+    """
+    n = values.size
+    for j in range(n):
+        if not free[j]:
+            values[j] = 0.0
+    for j in range(n):
+        other = pivots[j]
+        value = values[other]
+        values[other] = values[j]
+        values[j] = value
+        below = min(_BELOW, n - 1 - j)
+        rest, shares = values[j + 1 : j + 1 + below], factors[j, _DIAGONAL + 1 :]
+        for m in range(below):
+            rest[m] -= shares[m] * value
+    for j in range(n - 1, _DIAGONAL - 1, -1):
+        value = values[j] * factors[j, _DIAGONAL]
+        values[j] = value
+        rest, shares = values[j - _DIAGONAL : j], factors[j]
+        for m in range(_DIAGONAL):
+            rest[m] -= shares[m] * value
+    for j in range(min(n, _DIAGONAL) - 1, -1, -1):
+        value = values[j] * factors[j, _DIAGONAL]
+        values[j] = value
+        rest, shares = values[:j], factors[j, _DIAGONAL - j :]
+        for m in range(j):
+            rest[m] -= shares[m] * value
+    for j in range(n):
+        values[j] *= scale
+
+
 class RowSmoother:
     """Factored rows of one linearisation; float32 is enough for a preconditioner."""
 
@@ -98,16 +148,17 @@ class RowSmoother:
             grid.sides.period(ny),
             band,
         )
-        self._factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)
-        self._shape = grid.shape
-        self._damping = damping
-        self._free = operator.free
+        factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)
+        self._factors = np.ascontiguousarray(factors.T)
+        self._factors[:, _DIAGONAL] = 1.0 / self._factors[:, _DIAGONAL]
+        self._damping = Single(damping)
+        self._free = operator.free.ravel()
 
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
-        right = np.where(self._free, residual, 0.0).astype(np.float32).ravel()
-        solution, _ = sgbtrs(self._factors, _BELOW, _ABOVE, right, self._pivots, overwrite_b=True)
-        return self._damping * solution.reshape(self._shape).astype(np.float64)
+        values = np.array(residual, dtype=Single, order="C")
+        solve_bands(self._factors, self._pivots, self._free, self._damping, values.reshape(-1))
+        return values
 
 
 class ColumnSmoother:

@@ -1,0 +1,38 @@
+"""Derivatives on one grid as preconditioners apply them: in single precision."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gearlube_core.ehl.point.equations.grid import PointGrid
+from gearlube_core.ehl.point.newton.galerkin import SparseOperator
+from gearlube_core.ehl.point.newton.single_stencil import Single, SingleStencil
+
+
+class SingleOperator:
+    """Change of the residual under a change of pressure and approach, float32.
+
+    Stencils are kept neighbour by neighbour, so that rows are read in order. Where oil passes
+    ruptured film, beyond a stencil, the compressed rows are taken.
+
+    Parameters
+    ----------
+    grid, operator
+        Grid and its derivatives.
+    """
+
+    def __init__(self, grid: PointGrid, operator: SparseOperator) -> None:
+        self._grid, self._operator = grid, operator
+        self._stencil = SingleStencil.of(
+            operator.matrix, grid.shape, grid.sides.period(grid.shape[0])
+        )
+        self._by_approach: Any = operator.by_approach.astype(Single)
+
+    def apply(self, pressure: Any, approach: float) -> Any:
+        """Return the change, shape (ny, nx)."""
+        if self._stencil is None:
+            return self._operator.apply(self._grid, pressure, approach).astype(Single)
+        result = self._stencil.multiply(pressure, self._grid.single_deflection(pressure))
+        if approach != 0.0:
+            result += Single(approach) * self._by_approach
+        return result
