@@ -49,7 +49,8 @@ The tables and the text are written by `python -m docs.ehl_case_file` from the d
 ship, `jamali_2015` and `jamali_2015_thermal`, and four point contacts, `mourier_2006`,
 `elliptical`, `elliptical_thermal` and `jamali_2015_section`, a part of a line contact whose film
 repeats (`gearlube_core/ehl/case/data/`). `gearlube ehl rough my_case.toml` reads rough line
-contacts; `jamali_2015_a`, `_a_straight`, `_b`, `_c` and `_d` ship.
+contacts; `jamali_2015_a`, `_a_straight`, `_b`, `_c` and `_d` ship, and
+[rough_line_contact.md](rough_line_contact.md) shows what comes out.
 `gearlube ehl line --example` prints one to start from.
 Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md), whose
 `[film_mesh]` can set the nodes denser where the film leaves the contact. A hypoid

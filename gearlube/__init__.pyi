@@ -120,6 +120,7 @@ from gearlube_core.ehl.case.hypoid_case import HypoidCase as HypoidCase
 from gearlube.studies.films.helical_case import HelicalLineCase as HelicalLineCase
 from gearlube.studies.films.run_steady import run_line as run_line
 from gearlube.studies.films.run_steady import run_point as run_point
+from gearlube_core.ehl.case.rough_case import RoughCase as RoughCase
 from gearlube.studies.films.rough.run import run_rough as run_rough
 from gearlube.studies.films.run_steady import run_helical_line as run_helical_line
 from gearlube.studies.films.run_march import MarchSteps as MarchSteps

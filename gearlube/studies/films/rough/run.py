@@ -67,10 +67,13 @@ def run_rough(
 
     Examples
     --------
-    >>> case = RoughCase.named("jamali_2015_a")
-    >>> small = case.varied({"solver.nodes_x": 321, "solver.rows": 48, "frames.steps": []})
-    >>> run_rough(small, steps=2).sizes["time"]  # doctest: +SKIP
-    3
+    >>> coarse = {"surface_1.cutoff_um": 42.0, "surface_2.cutoff_um": 42.0,
+    ...           "solver.nodes_x": 257, "solver.rows": 40, "frames.steps": []}
+    >>> case = RoughCase.named("jamali_2015_a").varied(coarse)
+    >>> case.schedule().steps
+    2244
+    >>> run_rough(case, steps=100).sizes["time"]  # doctest: +SKIP
+    101
     """
     schedule = case.schedule()
     last = schedule.steps if steps is None else steps

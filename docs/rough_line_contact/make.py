@@ -1,0 +1,176 @@
+"""March and draw what docs/rough_line_contact.md shows: python -m docs.rough_line_contact.make.
+
+Half an hour of one processor. Marches are kept in the folder given as argument, by default
+build/rough_line_contact; a stopped one goes on. Writes docs/images/rough_*.png and numbers.csv.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.output.csv_text import csv_text
+from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.studies.films.figures.rough import (
+    rough_distributions,
+    rough_frame,
+    rough_history,
+    rough_thin_films,
+)
+from gearlube.studies.films.rough.files import frame_file, summary_rows
+from gearlube.studies.films.rough.run import run_rough
+from gearlube_core.ehl.case.rough_case import RoughCase
+from gearlube_core.storage.atomic_file import write_text
+
+ROOT = Path(__file__).resolve().parents[2]
+IMAGES = ROOT / "docs" / "images"
+NUMBERS = Path(__file__).parent / "numbers.csv"
+# an eighth of the nodes and a fifth of the steps of the thesis: waves from 30 um on
+GRID: dict[str, Any] = {
+    "solver.nodes_x": 257,
+    "solver.rows": 40,
+    "surface_1.cutoff_um": 42.0,
+    "surface_2.cutoff_um": 42.0,
+    "times.steps_per_half_width": 80,
+    "frames.steps": [],
+    "frames.every": 20,
+}
+CASES: dict[str, tuple[str, dict[str, Any]]] = {
+    "crossed": ("jamali_2015_a", {}),
+    "no_flow": ("jamali_2015_a", {"side_conditions": "no_flow"}),
+    "straight": ("jamali_2015_a_straight", {"solver.rows": 16}),
+    "five_times": ("jamali_2015_d", {}),
+}
+TITLES = {
+    "crossed": "crossed",
+    "straight": "straight",
+    "five_times": "crossed, speeds times 5",
+}
+SHOWN = (740, 820, 880)  # steps of the differences: 0.3, 0.6 and 0.9 of the rough part
+logger = logging.getLogger("docs.rough_line_contact")
+
+
+def marched(work: Path) -> dict[str, xr.Dataset]:
+    """Return the statistics of all cases; what is there is not marched again."""
+    found = {}
+    for name, (shipped, more) in CASES.items():
+        case, folder = RoughCase.named(shipped).varied(GRID | more), work / name
+        done = folder / "rough.nc"
+        if not done.exists():
+            logger.info("%s", name)
+            run_rough(case, folder=folder)
+        found[name] = xr.load_dataset(done, engine="scipy")
+    return found
+
+
+def frames(work: Path, name: str) -> xr.Dataset:
+    """Return the kept films of a case at the steps that are shown."""
+    return xr.concat(
+        [xr.load_dataset(frame_file(work / name, step), engine="scipy") for step in SHOWN], "time"
+    )
+
+
+def side_differences(work: Path) -> Any:
+    """Draw cyclic less no-flow along y, the largest over the Hertz zone in each row."""
+    cyclic, closed = frames(work, "crossed"), frames(work, "no_flow")
+    half_width = RoughCase.named("jamali_2015_a").section().hertz_contact[0]
+    inside = np.abs(cyclic["x"].values) < half_width
+    y = 1e3 * cyclic["y"].values
+    with house_style():
+        figure = new_figure(8.0, 5.0)
+        upper, lower = figure.subplots(2, 1, sharex=True)
+        for k, step in enumerate(SHOWN):
+            for ax, name, unit in ((upper, "pressure", 1e-9), (lower, "film", 1e6)):
+                off = (cyclic[name] - closed[name]).isel(time=k).transpose("x", "y").values
+                ax.plot(
+                    y, unit * np.abs(off[inside]).max(axis=0), color=SERIES[k], label=f"step {step}"
+                )
+        upper.set_ylabel("Pressure [GPa]")
+        lower.set(ylabel="Film [µm]", xlabel="y [mm]")
+        upper.set_title("Cyclic less no-flow sides, largest of each row of the Hertz zone")
+        upper.legend(ncols=3)
+    return figure
+
+
+def numbers(work: Path, found: dict[str, xr.Dataset]) -> list[tuple[str, str, float, str]]:
+    """Return the numbers of the page: case, quantity, value, unit."""
+    rows = [(name, *row) for name, run in found.items() for row in summary_rows(run)]
+    for name, run in found.items():
+        rough = run.isel(time=run["time"].values >= run.attrs["rough_time"] * (1.0 - 1e-12))
+        touched = (rough["contact_nodes"].values[:, 2] > 0.0).mean()
+        rows.append((name, "share of rough steps with a film below 10 nm", float(touched), "1"))
+        for k, limit in enumerate(rough["threshold"].values):
+            nodes = float(rough["contact_share"].values[:, k].mean())
+            words = f"share of the zone below {1e9 * limit:.0f} nm, rough"
+            rows.append((name, words, nodes, "1"))
+        for percent in (1.0, 5.0, 50.0):
+            film = float(run["film_percentile_all"].sel(percent=percent))
+            rows.append((name, f"film that {percent:g} % of the zone is below", film, "m"))
+        for percent in (50.0, 99.0, 99.9):
+            pressure = float(run["pressure_percentile_all"].sel(percent=percent))
+            rows.append((name, f"pressure that {percent:g} % is below", pressure, "Pa"))
+    rows += _side_numbers(work)
+    return rows
+
+
+def _side_numbers(work: Path) -> list[tuple[str, str, float, str]]:
+    cyclic, closed = frames(work, "crossed"), frames(work, "no_flow")
+    half_width = RoughCase.named("jamali_2015_a").section().hertz_contact[0]
+    inside = np.abs(cyclic["x"].values) < half_width
+    y = cyclic["y"].values
+    middle = (y > 0.2e-3) & (y < 0.8e-3)
+    rows = []
+    for k, step in enumerate(SHOWN):
+        p, h = (
+            (cyclic[name] - closed[name]).isel(time=k).transpose("x", "y").values[inside]
+            for name in ("pressure", "film")
+        )
+        top = float(cyclic["pressure"].isel(time=k).max())
+        last = {
+            "largest difference of pressure": (float(np.abs(p).max()), "Pa"),
+            "largest difference of pressure over p_max": (float(np.abs(p).max()) / top, "1"),
+            "largest difference of film": (float(np.abs(h).max()), "m"),
+            "the same of pressure, y 0.2 to 0.8 mm": (float(np.abs(p[:, middle]).max()), "Pa"),
+            "the same of film, y 0.2 to 0.8 mm": (float(np.abs(h[:, middle]).max()), "m"),
+            "correlation of differences of p at both sides": (
+                float(np.corrcoef(p[:, 0], p[:, -1])[0, 1]),
+                "1",
+            ),
+            "correlation of differences of p and h at the sides": (
+                float(np.corrcoef(p[:, [0, -1]].ravel(), h[:, [0, -1]].ravel())[0, 1]),
+                "1",
+            ),
+        }
+        rows += [(f"sides, step {step}", words, *one) for words, one in last.items()]
+    return rows
+
+
+def main(work: Path) -> None:
+    """March, draw, write."""
+    found = marched(work)
+    shown = {TITLES[name]: found[name] for name in TITLES}
+    step = float(found["crossed"].attrs["time_step"])
+    slow = {k: v for k, v in shown.items() if k != TITLES["five_times"]}
+    figures = {
+        "rough_history": rough_history(slow, step),
+        "rough_distributions": rough_distributions(shown),
+        "rough_thin_films": rough_thin_films(slow),
+        "rough_sides": side_differences(work),
+    }
+    for name in ("crossed", "straight"):
+        frame = xr.load_dataset(frame_file(work / name, SHOWN[1]), engine="scipy")
+        figures[f"rough_{name}"] = rough_frame(frame.isel(time=0))
+    for name, figure in figures.items():
+        figure.savefig(IMAGES / f"{name}.png", dpi=110)
+    rows = ((c, q, f"{v:.4g}", u) for c, q, v, u in numbers(work, found))
+    write_text(csv_text(("case", "quantity", "value", "unit"), rows), NUMBERS)
+
+
+if __name__ == "__main__":
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "rough_line_contact")
