@@ -85,7 +85,8 @@ def main() -> None:
         host = compiled(folder)
         of_this_machine = NativeOptions(platforms=[platform_of_this_machine()], fmi=["2"])
         native = build_models(folder / "native", native=of_this_machine)
-        for of_native, of_python in zip(native, build_models(folder / "python"), strict=True):
+        # the car has no FMU in Python, and comes last
+        for of_native, of_python in zip(native, build_models(folder / "python"), strict=False):
             for h in (1e-4, 1e-3, 1e-2):
                 rates = [
                     rate(host, arguments(fmu, fmu.parent), h) for fmu in (of_native, of_python)

@@ -103,8 +103,7 @@ class PointContactProblem:
 
     Examples
     --------
-    `elliptical_contact` builds the problem of two smooth solids, `line_section` that of a part of
-    a line contact.
+    `elliptical_contact` builds that of two smooth solids, `line_section` a part of a line's.
 
     >>> from gearlube_core.oil.film_oil_data import film_oil
     >>> oil = film_oil(eta0=0.04, alpha=2e-8)
@@ -160,9 +159,8 @@ class PointContactProblem:
             sides.check_goes_with(self.nodes[1], self.entrainment[1], self.sliding, beyond)
         for axis, count in zip("x" if sides.closed else "xy", self.nodes, strict=False):
             if not 17 <= count <= MOST_NODES:
-                raise ParameterError(
-                    f"nodes along {axis} must be within 17 to {MOST_NODES}, got {count}."
-                )
+                limits = f"within 17 to {MOST_NODES}"
+                raise ParameterError(f"nodes along {axis} must be {limits}, got {count}.")
 
     @property
     def x(self) -> Array:
