@@ -159,8 +159,8 @@ class PointContactProblem:
             sides.check_goes_with(self.nodes[1], self.entrainment[1], self.sliding, beyond)
         for axis, count in zip("x" if sides.closed else "xy", self.nodes, strict=False):
             if not 17 <= count <= MOST_NODES:
-                limits = f"within 17 to {MOST_NODES}"
-                raise ParameterError(f"nodes along {axis} must be {limits}, got {count}.")
+                wanted = f"within 17 to {MOST_NODES}"
+                raise ParameterError(f"nodes along {axis} must be {wanted}, got {count}.")
 
     @property
     def x(self) -> Array:
