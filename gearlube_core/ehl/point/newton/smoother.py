@@ -10,7 +10,7 @@ from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
 from gearlube_core.ehl.point.newton.single_stencil import Single
 from gearlube_core.ehl.point.newton.wave import TransposedGrid, wave_deflection
-from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.jit import row_kernel
 
 REACH = 4  # nodes over which the local deflection acts to each side
 _BELOW = REACH + 2  # the far upstream neighbour
@@ -18,7 +18,7 @@ _ABOVE = REACH + 2
 _DIAGONAL = _BELOW + _ABOVE  # its place in the band of factors
 
 
-@kernel
+@row_kernel
 def fill_rows(
     start: np.ndarray,
     column: np.ndarray,
@@ -27,6 +27,7 @@ def fill_rows(
     local: np.ndarray,
     across: np.ndarray,
     period: int,
+    rows: tuple[int, int],
     band: np.ndarray,
 ) -> None:
     """Fill the LAPACK band of all rows of nodes, uncoupled from each other.
@@ -43,12 +44,14 @@ def fill_rows(
         Share of it that neighbours 0 to 4 rows away see.
     period
         Rows after which the film repeats; 0: it does not.
+    rows
+        First row of nodes that is filled and the one behind the last.
     band : ndarray, shape (ny nx, 2 _BELOW + _ABOVE + 1)
         Result, transposed band storage; zero on entry.
     """
-    ny, nx = free.shape
+    nx = free.shape[1]
     diagonal = _BELOW + _ABOVE
-    for j in range(ny):
+    for j in range(rows[0], rows[1]):
         for i in range(nx):
             row = j * nx + i
             if not free[j, i]:
@@ -71,9 +74,15 @@ def fill_rows(
                         band[row + offset, diagonal - offset] += slope * local[ii, i + offset]
 
 
-@kernel
+@row_kernel
 def solve_bands(
-    factors: np.ndarray, pivots: np.ndarray, free: np.ndarray, scale: float, values: np.ndarray
+    factors: np.ndarray,
+    pivots: np.ndarray,
+    free: np.ndarray,
+    scale: float,
+    begin: int,
+    end: int,
+    values: np.ndarray,
 ) -> None:
     """Solve with the factors of `sgbtrf`, in place, and scale; LAPACK calls BLAS for every node.
 
@@ -87,35 +96,37 @@ def solve_bands(
         Other nodes have zero on the right and in the result.
     scale
         Of the result.
+    begin, end
+        First node of the rows that are solved and the one behind their last; rows do not feel
+        each other.
     values : ndarray, shape (n,)
         Right-hand side on entry.
     """
-    n = values.size
-    for j in range(n):
+    for j in range(begin, end):
         if not free[j]:
             values[j] = 0.0
-    for j in range(n):
+    for j in range(begin, end):
         other = pivots[j]
         value = values[other]
         values[other] = values[j]
         values[j] = value
-        below = min(_BELOW, n - 1 - j)
+        below = min(_BELOW, end - 1 - j)
         rest, shares = values[j + 1 : j + 1 + below], factors[j, _DIAGONAL + 1 :]
         for m in range(below):
             rest[m] -= shares[m] * value
-    for j in range(n - 1, _DIAGONAL - 1, -1):
+    for j in range(end - 1, begin + _DIAGONAL - 1, -1):
         value = values[j] * factors[j, _DIAGONAL]
         values[j] = value
         rest, shares = values[j - _DIAGONAL : j], factors[j]
         for m in range(_DIAGONAL):
             rest[m] -= shares[m] * value
-    for j in range(min(n, _DIAGONAL) - 1, -1, -1):
+    for j in range(min(end, begin + _DIAGONAL) - 1, begin - 1, -1):
         value = values[j] * factors[j, _DIAGONAL]
         values[j] = value
-        rest, shares = values[:j], factors[j, _DIAGONAL - j :]
-        for m in range(j):
+        rest, shares = values[begin:j], factors[j, _DIAGONAL - j + begin :]
+        for m in range(j - begin):
             rest[m] -= shares[m] * value
-    for j in range(n):
+    for j in range(begin, end):
         values[j] *= scale
 
 
@@ -138,16 +149,15 @@ class RowSmoother:
         shortest = min(wave_number * grid.dy, 0.55 * np.pi)
         across = np.cos(shortest * np.arange(5.0))
         band = np.zeros((ny * nx, 2 * _BELOW + _ABOVE + 1), dtype=np.float32)
-        fill_rows(
-            operator.matrix.indptr,
-            operator.matrix.indices,
-            operator.matrix.data,
-            operator.free,
-            wave_deflection(grid, wave_number),
-            across,
-            grid.sides.period(ny),
-            band,
+        matrix, local = operator.matrix, wave_deflection(grid, wave_number)
+        compressed = matrix.indptr, matrix.indices, matrix.data
+        period = grid.sides.period(ny)
+        grid.workers.share(
+            lambda rows: fill_rows(*compressed, operator.free, local, across, period, rows, band),
+            ny,
+            nx,
         )
+        self._shape, self._workers = (ny, nx), grid.workers
         factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)
         self._factors = np.ascontiguousarray(factors.T)
         self._factors[:, _DIAGONAL] = 1.0 / self._factors[:, _DIAGONAL]
@@ -157,7 +167,11 @@ class RowSmoother:
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
         values = np.array(residual, dtype=Single, order="C")
-        solve_bands(self._factors, self._pivots, self._free, self._damping, values.reshape(-1))
+        flat, nx = values.reshape(-1), self._shape[1]
+        given = self._factors, self._pivots, self._free, self._damping
+        self._workers.share(
+            lambda rows: solve_bands(*given, rows[0] * nx, rows[1] * nx, flat), *self._shape
+        )
         return values
 
 
