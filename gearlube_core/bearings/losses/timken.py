@@ -35,7 +35,7 @@ def timken_torque(G1: float, speed: float, axial_load: float, eta0: float) -> fl
     -----
     Coefficient and exponents are not checked against the printed source. [witte_1973] has the
     exponents 2/3 and 1/3.
-    Source: [timken_manual]
+    Source: [timken_2011]
     """
     n = speed * 30.0 / math.pi
     return COEFFICIENT * G1 * (n * 1e3 * eta0) ** 0.62 * axial_load**0.3
