@@ -87,8 +87,8 @@ class BearingGeometry:
         Factors of `palmgren_1959` [-].
     timken_g1 : float
         Geometry factor of `timken`; 0: not known [-].
-    rolling_scale : float
-        Measured over computed rolling torque; 1: not calibrated [-].
+    rolling_scale : float, optional
+        Measured over computed rolling torque; None: not calibrated [-].
     solid : Solid
         Rollers and races.
 
@@ -113,7 +113,7 @@ class BearingGeometry:
     f0: float = F0_TAPERED_OIL_BATH
     f1: float = F1_TAPERED
     timken_g1: float = 0.0
-    rolling_scale: float = 1.0
+    rolling_scale: float | None = None
     solid: Solid = STEEL_MOHAMMADPOUR_2015
 
     def __post_init__(self) -> None:
@@ -129,7 +129,8 @@ class BearingGeometry:
         check_within("f0", self.f0, 0.0, 100.0)
         check_within("f1", self.f1, 0.0, 0.1)
         check_within("timken_g1", self.timken_g1, 0.0, 1e4)
-        check_within("rolling_scale", self.rolling_scale, 0.05, 5.0)
+        if self.rolling_scale is not None:
+            check_within("rolling_scale", self.rolling_scale, 0.05, 5.0)
         self._check_rollers()
         self._check_apex()
 
@@ -264,7 +265,7 @@ class BearingGeometry:
             rib_share=math.sin(2.0 * self.half_cone),
             reduced_modulus=reduced_modulus(self.solid, self.solid),
             roughness=float(self.roughness),
-            rolling_scale=float(self.rolling_scale),
+            rolling_scale=1.0 if self.rolling_scale is None else float(self.rolling_scale),
             rib=self._rib_parameters(),
         )
 

@@ -16,6 +16,7 @@ ROLLING_LAWS = {
     "goksem_hargreaves": GOKSEM_HARGREAVES,
     "aihara": AIHARA,
 }
+MATERIAL_LIMIT_WORDS = "M 0.2 to 200, L 4 to 16"  # range of biboulet_houpert_2010
 CATALOGUE_LAWS = ("palmgren", "skf", "timken")
 LAWS = (*ROLLING_LAWS, *CATALOGUE_LAWS)
 

@@ -27,7 +27,10 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
 
 DEFAULT_LAW = "zhou_hoeprich"
-UNCALIBRATED, CALIBRATED = 2.0, 1.25  # factors of the error bar, k = 2
+# Factors of the error bar, k = 2. A priori 2: the state of lubrication is not known. Two laws miss
+# the measured bearing 32216 by more, 2.6 and 2.01 (docs/bearing.md).
+UNCALIBRATED = dict.fromkeys(LAWS, 2.0) | {"biboulet_houpert": 3.0, "skf": 2.5}
+CALIBRATED = 1.25  # with a measured torque of the bearing
 LARGEST_PRESSURE = 4e9  # Pa, static limit of rolling bearings with line contact
 LARGEST_SPEED_FACTOR = 1500.0 * math.pi / 30.0  # m rad/s: n d_m of 1.5e6 mm/min
 PARTS = ("rolling", "sliding", "rib", "drag", "hysteresis", "viscous", "load", "whole")
@@ -113,13 +116,14 @@ def bearing_loss(
     Notes
     -----
     The error bar is a factor of 2 (k = 2) for a bearing that was not calibrated: the state of
-    lubrication is not known. With `rolling_scale` from a measured torque it is 1.25.
+    lubrication is not known. Laws that miss the one measured bearing by more have a wider one. With
+    `rolling_scale` from a measured torque it is 1.25 for the laws of the raceways.
     """
     check_condition(geometry, oil, model, speed, axial_load, radial_load, temperature)
     state = lubricant_state(oil.parameters(), temperature + model.temperature_rise)
     rows = geometry.rows
     F_a, F_r = axial_load / rows, radial_load / rows
-    factor = UNCALIBRATED
+    factor = UNCALIBRATED[model.law]
     nan = math.nan
     if model.law == "skf":
         rolling, sliding = skf_torque(geometry.skf(), speed, F_a, F_r, state.nu)
@@ -150,7 +154,7 @@ def bearing_loss(
         "drag": per * found.drag,
         "hysteresis": per * found.hysteresis,
     }
-    if geometry.rolling_scale != 1.0:
+    if geometry.rolling_scale is not None:
         factor = CALIBRATED
     return _sum(
         parts,
