@@ -140,7 +140,7 @@ def test_flow_factors_multiply_the_flow_of_both_forms(oblique) -> None:
     # slopes of the factors as if ln(eta) were all that they depend on by pressure
     growth = TensorSlopes(*(NodeSlopes(*rng.uniform(0.5, 3.0, (4, 3, 4))) for _ in range(3)))
 
-    def rates(thickening):
+    def rates(thickening, rows=None):
         return TensorSlopes(
             *(part._replace(by_pressure=part.by_pressure * thickening) for part in growth)
         )

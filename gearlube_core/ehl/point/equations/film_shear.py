@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.ehl.point.equations.factor_fields import (
+    FactorWork,
     ShearUnits,
     fill_factor_slopes,
     fill_shear_factors,
@@ -154,15 +155,19 @@ class FilmShear:
             self.limit,
             self.limit_slope,
         )
-        along, across = np.empty((2, *pressure.shape))
-        fill_shear_factors(self.law, pressure, film, fluidity, units, along, across)
+        ny, nx = pressure.shape
+        along, across = np.empty((2, ny, nx))
+        stress, work = np.empty((2, ny, nx)), FactorWork.empty(nx)
+        fields = self.law, pressure, film, fluidity
+        fill_shear_factors(*fields, units, (0, ny), work, along, across, stress)
         for one in (along, across):
             self.sides.fill(one)
         c, s = self.cosine, self.sine
 
-        def rates(thickening: Array) -> TensorSlopes:
-            by = np.empty((2, 4, *pressure.shape))
-            fill_factor_slopes(self.law, pressure, film, fluidity, thickening, units, *by)
+        def rates(thickening: Array, rows: Flags | None = None) -> TensorSlopes:
+            by = np.empty((2, 4, ny, nx))
+            wanted = self._beside(rows, (ny, nx))
+            fill_factor_slopes(*fields, thickening, units, stress, wanted, (0, ny), work, *by)
             for one in by:
                 for k in range(3):
                     self.sides.fill(one[k])
@@ -179,6 +184,21 @@ class FilmShear:
         if abs(c) > abs(s):
             return AlignedFactors(along, across, rates)
         return AlignedFactors(across, along, rates)
+
+    def _beside(self, rows: Flags | None, shape: tuple[int, int]) -> Flags:
+        """Return nodes and those beside them, with the rows that copied ones are taken from."""
+        if rows is None:
+            return np.ones(shape, dtype=np.bool_)
+        wanted = rows.copy()
+        wanted[1:] |= rows[:-1]
+        wanted[:-1] |= rows[1:]
+        across = wanted.copy()
+        wanted[:, 1:] |= across[:, :-1]
+        wanted[:, :-1] |= across[:, 1:]
+        own = self.sides.own_rows(shape[0])
+        for end in (0, -1):
+            wanted[own[end]] |= wanted[end]
+        return wanted
 
     def _turned(self, along: Array, across: Array) -> TensorSlopes:
         c, s = self.cosine, self.sine

@@ -82,7 +82,7 @@ class Differences:
         """
         shear, flow = state.shear, state.film_flow
         count = SHEARED_NEIGHBOURS if shear.sheared else NEIGHBOURS
-        slopes = shear.slopes(state.dense, state.viscosity_slope)
+        slopes = shear.slopes(state.dense, state.viscosity_slope, rows)
         by_pressure, by_film = np.empty((2, count, *state.film.shape))
         reynolds_derivatives(
             stencil,
