@@ -185,7 +185,8 @@ def check_condition(
     rpm = 30.0 / math.pi
     cure = f"That is {most * rpm:.4g} rpm, 1.5e6 mm/min on the pitch diameter."
     check_within("speed", speed, 0.0, most, "rad/s", cure)
-    check_within("axial_load", axial_load, 1e-3, 1e8, "N", "6 kN is 6000 N.")
+    cure = "A tapered roller bearing needs an axial load, of its pair or from outside."
+    check_within("axial_load", axial_load, 1e-3, 1e8, "N", cure)
     check_within("radial_load", radial_load, 0.0, 1e8, "N", "6 kN is 6000 N.")
     oil.check_temperature(temperature)
     if model.temperature_rise:
