@@ -226,8 +226,9 @@ def picture() -> Any:
                 torque = np.array([one.torque for one in curve])
                 if law == DEFAULT_LAW:
                     factor = curve[0].factor
-                    ax.fill_between(speeds, torque / factor, torque * factor, color=GREY, alpha=0.35,
-                                    lw=0.0, label="its error bar, k = 2")  # fmt: skip
+                    ends = torque / factor, torque * factor
+                    words = "error bar of the default, k = 2"
+                    ax.fill_between(speeds, *ends, color=GREY, alpha=0.35, lw=0.0, label=words)
                 ax.plot(speeds, torque, color=SERIES[i], label=LAW_NAMES[law])
             here = [point for point in POINTS if (point.degc, point.radial) == (degc, radial)]
             ax.errorbar(
