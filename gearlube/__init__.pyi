@@ -113,6 +113,10 @@ from gearlube_core.bearings.losses.loss import bearing_loss as bearing_loss
 from gearlube.studies.bearing.settings import BearingSettings as BearingSettings
 from gearlube.studies.bearing.run import run_bearing as run_bearing
 
+# -- Study: loss map of an axle
+from gearlube.studies.loss_map.settings import LossMapSettings as LossMapSettings
+from gearlube.studies.loss_map.run import run_loss_map as run_loss_map
+
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
 from gearlube.studies.helical.run import run_helical as run_helical

@@ -30,6 +30,7 @@ _RESULTS = frozenset(
         "line_mesh.nc",
         "geometry.nc",
         "bearing.nc",
+        "map.nc",
     }
 )
 

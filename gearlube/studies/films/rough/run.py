@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from gearlube.studies.films.results import begin
 from gearlube.studies.films.rough.files import read_frames, write_frame, write_rough_results
 from gearlube.studies.films.rough.gather import Gathered, new_statistics
 from gearlube.studies.films.rough.plan import disk_need
@@ -82,9 +83,8 @@ def run_rough(
     if folder is not None:
         need = disk_need(case, folder)
         logger.info("%s %.0f MB are free.", need.sentence, 1e-6 * need.free)
-        folder.mkdir(parents=True, exist_ok=True)
+    begin(folder, progress, "smooth film")
     record = None if folder is None else _record(folder, key)
-    progress(0.0, "smooth film")
     gathered = Gathered(case)
     if record is not None:
         gathered.unpack(record.curves)
