@@ -34,6 +34,7 @@ def run_rough(
     *,
     steps: int | None = None,
     folder: Path | None = None,
+    threads: int = 1,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Return the statistics of a contact that becomes rough, step by step.
@@ -48,6 +49,8 @@ def run_rough(
         Where rough.nc, summary.csv, figures, kept films and the record of the march are written.
         A march goes on from its record there, to the bit as if it had not stopped. None: nothing
         is written.
+    threads
+        That share the work on rows, 1 to 64; results do not depend on it, to the bit.
     progress
         Called with the share done and what is done now.
 
@@ -89,7 +92,12 @@ def run_rough(
     if record is not None:
         gathered.unpack(record.curves)
     march = FilmMarch(
-        case.film(), schedule.time_step, settings=case.settings(), record=record, throw=True
+        case.film(),
+        schedule.time_step,
+        settings=case.settings(),
+        record=record,
+        throw=True,
+        threads=threads,
     )
     if record is None:
         gathered.add(march.solution)
