@@ -64,7 +64,7 @@ def parts_of_first_law(dataset: xr.Dataset) -> Any:
         figure = new_figure(4.6 * len(places), 4.4)
         panels = figure.subplots(1, len(places), squeeze=False, sharey=True)[0]
         for ax, place in zip(panels, places, strict=True):
-            at = dataset.sel(law=law, **place)
+            at = dataset.sel(law=law).sel(place)
             ax.plot(x, _above_zero(at["torque"].values), color="black", label="total")
             for i, part in enumerate(dataset["part"].values):
                 torque = at["part_torque"].sel(part=part).values
