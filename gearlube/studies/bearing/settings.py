@@ -31,6 +31,12 @@ class BearingSettings:
         Of the oil at the bearing [K].
     models : tuple of LossModel
         The laws; the first is the one whose parts are drawn.
+
+    Examples
+    --------
+    >>> settings = BearingSettings.of_file(BearingFile.named("wingertszahn_2023"))
+    >>> settings.points  # conditions times laws
+    72
     """
 
     speeds: tuple[float, ...]
