@@ -28,6 +28,7 @@ page may change without notice. Whole scripts stand in `examples/`:
 [an axle under a torque ramp](../examples/axle_torque_ramp.py),
 [a film with your own oil](../examples/film_with_own_oil.py),
 [from a helical gear to its transmission error](../examples/helical_transmission_error.py),
+[a film under a measured profile](../examples/rough_own_profile.py),
 [a sliding point contact](../examples/sliding_point_contact.py) and
 [a speed sweep](../examples/speed_sweep.py).
 

@@ -40,6 +40,11 @@ ROUGH = {
     "frames": "[frames]: films that are kept, and records",
 }
 
+ROLLING = """
+Equal speeds are a valid case, also of an Eyring oil: the film is the limit of small sliding, and
+neither oil nor touching solids make friction, which would have no direction.
+"""
+
 HEAD = """# The case files of lubricated line and point contacts and of hypoid flanks
 
 The tables and the text are written by `python -m docs.ehl_case_file` from the data models in
@@ -159,6 +164,7 @@ def page() -> str:
         + "\n## Fields of a hypoid flank\n"
         + field_tables(HypoidCase, HYPOID)
         + "\n## Fields of a rough line contact\n"
+        + ROLLING
         + field_tables(RoughCase, ROUGH)
         + TAIL
     )

@@ -105,6 +105,10 @@ from gearlube_core.ehl.statistics.rough_film import statistics_of_run as statist
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact
 
+# -- Study: loss map of an axle
+from gearlube.studies.loss_map.settings import LossMapSettings as LossMapSettings
+from gearlube.studies.loss_map.run import run_loss_map as run_loss_map
+
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
 from gearlube.studies.helical.run import run_helical as run_helical

@@ -32,6 +32,12 @@ COMMANDS = (
         summary="Check an axle file and show its inputs.",
     ),
     LazyCommand(
+        name="map",
+        target="gearlube.studies.loss_map.command:loss_map",
+        summary="Map the losses of an axle over torque, speed and oil temperature.",
+        command_class="MapCommand",
+    ),
+    LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",

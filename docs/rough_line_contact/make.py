@@ -22,7 +22,8 @@ from gearlube.studies.films.figures.rough import (
     rough_history,
     rough_thin_films,
 )
-from gearlube.studies.films.rough.files import frame_file, summary_rows
+from gearlube.studies.films.figures.rough_animation import save_rough_animation
+from gearlube.studies.films.rough.files import frame_file, read_frames, summary_rows
 from gearlube.studies.films.rough.run import run_rough
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.storage.atomic_file import write_text
@@ -39,6 +40,15 @@ GRID: dict[str, Any] = {
     "times.steps_per_half_width": 80,
     "frames.steps": [],
     "frames.every": 20,
+}
+# minutes: for the animation alone, waves from 80 um on
+LIGHT: dict[str, Any] = GRID | {
+    "solver.nodes_x": 161,
+    "solver.rows": 24,
+    "surface_1.cutoff_um": 80.0,
+    "surface_2.cutoff_um": 80.0,
+    "times.steps_per_half_width": 40,
+    "frames.every": 8,
 }
 CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "crossed": ("jamali_2015_a", {}),
@@ -66,6 +76,18 @@ def marched(work: Path) -> dict[str, xr.Dataset]:
             run_rough(case, folder=folder)
         found[name] = xr.load_dataset(done, engine="scipy")
     return found
+
+
+def animation(work: Path) -> None:
+    """March a light run and draw its films as docs/images/rough_film.gif."""
+    case, folder = RoughCase.named("jamali_2015_a").varied(LIGHT), work / "light"
+    if not (folder / "rough.nc").exists():
+        logger.info("light")
+        run_rough(case, folder=folder)
+    films = xr.concat(list(read_frames(folder, case.key())), "time")
+    save_rough_animation(
+        films.isel(time=slice(1, None)), IMAGES / "rough_film.gif", per_second=8, dots_per_inch=64
+    )
 
 
 def frames(work: Path, name: str) -> xr.Dataset:
@@ -152,6 +174,7 @@ def _side_numbers(work: Path) -> list[tuple[str, str, float, str]]:
 
 def main(work: Path) -> None:
     """March, draw, write."""
+    animation(work)
     found = marched(work)
     shown = {TITLES[name]: found[name] for name in TITLES}
     step = float(found["crossed"].attrs["time_step"])

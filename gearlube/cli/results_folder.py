@@ -29,6 +29,7 @@ _RESULTS = frozenset(
         "compare.png",
         "line_mesh.nc",
         "geometry.nc",
+        "map.nc",
     }
 )
 

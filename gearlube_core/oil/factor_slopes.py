@@ -25,7 +25,7 @@ from gearlube_core.oil.shear_flow import (
 from gearlube_core.oil.shear_law import rate_ratio
 
 # a smaller Sigma along sliding gives way to this: the factor changes with its square
-_SMALL_SIGMA = 1.0e-4
+SMALL_SIGMA = 1.0e-4
 
 
 class FactorSlopes(NamedTuple):
@@ -43,7 +43,7 @@ class FactorSlopes(NamedTuple):
     across_limit: float
 
 
-class _Means(NamedTuple):
+class Means(NamedTuple):
     """Means across the film of Z^n 2 G' tau_i tau_j, n to 2, and of Z^n 2 G' tau_i, n to 3."""
 
     ss0: float
@@ -65,7 +65,7 @@ class _Means(NamedTuple):
 
 
 @kernel
-def _means(law: Any, e: Equilibrium) -> _Means:
+def _means(law: Any, e: Equilibrium) -> Means:
     ss0 = ss1 = ss2 = sr0 = sr1 = sr2 = rr0 = rr1 = 0.0
     s0 = s1 = s2 = s3 = r0 = r1 = r2 = r3 = 0.0
     for k in range(e.first, e.last):
@@ -91,20 +91,20 @@ def _means(law: Any, e: Equilibrium) -> _Means:
             sr2 += Z * Z * of_s * r
             rr0 += of_r * r
             rr1 += Z * of_r * r
-    return _Means(ss0, ss1, ss2, sr0, sr1, sr2, rr0, rr1, s0, s1, s2, s3, r0, r1, r2, r3)
+    return Means(ss0, ss1, ss2, sr0, sr1, sr2, rr0, rr1, s0, s1, s2, s3, r0, r1, r2, r3)
 
 
 @kernel
-def _changes(
+def factor_changes(
     e: Equilibrium,
-    m: _Means,
+    m: Means,
     along: float,
     d_sigma_s: float,
     d_sigma_r: float,
     d_a: float,
     d_limit: float,
 ) -> tuple[float, float]:
-    # changes of both factors under changes of what sets them
+    """Return the changes of both factors under changes of what sets them."""
     moved_s = (e.g1 + m.ss1) * d_sigma_s + m.sr1 * d_sigma_r
     moved_r = m.sr1 * d_sigma_s + (e.g1 + m.rr1) * d_sigma_r
     k_ss, k_rr = e.g0 + m.ss0, e.g0 + m.rr0
@@ -181,20 +181,20 @@ def factor_slopes_within(
     e = equilibrium(law, sigma_s, sigma_r, a, limit)
     along, across = flow_factors(law, e)
     share = 1.0
-    if abs(sigma_s) < _SMALL_SIGMA:
-        at = math.copysign(_SMALL_SIGMA, sigma_s)
+    if abs(sigma_s) < SMALL_SIGMA:
+        at = math.copysign(SMALL_SIGMA, sigma_s)
         share = sigma_s / at
         e = equilibrium(law, at, sigma_r, a, limit)
     m = _means(law, e)
     near = flow_factors(law, e)[0]
-    along_s, across_s = _changes(e, m, near, 1.0, 0.0, 0.0, 0.0)
-    along_r, across_r = _changes(e, m, near, 0.0, 1.0, 0.0, 0.0)
+    along_s, across_s = factor_changes(e, m, near, 1.0, 0.0, 0.0, 0.0)
+    along_r, across_r = factor_changes(e, m, near, 0.0, 1.0, 0.0, 0.0)
     along_a, across_a = 0.0, 0.0
     if not e.slips and abs(a) < LARGEST_COUETTE:
-        along_a, across_a = _changes(e, m, near, 0.0, 0.0, 1.0, 0.0)
+        along_a, across_a = factor_changes(e, m, near, 0.0, 0.0, 1.0, 0.0)
     along_limit, across_limit = 0.0, 0.0
     if e.slips:
-        along_limit, across_limit = _changes(e, m, near, 0.0, 0.0, 0.0, 1.0)
+        along_limit, across_limit = factor_changes(e, m, near, 0.0, 0.0, 0.0, 1.0)
     return FactorSlopes(
         along,
         share * along_s,

@@ -198,6 +198,6 @@ def lubricant_names() -> tuple[str, ...]:
     Examples
     --------
     >>> lubricant_names()
-    ('jamali_2015', 'karagiannis_2012', 'mohammadpour_2015')
+    ('fva_3', 'jamali_2015', 'karagiannis_2012', 'mohammadpour_2015')
     """
     return tuple(read_library())

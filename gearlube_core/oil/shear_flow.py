@@ -29,8 +29,8 @@ _END = 1.0e-13  # a step of roundings
 # Gauss-Legendre nodes above zero and their weights, one rule after the other; a rule with n
 # nodes is exact to 1e-10 up to the Sigma beside it
 _RULES = ((4, 0.13), (6, 0.95), (8, 2.6), (12, 8.0), (20, 27.0), (40, 1e300))
-_STARTS = np.cumsum([0] + [n // 2 for n, _ in _RULES])
-_REACHES = np.array([reach for _, reach in _RULES])
+STARTS = np.cumsum([0] + [n // 2 for n, _ in _RULES])
+REACHES = np.array([reach for _, reach in _RULES])
 NODES = np.concatenate([np.polynomial.legendre.leggauss(n)[0][n // 2 :] for n, _ in _RULES])
 WEIGHTS = np.concatenate([np.polynomial.legendre.leggauss(n)[1][n // 2 :] for n, _ in _RULES])
 
@@ -179,9 +179,9 @@ def equilibrium(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float
         size = LARGEST_SIGMA
     a = min(max(a, -LARGEST_COUETTE), LARGEST_COUETTE)
     rule = 0
-    while size > _REACHES[rule]:
+    while size > REACHES[rule]:
         rule += 1
-    first, last = _STARTS[rule], _STARTS[rule + 1]
+    first, last = STARTS[rule], STARTS[rule + 1]
     goal = math.asinh(a)
     start = eyring_mean_stress(size, a, 1.0)
     T_s, T_r, found = start, 0.0, False

@@ -199,8 +199,9 @@ def test_arrays_hold_the_tensor_of_every_node_and_turn_with_sliding():
     flow = shear_flow(
         EYRING, half * slope_x, half * slope_y, 0.5 * eta[j, i] / (film[j, i] * 6e6), UNLIMITED
     )
-    assert along_x.xx[j, i] == pytest.approx(flow.along, rel=1e-12)
-    assert along_x.yy[j, i] == pytest.approx(flow.across, rel=1e-12)
+    # many points and one end their iterations at other roundings of the stress, found to 1e-9
+    assert along_x.xx[j, i] == pytest.approx(flow.along, rel=1e-9)
+    assert along_x.yy[j, i] == pytest.approx(flow.across, rel=1e-9)
     # mirrored in the diagonal, sliding along y is sliding along x
     turned = (np.ascontiguousarray(values.T) for values in fields)
     diagonal = shear_of(oil, (0.0, -0.5), y, x).factors(*turned)

@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from PIL import Image
 
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.studies.films.rough import plan, run
-from gearlube.studies.films.rough.files import frame_files
+from gearlube.studies.films.rough.files import frame_files, read_frames
 from gearlube.studies.films.rough.run import run_rough, statistics_again
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.transient.march import FilmMarch
@@ -100,6 +101,29 @@ def test_statistics_again_come_from_kept_films_alone(whole, case, monkeypatch):
         for name in ("film_min", "pressure_max", "film_mean", "friction_coefficient"):
             assert found[name].values == pytest.approx(every[name].values, rel=1e-6)
     assert (whole / "frames.nc").exists()
+
+
+def test_the_animation_shows_every_kept_film_of_a_finished_run(whole, case, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    shutil.copytree(whole, out)
+    monkeypatch.setattr(run, "FilmMarch", None)  # nothing is marched
+    given = ("rough", str(case), "--out", str(out), "--overwrite", "--statistics")
+    assert command(*given, "--animation").exit_code == 0
+    with Image.open(out / "animation.gif") as animation:
+        assert animation.n_frames == 5
+
+
+def test_an_animation_without_kept_films_is_refused_before_the_march(case, tmp_path, caplog):
+    # films are kept at step 0 and at 5, 10, 15, 20
+    given = ("rough", str(case), "--out", str(tmp_path / "out"), "--animation", "--steps", "4")
+    assert command(*given).exit_code == BAD_ARGUMENT
+    assert "at least 2 films for an animation, got 1 up to step 4" in caplog.text
+    assert not (tmp_path / "out").exists()
+
+
+def test_of_many_kept_films_an_even_choice_is_animated(whole, case):
+    key = RoughCase.from_toml(case).key()
+    assert [one.attrs["step"] for one in read_frames(whole, key, 3)] == [0, 10, 20]
 
 
 def test_a_stopped_march_goes_on_to_the_bit(case, tmp_path, whole):

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import runpy
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 from examples.axle_torque_ramp import ramp
@@ -42,3 +45,17 @@ def test_friction_of_the_ball_rises_with_sliding_and_its_film_hardly_changes():
     assert 0.0 < some < more < 0.1
     # an Eyring oil thins with sliding, by less than 2 % at this slide-roll ratio
     assert film == pytest.approx(still, rel=0.02)
+
+
+@pytest.mark.slow  # 30 steps of a film, some seconds
+def test_the_measured_profile_presses_its_peaks_through_the_film(monkeypatch):
+    monkeypatch.chdir(Path(__file__).parents[2])
+    films = runpy.run_path("examples/rough_own_profile.py")["films"]
+    assert films.attrs["converged"]
+    # 200 N/mm over 1 mm, to the tolerance of the load
+    assert films["film_load"].values == pytest.approx(np.full(films.sizes["time"], 200.0), rel=2e-4)
+    # Hertz: p = sqrt(w E*/(pi R)), steel of 210 GPa and 0.3 on both sides; roughness stands upon it
+    hertz = math.sqrt(2e5 * 210e9 / (2.0 * (1.0 - 0.3**2)) / (math.pi * 0.014))
+    assert films["pressure_max"].values[0] == pytest.approx(hertz, rel=0.05)
+    assert films["pressure_max"].values[-1] > 1.2 * hertz
+    assert films["film_min"].values[-1] < 0.8 * films["film_min"].values[0]

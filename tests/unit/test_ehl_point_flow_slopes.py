@@ -101,6 +101,7 @@ def test_derivatives_of_a_sheared_film_are_those_of_the_residual(monkeypatch) ->
         film,
         sheared.slopes(),
         free,
+        (0, SHAPE[0]),
         by_pressure,
         by_film,
     )
@@ -140,7 +141,7 @@ def test_flow_factors_multiply_the_flow_of_both_forms(oblique) -> None:
     # slopes of the factors as if ln(eta) were all that they depend on by pressure
     growth = TensorSlopes(*(NodeSlopes(*rng.uniform(0.5, 3.0, (4, 3, 4))) for _ in range(3)))
 
-    def rates(thickening):
+    def rates(thickening, rows=None):
         return TensorSlopes(
             *(part._replace(by_pressure=part.by_pressure * thickening) for part in growth)
         )

@@ -13,6 +13,7 @@ from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.time_error import TimeError
 from gearlube_core.ehl.transient import deflection_window
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
+from gearlube_core.kernels.row_workers import ALONE
 from gearlube_core.oil.eyring_1936 import Eyring
 from tests.helpers.source_of import interpret
 
@@ -30,7 +31,12 @@ def window(monkeypatch):
 
     monkeypatch.setattr(deflection_window, "HalfSpaceConvolution", convolution)
     grid = SimpleNamespace(
-        shape=SHAPE, graded=False, coefficients=np.zeros(SHAPE), modes=None, sides=AMBIENT
+        shape=SHAPE,
+        graded=False,
+        coefficients=np.zeros(SHAPE),
+        modes=None,
+        sides=AMBIENT,
+        workers=ALONE,
     )
     return WindowedDeflection(grid), made
 
@@ -88,17 +94,21 @@ def test_error_of_a_step_is_carried_where_the_oil_is_pressed_or_has_left_the_con
 def test_film_without_slopes_and_sliding_flows_as_a_newtonian(monkeypatch):
     interpret(monkeypatch, factor_fields)
     along, across = np.full((2, 5, 6), np.nan)
+    stress, all_rows = np.full((2, 5, 6), np.nan), ((0, 5), factor_fields.FactorWork.empty(6))
     units = ShearUnits(np.zeros(5), np.full(6, 0.3), 0.2, 0.8, 0.6, 0.0, 0.0)
     flat, thick = np.full((5, 6), 0.4), np.ones((5, 6))
     arguments = Eyring(5e6), flat, thick, thick
-    factor_fields.fill_shear_factors(*arguments, units, along, across)
+    factor_fields.fill_shear_factors(*arguments, units, *all_rows, along, across, stress)
     for one in (along, across):
         assert one == pytest.approx(np.ones((5, 6)), abs=1e-12)
     slopes = np.full((2, 4, 5, 6), np.nan)
-    factor_fields.fill_factor_slopes(*arguments, thick, units, *slopes)
+    wanted = np.ones((5, 6), dtype=bool)
+    rest = units, stress, wanted, *all_rows
+    factor_fields.fill_factor_slopes(*arguments, thick, *rest, *slopes)
     assert (slopes == 0.0).all()
     # beside the border a film without height keeps its factors too
-    factor_fields.fill_shear_factors(Eyring(5e6), flat, 0.0 * thick, thick, units, along, across)
+    arguments = Eyring(5e6), flat, 0.0 * thick, thick
+    factor_fields.fill_shear_factors(*arguments, units, *all_rows, along, across, stress)
     assert (along == 1.0).all()
-    factor_fields.fill_factor_slopes(Eyring(5e6), flat, 0.0 * thick, thick, thick, units, *slopes)
+    factor_fields.fill_factor_slopes(*arguments, thick, *rest, *slopes)
     assert (slopes == 0.0).all()

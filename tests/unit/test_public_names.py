@@ -16,6 +16,7 @@ SCRIPTS = (
     "axle_torque_ramp",
     "film_with_own_oil",
     "helical_transmission_error",
+    "rough_own_profile",
     "sliding_point_contact",
     "speed_sweep",
 )

@@ -162,7 +162,7 @@ def test_wrong_cases_are_refused_with_what_to_do(changes, words):
         case(**given)
 
 
-def test_pure_rolling_of_an_eyring_oil_is_a_case_like_others():
+def test_surfaces_of_equal_speed_take_as_many_steps_as_either_needs():
     rolling = case(speed_1_m_s=6.71, speed_2_m_s=6.71)
     assert rolling.section().sliding == (0.0, 0.0)
     # both surfaces move alike: as many steps for five half widths of either

@@ -15,8 +15,8 @@ from gearlube.studies.films.figures.rough import (
     rough_frame,
     rough_history,
     rough_thin_films,
-    save_rough_animation,
 )
+from gearlube.studies.films.figures.rough_animation import save_rough_animation
 from gearlube_core.ehl.statistics.rough_film import RoughFilmStatistics
 from gearlube_core.ehl.statistics.zone import FilmZone
 from gearlube_core.errors import ParameterError
@@ -116,7 +116,24 @@ def test_animation_has_a_picture_for_every_frame_and_leaves_no_part(tmp_path: Pa
     with Image.open(path) as animation:
         assert animation.n_frames == 3
         assert animation.info["duration"] == 100
+        shown = []
+        for k in range(3):
+            animation.seek(k)
+            shown.append(np.asarray(animation.convert("RGB"), dtype=float))
     assert [file.name for file in tmp_path.iterdir()] == ["film.gif"]
+    # one scale of colours: the pressure of 1 to 3 GPa brightens its map picture by picture,
+    # the film and its colour bar stay as they are
+    height = shown[0].shape[0]
+    pressure = [one[: height // 3].mean() for one in shown]
+    assert pressure[0] < pressure[1] < pressure[2]
+    middle = slice(int(0.42 * height), int(0.6 * height))
+    for one in shown[1:]:
+        assert np.abs(one[middle] - shown[0][middle]).mean() < 1.0
+
+
+def test_an_animation_of_one_film_is_refused(tmp_path: Path):
+    with pytest.raises(ParameterError, match="at least 2 films over time, got 1"):
+        save_rough_animation(frames(4.5e-9).isel(time=[0]), tmp_path / "film.gif")
 
 
 def test_figures_ask_for_runs_by_name():

@@ -35,10 +35,10 @@ class FilmFriction:
     oil
         With its shear law and limiting stress.
     sliding
-        u_2 - u_1 along x and y [m/s].
+        u_2 - u_1 along x and y [m/s]; (0, 0) in pure rolling.
     solid_coefficient
         Friction coefficient of touching solids [-]. No law gives it: take that of the oil's
-        boundary layers.
+        boundary layers. Without sliding it says nothing, and solids count as free of friction.
 
     Examples
     --------
@@ -181,7 +181,9 @@ class RoughFilmStatistics:
         shear = point_traction(x, y, oil_pressure, film, given.sliding, given.oil)
         cells = self.zone.cells
         sheared = float((shear.mean_stress * cells).sum())
-        return sheared, given.solid_coefficient * float((solids * cells).sum())
+        # friction is against the sliding: without any it has no direction
+        coefficient = given.solid_coefficient if any(given.sliding) else 0.0
+        return sheared, coefficient * float((solids * cells).sum())
 
     def _check(self, time: float, film: Array, pressure: Array) -> None:
         shape = self.zone.inside.shape

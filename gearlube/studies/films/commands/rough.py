@@ -28,9 +28,15 @@ def rough(
     sides: Annotated[
         str | None, typer.Option(help="What the film meets along y.", metavar="cyclic|no_flow")
     ] = None,
+    threads: Annotated[
+        int, typer.Option(help="Threads that share the work; results do not depend on it.")
+    ] = 1,
     statistics: Annotated[
         bool,
         typer.Option("--statistics", help="Statistics of the kept films in OUT; nothing marches."),
+    ] = False,
+    animation: Annotated[
+        bool, typer.Option("--animation", help="Also draw the kept films as animation.gif.")
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_rough"),
     overwrite: OverwriteOption = False,
@@ -40,6 +46,7 @@ def rough(
 
     A stopped march goes on from its record in OUT. Options given here replace those of the case.
     """
+    from gearlube.studies.films.rough.animation import ANIMATION, check_animation, write_animation
     from gearlube.studies.films.rough.files import summary_rows
     from gearlube.studies.films.rough.run import run_rough, statistics_again
     from gearlube_core.ehl.case.rough_case import RoughCase
@@ -52,15 +59,24 @@ def rough(
         given = {name: value for name, value in changes.items() if value is not None}
         file = RoughCase.given(case)
         file = file.varied(given) if given else file
+        if animation and not statistics:
+            check_animation(file, steps)
         with results_folder(out, "ehl rough", overwrite=overwrite):
             if statistics:
                 dataset = statistics_again(file, out)
             else:
                 with progress_on(console, "steps") as progress:
-                    dataset = run_rough(file, steps=steps, folder=out, progress=progress)
+                    dataset = run_rough(
+                        file, steps=steps, folder=out, threads=threads, progress=progress
+                    )
+            if animation:
+                with progress_on(console, "animation") as progress:
+                    write_animation(file, out, progress)
     for quantity, value, unit in summary_rows(dataset):
         logger.info("%s: %.4g%s", quantity.capitalize(), value, "" if unit == "1" else f" {unit}")
     logger.info("Results: %s", out / ("frames.nc" if statistics else "rough.nc"))
+    if animation:
+        logger.info("Animation: %s", out / ANIMATION)
     outcome = str(dataset.attrs["outcome"])
     exit_if_failed("" if dataset.attrs["converged"] else outcome)
     logger.info("%s", outcome)

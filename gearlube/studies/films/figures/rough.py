@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ import xarray as xr
 from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-from gearlube_core.progress import Progress, no_progress
 
 _MICROMETRE, _NANOMETRE, _MILLIMETRE, _GIGAPASCAL = 1e-6, 1e-9, 1e-3, 1e9
 _LEAST_FILM = 1.0  # nm, end of logarithmic film scales: a film is a continuum no thinner
@@ -128,7 +126,9 @@ def rough_thin_films(runs: Runs) -> Any:
     return figure
 
 
-def rough_frame(frame: xr.Dataset, highest: float | None = None) -> Any:
+def rough_frame(
+    frame: xr.Dataset, highest: float | None = None, thickest: float | None = None
+) -> Any:
     """Draw film and pressure of one moment as maps, with the middle row below.
 
     Parameters
@@ -137,6 +137,8 @@ def rough_frame(frame: xr.Dataset, highest: float | None = None) -> Any:
         `film` [m] and `pressure` [Pa] over `x` and `y` [m], with the coordinate `time` [s].
     highest
         Pressure at the end of the colours [Pa]; None: the largest of the frame.
+    thickest
+        Film at the end of the colours [m]; None: `loaded_film` of the frame.
     """
     x, y = frame["x"].values / _MILLIMETRE, frame["y"].values / _MILLIMETRE
     film = frame["film"].transpose("y", "x").values
@@ -149,16 +151,17 @@ def rough_frame(frame: xr.Dataset, highest: float | None = None) -> Any:
             x, y, pressure / _GIGAPASCAL, vmin=0.0, vmax=top, cmap="inferno", shading="nearest"
         )
         figure.colorbar(colours, ax=axes[0], label="Pressure [GPa]")
+        limit = (loaded_film(film, pressure) if thickest is None else thickest) / _MICROMETRE
         colours = axes[1].pcolormesh(
-            x, y, film / _MICROMETRE, vmin=0.0, vmax=_loaded_film(film, pressure) / _MICROMETRE,
-            cmap="viridis", shading="nearest",
-        )  # fmt: skip
+            x, y, film / _MICROMETRE, vmin=0.0, vmax=limit, cmap="viridis", shading="nearest"
+        )
         figure.colorbar(colours, ax=axes[1], label="Film [µm]", extend="max")
         for ax in axes[:2]:
             ax.set_ylabel("y [mm]")
             ax.grid(visible=False)
         j = y.size // 2
-        _section(axes[2], x, film[j], pressure[j], top)
+        row = loaded_film(film[j], pressure[j]) if thickest is None else thickest
+        _section(axes[2], x, film[j], pressure[j], top, 2.0 * row / _MICROMETRE)
         axes[2].set_title(f"Row y = {y[j]:.3g} mm", loc="left", fontsize=9)
         axes[2].set_xlabel("x [mm], along the motion")
         if "time" in frame.coords:
@@ -212,58 +215,19 @@ def rough_difference(first: xr.Dataset, second: xr.Dataset, x: float = 0.0) -> A
     return figure
 
 
-def save_rough_animation(
-    frames: xr.Dataset,
-    path: Path | str,
-    *,
-    per_second: int = 12,
-    progress: Progress = no_progress,
-) -> Path:
-    """Write frames over `time` as an animated GIF with one colour scale; return the file.
-
-    Examples
-    --------
-    >>> save_rough_animation(frames, "film.gif")  # doctest: +SKIP
-    """
-    from io import BytesIO
-
-    from PIL import Image
-
-    highest = float(frames["pressure"].max())
-    pictures = []
-    for k in range(frames.sizes["time"]):
-        buffer = BytesIO()
-        rough_frame(frames.isel(time=k), highest).savefig(buffer, format="png", dpi=80)
-        buffer.seek(0)
-        pictures.append(Image.open(buffer).convert("P", palette=Image.Palette.ADAPTIVE))
-        progress((k + 1) / frames.sizes["time"], "animation")
-    path = Path(path)
-    whole = path.with_name(path.name + ".part")
-    pictures[0].save(
-        whole,
-        format="GIF",
-        save_all=True,
-        append_images=pictures[1:],
-        duration=round(1000 / per_second),
-        loop=0,
-    )
-    whole.replace(path)
-    return path
-
-
-def _section(ax: Any, x: Array, film: Array, pressure: Array, top: float) -> None:
+def _section(ax: Any, x: Array, film: Array, pressure: Array, top: float, thickest: float) -> None:
     (line,) = ax.plot(x, pressure / _GIGAPASCAL, color=SERIES[1], lw=1.1, label="pressure")
     ax.set(ylabel="Pressure [GPa]", ylim=(0.0, 1.05 * top))
     right = ax.twinx()
     right.spines["right"].set_visible(True)
     right.grid(visible=False)
     (other,) = right.plot(x, film / _MICROMETRE, color=SERIES[0], lw=1.1, label="film")
-    right.set(ylabel="Film [µm]", ylim=(0.0, 2.0 * _loaded_film(film, pressure) / _MICROMETRE))
+    right.set(ylabel="Film [µm]", ylim=(0.0, thickest))
     ax.legend(handles=[line, other], loc="upper left")
 
 
-def _loaded_film(film: Array, pressure: Array) -> float:
-    """Return a film that most loaded nodes stay below [m]."""
+def loaded_film(film: Array, pressure: Array) -> float:
+    """Return a film that 95 % of the loaded nodes stay below [m]."""
     loaded = film[pressure > _EDGE * pressure.max()]
     return float(np.percentile(loaded, 95.0)) if loaded.size else float(film.max())
 

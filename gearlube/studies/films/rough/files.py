@@ -60,8 +60,8 @@ def frame_files(folder: Path) -> list[Path]:
     return sorted((folder / FRAMES).glob("step_*.nc"))
 
 
-def read_frames(folder: Path, key: str) -> Iterator[xr.Dataset]:
-    """Yield the kept films of a march by rising step, one at a time.
+def read_frames(folder: Path, key: str, most: int | None = None) -> Iterator[xr.Dataset]:
+    """Yield the kept films of a march by rising step, one at a time; of many `most`, evenly.
 
     Raises
     ------
@@ -73,6 +73,8 @@ def read_frames(folder: Path, key: str) -> Iterator[xr.Dataset]:
         raise ParameterError(
             f"{folder / FRAMES} must hold kept films, got none. March with [frames] every or steps."
         )
+    if most is not None and len(files) > most:
+        files = [files[k * (len(files) - 1) // (most - 1)] for k in range(most)]
     for path in files:
         try:
             frame = xr.load_dataset(path, engine="scipy")

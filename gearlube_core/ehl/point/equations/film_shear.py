@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Flags
 from gearlube_core.checks import check_finite, check_positive
 from gearlube_core.ehl.point.equations.factor_fields import (
+    FactorWork,
     ShearUnits,
     fill_factor_slopes,
     fill_shear_factors,
@@ -23,6 +24,7 @@ from gearlube_core.ehl.point.equations.shear_factors import (
 from gearlube_core.ehl.point.equations.stencil import NodeSlopes, TensorSlopes
 from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 from gearlube_core.oil.film_oil import FilmOil
 
 ALIGNED = 1.0e-12  # product of cosine and sine: flow along an axis feels no slope along the other
@@ -44,6 +46,7 @@ class FilmShear:
     limit: float = 0.0  # limiting stress over tau0 at ambient pressure
     limit_slope: float = 0.0  # its slope with pressure
     sides: Sides = AMBIENT  # of the rows
+    workers: RowWorkers = ALONE  # who share the rows
 
     @classmethod
     def of(
@@ -143,6 +146,10 @@ class FilmShear:
             couette=np.full(along.size, self.unit * speed),
         )
 
+    def with_workers(self, workers: RowWorkers) -> FilmShear:
+        """Return the film whose rows these share."""
+        return replace(self, workers=workers)
+
     def factors(self, pressure: Array, film: Array, fluidity: Array) -> AlignedFactors:
         """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
         units = ShearUnits(
@@ -154,15 +161,28 @@ class FilmShear:
             self.limit,
             self.limit_slope,
         )
-        along, across = np.empty((2, *pressure.shape))
-        fill_shear_factors(self.law, pressure, film, fluidity, units, along, across)
+        ny, nx = pressure.shape
+        along, across = np.empty((2, ny, nx))
+        stress = np.empty((2, ny, nx))
+        fields = self.law, pressure, film, fluidity
+        self.workers.share(
+            lambda part: fill_shear_factors(
+                *fields, units, part, FactorWork.empty(nx), along, across, stress
+            ),
+            ny,
+            nx,
+        )
         for one in (along, across):
             self.sides.fill(one)
         c, s = self.cosine, self.sine
 
-        def rates(thickening: Array) -> TensorSlopes:
-            by = np.empty((2, 4, *pressure.shape))
-            fill_factor_slopes(self.law, pressure, film, fluidity, thickening, units, *by)
+        def rates(thickening: Array, rows: Flags | None = None) -> TensorSlopes:
+            by = np.empty((2, 4, ny, nx))
+            wanted = self._beside(rows, (ny, nx))
+            given = *fields, thickening, units, stress, wanted
+            self.workers.share(
+                lambda part: fill_factor_slopes(*given, part, FactorWork.empty(nx), *by), ny, nx
+            )
             for one in by:
                 for k in range(3):
                     self.sides.fill(one[k])
@@ -179,6 +199,21 @@ class FilmShear:
         if abs(c) > abs(s):
             return AlignedFactors(along, across, rates)
         return AlignedFactors(across, along, rates)
+
+    def _beside(self, rows: Flags | None, shape: tuple[int, int]) -> Flags:
+        """Return nodes and those beside them, with the rows that copied ones are taken from."""
+        if rows is None:
+            return np.ones(shape, dtype=np.bool_)
+        wanted = rows.copy()
+        wanted[1:] |= rows[:-1]
+        wanted[:-1] |= rows[1:]
+        across = wanted.copy()
+        wanted[:, 1:] |= across[:, :-1]
+        wanted[:, :-1] |= across[:, 1:]
+        own = self.sides.own_rows(shape[0])
+        for end in (0, -1):
+            wanted[own[end]] |= wanted[end]
+        return wanted
 
     def _turned(self, along: Array, across: Array) -> TensorSlopes:
         c, s = self.cosine, self.sine
@@ -206,6 +241,10 @@ class NewtonianShear:
         return cls(NewtonianFactors(shape))
 
     def with_sliding(self, along: Array, across: float) -> NewtonianShear:
+        """Return the same."""
+        return self
+
+    def with_workers(self, workers: RowWorkers) -> NewtonianShear:
         """Return the same."""
         return self
 

@@ -96,8 +96,11 @@ class NewtonianFactors(NoCrossFlow):
         """Return what pressure along x and y drives oil with."""
         return FilmFlow(cubic_x, fluidity, fluidity, log_viscosity, log_viscosity)
 
-    def slopes(self, dense: Array, thickening: Array) -> FlowSlopes:
-        """Return the derivatives of the flow, from d ln(rho)/dp and d ln(eta)/dp."""
+    def slopes(self, dense: Array, thickening: Array, rows: Flags | None = None) -> FlowSlopes:
+        """Return the derivatives of the flow, from d ln(rho)/dp and d ln(eta)/dp.
+
+        They are right at the nodes `rows` and beside them; None: everywhere.
+        """
         x = self._none._replace(by_pressure=-thickening)
         return FlowSlopes(dense, x, x, self._none, self._none)
 
@@ -118,7 +121,8 @@ class AlignedFactors(NoCrossFlow):
 
     xx: Array
     yy: Array
-    rates: Callable[[Array], TensorSlopes]  # derivatives of the factors, from d ln(eta)/dp
+    # derivatives of the factors, from d ln(eta)/dp and the nodes whose equations want them
+    rates: Callable[..., TensorSlopes]
 
     sheared = True
 
@@ -143,9 +147,12 @@ class AlignedFactors(NoCrossFlow):
     def _cross_slopes(self, rates: TensorSlopes) -> tuple[NodeSlopes, NodeSlopes]:
         return rates.xy, rates.xy
 
-    def slopes(self, dense: Array, thickening: Array) -> FlowSlopes:
-        """Return the derivatives of the flow, from d ln(rho)/dp and d ln(eta)/dp."""
-        rates = self.rates(thickening)
+    def slopes(self, dense: Array, thickening: Array, rows: Flags | None = None) -> FlowSlopes:
+        """Return the derivatives of the flow, from d ln(rho)/dp and d ln(eta)/dp.
+
+        They are right at the nodes `rows` and beside them; None: everywhere.
+        """
+        rates = self.rates(thickening, rows)
         x, y = (
             NodeSlopes(*(rate / own for rate in part))
             for part, own in ((rates.xx, self.xx), (rates.yy, self.yy))

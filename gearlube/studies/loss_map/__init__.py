@@ -1,0 +1,1 @@
+"""The loss map of an axle: loss torque over torque, speed and oil temperature."""

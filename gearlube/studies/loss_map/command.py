@@ -1,0 +1,143 @@
+"""The command `gearlube map`."""
+
+from __future__ import annotations
+
+import logging
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.options import ExampleOption, OverwriteOption
+from gearlube.cli.results_folder import results_folder
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from gearlube_core.arrays import Array
+
+logger = logging.getLogger("gearlube")
+
+_RPM = 0.104719755119660  # rad/s
+
+
+class MapCommand(MultiValueCommand):
+    """A command whose options for the grid take several values."""
+
+    multi_value = frozenset({"--torques", "--speeds", "--temperatures"})
+
+
+def loss_map(
+    axle: Annotated[
+        str,
+        typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE"),
+    ] = "mohammadpour_2015",
+    torques: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Torques on the pinion [N.m], below 0 for coast: first:last:step and single "
+            "values. Default: 21 from half the coast end of the mesh table to its drive end.",
+            metavar="RANGE...",
+        ),
+    ] = None,
+    speeds: Annotated[
+        list[str] | None,
+        typer.Option(help="Pinion speeds [rpm]. Default: 250:5000:250.", metavar="RANGE..."),
+    ] = None,
+    temperatures: Annotated[
+        list[str] | None,
+        typer.Option(help="Oil temperatures [degC]. Default: 40 60 80 100.", metavar="RANGE..."),
+    ] = None,
+    draws: Annotated[
+        int,
+        typer.Option(help="Samples of the uncertain data for error bars; 0: none.", metavar="N"),
+    ] = 60,
+    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_map"),
+    overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
+) -> None:
+    """Map the losses of an axle over torque, speed and oil temperature, with error bars.
+
+    Writes map.nc, map.csv, map.mat, figures, and a file for VECTO, GEM and Modelica for each oil
+    temperature.
+    """
+    from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from gearlube.cli.console import console
+    from gearlube.cli.progress_report import progress_on
+    from gearlube.studies.loss_map.run import run_loss_map
+    from gearlube.studies.loss_map.settings import LossMapSettings
+
+    began = time.monotonic()
+    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        if example:
+            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
+            return
+        described = read_axle(axle)
+        grid = _grid(described.axle.torque_range, torques, speeds, temperatures)
+        settings = LossMapSettings(
+            axle=described.axle,
+            torques=grid.get("torques"),
+            speeds=grid["speeds"],
+            temperatures=grid.get("temperatures"),
+            draws=draws,
+            seed=seed,
+        )
+        with (
+            results_folder(out, "map", overwrite=overwrite),
+            progress_on(console, "map") as progress,
+        ):
+            dataset = run_loss_map(settings, folder=out, progress=progress)
+        for sentence in remarks(dataset):
+            logger.warning("%s", sentence)
+        points = dataset["status"].size
+        logger.info("%d points in %.1f s.", points, time.monotonic() - began)
+        logger.info("Results: %s, %s, %s", out / "map.nc", out / "map.csv", out / "figures")
+        failures = int((dataset["status"] != 0).sum())
+        exit_if_failed(f"{failures} points failed; map.csv says why." if failures else "")
+
+
+def remarks(dataset: xr.Dataset) -> list[str]:
+    """Return what a reader of the map must know."""
+    said = [f"Not modelled: {dataset.attrs['not_modelled']}."]
+    if dataset.attrs["ranges_left"]:
+        share = 100.0 * float((dataset["range_exceeded"] > 0).mean())
+        said.append(
+            f"{share:.0f} % of the points are outside a range: {dataset.attrs['ranges_left']}. "
+            "The column range_exceeded says which."
+        )
+    return said
+
+
+def _grid(
+    mesh_torques: tuple[float, float],
+    torques: list[str] | None,
+    speeds: list[str] | None,
+    temperatures: list[str] | None,
+) -> dict[str, Array]:
+    """Return the grid in SI units; what was not asked for is left out."""
+    import numpy as np
+
+    from gearlube.cli.ranges import numbers_from
+    from gearlube_core.dynamics.ranges import TORQUE_MARGIN
+    from gearlube_core.units import ZERO_CELSIUS
+
+    low, high = (TORQUE_MARGIN * one for one in mesh_torques)
+    grid: dict[str, Array] = {}
+    if torques:
+        grid["torques"] = np.array(
+            numbers_from("--torques", torques, "N.m", low, high, example="-100:300:20")
+        )
+    rpm = numbers_from(
+        "--speeds", speeds or ["250:5000:250"], "rpm", 1.0, 47_000.0, example="250:5000:250"
+    )
+    grid["speeds"] = _RPM * np.array(rpm)
+    if temperatures:
+        degc = numbers_from(
+            "--temperatures", temperatures, "degC", -60.0, 250.0, example="40:100:20"
+        )
+        grid["temperatures"] = np.array(degc) + ZERO_CELSIUS
+    return grid

@@ -1,0 +1,113 @@
+"""The loss map as an xarray Dataset, every variable with unit and long name."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.loss_map.sampling import Spread
+from gearlube.studies.loss_map.settings import LossMapSettings
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, AxleLosses
+from gearlube_core.dynamics.ranges import left_ranges
+from gearlube_core.units import ZERO_CELSIUS
+
+GRID = ("temperature", "speed", "torque")
+SOURCE_WORDS = {
+    "friction_viscous": "flank friction, fluid",
+    "friction_boundary": "flank friction, asperities",
+    "mesh_damping": "mesh damping",
+    "bearing_damping": "roller hysteresis",
+    "bearing_torque": "bearing drag",
+}
+NOT_MODELLED = ("churning", "seals", "rolling of the flanks", "windage")
+_LEAST_INPUT = 0.5  # share of the input that is lost, above which no efficiency is stated
+
+
+def loss_map_dataset(
+    settings: LossMapSettings, losses: AxleLosses, spread: Spread | None
+) -> xr.Dataset:
+    """Return the map over temperature [degC], speed [rpm] and torque [N.m] of the pinion."""
+    torques, speeds, temperatures = settings.grid
+    ratio = settings.axle.mesh.ratio
+    turning = speeds[None, :, None]
+    total = losses.total
+    wheel_torque = (torques - total / turning) * ratio
+    variables = {
+        "loss_torque": (GRID, total / turning, "N.m", "loss torque at the pinion"),
+        "loss": ((*GRID, "source"), losses.power, "W", "power lost"),
+        "efficiency": (GRID, _efficiency(total, turning * torques), "1", "efficiency of the axle"),
+        "wheel_torque": (GRID, wheel_torque, "N.m", "torque of both wheels together"),
+        "carried_torque": (GRID, losses.carried, "N.m", "torque of the teeth at the pinion"),
+        "film_ratio": (GRID, _finite(losses.film_ratio), "1", "least film ratio of a flank"),
+        "flank_temperature": (
+            GRID,
+            losses.flank_temperature - ZERO_CELSIUS,
+            "degC",
+            "hottest flank film",
+        ),
+        "range_exceeded": (GRID, losses.exceeded, "1", "sum of 1, 2, 4, ... for each range left"),
+        "status": (GRID, losses.status, "1", "0: computed; others: see the attribute reasons"),
+    }
+    if spread is not None:
+        names = [one.name for one in settings.uncertain]
+        variables |= {
+            "loss_torque_low": (GRID, spread.low / turning, "N.m", "2.5 % of draws are below"),
+            "loss_torque_high": (GRID, spread.high / turning, "N.m", "97.5 % of draws are below"),
+            "swing": (
+                ("input", *GRID),
+                spread.swing / turning,
+                "N.m",
+                "change of the loss torque by one uncertain input, to its factor",
+            ),
+        }
+    coordinates = {
+        "temperature": ("temperature", temperatures - ZERO_CELSIUS, _about("degC", "oil")),
+        "speed": ("speed", speeds * 30.0 / np.pi, _about("rpm", "speed of the pinion")),
+        "torque": ("torque", torques, _about("N.m", "torque on the pinion; < 0: coast")),
+        "source": ("source", np.array(LOSS_SOURCES), {"long_name": "kind of loss"}),
+    }
+    if spread is not None:
+        coordinates["input"] = ("input", np.array(names), {"long_name": "uncertain input"})
+    return xr.Dataset(
+        {
+            name: (dims, values, _about(unit, words))
+            for name, (dims, values, unit, words) in variables.items()
+        },
+        coords=coordinates,
+        attrs=_attributes(settings, losses),
+    )
+
+
+def _about(unit: str, words: str) -> dict[str, str]:
+    return {"units": unit, "long_name": words}
+
+
+def _finite(values: Array) -> Array:
+    return np.where(np.isinf(values), np.nan, values)
+
+
+def _efficiency(total: Array, pinion_power: Array) -> Array:
+    """Return output over input power; NaN where more than half of the input is lost."""
+    put_in = np.where(pinion_power > 0.0, pinion_power, total - pinion_power)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        lost = total / put_in
+    return np.where(lost < _LEAST_INPUT, 1.0 - lost, np.nan)
+
+
+def _attributes(settings: LossMapSettings, losses: AxleLosses) -> dict[str, object]:
+    axle = settings.axle
+    left = left_ranges(axle.ranges, float(np.bitwise_or.reduce(losses.exceeded.astype(int), None)))
+    return {
+        "ratio": axle.mesh.ratio,
+        "mesh": axle.mesh.name,
+        "oil": axle.oil.name,
+        "not_modelled": ", ".join(NOT_MODELLED),
+        "reasons": "; ".join(f"{key}: {words}" for key, words in FAILURES.items() if key),
+        "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in left),
+        "draws": settings.draws,
+        "seed": settings.seed,
+        "uncertain": "; ".join(
+            f"{one.name}: factor {one.factor:g} (k = 2), {one.why}" for one in settings.uncertain
+        ),
+    }

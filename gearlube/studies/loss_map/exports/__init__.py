@@ -1,0 +1,35 @@
+"""The loss map as files for other tools."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.output.csv_text import csv_text
+from gearlube.studies.loss_map.exports.gem import gem_text
+from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_text
+from gearlube.studies.loss_map.exports.mat import write_mat
+from gearlube.studies.loss_map.exports.table import table_rows
+from gearlube.studies.loss_map.exports.vtlm import vtlm_text
+from gearlube_core.errors import ParameterError
+from gearlube_core.storage.atomic_file import write_text
+
+logger = logging.getLogger("gearlube")
+
+
+def write_exports(dataset: xr.Dataset, folder: Path) -> None:
+    """Write map.csv, map.mat, and for each temperature the files of VECTO, GEM and Modelica."""
+    head, rows = table_rows(dataset)
+    write_text(csv_text(head, rows), folder / "map.csv")
+    write_mat(dataset, folder / "map.mat")
+    for temperature in dataset["temperature"].values:
+        one = dataset.sel(temperature=temperature)
+        name = f"{temperature:g}degC"
+        try:
+            write_text(vtlm_text(one), folder / f"vecto_{name}.vtlm")
+        except ParameterError as reason:
+            logger.warning("No vecto_%s.vtlm: %s", name, reason)
+        write_text(gem_text(one), folder / f"gem_{name}.csv")
+        write_text(lossy_gear_text(one), folder / f"lossy_gear_{name}.mo")

@@ -1,0 +1,31 @@
+"""The map as arrays for look-up tables of MATLAB and Simulink."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from scipy.io import savemat
+
+from gearlube_core.storage.atomic_file import atomic_write
+
+_ORDER = ("speed", "torque", "temperature")
+
+
+def write_mat(dataset: xr.Dataset, path: Path) -> None:
+    """Write breakpoints and tables over (speed, torque, temperature).
+
+    `torque_loss_Nm` for a look-up of the loss; `efficiency` is NaN near zero torque, where a table
+    of efficiency cannot hold a drag.
+    """
+    content = {
+        "speed_rpm": dataset["speed"].values,
+        "torque_Nm": dataset["torque"].values,
+        "temperature_degC": dataset["temperature"].values,
+        "torque_loss_Nm": dataset["loss_torque"].transpose(*_ORDER).values,
+        "efficiency": dataset["efficiency"].transpose(*_ORDER).values,
+        "ratio": float(dataset.attrs["ratio"]),
+    }
+    with atomic_write(path) as partial, partial.open("wb") as file:
+        savemat(file, {k: np.asarray(v) for k, v in content.items()}, oned_as="row")

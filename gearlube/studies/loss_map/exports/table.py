@@ -1,0 +1,58 @@
+"""The map as a table: one row for each point, every column with its unit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import xarray as xr
+
+from gearlube.studies.loss_map.datasets import GRID
+
+_COLUMNS = {
+    "loss_torque": "loss_torque_n_m",
+    "loss_torque_low": "loss_torque_low_n_m",
+    "loss_torque_high": "loss_torque_high_n_m",
+    "efficiency": "efficiency",
+    "wheel_torque": "wheel_torque_n_m",
+    "film_ratio": "film_ratio",
+    "flank_temperature": "flank_temperature_degc",
+    "range_exceeded": "range_exceeded",
+}
+
+
+def table_rows(dataset: xr.Dataset) -> tuple[tuple[str, ...], Iterator[tuple[str, ...]]]:
+    """Return the names of the columns and the rows; a point that failed says why."""
+    kept = {name: column for name, column in _COLUMNS.items() if name in dataset}
+    sources = [str(one) for one in dataset["source"].values]
+    head = (
+        "oil_temperature_degc",
+        "pinion_speed_rpm",
+        "pinion_torque_n_m",
+        *kept.values(),
+        *(f"loss_{one}_w" for one in sources),
+        "reason",
+    )
+    return head, _rows(dataset, tuple(kept))
+
+
+def _rows(dataset: xr.Dataset, names: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+    reasons = dict(part.split(": ", 1) for part in dataset.attrs["reasons"].split("; "))
+    values = [dataset[name].values for name in names]
+    losses, statuses = dataset["loss"].values, dataset["status"].values
+    temperatures, speeds, torques = (dataset[name].values for name in GRID)
+    for i, temperature in enumerate(temperatures):
+        for j, speed in enumerate(speeds):
+            for k, torque in enumerate(torques):
+                yield (
+                    f"{temperature:.10g}",
+                    f"{speed:.10g}",
+                    f"{torque:.10g}",
+                    *(_number(one[i, j, k]) for one in values),
+                    *(_number(one) for one in losses[i, j, k]),
+                    reasons.get(str(int(statuses[i, j, k])), ""),
+                )
+
+
+def _number(value: float) -> str:
+    return "" if math.isnan(value) else f"{value:.7g}"

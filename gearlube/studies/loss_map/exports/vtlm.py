@@ -1,0 +1,35 @@
+"""The map of one temperature as a torque loss map of VECTO."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube_core.errors import ParameterError
+
+HEAD = "Input Speed [rpm],Input Torque [Nm],Torque Loss [Nm]"
+_LEAST_ROWS = 4
+
+
+def vtlm_text(dataset: xr.Dataset) -> str:
+    """Return the lines of a .vtlm file: input is the pinion, coast torque negative, loss positive.
+
+    The torque of the wheels is (torque - loss) times the ratio. Points that failed are left out.
+
+    Raises
+    ------
+    ParameterError
+        Fewer than four points are left; VECTO refuses such a map.
+    """
+    lines = [HEAD]
+    loss = dataset["loss_torque"].transpose("speed", "torque").values
+    for j, speed in enumerate(dataset["speed"].values):
+        for k, torque in enumerate(dataset["torque"].values):
+            if np.isfinite(loss[j, k]):
+                lines.append(f"{speed:.2f},{torque:.2f},{loss[j, k]:.4f}")
+    if len(lines) <= _LEAST_ROWS:
+        raise ParameterError(
+            f"A .vtlm map must have at least {_LEAST_ROWS} points, got {len(lines) - 1}. Take more "
+            "torques or speeds."
+        )
+    return "\n".join(lines) + "\n"

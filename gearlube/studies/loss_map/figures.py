@@ -1,0 +1,138 @@
+"""Figures of a loss map."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.studies.loss_map.datasets import SOURCE_WORDS
+
+_MOST_PANELS = 6
+_LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
+
+
+def save_loss_map_figures(dataset: xr.Dataset, folder: Path) -> None:
+    """Write all figures as PNG."""
+    folder.mkdir(parents=True, exist_ok=True)
+    figures = {"losses": loss_split(dataset)}
+    if min(dataset.sizes["speed"], dataset.sizes["torque"]) > 1:
+        figures["loss_torque"] = loss_contours(dataset)
+    if "swing" in dataset:
+        figures["sensitivity"] = sensitivity(dataset)
+    for name, figure in figures.items():
+        figure.savefig(folder / f"{name}.png", dpi=150)
+
+
+def not_modelled(dataset: xr.Dataset) -> str:
+    """Return a sentence on what the losses lack."""
+    return f"Not modelled: {dataset.attrs['not_modelled']}."
+
+
+def loss_contours(dataset: xr.Dataset) -> Any:
+    """Return the loss torque over speed and torque of the pinion, a panel for each temperature."""
+    from matplotlib.ticker import MaxNLocator
+
+    temperatures = _some(dataset["temperature"].values)
+    loss = dataset["loss_torque"]
+    levels = MaxNLocator(12).tick_values(0.0, float(np.nanmax(loss.values)))
+    columns = min(2, len(temperatures))
+    rows = -(-len(temperatures) // columns)
+    with house_style():
+        figure = new_figure(4.6 * columns + 0.8, 3.3 * rows + 0.5)
+        panels = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True)).ravel()
+        for ax, temperature in zip(panels, temperatures, strict=False):
+            one = loss.sel(temperature=temperature).transpose("torque", "speed")
+            drawn = ax.contourf(one["speed"], one["torque"], one.values, levels, cmap="cividis")
+            lines = ax.contour(
+                one["speed"],
+                one["torque"],
+                one.values,
+                levels[1::2],
+                colors="white",
+                linewidths=0.6,
+            )
+            ax.clabel(lines, fmt="%g", fontsize=7)
+            ax.axhline(0.0, color="white", lw=0.8, ls=":")
+            ax.set_title(f"oil {temperature:g} °C")
+        for ax in panels[len(temperatures) :]:
+            ax.set_visible(False)
+        for ax in panels[-columns:]:
+            ax.set_xlabel("pinion speed [rpm]")
+        for ax in panels[::columns]:
+            ax.set_ylabel("pinion torque [N·m]")
+        figure.colorbar(drawn, ax=panels.tolist(), label="loss torque at the pinion [N·m]")
+        figure.suptitle(not_modelled(dataset), fontsize=8.5, color="#555555")
+    return figure
+
+
+def loss_split(dataset: xr.Dataset) -> Any:
+    """Return the losses by source over torque at three speeds, at a middle temperature."""
+    temperature = dataset["temperature"].values[dataset.sizes["temperature"] // 2]
+    count = dataset.sizes["speed"]
+    chosen = sorted({round(share * (count - 1)) for share in (0.15, 0.5, 1.0)})
+    with house_style():
+        figure = new_figure(3.5 * len(chosen) + 1.6, 4.4)
+        panels = np.atleast_1d(figure.subplots(1, len(chosen)))
+        for ax, j in zip(panels, chosen, strict=True):
+            _split(ax, dataset.sel(temperature=temperature).isel(speed=j))
+        panels[0].set_ylabel("power lost [W]")
+        labels = {
+            label: handle
+            for ax in panels
+            for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
+        }
+        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
+        figure.suptitle(f"Losses at {temperature:g} °C oil. {not_modelled(dataset)}", fontsize=9)
+    return figure
+
+
+def _split(ax: Any, one: xr.Dataset) -> None:
+    torque = one["torque"].values
+    loss = one["loss"].transpose("source", "torque").values
+    largest = np.nanmax(loss.sum(axis=0))
+    names = [str(name) for name in one["source"].values]
+    drawn = [i for i in range(len(names)) if np.nanmax(loss[i]) > _LEAST_SHARE * largest]
+    ax.stackplot(
+        torque,
+        np.nan_to_num(loss[drawn]),
+        labels=[SOURCE_WORDS[names[i]] for i in drawn],
+        colors=[SERIES[i % len(SERIES)] for i in drawn],
+        alpha=0.85,
+    )
+    if "loss_torque_low" in one:
+        turning = float(one["speed"]) * np.pi / 30.0
+        for name, label in (("loss_torque_low", "95 % of draws"), ("loss_torque_high", None)):
+            ax.plot(torque, one[name].values * turning, color="black", lw=1.0, ls="--", label=label)
+    ax.set(xlabel="pinion torque [N·m]", title=f"{float(one['speed']):.0f} rpm")
+    ax.set_ylim(bottom=0.0)
+
+
+def sensitivity(dataset: xr.Dataset) -> Any:
+    """Return which uncertain input moves the loss most, as a mean over the map."""
+    share = dataset["swing"] / dataset["loss_torque"]
+    mean = 100.0 * share.mean([d for d in share.dims if d != "input"]).values
+    words = dict(part.split(": ", 1) for part in dataset.attrs["uncertain"].split("; "))
+    names = [str(one) for one in dataset["input"].values]
+    order = np.argsort(mean)
+    with house_style():
+        figure = new_figure(7.4, 0.45 * len(names) + 1.6)
+        ax = figure.subplots()
+        ax.barh([names[i].replace("_", " ") for i in order], mean[order], color=SERIES[0])
+        for row, i in enumerate(order):
+            factor = words[names[i]].split(",")[0]
+            ax.text(mean[i], row, f"  {mean[i]:.1f} %, {factor}", va="center", fontsize=8)
+        ax.set_xlim(0.0, 1.45 * mean.max())
+        ax.set_xlabel("mean change of the loss torque by one input alone [%]")
+        ax.grid(visible=False, axis="y")
+    return figure
+
+
+def _some(values: np.ndarray) -> list[float]:
+    if values.size <= _MOST_PANELS:
+        return [float(one) for one in values]
+    chosen = np.linspace(0, values.size - 1, _MOST_PANELS).astype(int)
+    return [float(values[i]) for i in chosen]

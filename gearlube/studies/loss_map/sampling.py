@@ -1,0 +1,89 @@
+"""Error bars of a loss map: the uncertain data drawn again and again, the map anew each time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlube.studies.loss_map.settings import LossMapSettings, Uncertain
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.progress import Progress, no_progress
+
+_ANGLES = 8  # within 4e-4 of 256, far below any spread
+_BOUNDS = (2.5, 97.5)  # percent
+_STEP = 2.0  # standard deviations, of one input alone
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spread:
+    """Spread of the total loss; arrays over (temperature, speed, torque).
+
+    Parameters
+    ----------
+    low, high : ndarray
+        Between these lie 95 % of the draws [W].
+    swing : ndarray of shape (inputs, temperatures, speeds, torques)
+        Half the difference of the total loss with one input at its upper and at its lower end,
+        the others at their values [W]; upper and lower are the factor's, see `Uncertain`.
+    """
+
+    low: Array
+    high: Array
+    swing: Array
+
+
+def spread_of(settings: LossMapSettings, progress: Progress = no_progress) -> Spread:
+    """Return the spread of the total loss by the uncertain data of the settings.
+
+    Each draw holds for the whole map: a wrong viscosity is wrong everywhere.
+    """
+    uncertain = settings.uncertain
+    rng = np.random.default_rng(settings.seed)
+    normals = rng.standard_normal((settings.draws, len(uncertain)))
+    # factors of laws scale what the unchanged axle loses; one input at its ends comes first
+    ends = np.concatenate([np.eye(len(uncertain)) * _STEP, np.eye(len(uncertain)) * -_STEP])
+    rows = np.concatenate([ends, normals])
+    usual = _power(settings, settings.axle)
+    totals = np.empty((len(rows), *settings.shape))
+    for k, row in enumerate(rows):
+        progress(k / len(rows), f"error bars, {k + 1} of {len(rows)}")
+        axle, scale = settings.axle, np.ones(len(LOSS_SOURCES))
+        for one, normal in zip(uncertain, row, strict=True):
+            axle = _changed(one, axle, float(normal), scale)
+        power = usual if axle is settings.axle else _power(settings, axle)
+        totals[k] = power @ scale
+    count = len(uncertain)
+    swing = 0.5 * np.abs(totals[:count] - totals[count : 2 * count])
+    low, high = np.percentile(totals[2 * count :], _BOUNDS, axis=0)
+    return Spread(low=low, high=high, swing=swing)
+
+
+def _power(settings: LossMapSettings, axle: HypoidAxleParameters) -> Array:
+    """Return the losses by source of an axle on the grid of the settings [W]."""
+    torques, speeds, temperatures = settings.grid
+    found = axle_losses(
+        axle,
+        torques=torques,
+        speeds=speeds,
+        temperatures=temperatures,
+        angles=_ANGLES,
+        extremes=False,
+    )
+    return found.power
+
+
+def _changed(
+    one: Uncertain, axle: HypoidAxleParameters, normal: float, scale: Array
+) -> HypoidAxleParameters:
+    """Return the axle with one uncertain input changed, or change the scale of its sources."""
+    by = one.multiplier(normal)
+    if normal == 0.0:
+        return axle
+    if one.changed is not None:
+        return one.changed(axle, by)
+    for source in one.sources:
+        scale[LOSS_SOURCES.index(source)] *= by
+    return axle

@@ -1,0 +1,1 @@
+"""Friction losses of tapered roller bearings: raceways, rib, drag, hysteresis, catalogue laws."""

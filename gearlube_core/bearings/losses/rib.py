@@ -1,0 +1,98 @@
+"""Mixed friction between the roller ends and the rib of the inner ring."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlube_core.bearings.losses.rolling import inlet_heating_number
+from gearlube_core.bearings.losses.zhou_hoeprich_1991 import asperity_share
+from gearlube_core.bearings.losses.zhu_cheng_1989 import zhu_cheng_heating
+from gearlube_core.contact.elliptical_hertz import hertz_ellipse
+from gearlube_core.film.chittenden_1985 import central_film_thickness
+from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.roelands_1966 import (
+    ROELANDS_LOG_VISCOSITY,
+    ROELANDS_PRESSURE,
+    roelands_viscosity,
+)
+
+
+class RibParameters(NamedTuple):
+    """Contact of one roller end with the rib; all floats, SI."""
+
+    sliding_ratio: float  # sliding speed over shaft speed [m]
+    mean_ratio: float  # mean surface speed over shaft speed [m]
+    R_meridian: float  # relative radius in the plane of the bearing's axis [m]
+    R_sliding: float  # relative radius along sliding [m]
+    R_e: float  # of the film, along entrainment [m]
+    side_flow: float  # of the film [-]
+    roughness: float  # composite rms [m]
+    share_b: float  # B of the asperity share [-]
+    share_c: float  # C of the asperity share [-]
+    boundary_friction: float  # of the asperities [-]
+    reduced_modulus: float  # E' [Pa]
+
+
+class RibFriction(NamedTuple):
+    """Friction of one roller end; all floats, SI."""
+
+    power: float  # [W]
+    coefficient: float  # friction over load [-]
+    film: float  # central, hot [m]
+    film_ratio: float  # film over roughness [-]
+    asperity_share: float  # of the load [-]
+
+
+@kernel
+def rib_friction(rib: RibParameters, load: float, speed: float, oil: LubricantState) -> RibFriction:
+    """Return the friction of one roller end on the rib.
+
+    mu = s mu_b + (1 - s) tau/p,  s = exp(-B Lambda^C),  P = mu Q v
+
+    Parameters
+    ----------
+    rib
+        Contact.
+    load
+        Q of the roller end [N], not negative.
+    speed
+        Of the shaft [rad/s], not negative.
+    oil
+        At the temperature of the inlet.
+
+    Returns
+    -------
+    RibFriction
+        All zero without load or speed.
+
+    Notes
+    -----
+    The film is that of an ellipse entrained along its long axis [chittenden_1985], lowered once by
+    inlet heating [zhu_cheng_1989]. tau is the stress of a thermal Eyring film
+    [johnson_greenwood_1980] at the mean Hertz pressure and the viscosity of Roelands; the surfaces
+    keep the temperature of the oil. Drilling about the normal is left out.
+    Source of the share: [zhou_hoeprich_1991 (45)]
+    """
+    if load <= 0.0 or speed <= 0.0:
+        return RibFriction(0.0, 0.0, 0.0, 0.0, 0.0)
+    v = rib.sliding_ratio * speed
+    u = rib.mean_ratio * speed
+    modulus = rib.reduced_modulus
+    _, _, p = hertz_ellipse(rib.R_meridian, rib.R_sliding, 0.5 * modulus, load)
+    heat = zhu_cheng_heating(
+        inlet_heating_number(oil.eta0, oil.beta, u, oil.conductivity), 1.5 * p / modulus, v / u
+    )
+    cold = central_film_thickness(rib.R_e, rib.side_flow, oil.eta0, oil.alpha, u, load, modulus)
+    film = heat * cold
+    ratio = film / rib.roughness
+    share = asperity_share(ratio, rib.share_b, rib.share_c)
+    mu = share * rib.boundary_friction
+    if film > 0.0 and share < 1.0:
+        Z = oil.alpha / (ROELANDS_PRESSURE * (math.log(oil.eta0) + ROELANDS_LOG_VISCOSITY))
+        log_viscosity = math.log(roelands_viscosity(oil.eta0, Z, p))
+        sheared = thermal_eyring_film(log_viscosity, oil.beta, oil.conductivity, oil.tau0, film, v)
+        mu += (1.0 - share) * sheared.stress_ratio * oil.tau0 / p
+    return RibFriction(mu * load * v, mu, film, ratio, share)

@@ -1,0 +1,189 @@
+"""Mean losses of an axle in steady running, over torque, speed and oil temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.parameters import ROLLERS_MAX
+from gearlube_core.checks import check_within
+from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle.integrate import work_size
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
+from gearlube_core.dynamics.hypoid_axle.mesh_cycle import (
+    N_EXTREMES,
+    N_LOSSES,
+    NO_BALANCE,
+    cycle_kernels,
+    cycle_work,
+)
+from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.dynamics.hypoid_axle.outputs import N_OUTPUTS
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM, NO_EQUILIBRIUM_CURE
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE
+from gearlube_core.dynamics.packed_mesh import pack_mesh
+from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.progress import Progress, no_progress
+
+# in the order of the energies of the state
+LOSS_SOURCES = (
+    "friction_viscous",
+    "friction_boundary",
+    "mesh_damping",
+    "bearing_damping",
+    "bearing_torque",
+)
+FAILURES = {
+    0: "",
+    NO_EQUILIBRIUM: f"no static equilibrium of the shafts. {NO_EQUILIBRIUM_CURE}",
+    NO_BALANCE: "the torques on the pinion did not balance. Change the torque a little.",
+}
+ANGLES = 32  # of a mesh period; see docs/loss_map.md for what fewer and more give
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AxleLosses:
+    """Mean losses over a mesh period; arrays over (temperature, speed, torque).
+
+    Parameters
+    ----------
+    power : ndarray of shape (temperatures, speeds, torques, sources)
+        [W], sources as in LOSS_SOURCES; NaN where a point failed.
+    carried : ndarray of shape (temperatures, speeds, torques)
+        Torque that the teeth carry, at the pinion [N.m].
+    film_ratio, flank_temperature : ndarray
+        Least film ratio [-] and largest temperature [K] of a flank under load; infinite and that
+        of the oil where none carries load. Empty where they were not asked for.
+    exceeded : ndarray
+        Sum of 1, 2, 4, ... for each range that was left, see `ranges.RANGE_OUTPUTS`.
+    status : ndarray of int
+        Key of FAILURES.
+    """
+
+    power: Array
+    carried: Array
+    film_ratio: Array
+    flank_temperature: Array
+    exceeded: Array
+    status: Array
+
+    @property
+    def total(self) -> Array:
+        """Power lost in all [W], (temperatures, speeds, torques)."""
+        return np.asarray(self.power.sum(axis=-1))
+
+
+def axle_losses(
+    parameters: HypoidAxleParameters,
+    *,
+    torques: Array,
+    speeds: Array,
+    temperatures: Array,
+    angles: int = ANGLES,
+    extremes: bool = True,
+    progress: Progress = no_progress,
+) -> AxleLosses:
+    """Return the mean losses in steady running by one mesh period at each point.
+
+    Parameters
+    ----------
+    parameters
+        The axle.
+    torques : ndarray of shape (n,)
+        On the pinion from outside [N.m], within 1.5 times the mesh table; below 0 the wheels
+        drive (coast).
+    speeds : ndarray of shape (m,)
+        Of the pinion [rad/s], above 0 to 5000.
+    temperatures : ndarray of shape (k,)
+        Of the oil [K], within the range of the oil's data.
+    angles
+        Equal parts of the mesh period.
+    extremes
+        Also find film ratio, flank temperature and ranges, at four angles.
+    progress
+        Called with the share that is done and a sentence.
+
+    Raises
+    ------
+    ParameterError
+        A number is out of range. Nothing has been computed then.
+
+    Notes
+    -----
+    Friction and drag are those of the axle in motion, evaluated at rest at each angle: what a
+    march in time adds is the swing of loads about their means and the damping of mesh and
+    rollers. It matters near resonances and where teeth part.
+
+    Examples
+    --------
+    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> found = axle_losses(
+    ...     mohammadpour_2015_axle(), torques=np.array([50.0]), speeds=np.array([209.4]),
+    ...     temperatures=np.array([333.15]),
+    ... )
+    >>> dict(zip(LOSS_SOURCES, found.power[0, 0, 0].round(1).tolist()))["friction_viscous"]  # W
+    225.6
+    """
+    torques, speeds, temperatures = (
+        np.atleast_1d(np.asarray(one, dtype=float)) for one in (torques, speeds, temperatures)
+    )
+    limits = torque_limits(parameters)
+    for torque in torques:
+        check_within("torque", torque, limits.pinion_low, limits.pinion_high, "N.m", limits.cure)
+    for speed in speeds:
+        check_within("speed", speed, 1e-3, MAX_SPEED, "rad/s", "A map has no point at rest.")
+    for temperature in temperatures:
+        parameters.oil.check_temperature(float(temperature))
+    check_within("angles", angles, 4, 4096, "", "Default 32.")
+    p = parameters.kernel_parameters()
+    mesh = pack_mesh(
+        parameters.mesh,
+        contact_modulus(parameters.solid, parameters.solid),
+        parameters.radii,
+        parameters.mesh_stiffness,
+        parameters.contact_pressure,
+    )
+    works = (
+        np.zeros(N_STATE),
+        np.zeros(cycle_work(mesh.orders, mesh.nodes)),
+        np.zeros(work_size(mesh.orders, mesh.nodes)),
+        np.zeros(ROLLERS_MAX),
+        np.zeros(N_OUTPUTS),
+    )
+    kernel = cycle_kernels(type(p.bearing_p), type(p.flank_law)).losses_along_torque
+    constants = flatten(p), flatten(without_losses(p))
+    fields = mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes
+    shape = temperatures.size, speeds.size, torques.size
+    power, carried = np.full((*shape, N_LOSSES), np.nan), np.full(shape, np.nan)
+    found, status = np.full((*shape, N_EXTREMES), np.nan), np.zeros(shape)
+    for i, temperature in enumerate(temperatures):
+        for j, speed in enumerate(speeds):
+            progress((i * speeds.size + j) / (shape[0] * shape[1]), "losses")
+            kernel(
+                speed,
+                torques,
+                temperature,
+                angles,
+                extremes,
+                fields,
+                *constants,
+                works,
+                power[i, j],
+                carried[i, j],
+                found[i, j],
+                status[i, j],
+            )
+    power[status != 0] = np.nan
+    carried[status != 0] = np.nan
+    return AxleLosses(
+        power=power,
+        carried=carried,
+        film_ratio=found[..., 0],
+        flank_temperature=found[..., 1],
+        exceeded=found[..., 2],
+        status=status.astype(int),
+    )

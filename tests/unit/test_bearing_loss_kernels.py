@@ -1,0 +1,121 @@
+"""Kernels of bearing friction: compiled as in Python, and what the geometry refuses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gearlube_core.bearings.losses import (
+    aihara_1987,
+    biboulet_houpert_2010,
+    goksem_hargreaves_1978,
+    laws,
+    liebrecht_drag,
+    physical_loss,
+    rib,
+    ring_loads,
+    rolling,
+    skf_2013,
+    timken,
+    zhou_hoeprich_1991,
+    zhu_cheng_1989,
+)
+from gearlube_core.bearings.losses.geometry import Rib
+from gearlube_core.bearings.losses.loss import LossModel
+from gearlube_core.errors import ParameterError
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
+from tests.helpers.bearing_32216 import BEARING, DEG, loss_at
+
+OIL = lubricant_state(Lubricant.named("fva_3").parameters(), 323.15)
+P = BEARING.parameters()
+LOADS = np.linspace(2000.0, 0.0, 16)
+CONTACT = (9.8e-3, 6e4, 2.3e11, 0.05, 2.1e-8, 1.4)
+CASES = [
+    (biboulet_houpert_2010.biboulet_houpert_force, CONTACT),
+    (biboulet_houpert_2010.biboulet_houpert_starvation, (1e-5, 1e-6)),
+    (zhou_hoeprich_1991.zhou_hoeprich_force, CONTACT),
+    (zhou_hoeprich_1991.asperity_share, (0.5, 1.9, 0.99)),
+    (goksem_hargreaves_1978.goksem_hargreaves_force, CONTACT),
+    (aihara_1987.aihara_force, CONTACT),
+    (aihara_1987.aihara_heating, (0.5,)),
+    (aihara_1987.aihara_rib_torque, (6000.0, 2e-3, 0.1, 0.99)),
+    (zhu_cheng_1989.zhu_cheng_heating, (0.5, 0.004, 0.3)),
+    (rolling.rolling_power, (75.0, 1.4, 0.02)),
+    (rolling.inlet_heating_number, (0.05, 0.04, 1.4, 0.13)),
+    (rolling.hysteresis_power, (1400.0, 6e4, 9.8e-3, 2.3e11, 1.4)),
+    (liebrecht_drag.liebrecht_drag, (870.0, 6e-5, 0.02, 0.017, 0.1, 20.0)),
+    (skf_2013.skf_torque, (BEARING.skf(), 200.0, 6000.0, 3000.0, 6e-5)),
+    (timken.timken_torque, (60.0, 200.0, 6000.0, 0.05)),
+    (rib.rib_friction, (P.rib, 100.0, 30.0, OIL)),
+    (rib.rib_friction, (P.rib, 0.0, 30.0, OIL)),
+    (laws.heating_factor, (laws.AIHARA_HEATING, 0.5, 0.004)),
+    *((laws.rolling_force, (law, *CONTACT)) for law in laws.ROLLING_LAWS.values()),
+    *(
+        (physical_loss.physical_loss, (P, physical_loss.LossSettings(0, 1, 0.0), LOADS, w, OIL))
+        for w in (0.0, 200.0)
+    ),
+]
+
+
+@pytest.mark.parametrize(("kernel", "args"), CASES, ids=lambda x: getattr(x, "__name__", ""))
+def test_compiled_kernels_agree_with_python(kernel, args):
+    # fused multiply-add and libm round differently
+    assert kernel(*args) == pytest.approx(kernel.py_func(*args), rel=1e-12)
+
+
+def test_compiled_loads_of_rollers_agree_with_python():
+    compiled, plain = np.zeros(16), np.zeros(16)
+    rollers = BEARING.dry_rollers()
+    assert ring_loads.ring_loads(6000.0, 6500.0, rollers, compiled) == 0
+    assert ring_loads.ring_loads.py_func(6000.0, 6500.0, rollers, plain) == 0
+    assert compiled == pytest.approx(plain, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"n_rollers": 21}, ["overlap", "21 rollers", "at most 19 fit"]),
+        ({"inner_angle": 17.0 * DEG}, ["wrong side", "15.64", "17", "11.44 deg"]),
+        # a pair of angles that has been printed for this bearing
+        (
+            {"outer_angle": 14.17 * DEG, "inner_angle": 11.50 * DEG},
+            ["share their apex", "8.5 mm", "10.36 deg"],
+        ),
+        ({"pitch_diameter": 0.125}, ["between bore and outside diameter", "140 mm"]),
+        ({"series": "999"}, ["series", "322"]),
+        ({"rib": Rib(contact_height=0.018)}, ["contact_height", "18 mm"]),
+    ],
+)
+def test_wrong_geometry_is_refused_with_its_cure(changes, words):
+    with pytest.raises(ParameterError) as refusal:
+        replace(BEARING, **changes)
+    assert all(word in str(refusal.value) for word in words), str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("condition", "words"),
+    [
+        ({"temperature_degc": 130.0}, ["temperature", "393.15 K", "fva_3"]),
+        ({"radial_load": 20000.0}, ["axial_load must be at least 6999 N", "More"]),
+        ({"axial_load": 2e6}, ["pressure", "4 GPa", "At most"]),
+        ({"rpm": 20000.0}, ["speed", "1.382e+04 rpm"]),
+        ({"law": "timken"}, ["timken_g1"]),
+        ({"law": "skf", "heating": "aihara"}, ["takes no heating"]),
+        ({"law": "harris"}, ["law must be one of", "zhou_hoeprich"]),
+    ],
+)
+def test_conditions_beyond_the_range_are_refused_with_their_limit(condition, words):
+    with pytest.raises(ParameterError) as refusal:
+        loss_at(**({"rpm": 1000.0} | condition))
+    assert all(word.lower() in str(refusal.value).lower() for word in words), str(refusal.value)
+
+
+def test_starved_contacts_lose_less_than_flooded_ones():
+    flooded = loss_at(1000, law="biboulet_houpert")
+    starved = loss_at(1000, law="biboulet_houpert", inlet_layer=5e-6)
+    assert starved.parts["rolling"] < 0.7 * flooded.parts["rolling"]
+    assert starved.parts["rib"] == flooded.parts["rib"]
+    assert LossModel().inlet_layer == 0.0

@@ -1,0 +1,223 @@
+"""The loss map as a user gets it: error bars, and files that other tools read by their rules."""
+
+from __future__ import annotations
+
+import csv
+import re
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.interpolate import LinearNDInterpolator
+from scipy.io import loadmat
+from scipy.stats import norm
+from typer.testing import CliRunner
+
+import gearlube as gl
+from gearlube.command import COMMANDS, command_line
+from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
+from gearlube.studies.loss_map.settings import UNCERTAIN
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.errors import ParameterError
+
+AXLE = mohammadpour_2015_axle()
+TORQUES = np.array([-100.0, -40.0, 0.0, 50.0, 150.0, 300.0])
+SPEEDS = np.array([50.0, 150.0, 300.0])
+DEGC = (60.0, 90.0)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("map")
+
+
+@pytest.fixture(scope="module")
+def found(folder):
+    settings = gl.LossMapSettings(
+        axle=AXLE,
+        torques=TORQUES,
+        speeds=SPEEDS,
+        temperatures=np.array(DEGC) + 273.15,
+        draws=4,
+    )
+    return gl.run_loss_map(settings, folder=folder)
+
+
+def test_the_sources_are_the_whole(found):
+    turning = found["speed"] * np.pi / 30.0
+    whole = (found["loss_torque"] * turning).transpose(*found["loss"].dims[:-1])
+    assert found["loss"].sum("source").values == pytest.approx(whole.values, rel=1e-12)
+
+
+def test_input_less_output_is_the_loss(found):
+    ratio = found.attrs["ratio"]
+    lost = found["torque"] - found["wheel_torque"] / ratio
+    assert lost.transpose(*found["loss_torque"].dims).values == pytest.approx(
+        found["loss_torque"].values, rel=1e-12
+    )
+
+
+def test_coast_efficiency_is_that_of_the_other_way(found):
+    """With the wheels driving, the input is what they put in."""
+    one = found.isel(temperature=0, speed=1).sel(torque=-100.0)
+    speed = float(one["speed"]) * np.pi / 30.0
+    put_in = -float(one["wheel_torque"]) * speed / found.attrs["ratio"]
+    assert float(one["efficiency"]) == pytest.approx(100.0 * speed / put_in, rel=1e-12)
+
+
+def test_no_efficiency_without_load(found):
+    assert np.isnan(found["efficiency"].sel(torque=0.0).values).all()
+
+
+def test_one_law_alone_spreads_the_loss_by_its_own_factor():
+    """Drag is scaled by exp(z ln(f)/2): percentiles of the draws, and the swing in closed form."""
+    drag = next(one for one in UNCERTAIN if one.name == "bearing_drag")
+    settings = gl.LossMapSettings(
+        axle=AXLE,
+        torques=np.array([80.0]),
+        speeds=np.array([200.0]),
+        temperatures=np.array([333.15]),
+        draws=2000,
+        uncertain=(drag,),
+    )
+    one = gl.run_loss_map(settings).squeeze()
+    lost = dict(zip(LOSS_SOURCES, one["loss"].values, strict=True))
+    other = sum(power for name, power in lost.items() if name != "bearing_torque")
+    spread = drag.factor ** (0.5 * norm.ppf(0.975))
+    for name, factor in (("loss_torque_low", 1.0 / spread), ("loss_torque_high", spread)):
+        expected = (other + factor * lost["bearing_torque"]) / 200.0
+        # 2000 draws: a percentile at 2.5 % is 0.06 standard deviations off, that is 0.7 %
+        assert float(one[name]) == pytest.approx(expected, rel=0.01)
+    swing = 0.5 * (drag.factor - 1.0 / drag.factor) * lost["bearing_torque"] / 200.0
+    # flanks at 8 angles in place of 32 cancel in the difference
+    assert float(one["swing"]) == pytest.approx(swing, rel=1e-9)
+
+
+def test_the_same_seed_gives_the_same_bars(found):
+    again = gl.run_loss_map(
+        gl.LossMapSettings(
+            axle=AXLE, torques=TORQUES, speeds=SPEEDS, temperatures=np.array(DEGC) + 273.15, draws=4
+        )
+    )
+    assert again["loss_torque_high"].values.tolist() == found["loss_torque_high"].values.tolist()
+
+
+@pytest.mark.parametrize("name", [one.name for one in UNCERTAIN])
+def test_every_uncertain_input_moves_the_loss(found, name):
+    swing = found["swing"].sel(input=name).transpose("temperature", "speed", "torque").values
+    loaded = np.abs(TORQUES) > 0.0
+    assert np.all(swing[:, :, loaded] > 0.0)
+
+
+def test_the_netcdf_file_holds_the_map(found, folder):
+    with xr.open_dataset(folder / "map.nc", engine="scipy") as read:
+        xr.testing.assert_allclose(read, found)
+
+
+def test_the_table_has_a_row_for_each_point(found, folder):
+    with (folder / "map.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == len(DEGC) * len(SPEEDS) * len(TORQUES)
+    row = next(
+        one
+        for one in rows
+        if (float(one["oil_temperature_degc"]), float(one["pinion_torque_n_m"])) == (90.0, 150.0)
+    )
+    point = found.sel(temperature=90.0, torque=150.0).isel(speed=0)
+    assert float(row["loss_torque_n_m"]) == pytest.approx(float(point["loss_torque"]), rel=1e-6)
+    assert float(row["loss_bearing_torque_w"]) == pytest.approx(
+        float(point["loss"].sel(source="bearing_torque")), rel=1e-6
+    )
+
+
+def test_vecto_reads_its_map_back(found, folder):
+    """VECTO interpolates over input speed and output torque (input less loss) by triangles."""
+    head, *lines = (folder / "vecto_60degC.vtlm").read_text().splitlines()
+    assert head == "Input Speed [rpm],Input Torque [Nm],Torque Loss [Nm]"
+    speed, torque, loss = np.array([[float(x) for x in line.split(",")] for line in lines]).T
+    assert len(lines) >= 4
+    assert np.all(loss > 0.0)
+    assert torque.min() < 0.0
+    inside = LinearNDInterpolator(
+        np.column_stack([speed / speed.max(), (torque - loss) / torque.max()]), loss
+    )
+    point = found.sel(temperature=60.0, torque=150.0).isel(speed=1)
+    output = 150.0 - float(point["loss_torque"])
+    read = float(inside(float(point["speed"]) / speed.max(), output / torque.max()))
+    assert read == pytest.approx(float(point["loss_torque"]), abs=2e-4)  # its decimals
+
+
+def test_gem_rows_have_its_roundings(found, folder):
+    with (folder / "gem_60degC.csv").open() as file:
+        head, *rows = list(csv.reader(file))
+    assert head == ["wheel_speed_rpm", "output_torque_n_m", "power_loss_kw"]
+    speed, torque, power = (float(one) for one in rows[-1])
+    assert re.fullmatch(r"\d+\.\d", rows[-1][0])
+    assert re.fullmatch(r"\d+\.\d{4}", rows[-1][2])
+    # output and loss make the input again: 300 N.m at the highest speed
+    turning = speed * np.pi / 30.0
+    assert (torque * turning + 1e3 * power) / (turning * found.attrs["ratio"]) == pytest.approx(
+        300.0, rel=1e-4
+    )
+
+
+def test_the_lossy_gear_loses_what_the_map_does(found):
+    """By the equations of Modelica's LossyGear, with the misfit that the file states."""
+    one = found.sel(temperature=60.0)
+    table = lossy_gear_table(one)
+    for row, speed in zip(table.rows, one["speed"].values, strict=True):
+        assert row[0] == pytest.approx(speed * np.pi / 30.0)
+        for torque in TORQUES:
+            drive = (1.0 - row[1]) * torque + row[3]
+            coast = (1.0 - 1.0 / row[2]) * torque + row[4]
+            lost = drive if torque > 0.0 else coast
+            expected = float(one["loss_torque"].sel(speed=speed, torque=torque))
+            assert lost == pytest.approx(expected, abs=table.misfit * (1.0 + 1e-9) + 1e-12)
+    assert table.misfit < 0.1 * float(one["loss_torque"].max())
+
+
+def test_matlab_reads_breakpoints_and_table(found, folder):
+    read = loadmat(folder / "map.mat", squeeze_me=True)
+    assert read["torque_Nm"].tolist() == TORQUES.tolist()
+    assert read["torque_loss_Nm"].shape == (3, 6, 2)
+    expected = found["loss_torque"].isel(speed=2).sel(torque=50.0, temperature=90.0)
+    assert read["torque_loss_Nm"][2, 3, 1] == float(expected)
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"torques": np.array([50.0, 20.0])}, "rising"),
+        ({"speeds": np.array([])}, "speeds must be a list"),
+        ({"draws": -1}, "draws"),
+        ({"torques": np.linspace(0.0, 1.0, 10_001)}, "at most 200000 points"),
+    ],
+)
+def test_settings_that_make_no_map_are_refused(changed, words):
+    with pytest.raises(ParameterError, match=words):
+        gl.LossMapSettings(axle=AXLE, **changed)
+
+
+def test_the_command_refuses_what_the_mesh_table_does_not_cover(tmp_path, caplog):
+    out = tmp_path / "out"
+    arguments = ["map", "--torques", "5000", "--out", str(out)]
+    ended = CliRunner().invoke(command_line(COMMANDS), arguments)
+    assert ended.exit_code == 2
+    assert "--torques must be within -600 to 600 N.m, got 5000" in caplog.text
+    assert not out.exists()
+
+
+def test_the_command_writes_a_map_and_says_what_it_lacks(tmp_path, caplog):
+    out = tmp_path / "out"
+    ended = CliRunner().invoke(
+        command_line(COMMANDS),
+        ["map", "--torques", "-50:150:100", "--speeds", "1000", "--draws", "0", "--out", str(out)],
+    )
+    assert ended.exit_code == 0, ended.output
+    assert (out / "map.csv").exists()
+    assert (out / "figures" / "losses.png").exists()
+    assert "Not modelled" in caplog.text
+    assert "at least 4 points, got 3" in caplog.text  # of a .vtlm file; the others are there
+    assert (out / "gem_40degC.csv").exists()
+    assert not list(out.glob("*.vtlm"))
