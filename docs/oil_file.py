@@ -5,7 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from docs.field_tables import field_tables
-from gearlube_core.oil.base_oils import BASE_OILS, EYRING_FACTOR, BaseOil
+from gearlube_core.oil.base_oils import (
+    BASE_OILS,
+    BOUNDARY_FRICTION,
+    BOUNDARY_STRESS,
+    EYRING_FACTOR,
+    GIVEN_LIMIT_FACTOR,
+    MEASURED_ALPHA_FACTOR,
+    BaseOil,
+)
 from gearlube_core.oil.oil_file import OilFile
 
 PAGE = Path(__file__).with_suffix(".md")
@@ -78,6 +86,28 @@ Eyring stress: factor {eyring:g}, 2 to 5 MPa being in use.
 - `gearlube sweep --oil` takes the oils of the papers alone; write the oil file into the axle file.
 """
 
+_CLASS = "by class"
+_WITHOUT = {
+    "density_temperature_degc": "15",
+    "density_slope_kg_m3_k": _CLASS,
+    "viscosity_40_degc_mm2_s": "inferred",
+    "viscosity_100_degc_mm2_s": "inferred",
+    "viscosity_index": "inferred",
+    "alpha_per_gpa": "inferred",
+    "alpha_temperature_degc": "40",
+    "alpha_factor": f"{MEASURED_ALPHA_FACTOR:g}, of an estimate by class",
+    "eyring_stress_mpa": "inferred",
+    "eyring_stress_factor": f"{EYRING_FACTOR:g}",
+    "limiting_coefficient": _CLASS,
+    "limiting_coefficient_factor": f"{GIVEN_LIMIT_FACTOR:g}, of an estimate by class",
+    "limiting_shear_stress_mpa": f"{1e-6 * BOUNDARY_STRESS:g}",
+    "boundary_friction": f"{BOUNDARY_FRICTION:g}",
+    "conductivity_w_m_k": _CLASS,
+    "heat_capacity_j_kg_k": _CLASS,
+    "temperature_low_degc": "0",
+    "temperature_high_degc": "150",
+}
+
 
 def _classes() -> str:
     head = (
@@ -121,7 +151,7 @@ def page() -> str:
         + _sources(),
         eyring=EYRING_FACTOR,
     )
-    return HEAD + "## Fields\n" + field_tables(OilFile, {"": "The file"}) + tail
+    return HEAD + "## Fields\n" + field_tables(OilFile, {"": "The file"}, _WITHOUT) + tail
 
 
 if __name__ == "__main__":

@@ -31,6 +31,8 @@ class BaseOil(NamedTuple):
 
 
 EYRING_FACTOR = 2.0  # 2 to 5 MPa are in use for mineral gear oils, and alpha falls with pressure
+MEASURED_ALPHA_FACTOR = 1.15  # of a given alpha: between methods of measurement, assumed
+GIVEN_LIMIT_FACTOR = 1.2  # of a given limiting coefficient: assumed
 BOUNDARY_STRESS, BOUNDARY_FRICTION = 2.0e6, 0.17  # Pa and [-], of the library's hypoid oils
 REFERENCE_DENSITY_DEGC = 70.0  # density counts as constant; midway between 40 and 100 degC
 

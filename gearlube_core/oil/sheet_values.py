@@ -13,6 +13,8 @@ from gearlube_core.oil.base_oils import (
     BOUNDARY_FRICTION,
     BOUNDARY_STRESS,
     EYRING_FACTOR,
+    GIVEN_LIMIT_FACTOR,
+    MEASURED_ALPHA_FACTOR,
     REFERENCE_DENSITY_DEGC,
     eyring_stress_of,
 )
@@ -25,9 +27,6 @@ from gearlube_core.oil.walther_1931 import (
 from gearlube_core.units import celsius_to_kelvin
 
 _COLD, _HOT = celsius_to_kelvin(40.0), celsius_to_kelvin(100.0)
-_MEASURED_ALPHA_FACTOR = 1.15  # between methods of measurement
-_GIVEN_EYRING_FACTOR = EYRING_FACTOR  # a sheet's single number says nothing of its scatter
-_GIVEN_LIMIT_FACTOR = 1.2
 
 
 class SheetValues(NamedTuple):
@@ -94,7 +93,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
     measured = "alpha_per_gpa" in given
     alpha_factor = notes.value(
         "alpha_factor",
-        _MEASURED_ALPHA_FACTOR if measured else base.alpha.factor,
+        MEASURED_ALPHA_FACTOR if measured else base.alpha.factor,
         "assumed",
         "between methods" if measured else base.alpha.why,
     )
@@ -107,7 +106,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
     own_limit = "limiting_coefficient" in given
     notes.value(
         "limiting_coefficient_factor",
-        _GIVEN_LIMIT_FACTOR if own_limit else base.limiting_coefficient.factor,
+        GIVEN_LIMIT_FACTOR if own_limit else base.limiting_coefficient.factor,
         "assumed",
         "one number without scatter" if own_limit else base.limiting_coefficient.why,
     )
@@ -120,7 +119,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
     own_stress = "eyring_stress_mpa" in given
     eyring_factor = notes.value(
         "eyring_stress_factor",
-        _GIVEN_EYRING_FACTOR if own_stress else EYRING_FACTOR,
+        EYRING_FACTOR,
         "assumed",
         "one number without scatter" if own_stress else "2 to 5 MPa in use",
     )
