@@ -76,7 +76,8 @@ for note in paper.assumed:
   h/sigma 0.5 and 3. `gearlube axle show` tells the fit and by what factor it misses the table, up
   to 2.6 for Gaussian surfaces. Left out, `roughness_rms_um` is that of the table; given, it scales
   the film ratio alone.
-- `oil.file` names an [oil file](oil_file.md), your oil by its data sheet; then it is the whole of `[oil]`.
+- `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
+  fields of `[oil]`.
 - All wrong fields of a file are named at once, each with the value, its limits and unit, and, if
   another unit would bring the number within them, that unit. Nothing is compiled before.
 
