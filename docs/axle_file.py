@@ -70,6 +70,12 @@ for note in paper.assumed:
   size, `interference_um` for the preload, the two race diameters for the pitch diameter, and
   `walther_a` with `walther_b` for the two viscosities: give one of each. The engine's orders have
   their three lists together.
+- `asperity_table` takes what `gearlube roughness flow-factors` computed of
+  [rough patches](rough_contact.md) in the place of the usual constants of Greenwood and Tripp's
+  law. The kernels keep the law: its two products are fitted to load and area of the table between
+  h/sigma 0.5 and 3. `gearlube axle show` tells the fit and by what factor it misses the table, up
+  to 2.6 for Gaussian surfaces. Left out, `roughness_rms_um` is that of the table; given, it scales
+  the film ratio alone.
 - All wrong fields of a file are named at once, each with the value, its limits and unit, and, if
   another unit would bring the number within them, that unit. Nothing is compiled before.
 
@@ -89,12 +95,13 @@ torque of the mesh table, the sweep refuses before it builds anything; beyond th
 ## The FMU
 
 `gearlube build-fmu --axle my_axle.toml` builds native [FMUs](fmu.md), with `--python` one that
-computes in this package. The FMU carries the file as `resources/axle.toml`, and a mesh table of its
-own as `resources/mesh_table.nc`; the path in the file has no meaning there. Its GUID depends on
-every byte of both. Start values of its parameters are the file's. An oil of the file's own is the
-literal `custom` of `oil.name`. `--mesh-table` does not go with `--axle`: the file names its table.
-A sweep keeps one such FMU in the cache for each content of file and table. The FMU has no car:
-vehicle, tyre, gearbox, engine and driveline of the file are those of the sweep.
+computes in this package. The FMU carries the file as `resources/axle.toml`, a mesh table of its own
+as `resources/mesh_table.nc` and an asperity table as `resources/asperity_table.nc`; the paths in
+the file have no meaning there. Its GUID depends on every byte of all three. Start values of its
+parameters are the file's. An oil of the file's own is the literal `custom` of `oil.name`.
+`--mesh-table` does not go with `--axle`: the file names its table. A sweep keeps one such FMU in
+the cache for each content of file and tables. The FMU has no car: vehicle, tyre, gearbox, engine
+and driveline of the file are those of the sweep.
 
 These inputs are parameters of the FMU and can be set at run time; all others are built in:
 

@@ -18,6 +18,8 @@ from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_content
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.rough_patch.asperity_file import FILE_IN_FMU as ASPERITIES_IN_FMU
+from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
 
 AXLE_FILE = "axle.toml"  # among the FMU's resources
 PAPER = "mohammadpour_2015"  # the axle of an FMU without a file of its own
@@ -78,7 +80,11 @@ def definition_with_table(path: str | Path) -> Definition:
         raise TableError(f"{path}: {error}") from None
 
 
-def definition_with_axle(path: str | Path, mesh_table: str | Path | None = None) -> Definition:
+def definition_with_axle(
+    path: str | Path,
+    mesh_table: str | Path | None = None,
+    asperity_table: str | Path | None = None,
+) -> Definition:
     """Return the definition of the FMU with an axle file.
 
     Parameters
@@ -87,19 +93,26 @@ def definition_with_axle(path: str | Path, mesh_table: str | Path | None = None)
         Axle file, or the name of a shipped one.
     mesh_table : path, optional
         Where the table that the file names as a file is; by default where the file says.
+    asperity_table : path, optional
+        The same of its asperity table.
 
     Raises
     ------
     ParameterError
         The file is missing or wrong.
     TableError
-        Its mesh table is missing or wrong.
+        Its mesh table or its asperity table is missing or wrong.
     """
     content = _axle_content(path)
     try:
-        table = parsed_axle_file(content).own_table
+        file = parsed_axle_file(content)
+        table, asperities = file.own_table, file.gear_set.asperity_table
         where = Path(path).parent / table if mesh_table is None else mesh_table
-        return _definition_with(content, read_content(where) if table else None)
+        of_patches = None
+        if asperities is not None:
+            there = Path(path).parent / asperities if asperity_table is None else asperity_table
+            of_patches = read_asperity_content(there)
+        return _definition_with(content, read_content(where) if table else None, of_patches)
     except GearLubeError as error:
         raise type(error)(f"{path}: {error}") from None
 
@@ -135,13 +148,19 @@ def car_axle_in(resources: Mapping[str, bytes]) -> CarAxle:
     content = resources.get(AXLE_FILE)
     file = AxleFile.named(PAPER) if content is None else parsed_axle_file(content)
     own = FILE_IN_FMU in resources
-    return file.car_axle(mesh_table_in(resources) if own else None)
+    patches = resources.get(ASPERITIES_IN_FMU)
+    return file.car_axle(
+        mesh_table_in(resources) if own else None,
+        asperities_from_bytes(patches, ASPERITIES_IN_FMU) if patches else None,
+    )
 
 
 @cache
-def _definition_with(axle: bytes | None, table: bytes | None) -> Definition:
+def _definition_with(
+    axle: bytes | None, table: bytes | None, asperities: bytes | None = None
+) -> Definition:
     """Return the definition with these files; one object per content, for caches keyed by it."""
-    files = {AXLE_FILE: axle, FILE_IN_FMU: table}
+    files = {AXLE_FILE: axle, FILE_IN_FMU: table, ASPERITIES_IN_FMU: asperities}
     resources = {name: content for name, content in files.items() if content is not None}
     described = car_axle_in(resources)
     base, mesh = described.axle, described.axle.mesh
@@ -181,5 +200,5 @@ class HypoidAxle(CoSimulationSlave):
         """Return the definition with the files in `resources`, else with those that ship."""
         axle, table = resources / AXLE_FILE, resources / FILE_IN_FMU
         if axle.is_file():
-            return definition_with_axle(axle, table)
+            return definition_with_axle(axle, table, resources / ASPERITIES_IN_FMU)
         return definition_with_table(table) if table.is_file() else DEFINITION

@@ -13,13 +13,15 @@ STEP = 1e-3  # s
 STEPS = 50
 CHANGED_AT = 25  # steps, when the torques change
 TORQUES = {"pinion.torque": 1.2, "wheel.torque": 1.2}  # over their start values, from then on
+EXACT = 17  # digits of the inputs: less would turn a pair that is nearly balanced
 TOLERANCE = 1e-6  # of each output's largest value, between this run and one in another host
 
 
 def reference_results(definition: Definition) -> dict[str, bytes]:
     """Return the files of a run of the Python model with all parameters at their start values.
 
-    Every output that is a Real and no element of a series is there, with seven digits.
+    Every output that is a Real and no element of a series is there, with seven digits; the inputs
+    are exact.
 
     Notes
     -----
@@ -40,7 +42,7 @@ def reference_results(definition: Definition) -> dict[str, bytes]:
     given, rows = [], []
     for k in range(STEPS + 1):
         now = start if k < CHANGED_AT else later
-        given.append(_line(k * STEP, now))
+        given.append(_line(k * STEP, now, EXACT))
         rows.append(_line(k * STEP, [model.outputs[i] for i in outputs.values()]))
         if k < STEPS:
             model.step(STEP, *now)
@@ -66,5 +68,5 @@ def _heading(names: list[str]) -> str:
     return ",".join(f'"{name}"' for name in ("time", *names))
 
 
-def _line(time: float, values: list[float]) -> str:
-    return ",".join(f"{value:.7g}" for value in (time, *values))
+def _line(time: float, values: list[float], digits: int = 7) -> str:
+    return ",".join(f"{value:.{digits}g}" for value in (time, *values))

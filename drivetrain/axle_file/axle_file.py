@@ -34,6 +34,8 @@ from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
+from gearlube_core.rough_patch.table import GreenwoodTrippFit
 
 Text = Annotated[str, Field(min_length=1)]
 
@@ -119,28 +121,41 @@ class AxleFile(InputFile):
             return read_mesh_table(folder / self.own_table)
         return shipped_mesh_table(self.gear_set.mesh_table)
 
-    def car_axle(self, mesh: MeshTable | None = None) -> CarAxle:
+    def asperities(self, folder: Path = Path()) -> GreenwoodTrippFit | None:
+        """Return the fit to the asperity table; `folder` is that of the file; None: no table."""
+        table = self.gear_set.asperity_table
+        if table is None:
+            return None
+        return asperities_from_bytes(read_asperity_content(folder / table), str(folder / table))
+
+    def car_axle(
+        self, mesh: MeshTable | None = None, asperities: GreenwoodTrippFit | None = None
+    ) -> CarAxle:
         """Return the parameters of axle and car.
 
         Parameters
         ----------
         mesh : MeshTable, optional
             Read from the file's `mesh_table`; by default the shipped one that it names.
+        asperities : GreenwoodTrippFit, optional
+            Fit to the file's `asperity_table`; by default read where it names one.
 
         Raises
         ------
         ParameterError, TableError
-            The fields contradict each other, or the mesh table has no teeth of an axle.
+            The fields contradict each other, the mesh table has no teeth of an axle, or the
+            asperity table is wrong.
         """
         mesh = mesh or self.mesh()
-        axle = self._axle(mesh)
+        asperities = asperities or self.asperities()
+        axle = self._axle(mesh, asperities)
         driveline = self._driveline(mesh)
         return CarAxle(
             name=self.name,
             source=self.source or "",
             axle=axle,
             driveline=driveline,
-            inputs=tuple(self._notes(axle, driveline)),
+            inputs=tuple(self._notes(axle, driveline, asperities)),
         )
 
     def _bearings(self) -> tuple[TaperedRollerBearing, TaperedRollerBearing | None]:
@@ -156,8 +171,15 @@ class AxleFile(InputFile):
             None if of_gear is None else replace(of_gear, **common),
         )
 
-    def _axle(self, mesh: MeshTable) -> HypoidAxleParameters:
+    def _axle(self, mesh: MeshTable, fit: GreenwoodTrippFit | None) -> HypoidAxleParameters:
         base = mohammadpour_2015_axle(mesh=mesh)
+        if fit is not None:
+            base = replace(
+                base,
+                roughness_rms=fit.surface.sigma,
+                xi_beta_sigma=fit.surface.xi_beta_sigma,
+                sigma_over_beta=fit.surface.sigma_over_beta,
+            )
         members = {
             f"{role}_{name}": value
             for role, member in (("pinion", self.pinion), ("gear", self.gear))
@@ -189,8 +211,16 @@ class AxleFile(InputFile):
         )
         return replace(base, **self.driveline.changes(base))
 
-    def _notes(self, axle: HypoidAxleParameters, car: DrivelineParameters) -> list[InputNote]:
-        notes = self.gear_set.notes("gear_set.", axle, _MODEL)
+    def _notes(
+        self,
+        axle: HypoidAxleParameters,
+        car: DrivelineParameters,
+        fit: GreenwoodTrippFit | None,
+    ) -> list[InputNote]:
+        of_table = {} if fit is None else {"roughness_rms_um": "asperity_table"}
+        notes = self.gear_set.notes("gear_set.", axle, _MODEL, of_table)
+        if fit is not None:
+            notes += _fit_notes(fit)
         for role, member in (("pinion", self.pinion), ("gear", self.gear)):
             notes += _member_notes(role, member, axle)
             section, prefix = member.bearing, f"{role}.bearing."
@@ -214,6 +244,20 @@ class AxleFile(InputFile):
         return notes
 
 
+def _fit_notes(fit: GreenwoodTrippFit) -> list[InputNote]:
+    """Return what the asperity table became, and how far it is missed."""
+    why = (
+        f"fit to asperity_table; within h/sigma 0.5 to 3 it misses the load by a factor of "
+        f"{fit.load_misfit:.3g} at most, the area by {fit.area_misfit:.3g}"
+    )
+    return [
+        InputNote(
+            f"gear_set.asperity_table.{name}", getattr(fit.surface, name), "", "inferred", why
+        )
+        for name in ("xi_beta_sigma", "sigma_over_beta")
+    ]
+
+
 def _member_notes(role: str, member: Member, axle: HypoidAxleParameters) -> list[InputNote]:
     notes = []
     for key in ("mass_kg", "inertia_kg_m2"):
@@ -234,7 +278,7 @@ def read_axle(path: str | Path) -> CarAxle:
     ParameterError
         The file is missing or wrong; all wrong fields are named.
     TableError
-        Its mesh table is missing or wrong.
+        Its mesh table or its asperity table is missing or wrong.
 
     Examples
     --------
@@ -245,7 +289,8 @@ def read_axle(path: str | Path) -> CarAxle:
     'driveline.speed_control_frequency_hz'
     """
     file = AxleFile.given(str(path))
-    return file.car_axle(file.mesh(Path(path).parent))
+    folder = Path(path).parent
+    return file.car_axle(file.mesh(folder), file.asperities(folder))
 
 
 def parsed_axle_file(content: bytes) -> AxleFile:

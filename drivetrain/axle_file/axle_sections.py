@@ -44,6 +44,11 @@ class GearSet(ModelSection):
     roughness_rms_um: Roughness | None = Field(
         default=None, description="Composite root mean square of both flanks"
     )
+    asperity_table: Text | None = Field(
+        default=None,
+        description="File (.nc) of `gearlube roughness flow-factors`, its path relative to the "
+        "axle file: Greenwood and Tripp's law is fitted to it; absent: finished gear flanks",
+    )
     radii: Literal["consistent", "paper", "mean"] | None = Field(
         default=None, description="Radii on which the mesh force acts"
     )

@@ -19,6 +19,11 @@ class SurfaceParameters(NamedTuple):
     sigma_over_beta: float  # roughness over tip radius [-], 1e-4 to 1e-2
 
 
+# finished gear flanks, Mohammadpour et al. 2015, text below [mohammadpour_2015 (17)]
+FLANK_XI_BETA_SIGMA = 0.055
+FLANK_SIGMA_OVER_BETA = 0.001
+
+
 @kernel
 def gear_flanks(sigma: float) -> SurfaceParameters:
     """Return finished gear flanks of a composite root-mean-square roughness [m].
@@ -27,7 +32,7 @@ def gear_flanks(sigma: float) -> SurfaceParameters:
     -----
     Mohammadpour et al. 2015, text below [mohammadpour_2015 (17)].
     """
-    return SurfaceParameters(sigma, 0.055, 0.001)
+    return SurfaceParameters(sigma, FLANK_XI_BETA_SIGMA, FLANK_SIGMA_OVER_BETA)
 
 
 LAMBDA_MAX = 5.0  # asperities are dropped beyond: F_5/2(5) = 1.35e-8, F_2(5) = 1.93e-8

@@ -11,11 +11,14 @@ from scipy.special import iti0k0, zeta
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
+from gearlube_core.contact.blocked_transform import BlockedTransform
 from gearlube_core.contact.fftw import pyfftw
 from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 
 _REACH = 38.0  # K0 has fallen to e^-38 there
 _MOST_CELLS = 8192  # along one side
+_CACHE = 1_000_000  # bytes, from which on a transform goes in blocks
 
 
 def _k0_tail(z: Array) -> Array:
@@ -135,6 +138,8 @@ class PeriodicDeflection:
         `last`: pressure has shape (nx, ny); `first`: (ny, nx).
     single
         Half the bytes and half the time, for six digits: float32, for preconditioners.
+    workers
+        Threads that share large grids of the second shape; results do not depend on it.
 
     Raises
     ------
@@ -142,10 +147,16 @@ class PeriodicDeflection:
         The modes are not finite, their number does not belong to `ny`, or an unknown option.
     """
 
-    __slots__ = ("_backward", "_forward", "_padded", "_parts", "_result", "_transfer", "shape")
+    __slots__ = ("_blocks", "_padded", "_result", "_whole", "shape")
 
     def __init__(
-        self, modes: Array, ny: int, periodic_axis: str = "last", *, single: bool = False
+        self,
+        modes: Array,
+        ny: int,
+        periodic_axis: str = "last",
+        *,
+        single: bool = False,
+        workers: RowWorkers = ALONE,
     ) -> None:
         check_option("periodic_axis", periodic_axis, ("last", "first"))
         modes = np.asarray(modes, dtype=np.float64)
@@ -170,12 +181,18 @@ class PeriodicDeflection:
         options: dict[str, Any] = {"axes": (0, 1), "flags": ("FFTW_ESTIMATE",), "threads": 1}
         real, paired = ("float32", "complex64") if single else ("float64", "complex128")
         self._padded = pyfftw.zeros_aligned(padded, dtype=real)
-        spectrum = pyfftw.empty_aligned(transfer.shape, dtype=paired)
         self._result = pyfftw.empty_aligned(padded, dtype=real)
-        self._forward = pyfftw.FFTW(self._padded, spectrum, **options)
-        self._backward = pyfftw.FFTW(spectrum, self._result, direction="FFTW_BACKWARD", **options)
-        self._parts = spectrum.view(real)
-        self._transfer = np.repeat(transfer, 2, axis=1).astype(real)
+        self._whole = self._blocks = None
+        if not last and self._padded.nbytes > _CACHE:
+            self._blocks = BlockedTransform(self._padded, self._result, transfer, workers)
+            return
+        spectrum = pyfftw.empty_aligned(transfer.shape, dtype=paired)
+        self._whole = (
+            pyfftw.FFTW(self._padded, spectrum, **options),
+            spectrum.view(real),
+            np.repeat(transfer, 2, axis=1).astype(real),
+            pyfftw.FFTW(spectrum, self._result, direction="FFTW_BACKWARD", **options),
+        )
 
     def __call__(self, pressure: Array) -> Array:
         """Return the displacement [m] under cell pressures [Pa], of their shape.
@@ -184,7 +201,11 @@ class PeriodicDeflection:
         """
         first, second = self.shape
         self._padded[:first, :second] = pressure
-        self._forward.execute()
-        np.multiply(self._parts, self._transfer, out=self._parts)
-        self._backward.execute()
+        if self._blocks is not None:
+            self._blocks.execute()
+        elif self._whole is not None:
+            forward, values, factor, backward = self._whole
+            forward.execute()
+            np.multiply(values, factor, out=values)
+            backward.execute()
         return np.asarray(self._result[:first, :second])

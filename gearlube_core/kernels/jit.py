@@ -19,3 +19,8 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 def kernel(function: _Function) -> _Function:
     """Compile `function` with numba on first call and keep the machine code on disk."""
     return compiled(function, error_model="numpy")
+
+
+def row_kernel(function: _Function) -> _Function:
+    """As `kernel`, for work on arrays that several threads do at once, see `RowWorkers`."""
+    return compiled(function, error_model="numpy", nogil=True)

@@ -192,7 +192,8 @@ import sys
 from pathlib import Path
 from fmu_src.native.build import NativeOptions, build_native
 from tests.helpers.small_native_builds import LINUX, MODEL
-build_native(MODEL, Path(sys.argv[1]), NativeOptions(platforms=[LINUX.name]))
+options = NativeOptions(platforms=[LINUX.name], reference=False)  # it has no Python model
+build_native(MODEL, Path(sys.argv[1]), options)
 """
 
 

@@ -101,6 +101,7 @@ def test_derivatives_of_a_sheared_film_are_those_of_the_residual(monkeypatch) ->
         film,
         sheared.slopes(),
         free,
+        (0, SHAPE[0]),
         by_pressure,
         by_film,
     )

@@ -13,6 +13,7 @@ from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.time_error import TimeError
 from gearlube_core.ehl.transient import deflection_window
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
+from gearlube_core.kernels.row_workers import ALONE
 from gearlube_core.oil.eyring_1936 import Eyring
 from tests.helpers.source_of import interpret
 
@@ -30,7 +31,12 @@ def window(monkeypatch):
 
     monkeypatch.setattr(deflection_window, "HalfSpaceConvolution", convolution)
     grid = SimpleNamespace(
-        shape=SHAPE, graded=False, coefficients=np.zeros(SHAPE), modes=None, sides=AMBIENT
+        shape=SHAPE,
+        graded=False,
+        coefficients=np.zeros(SHAPE),
+        modes=None,
+        sides=AMBIENT,
+        workers=ALONE,
     )
     return WindowedDeflection(grid), made
 

@@ -15,6 +15,7 @@ from gearlube_core.ehl.point.newton.wave import uniform_wave_deflection
 from gearlube_core.ehl.point.sides import AMBIENT
 from gearlube_core.ehl.point.terms.differences import Differences
 from gearlube_core.ehl.point.terms.elements import Elements
+from gearlube_core.kernels.row_workers import ALONE
 from tests.helpers.row_operators import dense_row, operator_of, some_entries
 from tests.helpers.source_of import interpret
 
@@ -80,7 +81,7 @@ def test_grids_below_keep_the_transfers_between_them():
 
 
 SHAPE = (7, 16)
-GRID = SimpleNamespace(shape=SHAPE, modulus=0.02, graded=False, sides=AMBIENT)
+GRID = SimpleNamespace(shape=SHAPE, modulus=0.02, graded=False, sides=AMBIENT, workers=ALONE)
 
 
 def solved(entries, free, residual, halved, spacing) -> np.ndarray:

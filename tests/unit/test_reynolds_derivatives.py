@@ -75,8 +75,8 @@ def test_derivatives_are_those_of_differences(monkeypatch, along_y: float, weigh
     free[2, 3] = False
     by_pressure, by_film = np.full((2, 13 if sheared else 7, *SHAPE), np.nan)
     reynolds.reynolds_derivatives(
-        parameters, METRIC, p, flow, rho, DENSER * rho, h, slopes_of(sheared), free, by_pressure,
-        by_film,
+        parameters, METRIC, p, flow, rho, DENSER * rho, h, slopes_of(sheared), free,
+        (0, SHAPE[0]), by_pressure, by_film,
     )  # fmt: skip
     assert not by_pressure[:, 2, 3].any()
     assert not by_film[:, 2, 3].any()

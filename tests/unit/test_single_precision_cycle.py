@@ -76,7 +76,7 @@ def test_bands_are_solved_with_rows_exchanged():
     free[5] = False
     right = rng.normal(size=n)
     found = right.astype(np.float32)
-    smoother.solve_bands(transposed, pivots, free, np.float32(0.5), found)
+    smoother.solve_bands(transposed, pivots, free, np.float32(0.5), 0, found.size, found)
     expected = 0.5 * solve_banded((half, half), matrix, np.where(free, right, 0.0))
     # rounding, times a condition number of some hundreds
     assert found == pytest.approx(expected, abs=3e-4 * np.abs(expected).max())

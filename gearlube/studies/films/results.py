@@ -58,6 +58,16 @@ def write_film_results(dataset: xr.Dataset, folder: Path) -> None:
     save_film_figures(dataset, folder / "figures", prefix)
 
 
+def begin(folder: Path | None, progress: Progress, sentence: str) -> None:
+    """Make the folder of a run before any film is solved, so that a wrong path stops it now.
+
+    Without a folder nothing is written; `progress` is told that nothing is done yet.
+    """
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    progress(0.0, sentence)
+
+
 def finished(
     dataset: xr.Dataset, folder: Path | None, progress: Progress = no_progress, share: float = 0.5
 ) -> xr.Dataset:

@@ -10,7 +10,7 @@ import xarray as xr
 
 from gearlube.studies.films.datasets.hypoid import hypoid_dataset, hypoid_key
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
-from gearlube.studies.films.results import finished
+from gearlube.studies.films.results import begin, finished
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.gears.hypoid_cycle import march_flank, steady_films
 from gearlube_core.ehl.gears.hypoid_thermal import thermal_films
@@ -70,8 +70,7 @@ def run_hypoid(
         )
     flank = hypoid_flank(case)
     _warn_of_separation(flank)
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
+    begin(folder, progress, "steady films")
     solver, cycle, settings = case.solver, flank.film.cycle, case.settings()
     times = np.linspace(cycle.time[0], cycle.time[-1], solver.steady)
     rows = tuple(np.linspace(0, solver.steady - 1, kept + 2).round().astype(int)[1:-1].tolist())
@@ -80,8 +79,6 @@ def run_hypoid(
     def report(solved: int, sentence: str) -> None:
         # files and figures count as much as one more film
         progress(solved / (films + 1), sentence)
-
-    report(0, "steady films")
 
     def observe(solved: int, what: str, minimum_film: float) -> None:
         report(solved, f"{what}, smallest {1e9 * minimum_film:.0f} nm")

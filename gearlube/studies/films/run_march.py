@@ -16,7 +16,7 @@ from gearlube.studies.films.datasets.helical_cycle import (
 )
 from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
-from gearlube.studies.films.results import finished, step_file, write_film_results
+from gearlube.studies.films.results import begin, finished, step_file, write_film_results
 from gearlube.studies.films.run_steady import warn_of_ends, warn_of_grid
 from gearlube_core.checks import check_within
 from gearlube_core.ehl.gears.helical_cycle import march_helical_cycle, solve_helical_line
@@ -125,16 +125,13 @@ def run_helical_march(
         raise ParameterError("snapshots need a folder to write them to, got None. Give a folder.")
     warn_of_ends(film)
     key = march_key(film, first)
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
+    begin(folder, progress, "steady film at the first step")
     lines = CycleLines(None if folder is None else folder / f"lines_{key}.npz")
     films = last - first + len(steps.snapshots)
 
     def report(solved: int, sentence: str) -> None:
         # files and figures count as much as one more film
         progress(solved / (films + 1), sentence)
-
-    report(0, "steady film at the first step")
 
     def observe(step: int, _: int, solution: FilmSolution) -> None:
         lines.add(step, solution)

@@ -12,7 +12,7 @@ from gearlube.studies.films.datasets.helical_line import helical_dataset
 from gearlube.studies.films.datasets.line import line_dataset
 from gearlube.studies.films.datasets.point import point_dataset
 from gearlube.studies.films.helical_case import HelicalLineCase
-from gearlube.studies.films.results import finished
+from gearlube.studies.films.results import begin, finished
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.gears.helical_cycle import solve_helical_line
 from gearlube_core.ehl.gears.helical_film import HelicalFilm
@@ -68,7 +68,7 @@ def run_line(
     '0.20 um'
     """
     _warn_of_heights(case)
-    _begin(folder, progress, f"film on {case.solver.nodes} nodes")
+    begin(folder, progress, f"film on {case.solver.nodes} nodes")
     began = time.monotonic()
     problem, settings = case.problem(), case.settings()
     solution = (
@@ -109,7 +109,7 @@ def run_point(
     ('x', 'y')
     """
     _warn_of_heights(case)
-    _begin(folder, progress, f"film on {case.solver.nodes_x} x {case.solver.nodes_y} nodes")
+    begin(folder, progress, f"film on {case.solver.nodes_x} x {case.solver.nodes_y} nodes")
     problem, settings = case.problem(), case.settings()
     solution = (
         solve_thermal_point(problem, *case.solids, settings, film_error=film_error, throw=False)
@@ -158,7 +158,7 @@ def run_helical_line(
     film = case.film()
     step = case.step_of(film)
     warn_of_ends(film)
-    _begin(folder, progress, f"film on {film.nodes[0]} x {film.nodes[1]} nodes")
+    begin(folder, progress, f"film on {film.nodes[0]} x {film.nodes[1]} nodes")
     # the settings of a march, so that both give one film where nothing moves
     solution = solve_helical_line(film, step, MARCH_SETTINGS, film_error=film_error, throw=False)
     dataset = helical_dataset(film, step, solution, name=case.file.name, source=case.file.source)
@@ -192,10 +192,3 @@ def _warn_of_heights(case: LineCase | PointCase) -> None:
             "The heights are held at rest while both surfaces move. Those that do not lie along "
             "the motion would travel through the contact and squeeze its film."
         )
-
-
-def _begin(folder: Path | None, progress: Progress, sentence: str) -> None:
-    """Make the folder before the film is solved, so that an error of the path stops the run now."""
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-    progress(0.0, sentence)

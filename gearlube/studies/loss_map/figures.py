@@ -80,7 +80,12 @@ def loss_split(dataset: xr.Dataset) -> Any:
         for ax, j in zip(panels, chosen, strict=True):
             _split(ax, dataset.sel(temperature=temperature).isel(speed=j))
         panels[0].set_ylabel("power lost [W]")
-        figure.legend(*panels[-1].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        labels = {
+            label: handle
+            for ax in panels
+            for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
+        }
+        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
         figure.suptitle(f"Losses at {temperature:g} °C oil. {not_modelled(dataset)}", fontsize=9)
     return figure
 

@@ -19,6 +19,7 @@ from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, read_mesh_table
+from gearlube_core.rough_patch.asperity_file import FILE_IN_FMU as ASPERITIES_IN_FMU
 from gearlube_core.units import kmh_to_ms
 
 logger = logging.getLogger(__name__)
@@ -30,7 +31,7 @@ def car_axle_of(fmu: Path) -> CarAxle:
     """Return axle and car of an FMU, a file or an unzipped folder, by the files that it carries."""
     with unpacked(fmu) as directory:
         resources = directory / "resources"
-        found = {name: resources / name for name in (AXLE_FILE, FILE_IN_FMU)}
+        found = {name: resources / name for name in (AXLE_FILE, FILE_IN_FMU, ASPERITIES_IN_FMU)}
         return car_axle_in({name: p.read_bytes() for name, p in found.items() if p.is_file()})
 
 

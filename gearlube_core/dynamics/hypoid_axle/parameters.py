@@ -8,7 +8,11 @@ from typing import Annotated, Literal, get_args
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.greenwood_tripp_1971 import (
+    FLANK_SIGMA_OVER_BETA,
+    FLANK_XI_BETA_SIGMA,
+    SurfaceParameters,
+)
 from gearlube_core.contact.solid import (
     STEEL_MOHAMMADPOUR_2015,
     Solid,
@@ -69,6 +73,9 @@ class HypoidAxleParameters(AxleScalars):
         Both flanks.
     roughness_rms : float
         Composite root-mean-square roughness of the flanks [m].
+    xi_beta_sigma, sigma_over_beta : float
+        Asperities of Greenwood and Tripp's law [-]: density times tip radius times roughness, and
+        roughness over tip radius. `greenwood_tripp_fit` gives those of computed asperities.
     equations : {"consistent", "as_printed"}
         Sign of the mesh force in the lateral equations, flank friction in them, and the terms with
         which the mesh conserves energy.
@@ -115,6 +122,8 @@ class HypoidAxleParameters(AxleScalars):
     oil: Lubricant
     solid: Solid
     roughness_rms: Annotated[float, Within(1e-9, 2e-5, "m", "0.5 um is 5e-7 m.")]
+    xi_beta_sigma: Annotated[float, Within(1e-4, 10.0)] = FLANK_XI_BETA_SIGMA
+    sigma_over_beta: Annotated[float, Within(1e-9, 10.0)] = FLANK_SIGMA_OVER_BETA
     equations: Equations = "consistent"
     radii: Radii = "consistent"
     mesh_stiffness: MeshStiffness = "tangent"
@@ -221,7 +230,10 @@ class HypoidAxleParameters(AxleScalars):
             make = self.friction
         else:
             make = FLANK_LAWS["consistent" if self.friction == "off" else self.friction]
-        return make(gear_flanks(self.roughness_rms), solid_parameters(self.solid, self.solid))
+        surface = SurfaceParameters(
+            float(self.roughness_rms), float(self.xi_beta_sigma), float(self.sigma_over_beta)
+        )
+        return make(surface, solid_parameters(self.solid, self.solid))
 
     def kernel_parameters(self) -> AxleParameters:
         """Return the floats for the kernels."""

@@ -21,6 +21,7 @@ from gearlube_core.ehl.point.terms.elements import Elements
 from gearlube_core.ehl.point.terms.film_terms import FilmTerms
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
 from gearlube_core.ehl.point.terms.state import Balance, FilmState
+from gearlube_core.kernels.row_workers import RowWorkers
 
 Scheme = Differences | Elements
 
@@ -117,6 +118,11 @@ class PointLevel:
         """Set the film on the upstream border [-]; infinite: full."""
         cavitation = self.terms.cavitation.with_inlet_layer(layer)
         self.terms = replace(self.terms, cavitation=cavitation)
+
+    def set_workers(self, workers: RowWorkers) -> None:
+        """Set who share the work on rows; results do not depend on it."""
+        self.grid.set_workers(workers)
+        self.terms = replace(self.terms, shear=self.terms.shear.with_workers(workers))
 
     def set_load(self, load: float) -> None:
         """Set the integral of the pressure that balances the load [-]."""

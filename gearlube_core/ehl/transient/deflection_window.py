@@ -37,7 +37,7 @@ class WindowedDeflection:
         self._whole: GradedConvolution | None = None
         if grid.graded:
             self._whole = GradedConvolution(grid.coefficients, single=True)
-        self._modes, self._sides = grid.modes, grid.sides
+        self._modes, self._sides, self._workers = grid.modes, grid.sides, grid.workers
         self._convolution: HalfSpaceConvolution | ClosedDeflection
         self._spans: tuple[_Span, _Span] | None = None
         self._result: Any = np.zeros(grid.shape, dtype=np.float32)
@@ -61,7 +61,9 @@ class WindowedDeflection:
             rows = 0, free.shape[0]
             self._spans = rows, columns
             modes = self._modes[: columns[1] - columns[0]]
-            self._convolution = ClosedDeflection(modes, self._sides, rows[1] - 2, single=True)
+            self._convolution = ClosedDeflection(
+                modes, self._sides, rows[1] - 2, single=True, workers=self._workers
+            )
             self._result[:] = 0.0
             return
         self._convolution = HalfSpaceConvolution(

@@ -28,6 +28,7 @@ from gearlube_core.ehl.transient.rows import RowCycle
 from gearlube_core.ehl.transient.solution import FilmSolution, film_solution, pack_solutions
 from gearlube_core.ehl.transient.steady import steady_state
 from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.kernels.row_workers import RowWorkers
 
 SCHEMES = ("bdf2", "crank_nicolson")
 # "quick" keeps thin films that a gap has left on half the nodes of "upwind-2"
@@ -58,6 +59,9 @@ class FilmMarch:
         Goes on from there instead of from a steady state.
     throw
         Raise where the start does not converge.
+    threads
+        That share the work on rows, 1 to 64: not more than processors that have nothing else to
+        do. Films do not depend on it, to the bit.
 
     Raises
     ------
@@ -87,6 +91,7 @@ class FilmMarch:
         settings: PointSolverSettings | None = None,
         record: MarchRecord | None = None,
         throw: bool = True,
+        threads: int = 1,
     ) -> None:
         check_option("scheme", scheme, SCHEMES)
         check_positive("time_step", time_step, "s")
@@ -99,7 +104,9 @@ class FilmMarch:
         self._grids = film.row_grids(settings.wedge) if film.long else film.grids(settings.wedge)
         level = self._grids.levels[-1]
         assert isinstance(level, MovingLevel)
-        self._level = level
+        self._level, workers = level, RowWorkers(threads)
+        for one in self._grids.levels:
+            one.set_workers(workers)
         self._unit = time_step * level.scales.speed / level.scales.length
         self._lagged = LaggedPreconditioner(self._grids, RowCycle if film.long else _multigrid)
         begin = clock.perf_counter()

@@ -28,6 +28,9 @@ def rough(
     sides: Annotated[
         str | None, typer.Option(help="What the film meets along y.", metavar="cyclic|no_flow")
     ] = None,
+    threads: Annotated[
+        int, typer.Option(help="Threads that share the work; results do not depend on it.")
+    ] = 1,
     statistics: Annotated[
         bool,
         typer.Option("--statistics", help="Statistics of the kept films in OUT; nothing marches."),
@@ -63,7 +66,9 @@ def rough(
                 dataset = statistics_again(file, out)
             else:
                 with progress_on(console, "steps") as progress:
-                    dataset = run_rough(file, steps=steps, folder=out, progress=progress)
+                    dataset = run_rough(
+                        file, steps=steps, folder=out, threads=threads, progress=progress
+                    )
             if animation:
                 with progress_on(console, "animation") as progress:
                     write_animation(file, out, progress)

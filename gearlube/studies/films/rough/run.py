@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from gearlube.studies.films.results import begin
 from gearlube.studies.films.rough.files import read_frames, write_frame, write_rough_results
 from gearlube.studies.films.rough.gather import Gathered, new_statistics
 from gearlube.studies.films.rough.plan import disk_need
@@ -33,6 +34,7 @@ def run_rough(
     *,
     steps: int | None = None,
     folder: Path | None = None,
+    threads: int = 1,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
     """Return the statistics of a contact that becomes rough, step by step.
@@ -47,6 +49,8 @@ def run_rough(
         Where rough.nc, summary.csv, figures, kept films and the record of the march are written.
         A march goes on from its record there, to the bit as if it had not stopped. None: nothing
         is written.
+    threads
+        That share the work on rows, 1 to 64; results do not depend on it, to the bit.
     progress
         Called with the share done and what is done now.
 
@@ -82,14 +86,18 @@ def run_rough(
     if folder is not None:
         need = disk_need(case, folder)
         logger.info("%s %.0f MB are free.", need.sentence, 1e-6 * need.free)
-        folder.mkdir(parents=True, exist_ok=True)
+    begin(folder, progress, "smooth film")
     record = None if folder is None else _record(folder, key)
-    progress(0.0, "smooth film")
     gathered = Gathered(case)
     if record is not None:
         gathered.unpack(record.curves)
     march = FilmMarch(
-        case.film(), schedule.time_step, settings=case.settings(), record=record, throw=True
+        case.film(),
+        schedule.time_step,
+        settings=case.settings(),
+        record=record,
+        throw=True,
+        threads=threads,
     )
     if record is None:
         gathered.add(march.solution)

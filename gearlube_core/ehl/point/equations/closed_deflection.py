@@ -9,6 +9,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.contact.half_space_periodic import PeriodicDeflection
 from gearlube_core.ehl.point.sides import Sides
+from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 
 
 class ClosedDeflection:
@@ -24,11 +25,21 @@ class ClosedDeflection:
         Without copied ones.
     single
         In float32, for preconditioners.
+    workers
+        Threads that share it; results do not depend on it.
     """
 
-    def __init__(self, modes: Array, sides: Sides, rows: int, *, single: bool = False) -> None:
+    def __init__(
+        self,
+        modes: Array,
+        sides: Sides,
+        rows: int,
+        *,
+        single: bool = False,
+        workers: RowWorkers = ALONE,
+    ) -> None:
         self._sides = sides
-        self._convolution = PeriodicDeflection(modes, rows, "first", single=single)
+        self._convolution = PeriodicDeflection(modes, rows, "first", single=single, workers=workers)
         kind: Any = np.float32 if single else np.float64
         self._result: Any = np.zeros((rows + 2, modes.shape[0]), dtype=kind)
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.jit import kernel, row_kernel
 from gearlube_core.oil.factor_slopes import SMALL_SIGMA, factor_slopes
 from gearlube_core.oil.shear_block import BLOCK, ShearBlock, balance_block, block_slopes
 from gearlube_core.oil.shear_flow import (
@@ -121,7 +121,7 @@ def _take_block(work: FactorWork, rule: int, begin: int) -> tuple[int, int]:
     return n, i
 
 
-@kernel
+@row_kernel
 def fill_shear_factors(
     law: Any,
     pressure: np.ndarray,
@@ -193,7 +193,7 @@ def fill_shear_factors(
                 along[j, i], across[j, i] = shear_factors(law, s, r, a, work.most[i])
 
 
-@kernel
+@row_kernel
 def fill_factor_slopes(
     law: Any,
     pressure: np.ndarray,

@@ -24,6 +24,7 @@ from gearlube_core.ehl.point.equations.shear_factors import (
 from gearlube_core.ehl.point.equations.stencil import NodeSlopes, TensorSlopes
 from gearlube_core.ehl.point.sides import AMBIENT, Sides
 from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 from gearlube_core.oil.film_oil import FilmOil
 
 ALIGNED = 1.0e-12  # product of cosine and sine: flow along an axis feels no slope along the other
@@ -45,6 +46,7 @@ class FilmShear:
     limit: float = 0.0  # limiting stress over tau0 at ambient pressure
     limit_slope: float = 0.0  # its slope with pressure
     sides: Sides = AMBIENT  # of the rows
+    workers: RowWorkers = ALONE  # who share the rows
 
     @classmethod
     def of(
@@ -144,6 +146,10 @@ class FilmShear:
             couette=np.full(along.size, self.unit * speed),
         )
 
+    def with_workers(self, workers: RowWorkers) -> FilmShear:
+        """Return the film whose rows these share."""
+        return replace(self, workers=workers)
+
     def factors(self, pressure: Array, film: Array, fluidity: Array) -> AlignedFactors:
         """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
         units = ShearUnits(
@@ -157,9 +163,15 @@ class FilmShear:
         )
         ny, nx = pressure.shape
         along, across = np.empty((2, ny, nx))
-        stress, work = np.empty((2, ny, nx)), FactorWork.empty(nx)
+        stress = np.empty((2, ny, nx))
         fields = self.law, pressure, film, fluidity
-        fill_shear_factors(*fields, units, (0, ny), work, along, across, stress)
+        self.workers.share(
+            lambda part: fill_shear_factors(
+                *fields, units, part, FactorWork.empty(nx), along, across, stress
+            ),
+            ny,
+            nx,
+        )
         for one in (along, across):
             self.sides.fill(one)
         c, s = self.cosine, self.sine
@@ -167,7 +179,10 @@ class FilmShear:
         def rates(thickening: Array, rows: Flags | None = None) -> TensorSlopes:
             by = np.empty((2, 4, ny, nx))
             wanted = self._beside(rows, (ny, nx))
-            fill_factor_slopes(*fields, thickening, units, stress, wanted, (0, ny), work, *by)
+            given = *fields, thickening, units, stress, wanted
+            self.workers.share(
+                lambda part: fill_factor_slopes(*given, part, FactorWork.empty(nx), *by), ny, nx
+            )
             for one in by:
                 for k in range(3):
                     self.sides.fill(one[k])
@@ -226,6 +241,10 @@ class NewtonianShear:
         return cls(NewtonianFactors(shape))
 
     def with_sliding(self, along: Array, across: float) -> NewtonianShear:
+        """Return the same."""
+        return self
+
+    def with_workers(self, workers: RowWorkers) -> NewtonianShear:
         """Return the same."""
         return self
 

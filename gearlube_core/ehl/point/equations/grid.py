@@ -23,6 +23,7 @@ from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.scaling import PointScales
 from gearlube_core.ehl.point.sides import Sides
 from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 
 _REFERENCE = 2.0  # lengths of the domain, where a repeated load leaves the solids as they were
 
@@ -61,6 +62,8 @@ class PointGrid:
         dx dy [-].
     cells : ndarray, shape (nx,)
         Areas of the cells of a row [-].
+    workers : RowWorkers
+        Threads that share the work on rows; results do not depend on it.
     """
 
     def __init__(
@@ -83,6 +86,7 @@ class PointGrid:
         self.modulus = problem.contact_modulus * scales.film / (scales.pressure * scales.length)
         self.positions = x / scales.length if grading else np.arange(nx) * self.dx
         self.graded = grading is not None
+        self.workers = ALONE  # who share the rows
         if self.graded and sides.closed:
             raise ParameterError(
                 f"a grading does not go with sides {sides.name}. Leave the spacing uniform."
@@ -108,12 +112,20 @@ class PointGrid:
         self.cells = self.cell / self.metric.narrow
         self._dense: Array | None = None
 
+    def set_workers(self, workers: RowWorkers) -> None:
+        """Set who share the work on rows."""
+        self.workers = workers
+        self.deflection = self.convolution()
+        vars(self).pop("single_deflection", None)
+
     def convolution(
         self, single: bool = False
     ) -> HalfSpaceConvolution | GradedConvolution | ClosedDeflection:
         """Return the deflection under a pressure as a function, in float32 for preconditioners."""
         if self.modes is not None:
-            return ClosedDeflection(self.modes, self.sides, self.shape[0] - 2, single=single)
+            return ClosedDeflection(
+                self.modes, self.sides, self.shape[0] - 2, single=single, workers=self.workers
+            )
         kind = GradedConvolution if self.graded else HalfSpaceConvolution
         return kind(self.coefficients, single=single)
 

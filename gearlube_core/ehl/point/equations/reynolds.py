@@ -25,7 +25,7 @@ from gearlube_core.ehl.point.equations.stencil import (
     face_weights,
     mean_fluidity,
 )
-from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.jit import kernel, row_kernel
 
 
 @kernel
@@ -109,7 +109,7 @@ def reynolds_residual(
                     residual[j - 1, i] += flow
 
 
-@kernel
+@row_kernel
 def reynolds_derivatives(
     parameters: StencilParameters,
     metric: MeshMetric,
@@ -120,6 +120,7 @@ def reynolds_derivatives(
     film: np.ndarray,
     slopes: FlowSlopes,
     free: np.ndarray,
+    rows: tuple[int, int],
     by_pressure: np.ndarray,
     by_film: np.ndarray,
 ) -> None:
@@ -135,13 +136,15 @@ def reynolds_derivatives(
         Of the flow by pressure.
     free : ndarray of bool, shape (ny, nx)
         Nodes whose equation is solved; rows of the others become zero.
+    rows
+        First row of nodes that is written and the one behind the last.
     by_pressure, by_film : ndarray, shape (n, ny, nx)
         Result [-], n = 7, or 13 where fluidity depends on the rise of pressure across its node:
         that of the film is taken then, too. Derivatives by film of the last six are zero.
     """
     ny, nx = pressure.shape
-    by_pressure[:] = 0.0
-    by_film[:] = 0.0
+    by_pressure[:, rows[0] : rows[1]] = 0.0
+    by_film[:, rows[0] : rows[1]] = 0.0
     sheared = by_pressure.shape[0] > NEIGHBOURS
     cubic, dense = film_flow.cubic, slopes.dense
     fluidity_x, resistance_x = film_flow.fluidity_x, film_flow.resistance_x
@@ -150,7 +153,7 @@ def reynolds_derivatives(
     uy = parameters.wedge_y
     down = (0, 0, 0, 0, -1, 1, -2)
     right = (0, -1, 1, -2, 0, 0, 0)
-    for j in range(1, ny - 1):
+    for j in range(max(rows[0], 1), min(rows[1], ny - 1)):
         for i in range(1, nx - 1):
             if not free[j, i]:
                 continue

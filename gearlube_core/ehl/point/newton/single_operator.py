@@ -32,7 +32,8 @@ class SingleOperator:
         """Return the change, shape (ny, nx)."""
         if self._stencil is None:
             return self._operator.apply(self._grid, pressure, approach).astype(Single)
-        result = self._stencil.multiply(pressure, self._grid.single_deflection(pressure))
+        film = self._grid.single_deflection(pressure)
+        result = self._stencil.multiply(pressure, film, self._grid.workers)
         if approach != 0.0:
             result += Single(approach) * self._by_approach
         return result

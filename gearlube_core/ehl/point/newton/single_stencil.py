@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.jit import kernel, row_kernel
+from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 
 _REACH = 2  # nodes that a stencil reaches to each side
 _WIDTH = 2 * _REACH + 1
@@ -79,7 +80,7 @@ def spread_entries(
             by_film[place, j, i] += entry[k].imag
 
 
-@kernel
+@row_kernel
 def multiply_stencil(
     offsets: np.ndarray,
     by_pressure: np.ndarray,
@@ -87,6 +88,7 @@ def multiply_stencil(
     period: int,
     pressure: np.ndarray,
     film: np.ndarray,
+    rows: tuple[int, int],
     result: np.ndarray,
 ) -> None:
     """Write what stencils make of changes of pressure and film.
@@ -101,10 +103,12 @@ def multiply_stencil(
         Rows after which neighbours repeat; 0: never. Row 0 is then a copy.
     pressure, film : ndarray, shape (ny, nx)
         Changes.
+    rows
+        First row that is written and the one behind the last.
     result : ndarray, shape (ny, nx)
     """
     count, ny, nx = by_film.shape
-    for j in range(ny):
+    for j in range(rows[0], rows[1]):
         row = result[j]
         row[:] = 0.0
         for k in range(count):
@@ -150,16 +154,14 @@ class SingleStencil:
         )
         return cls(offsets, by_pressure, by_film, period)
 
-    def multiply(self, pressure: np.ndarray, film: np.ndarray) -> np.ndarray:
+    def multiply(
+        self, pressure: np.ndarray, film: np.ndarray, workers: RowWorkers = ALONE
+    ) -> np.ndarray:
         """Return the change of the residual under changes of pressure and film, (ny, nx)."""
         result = np.empty(self.by_film.shape[1:], dtype=Single)
-        multiply_stencil(
-            self.offsets,
-            self.by_pressure,
-            self.by_film,
-            self.period,
-            np.ascontiguousarray(pressure, dtype=Single),
-            np.ascontiguousarray(film, dtype=Single),
-            result,
+        stencil = self.offsets, self.by_pressure, self.by_film, self.period
+        pressure, film = (np.ascontiguousarray(one, dtype=Single) for one in (pressure, film))
+        workers.share(
+            lambda rows: multiply_stencil(*stencil, pressure, film, rows, result), *result.shape
         )
         return result

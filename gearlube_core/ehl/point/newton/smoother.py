@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 from scipy.linalg.lapack import sgbtrf
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.newton.galerkin import SparseOperator
+from gearlube_core.ehl.point.newton.row_factors import (
+    BELOW,
+    LARGEST_SHARE,
+    factor_side_by_side,
+    fill_side_by_side,
+    solve_side_by_side,
+)
 from gearlube_core.ehl.point.newton.single_stencil import Single
 from gearlube_core.ehl.point.newton.wave import TransposedGrid, wave_deflection
-from gearlube_core.kernels.jit import kernel
+from gearlube_core.kernels.jit import row_kernel
+from gearlube_core.kernels.row_workers import RowWorkers
 
 REACH = 4  # nodes over which the local deflection acts to each side
 _BELOW = REACH + 2  # the far upstream neighbour
@@ -18,7 +28,7 @@ _ABOVE = REACH + 2
 _DIAGONAL = _BELOW + _ABOVE  # its place in the band of factors
 
 
-@kernel
+@row_kernel
 def fill_rows(
     start: np.ndarray,
     column: np.ndarray,
@@ -27,6 +37,7 @@ def fill_rows(
     local: np.ndarray,
     across: np.ndarray,
     period: int,
+    rows: tuple[int, int],
     band: np.ndarray,
 ) -> None:
     """Fill the LAPACK band of all rows of nodes, uncoupled from each other.
@@ -43,12 +54,14 @@ def fill_rows(
         Share of it that neighbours 0 to 4 rows away see.
     period
         Rows after which the film repeats; 0: it does not.
+    rows
+        First row of nodes that is filled and the one behind the last.
     band : ndarray, shape (ny nx, 2 _BELOW + _ABOVE + 1)
         Result, transposed band storage; zero on entry.
     """
-    ny, nx = free.shape
+    nx = free.shape[1]
     diagonal = _BELOW + _ABOVE
-    for j in range(ny):
+    for j in range(rows[0], rows[1]):
         for i in range(nx):
             row = j * nx + i
             if not free[j, i]:
@@ -71,9 +84,15 @@ def fill_rows(
                         band[row + offset, diagonal - offset] += slope * local[ii, i + offset]
 
 
-@kernel
+@row_kernel
 def solve_bands(
-    factors: np.ndarray, pivots: np.ndarray, free: np.ndarray, scale: float, values: np.ndarray
+    factors: np.ndarray,
+    pivots: np.ndarray,
+    free: np.ndarray,
+    scale: float,
+    begin: int,
+    end: int,
+    values: np.ndarray,
 ) -> None:
     """Solve with the factors of `sgbtrf`, in place, and scale; LAPACK calls BLAS for every node.
 
@@ -87,36 +106,103 @@ def solve_bands(
         Other nodes have zero on the right and in the result.
     scale
         Of the result.
+    begin, end
+        First node of the rows that are solved and the one behind their last; rows do not feel
+        each other.
     values : ndarray, shape (n,)
         Right-hand side on entry.
     """
-    n = values.size
-    for j in range(n):
+    for j in range(begin, end):
         if not free[j]:
             values[j] = 0.0
-    for j in range(n):
+    for j in range(begin, end):
         other = pivots[j]
         value = values[other]
         values[other] = values[j]
         values[j] = value
-        below = min(_BELOW, n - 1 - j)
+        below = min(_BELOW, end - 1 - j)
         rest, shares = values[j + 1 : j + 1 + below], factors[j, _DIAGONAL + 1 :]
         for m in range(below):
             rest[m] -= shares[m] * value
-    for j in range(n - 1, _DIAGONAL - 1, -1):
+    for j in range(end - 1, begin + _DIAGONAL - 1, -1):
         value = values[j] * factors[j, _DIAGONAL]
         values[j] = value
         rest, shares = values[j - _DIAGONAL : j], factors[j]
         for m in range(_DIAGONAL):
             rest[m] -= shares[m] * value
-    for j in range(min(n, _DIAGONAL) - 1, -1, -1):
+    for j in range(min(end, begin + _DIAGONAL) - 1, begin - 1, -1):
         value = values[j] * factors[j, _DIAGONAL]
         values[j] = value
-        rest, shares = values[:j], factors[j, _DIAGONAL - j :]
-        for m in range(j):
+        rest, shares = values[begin:j], factors[j, _DIAGONAL - j + begin :]
+        for m in range(j - begin):
             rest[m] -= shares[m] * value
-    for j in range(n):
+    for j in range(begin, end):
         values[j] *= scale
+
+
+class Equations(NamedTuple):
+    """What `fill_rows` takes."""
+
+    start: np.ndarray
+    column: np.ndarray
+    entry: np.ndarray
+    free: np.ndarray
+    local: np.ndarray
+    across: np.ndarray
+    period: int
+
+
+class _ExchangedRows:
+    """Rows of nodes factored one after the other, with exchange of equations."""
+
+    def __init__(self, equations: Equations, workers: RowWorkers) -> None:
+        self._free, self._workers = equations.free, workers
+        ny, nx = equations.free.shape
+        band = np.zeros((ny * nx, 2 * _BELOW + _ABOVE + 1), dtype=np.float32)
+        workers.share(lambda rows: fill_rows(*equations, rows, band), ny, nx)
+        factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)
+        self._factors = np.ascontiguousarray(factors.T)
+        self._factors[:, _DIAGONAL] = 1.0 / self._factors[:, _DIAGONAL]
+
+    def solve(self, residual: Array, damping: Any) -> Any:
+        """Return the solution times a factor, shape (ny, nx)."""
+        values = np.array(residual, dtype=Single, order="C")
+        flat, (ny, nx) = values.reshape(-1), values.shape
+        given = self._factors, self._pivots, self._free.reshape(-1), damping
+        self._workers.share(
+            lambda rows: solve_bands(*given, rows[0] * nx, rows[1] * nx, flat), ny, nx
+        )
+        return values
+
+
+class _SideBySide:
+    """Rows of nodes factored all at once, without exchange of equations.
+
+    Attributes
+    ----------
+    sound : bool
+        None would have had to be exchanged with one of a tenth of its weight.
+    """
+
+    def __init__(self, equations: Equations, workers: RowWorkers) -> None:
+        self._free, self._workers = equations.free, workers
+        ny, nx = equations.free.shape
+        self._band = band = np.zeros((nx, 2 * BELOW + 1, ny), dtype=np.float32)
+        largest = np.empty(ny, dtype=np.float32)
+
+        def factor(rows: tuple[int, int]) -> None:
+            fill_side_by_side(*equations, rows, band)
+            factor_side_by_side(rows, band, largest)
+
+        workers.share(factor, ny, nx)
+        self.sound = bool((largest <= LARGEST_SHARE).all())
+
+    def solve(self, residual: Array, damping: Any) -> Any:
+        """Return the solution times a factor, shape (ny, nx)."""
+        values = np.where(self._free, residual, Single(0.0)).T.astype(Single, order="C")
+        nx, ny = values.shape
+        self._workers.share(lambda rows: solve_side_by_side(rows, self._band, values), ny, nx)
+        return np.multiply(values.T, damping, order="C")
 
 
 class RowSmoother:
@@ -129,36 +215,30 @@ class RowSmoother:
         halved: tuple[bool, bool],
         damping: float,
     ) -> None:
-        ny, nx = grid.shape
         # the shortest waves that the coarser grid lacks
         wave_number = max(
             0.55 * np.pi / grid.dy if halved[0] else 0.0,
             0.35 * np.pi / grid.dx if halved[1] else 0.0,
         )
         shortest = min(wave_number * grid.dy, 0.55 * np.pi)
-        across = np.cos(shortest * np.arange(5.0))
-        band = np.zeros((ny * nx, 2 * _BELOW + _ABOVE + 1), dtype=np.float32)
-        fill_rows(
-            operator.matrix.indptr,
-            operator.matrix.indices,
-            operator.matrix.data,
+        matrix = operator.matrix
+        equations = Equations(
+            matrix.indptr,
+            matrix.indices,
+            matrix.data,
             operator.free,
             wave_deflection(grid, wave_number),
-            across,
-            grid.sides.period(ny),
-            band,
+            np.cos(shortest * np.arange(5.0)),
+            grid.sides.period(grid.shape[0]),
         )
-        factors, self._pivots, _ = sgbtrf(band.T, _BELOW, _ABOVE, overwrite_ab=True)
-        self._factors = np.ascontiguousarray(factors.T)
-        self._factors[:, _DIAGONAL] = 1.0 / self._factors[:, _DIAGONAL]
         self._damping = Single(damping)
-        self._free = operator.free.ravel()
+        self._rows: _SideBySide | _ExchangedRows = _SideBySide(equations, grid.workers)
+        if not self._rows.sound:
+            self._rows = _ExchangedRows(equations, grid.workers)
 
     def __call__(self, residual: Array) -> Array:
         """Return a pressure that removes the short waves of a residual, shape (ny, nx)."""
-        values = np.array(residual, dtype=Single, order="C")
-        solve_bands(self._factors, self._pivots, self._free, self._damping, values.reshape(-1))
-        return values
+        return np.asarray(self._rows.solve(residual, self._damping))
 
 
 class ColumnSmoother:

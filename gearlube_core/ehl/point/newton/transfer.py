@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from scipy.sparse import csr_matrix, kron
 
@@ -88,24 +90,24 @@ class Transfer:
             self._restriction.append(weights / np.where(shares > 0.0, shares, 1.0))
         self.interpolation: csr_matrix = kron(*self._linear, format="csr")
         self.restriction: csr_matrix = kron(*self._restriction, format="csr")
-        kinds = ("float32", "float64")
+        kinds = (np.dtype(np.float32), np.dtype(np.float64))
         self._short_up = {kind: [_short(m, kind) for m in self._linear] for kind in kinds}
         self._short_down = {kind: [_short(m, kind) for m in self._restriction] for kind in kinds}
 
     def down(self, values: Array) -> Array:
         """Return weighted means of nodal values around each coarse node, in their precision."""
-        return _both(self._short_down[values.dtype.name], values)
+        return _both(self._short_down[values.dtype], values)
 
     def up(self, values: Array) -> Array:
         """Return coarse values on the fine grid, linear between nodes, in their precision."""
-        return _both(self._short_up[values.dtype.name], values)
+        return _both(self._short_up[values.dtype], values)
 
     def up_smoothly(self, values: Array) -> Array:
         """Return coarse values on the fine grid, cubic between nodes."""
         return np.asarray(self._cubic[0] @ values @ self._cubic[1].T)
 
 
-def _short(matrix: Array, kind: str) -> csr_matrix | Array | None:
+def _short(matrix: Array, kind: Any) -> csr_matrix | Array | None:
     """Return a matrix as it multiplies fastest in a precision, None for the identity."""
     if matrix.shape[0] == matrix.shape[1]:
         return None

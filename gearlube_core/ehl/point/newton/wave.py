@@ -13,6 +13,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.equations.grid import PointGrid
 from gearlube_core.ehl.point.equations.mesh import cell_faces
 from gearlube_core.ehl.point.sides import AMBIENT, Sides
+from gearlube_core.kernels.row_workers import ALONE, RowWorkers
 
 _SPECTRUM = 512
 
@@ -36,12 +37,14 @@ class TransposedGrid:
     positions: Array  # of the columns along x [-]
     graded: bool = False
     sides: Sides = AMBIENT  # of its rows
+    workers: RowWorkers = ALONE
 
     @classmethod
     def of(cls, grid: PointGrid) -> TransposedGrid:
         """Return the transpose of a uniform grid."""
         ny, nx = grid.shape
-        return cls((nx, ny), grid.dy, grid.dx, grid.modulus, np.arange(ny) * grid.dy)
+        positions = np.arange(ny) * grid.dy
+        return cls((nx, ny), grid.dy, grid.dx, grid.modulus, positions, workers=grid.workers)
 
 
 def wave_deflection(grid: PointGrid | TransposedGrid, wave_number: float | Array) -> Array:

@@ -35,7 +35,7 @@ class Differences:
     face_limits = _LEAST_FACE, _MOST_FACE
 
     def __init__(self, grid: PointGrid) -> None:
-        self._metric = grid.metric
+        self._metric, self._grid = grid.metric, grid
 
     @staticmethod
     def wedge(name: str) -> str:
@@ -84,17 +84,10 @@ class Differences:
         count = SHEARED_NEIGHBOURS if shear.sheared else NEIGHBOURS
         slopes = shear.slopes(state.dense, state.viscosity_slope, rows)
         by_pressure, by_film = np.empty((2, count, *state.film.shape))
-        reynolds_derivatives(
-            stencil,
-            self._metric,
-            state.oil,
-            flow,
-            *density,
-            state.film,
-            slopes,
-            rows,
-            by_pressure,
-            by_film,
+        given = stencil, self._metric, state.oil, flow, *density, state.film, slopes, rows
+        self._grid.workers.share(
+            lambda part: reynolds_derivatives(*given, part, by_pressure, by_film),
+            *state.film.shape,
         )
         shear.add_cross_derivatives(
             stencil, self._metric, state.oil, flow, state.film, slopes, rows, by_pressure, by_film
