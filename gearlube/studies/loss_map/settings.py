@@ -94,6 +94,15 @@ UNCERTAIN = (
         None,
         ("bearing_torque",),
     ),
+    Uncertain(
+        "churning",
+        "law and immersion of the churning",
+        3.0,
+        "laws among each other; oil thrown off",
+        None,
+        ("churning",),
+    ),
+    Uncertain("seals", "torque of the seals", 2.0, "seals among each other", None, ("seals",)),
 )
 
 

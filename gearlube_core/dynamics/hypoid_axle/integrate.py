@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import shaft_drag
+from gearlube_core.drag.churning import churning_torque
+from gearlube_core.drag.seals import seal_drag
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -35,8 +37,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.drag.churning import churning_torque
-from gearlube_core.drag.seals import seal_drag
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES

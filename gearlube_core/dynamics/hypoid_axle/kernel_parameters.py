@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.drag.churning import ChurningConstants
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.dynamics.scalars import Within
-from gearlube_core.drag.churning import ChurningConstants
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.oil.lubricant import LubricantParameters
 

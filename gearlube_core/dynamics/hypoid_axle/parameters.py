@@ -19,6 +19,7 @@ from gearlube_core.contact.solid import (
     contact_modulus,
     solid_parameters,
 )
+from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     MeshForceConstants,
@@ -29,7 +30,6 @@ from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.dynamics.ranges import Range, range_limits
 from gearlube_core.dynamics.scalars import Within, check_scalars, constants_of
-from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import chittenden_1985
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
