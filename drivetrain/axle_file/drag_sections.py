@@ -45,6 +45,16 @@ class Housing(ModelSection):
     )
     oil_volume_l: Litres | None = Field(default=None, description="Filled in")
 
+    @model_validator(mode="after")
+    def _check_depth(self) -> Housing:
+        depth, diameter = self.immersion_mm, self.ring_diameter_mm
+        if depth is not None and diameter is not None and depth > diameter:
+            raise ValueError(
+                f"immersion_mm must be at most ring_diameter_mm, {diameter:g} mm, got {depth:g} "
+                "mm; a third of it is usual"
+            )
+        return self
+
     def housing_changes(self, axle: HypoidAxleParameters) -> dict[str, Any]:
         """Return the given fields in SI units, and the law where it follows from them."""
         given = self.changes(axle)

@@ -30,7 +30,7 @@ class ChurningConstants(NamedTuple):
 def changenet_velex_factor(speed: float, nu: float, p: ChurningConstants) -> float:
     """Return the dimensionless torque C_m of Changenet and Velex at a speed [rad/s] above 0."""
     radius = 0.5 * p.ring_diameter
-    depth = p.immersion / p.ring_diameter
+    depth = min(1.0, p.immersion / p.ring_diameter)
     volume = p.oil_volume / p.ring_diameter**3
     froude = speed * speed * radius / STANDARD_GRAVITY
     critical = speed * radius * p.ring_width / nu
@@ -110,7 +110,8 @@ def churning_torque(speed: float, nu: float, density: float, p: ChurningConstant
         return 0.0
     radius = 0.5 * p.ring_diameter
     if p.law == _ISO:
-        depth, width = 1e3 * p.immersion, 1e3 * p.ring_width
+        depth = 1e3 * min(p.immersion, p.ring_diameter)
+        width = 1e3 * p.ring_width
         first = 0.063 * depth / 10.0 + 0.0128 * (width / 10.0) ** 3
         magnitude = first * math.exp((depth / 800.0 + 0.2) * size * radius / 10.0)
     else:

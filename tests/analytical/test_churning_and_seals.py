@@ -167,6 +167,11 @@ def test_seals_by_diameter_or_torque():
         axle_file(seals={"pinion_diameter_mm": 45.0, "pinion_torque_n_m": 0.4})
 
 
-def test_a_gear_below_the_oil_is_refused():
-    with pytest.raises(ParameterError, match="immersion must be at most ring_diameter"):
-        replace(LOSSY, immersion=0.2)
+def test_a_gear_below_the_oil_is_refused_in_the_file_and_counts_as_covered_in_the_kernel():
+    with pytest.raises(ParameterError, match="immersion_mm must be at most"):
+        axle_file(housing={"ring_diameter_mm": 150.0, "immersion_mm": 160.0})
+    for law in CHURNING_LAWS:
+        covered, deep = (ring(law, immersion=depth) for depth in (0.165, 0.5))
+        assert churning_torque(60.0, 2e-5, 870.0, deep) == churning_torque(
+            60.0, 2e-5, 870.0, covered
+        )

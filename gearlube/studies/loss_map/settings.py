@@ -98,7 +98,7 @@ UNCERTAIN = (
         "churning",
         "law and immersion of the churning",
         3.0,
-        "laws among each other; oil thrown off",
+        "laws among each other, and oil thrown off",
         None,
         ("churning",),
     ),

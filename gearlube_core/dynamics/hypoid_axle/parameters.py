@@ -98,7 +98,8 @@ class HypoidAxleParameters(AxleScalars):
     ring_diameter, ring_width : float
         Outside diameter and width of the teeth of the gear [m].
     immersion : float
-        Depth of the lowest tooth below the surface of the oil at rest [m], at most ring_diameter.
+        Depth of the lowest tooth below the surface of the oil at rest [m]; more than ring_diameter
+        counts as that.
     oil_volume : float
         [m3]
     steps_per_mesh_period, steps_per_highest_period : int
@@ -148,11 +149,6 @@ class HypoidAxleParameters(AxleScalars):
             check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
         check_option("churning", self.churning, CHURNING_LAWS)
-        if self.immersion > self.ring_diameter:
-            raise ParameterError(
-                f"immersion must be at most ring_diameter, {self.ring_diameter:g} m, got "
-                f"{self.immersion:g} m. Half of it is deep already."
-            )
         check_scalars(self)
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
             raise ParameterError(NO_MODAL_LOSS)
