@@ -105,6 +105,14 @@ from gearlube_core.ehl.statistics.rough_film import statistics_of_run as statist
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact
 
+# -- Study: friction of a bearing
+from gearlube_core.bearings.bearing_file import BearingFile as BearingFile
+from gearlube_core.bearings.losses.geometry import BearingGeometry as BearingGeometry
+from gearlube_core.bearings.losses.loss import LossModel as BearingLossModel
+from gearlube_core.bearings.losses.loss import bearing_loss as bearing_loss
+from gearlube.studies.bearing.settings import BearingSettings as BearingSettings
+from gearlube.studies.bearing.run import run_bearing as run_bearing
+
 # -- Study: loss map of an axle
 from gearlube.studies.loss_map.settings import LossMapSettings as LossMapSettings
 from gearlube.studies.loss_map.run import run_loss_map as run_loss_map

@@ -66,6 +66,12 @@ COMMANDS = (
         summary="Solve lubricated contacts: film, pressure and friction.",
     ),
     LazyCommand(
+        name="bearing",
+        target="gearlube.studies.bearing.command:bearing",
+        summary="Friction of a tapered roller bearing: torque and power loss.",
+        command_class="BearingCommand",
+    ),
+    LazyCommand(
         name="roughness",
         target="gearlube.studies.roughness.command:roughness",
         summary="Read or make rough surfaces: statistics, filters, lay.",

@@ -29,6 +29,7 @@ _RESULTS = frozenset(
         "compare.png",
         "line_mesh.nc",
         "geometry.nc",
+        "bearing.nc",
         "map.nc",
     }
 )

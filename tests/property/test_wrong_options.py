@@ -31,12 +31,14 @@ SOLVERS = (
     "gearlube.studies.films.run_march.march_helical_cycle",
     "gearlube.studies.films.hypoid.flank.dynamic_drive",
     "gearlube.studies.films.hypoid.flank.static_drive",
+    "gearlube.studies.bearing.run.bearing_loss",
     "fmu_src.build._build",
 )
 COMMANDS = (
     ("sweep",),
     ("build-fmu",),
     ("contact",),
+    ("bearing",),
     ("resonance",),
     ("helical",),
     ("ehl", "line"),

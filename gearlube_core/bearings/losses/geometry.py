@@ -96,6 +96,17 @@ class BearingGeometry:
     ------
     ParameterError
         Rollers that overlap, no common apex, rings that do not hold the rollers.
+
+    Examples
+    --------
+    >>> outer = math.radians(15.64)
+    >>> bearing = BearingGeometry(
+    ...     bore_diameter=0.08, outside_diameter=0.14, pitch_diameter=0.1085, n_rollers=16,
+    ...     roller_diameter=0.017, roller_length=0.0227, rib=Rib(contact_height=0.0025),
+    ...     outer_angle=outer, inner_angle=closing_inner_angle(0.1085, 0.017, outer),
+    ... )
+    >>> round(math.degrees(bearing.inner_angle), 2)
+    11.44
     """
 
     bore_diameter: float

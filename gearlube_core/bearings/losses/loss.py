@@ -50,6 +50,11 @@ class LossModel:
         Oil at the inlet of the raceways, both surfaces together [m]; 0: flooded.
     temperature_rise : float
         Of the oil at the contacts over the given temperature [K].
+
+    Examples
+    --------
+    >>> LossModel(law="biboulet_houpert", inlet_layer=5e-6).law
+    'biboulet_houpert'
     """
 
     law: str = DEFAULT_LAW
@@ -118,6 +123,15 @@ def bearing_loss(
     The error bar is a factor of 2 (k = 2) for a bearing that was not calibrated: the state of
     lubrication is not known. Laws that miss the one measured bearing by more have a wider one. With
     `rolling_scale` from a measured torque it is 1.25 for the laws of the raceways.
+
+    Examples
+    --------
+    >>> from gearlube_core.bearings.bearing_file import BearingFile
+    >>> bearing = BearingFile.named("wingertszahn_2023").geometry()
+    >>> loss = bearing_loss(bearing, Lubricant.named("fva_3"), LossModel(), speed=209.4,
+    ...                     axial_load=6000.0, radial_load=0.0, temperature=323.15)
+    >>> round(loss.torque, 1), loss.factor  # N m, error bar
+    (3.2, 2.0)
     """
     check_condition(geometry, oil, model, speed, axial_load, radial_load, temperature)
     state = lubricant_state(oil.parameters(), temperature + model.temperature_rise)
@@ -185,7 +199,8 @@ def check_condition(
     rpm = 30.0 / math.pi
     cure = f"That is {most * rpm:.4g} rpm, 1.5e6 mm/min on the pitch diameter."
     check_within("speed", speed, 0.0, most, "rad/s", cure)
-    check_within("axial_load", axial_load, 1e-3, 1e8, "N", "6 kN is 6000 N.")
+    cure = "A tapered roller bearing needs an axial load, of its pair or from outside."
+    check_within("axial_load", axial_load, 1e-3, 1e8, "N", cure)
     check_within("radial_load", radial_load, 0.0, 1e8, "N", "6 kN is 6000 N.")
     oil.check_temperature(temperature)
     if model.temperature_rise:

@@ -1,0 +1,1 @@
+"""Study of the friction of a tapered roller bearing."""

@@ -1,0 +1,180 @@
+"""The command `gearlube bearing`."""
+
+from __future__ import annotations
+
+import logging
+import math
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.oil_option import oil_kelvin
+from gearlube.cli.options import ExampleOption, OverwriteOption
+from gearlube.cli.progress_report import progress_on
+from gearlube.cli.ranges import numbers_from
+from gearlube.cli.results_folder import results_folder
+from gearlube_core.checks import check_within
+from gearlube_core.units import kelvin_to_celsius, rads_to_rpm, rpm_to_rads
+
+if TYPE_CHECKING:  # the study is loaded when the command runs
+    from gearlube.studies.bearing.summary import BearingRow
+
+logger = logging.getLogger("gearlube")
+console = Console(stderr=True)
+_MICRO = 1e-6
+
+
+class BearingCommand(MultiValueCommand):
+    """A command with options that take several values."""
+
+    multi_value = frozenset({"--speed-rpm", "--axial-load", "--radial-load", "--temperature"})
+
+
+def bearing(
+    file: Annotated[
+        str, typer.Argument(help="Bearing file (TOML) or a shipped one.", metavar="BEARING")
+    ] = "wingertszahn_2023",
+    oil: Annotated[
+        str | None,
+        typer.Option(
+            help="Shipped oil or an oil file (TOML, the fields of [oil] of an axle file). Default: "
+            "that of the bearing file."
+        ),
+    ] = None,
+    law: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Repeat it for several: zhou_hoeprich, biboulet_houpert, goksem_hargreaves, "
+            "aihara, palmgren, skf, timken, or all that the file has numbers for. Default: "
+            "zhou_hoeprich and palmgren.",
+            metavar="LAW",
+        ),
+    ] = None,
+    speed_rpm: Annotated[
+        list[str] | None,
+        typer.Option(help="Shaft speeds [rpm]: first:last:step, values.", metavar="RANGE..."),
+    ] = None,
+    axial_load: Annotated[
+        list[str] | None, typer.Option(help="Axial loads [N].", metavar="RANGE...")
+    ] = None,
+    radial_load: Annotated[
+        list[str] | None, typer.Option(help="Radial loads [N].", metavar="RANGE...")
+    ] = None,
+    temperature: Annotated[
+        list[str] | None,
+        typer.Option(help="Oil temperatures at the bearing [degC].", metavar="RANGE..."),
+    ] = None,
+    inlet_layer_um: Annotated[
+        float,
+        typer.Option(help="Oil at the inlet of the raceways [um]; 0: flooded.", metavar="UM"),
+    ] = 0.0,
+    temperature_rise: Annotated[
+        float,
+        typer.Option(help="Of the oil in the contacts over the temperature [K].", metavar="K"),
+    ] = 0.0,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_bearing"),
+    overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
+) -> None:
+    """Friction of a tapered roller bearing: torque and power loss, each part on its own line.
+
+    Writes bearing.nc, bearing.csv and figures. Conditions given here replace those of the file.
+    """
+    from drivetrain.axle_file.oil_file import given_oil
+    from gearlube.studies.bearing.run import run_bearing
+    from gearlube.studies.bearing.settings import DEFAULT_LAWS, BearingSettings
+    from gearlube.studies.bearing.summary import (
+        bearing_summary,
+        bearing_warnings,
+        error_sentences,
+    )
+    from gearlube_core.bearings.bearing_file import BearingFile
+    from gearlube_core.bearings.losses.laws import CATALOGUE_LAWS, LAWS
+    from gearlube_core.bearings.losses.loss import LARGEST_SPEED_FACTOR, LossModel
+
+    began = time.monotonic()
+    with exit_on_error():
+        if example:
+            typer.echo(BearingFile.shipped_text("wingertszahn_2023"), nl=False)
+            return
+        given = BearingFile.given(file)
+        lubricant = given_oil(given.oil if oil is None else oil)
+        operation = given.operation
+        check_within("--inlet-layer-um", inlet_layer_um, 0.0, 1e4, "um")
+        check_within("--temperature-rise", temperature_rise, 0.0, 100.0, "K")
+
+        def numbers(
+            option: str, texts: list[str] | None, usual: Sequence[float], unit: str, high: float
+        ) -> tuple[float, ...]:
+            chosen = texts or [repr(one) for one in usual]
+            low = -100.0 if unit == "degC" else 0.0
+            return numbers_from(option, chosen, unit, low, high, example="500:4000:500")
+
+        geometry = given.geometry()
+        degrees = numbers("--temperature", temperature, operation.temperature_degc, "degC", 300.0)
+        fastest = rads_to_rpm(LARGEST_SPEED_FACTOR / geometry.pitch_diameter)
+        laws = list(law or DEFAULT_LAWS)
+        if "all" in laws:
+            without = () if given.bearing.timken_g1 else ("timken",)
+            laws = [DEFAULT_LAWS[0], *(one for one in LAWS if one != DEFAULT_LAWS[0])]
+            laws = [one for one in laws if one not in without]
+        physical = any(one not in CATALOGUE_LAWS for one in laws)
+        settings = BearingSettings(
+            speeds=tuple(
+                rpm_to_rads(n)
+                for n in numbers("--speed-rpm", speed_rpm, operation.speed_rpm, "rpm", fastest)
+            ),
+            axial_loads=numbers("--axial-load", axial_load, operation.axial_load_n, "N", 1e8),
+            radial_loads=numbers("--radial-load", radial_load, operation.radial_load_n, "N", 1e8),
+            temperatures=tuple(oil_kelvin(t, lubricant, "--temperature") for t in degrees),
+            models=tuple(
+                LossModel(
+                    law=one,
+                    # catalogue laws beside others do without; alone they say that they cannot
+                    inlet_layer=(
+                        0.0 if physical and one in CATALOGUE_LAWS else _MICRO * inlet_layer_um
+                    ),
+                    temperature_rise=temperature_rise,
+                )
+                for one in laws
+            ),
+        )
+        settings.check(geometry, lubricant)
+        with (
+            results_folder(out, "bearing", overwrite=overwrite),
+            progress_on(console, "bearing") as progress,
+        ):
+            dataset = run_bearing(given, settings, oil=lubricant, folder=out, progress=progress)
+        for sentence in error_sentences(dataset):
+            logger.info("%s", sentence)
+        console.print(_table(given.name, laws[0], bearing_summary(dataset)))
+        for sentence in bearing_warnings(dataset):
+            logger.warning("%s", sentence)
+        logger.info("Computed in %.1f s.", time.monotonic() - began)
+        logger.info("Results: %s, %s, %s", out / "bearing.nc", out / "bearing.csv", out / "figures")
+
+
+def _table(name: str, law: str, rows: list[BearingRow]) -> Table:
+    table = Table(title=f"{name}: friction torque [N.m] by {law}")
+    parts = list(rows[0].parts) if rows else []
+    headings = ["rpm", "axial N", "radial N", "degC", *parts, "total", "loss W"]
+    for heading in headings:
+        table.add_column(heading, justify="right")
+    for row in rows:
+        table.add_row(
+            f"{rads_to_rpm(row.speed):.4g}",
+            f"{row.axial_load:g}",
+            f"{row.radial_load:g}",
+            f"{kelvin_to_celsius(row.temperature):.4g}",
+            *(f"{row.parts.get(part, math.nan):.3f}" for part in parts),
+            f"{row.torque:.3f}",
+            f"{row.power:.4g}",
+        )
+    return table

@@ -1,0 +1,128 @@
+"""Figures of bearing friction: all laws with the error bar, and the parts of the first."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
+from gearlube_core.storage.atomic_file import atomic_write
+from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
+
+LAW_NAMES = {
+    "biboulet_houpert": "Biboulet and Houpert",
+    "zhou_hoeprich": "Zhou and Hoeprich",
+    "goksem_hargreaves": "Goksem and Hargreaves",
+    "aihara": "Aihara",
+    "palmgren": "Palmgren",
+    "skf": "SKF",
+    "timken": "Timken",
+}
+_AXES = {
+    "speed": "shaft speed [rpm]",
+    "axial_load": "axial load [N]",
+    "radial_load": "radial load [N]",
+    "temperature": "oil temperature [°C]",
+}
+_MOST_PANELS = 4
+
+
+def torque_of_laws(dataset: xr.Dataset) -> Any:
+    """Return the torque of every law along the longest axis, with the error bar of the first."""
+    along, places = _panels(dataset)
+    x = _shown(along, dataset[along].values)
+    with house_style():
+        figure = new_figure(4.6 * len(places), 4.4)
+        panels = figure.subplots(1, len(places), squeeze=False, sharey=True)[0]
+        for ax, place in zip(panels, places, strict=True):
+            at = dataset.sel(place)
+            for i, law in enumerate(dataset["law"].values):
+                one, colour = at.sel(law=law), SERIES[i % len(SERIES)]
+                if i == 0:
+                    band = (one["torque_low"], one["torque_high"])
+                    ax.fill_between(
+                        x, *band, color=GREY, alpha=0.4, lw=0.0, label="error bar, k = 2"
+                    )
+                ax.plot(x, one["torque"], color=colour, marker="o", label=LAW_NAMES[str(law)])
+            ax.set(xlabel=_AXES[along], title=_title(place))
+            ax.set_ylim(bottom=0.0)
+        panels[0].set_ylabel("friction torque [N·m]")
+        panels[0].legend(loc="upper left")
+        figure.suptitle(f"{dataset.attrs['name']}, oil {dataset.attrs['oil']}", fontsize=11.5)
+    return figure
+
+
+def parts_of_first_law(dataset: xr.Dataset) -> Any:
+    """Return the parts of the torque of the first law along the longest axis, logarithmic."""
+    along, places = _panels(dataset)
+    law = str(dataset["law"].values[0])
+    x = _shown(along, dataset[along].values)
+    with house_style():
+        figure = new_figure(4.6 * len(places), 4.4)
+        panels = figure.subplots(1, len(places), squeeze=False, sharey=True)[0]
+        for ax, place in zip(panels, places, strict=True):
+            at = dataset.sel(law=law).sel(place)
+            ax.plot(x, _above_zero(at["torque"].values), color="black", label="total")
+            for i, part in enumerate(dataset["part"].values):
+                torque = at["part_torque"].sel(part=part).values
+                if np.isfinite(torque).all():
+                    colour = SERIES[i % len(SERIES)]
+                    ax.plot(x, _above_zero(torque), color=colour, marker="o", label=str(part))
+            ax.set(xlabel=_AXES[along], title=_title(place), yscale="log")
+        panels[0].set_ylabel("friction torque [N·m]")
+        panels[0].legend()
+        figure.suptitle(f"{dataset.attrs['name']}: parts, {LAW_NAMES[law]}", fontsize=11.5)
+    return figure
+
+
+BEARING_CATALOGUE = {"torque": torque_of_laws, "parts": parts_of_first_law}
+
+
+def save_bearing_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
+    """Draw every figure into `folder` as PNG and return the files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    for name, draw in BEARING_CATALOGUE.items():
+        path = folder / f"{name}.png"
+        with atomic_write(path) as partial:
+            draw(dataset).savefig(partial, format="png", dpi=150)
+        files.append(path)
+    return files
+
+
+def _panels(dataset: xr.Dataset) -> tuple[str, list[dict[str, float]]]:
+    """Return the longest axis, and the places on the others that are drawn."""
+    along = max(_AXES, key=lambda name: dataset.sizes[name])
+    others = [name for name in _AXES if name != along]
+    places: list[dict[str, float]] = [{}]
+    for name in others:
+        values = [float(one) for one in dataset[name].values]
+        places = [{**place, name: value} for place in places for value in values]
+    if len(places) > _MOST_PANELS:
+        chosen = np.unique(np.linspace(0, len(places) - 1, _MOST_PANELS).round().astype(int))
+        places = [places[i] for i in chosen]
+    return along, places
+
+
+def _above_zero(values: Any) -> Any:
+    # a logarithmic axis has no place for the torque at rest
+    return np.where(values > 0.0, values, np.nan)
+
+
+def _shown(name: str, values: Any) -> Any:
+    if name == "speed":
+        return rads_to_rpm(values)
+    return kelvin_to_celsius(values) if name == "temperature" else values
+
+
+def _title(place: dict[str, float]) -> str:
+    words = {
+        "speed": lambda v: f"{rads_to_rpm(v):.4g} rpm",
+        "axial_load": lambda v: f"{v:g} N axial",
+        "radial_load": lambda v: f"{v:g} N radial",
+        "temperature": lambda v: f"{kelvin_to_celsius(v):.4g} °C",
+    }
+    return ", ".join(words[name](value) for name, value in place.items())

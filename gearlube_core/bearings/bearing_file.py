@@ -1,0 +1,172 @@
+"""The bearing file: a tapered roller bearing for the study of its losses."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from gearlube_core.bearings.losses.geometry import (
+    BearingGeometry,
+    Rib,
+    closing_inner_angle,
+)
+from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.units import DEGREE, MILLIMETRE
+
+Text = Annotated[str, Field(min_length=1)]
+Diameter = Annotated[float, Field(ge=5.0, le=2000.0, allow_inf_nan=False)]
+RollerSize = Annotated[float, Field(ge=2.0, le=500.0, allow_inf_nan=False)]
+Rollers = Annotated[int, Field(ge=3, le=40)]
+Rows = Annotated[int, Field(ge=1, le=4)]
+Angle = Annotated[float, Field(ge=5.0, le=45.0, allow_inf_nan=False)]
+InnerAngle = Annotated[float, Field(ge=0.1, le=45.0, allow_inf_nan=False)]
+Roughness = Annotated[float, Field(ge=0.001, le=10.0, allow_inf_nan=False)]
+ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
+LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
+TimkenFactor = Annotated[float, Field(ge=0.1, le=10000.0, allow_inf_nan=False)]
+Scale = Annotated[float, Field(ge=0.05, le=5.0, allow_inf_nan=False)]
+Height = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
+EndRadius = Annotated[float, Field(ge=0.5, le=0.99, allow_inf_nan=False)]
+ShareB = Annotated[float, Field(ge=0.1, le=10.0, allow_inf_nan=False)]
+ShareC = Annotated[float, Field(ge=0.1, le=3.0, allow_inf_nan=False)]
+Friction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+Speeds = Annotated[tuple[float, ...], Field(strict=False, min_length=1)]
+_MICROMETRE = 1e-6  # m
+_HEIGHT = 0.15  # of the roller diameter: contact of the rib above the race
+
+
+class LossBearingSection(Section):
+    """Rings, races and rollers."""
+
+    series: Literal["302", "303", "313", "320X", "322", "other"] = Field(
+        default="other", description="Of the catalogue, for the law of SKF"
+    )
+    bore_diameter_mm: Diameter = Field(description="Of the inner ring")
+    outside_diameter_mm: Diameter = Field(description="Of the outer ring")
+    pitch_diameter_mm: Diameter = Field(description="Of the middles of the rollers")
+    rollers: Rollers = Field(description="Number of rollers of one row")
+    rows: Rows = Field(default=1, description="Number of rows; each has the same share of the load")
+    roller_diameter_mm: RollerSize = Field(description="Mean, at mid-length")
+    roller_length_mm: RollerSize = Field(description="Effective: without chamfers and undercuts")
+    contact_angle_deg: Angle = Field(
+        description="Of the outer race: half the included angle of the cup"
+    )
+    inner_angle_deg: InnerAngle | None = Field(
+        default=None,
+        description="Of the inner race; absent: that with which rollers and races share one apex",
+    )
+    roughness_um: Roughness = Field(
+        default=0.16, description="Of roller and race together, rms; only for the film ratio"
+    )
+    f0: ViscousFactor = Field(
+        default=F0_TAPERED_OIL_BATH, description="Viscous factor of Palmgren; 6 is an oil bath"
+    )
+    f1: LoadFactor = Field(default=F1_TAPERED, description="Load factor of Palmgren")
+    timken_g1: TimkenFactor | None = Field(
+        default=None, description="Geometry factor G1 of the manufacturer, for the law of Timken"
+    )
+    rolling_scale: Scale | None = Field(
+        default=None,
+        description="Measured over computed rolling torque of this bearing; with it the error bar "
+        "is 25 % and no longer a factor of 2",
+    )
+
+
+class RibSection(Section):
+    """The rib of the inner ring."""
+
+    contact_height_mm: Height | None = Field(
+        default=None,
+        description="Of the contact above the inner race; absent: 0.15 roller diameters, assumed",
+    )
+    end_radius_ratio: EndRadius = Field(
+        default=0.9, description="Sphere of the roller end over its distance from the apex"
+    )
+    roughness_um: Roughness = Field(default=0.24, description="Of rib and roller end, rms")
+    share_b: ShareB = Field(
+        default=1.90, description="B of the load on asperities, exp(-B Lambda^C)"
+    )
+    share_c: ShareC = Field(default=0.99, description="C of the same")
+    boundary_friction: Friction = Field(default=0.12, description="Of the asperities")
+
+
+class OperationSection(Section):
+    """What the study computes if the command says nothing else."""
+
+    speed_rpm: Speeds = Field(
+        default=(500.0, 1000.0, 2000.0, 4000.0), description="Speeds of the shaft"
+    )
+    axial_load_n: Speeds = Field(default=(1000.0,), description="Axial loads of the bearing")
+    radial_load_n: Speeds = Field(default=(0.0,), description="Radial loads of the bearing")
+    temperature_degc: Speeds = Field(
+        default=(60.0,), description="Temperatures of the oil at the bearing"
+    )
+
+
+class BearingFile(InputFile):
+    """A tapered roller bearing as a drawing and a catalogue describe it.
+
+    Examples
+    --------
+    >>> BearingFile.shipped()
+    ('wingertszahn_2023',)
+    >>> bearing = BearingFile.named("wingertszahn_2023").geometry()
+    >>> round(bearing.cage_ratio, 3)  # cage speed over shaft speed
+    0.424
+    """
+
+    package: ClassVar[str] = "gearlube_core.bearings"
+    title: ClassVar[str] = "bearing file"
+
+    name: Text = Field(description="What results and figures call the bearing")
+    source: Text | None = Field(default=None, description="Where the numbers are from")
+    oil: Text = Field(default="fva_3", description="Shipped oil; the command may say another")
+    bearing: LossBearingSection
+    rib: RibSection = Field(default_factory=RibSection)
+    operation: OperationSection = Field(default_factory=OperationSection)
+
+    @model_validator(mode="after")
+    def _check_bearing(self) -> BearingFile:
+        try:
+            self.geometry()
+        except ParameterError as reason:
+            raise ValueError(str(reason).removesuffix(".")) from None
+        return self
+
+    def geometry(self) -> BearingGeometry:
+        """Return the bearing in SI units."""
+        of, rib, mm = self.bearing, self.rib, MILLIMETRE
+        outer = of.contact_angle_deg * DEGREE
+        pitch, roller = of.pitch_diameter_mm * mm, of.roller_diameter_mm * mm
+        given = of.inner_angle_deg
+        height = rib.contact_height_mm
+        return BearingGeometry(
+            bore_diameter=of.bore_diameter_mm * mm,
+            outside_diameter=of.outside_diameter_mm * mm,
+            pitch_diameter=pitch,
+            roller_diameter=roller,
+            roller_length=of.roller_length_mm * mm,
+            n_rollers=of.rollers,
+            outer_angle=outer,
+            inner_angle=(
+                closing_inner_angle(pitch, roller, outer) if given is None else given * DEGREE
+            ),
+            rib=Rib(
+                contact_height=_HEIGHT * roller if height is None else height * mm,
+                end_radius=rib.end_radius_ratio,
+                roughness=rib.roughness_um * _MICROMETRE,
+                share_b=rib.share_b,
+                share_c=rib.share_c,
+                boundary_friction=rib.boundary_friction,
+            ),
+            rows=of.rows,
+            series=of.series,
+            roughness=of.roughness_um * _MICROMETRE,
+            f0=of.f0,
+            f1=of.f1,
+            timken_g1=of.timken_g1 or 0.0,
+            rolling_scale=of.rolling_scale,
+        )
