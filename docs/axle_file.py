@@ -19,6 +19,8 @@ SECTIONS = {
     "pinion.bearing": "[pinion.bearing] and [gear.bearing]: two opposed bearings on the shaft",
     "steel": "[steel]: flanks, rollers and races",
     "oil": "[oil]: a shipped oil, or what differs from it",
+    "housing": "[housing]: the gear in its oil",
+    "seals": "[seals]: of the shafts",
     "model": "[model]: how the axle is computed",
     "vehicle": "[vehicle]",
     "tyre": "[tyre]",
@@ -78,6 +80,9 @@ for note in paper.assumed:
   the film ratio alone.
 - `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
   fields of `[oil]`.
+- Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
+  Immersion matters most; oil that is thrown off lowers it, and the laws differ by a
+  factor of three. A seal's torque is free of speed, `wheel_torque_n_m` that of both wheels' seals.
 - All wrong fields of a file are named at once, each with the value, its limits and unit, and, if
   another unit would bring the number within them, that unit. Nothing is compiled before.
 
@@ -123,6 +128,8 @@ _FIELDS = {
     "bearing_preload": "`pinion.bearing.preload_n`",
     "gear_bearing_preload": "`gear.bearing.preload_n`",
     "oil": "`oil`",
+    "pinion_seal_torque": "`seals.pinion_torque_n_m`",
+    "wheel_seal_torque": "`seals.wheel_torque_n_m`",
     "bearing_approach": "`model.bearing_approach`",
 }
 
@@ -142,7 +149,7 @@ def _run_time_parameters() -> str:
     fields: dict[str, str] = {}
     for name in field_notes(AxleFile):
         section, _, key = name.rpartition(".")
-        prefix = f"{section}." if section not in ("gear_set", "model") else ""
+        prefix = "" if section in ("gear_set", "housing", "model") else f"{section}."
         fields[prefix + attribute_of(key)] = name
     starts = start_arguments(read_axle("mohammadpour_2015").axle)
     rows = [

@@ -18,6 +18,7 @@ from drivetrain.axle_file.car_sections import (
     TyreSection,
     VehicleSection,
 )
+from drivetrain.axle_file.drag_sections import Housing, Seals
 from drivetrain.axle_file.field_units import field_value, unit_of
 from drivetrain.axle_file.oil_section import OilSection
 from drivetrain.driveline.parameters import DrivelineParameters
@@ -104,6 +105,8 @@ class AxleFile(InputFile):
     gear: Member = Member()
     steel: Steel = Steel()
     oil: OilSection = OilSection()
+    housing: Housing = Housing()
+    seals: Seals = Seals()
     model: ModelOptions = ModelOptions()
     vehicle: VehicleSection = VehicleSection()
     tyre: TyreSection = TyreSection()
@@ -205,6 +208,7 @@ class AxleFile(InputFile):
         }
         bearing, gear_bearing = self._bearings()
         given = self.gear_set.changes(base) | self.model.changes(base) | members
+        given |= self.housing.housing_changes(base) | self.seals.seal_changes()
         return replace(
             base,
             **given,
@@ -246,6 +250,8 @@ class AxleFile(InputFile):
                 notes += (section or BearingSection()).bearing_notes(prefix, made, _BEARING)
         notes += self.steel.notes("steel.", axle.solid, _PAPER)
         notes += self.oil.oil_notes("oil.", axle.oil, oil)
+        notes += self.housing.housing_notes("housing.", axle)
+        notes += self.seals.seal_notes("seals.", axle)
         notes += self.model.notes("model.", axle, _MODEL)
         if self.model.bearing_approach is None:
             value = TaperedRollerBearing.mohammadpour_2015().approach

@@ -95,6 +95,15 @@ UNCERTAIN = (
         None,
         ("bearing_torque",),
     ),
+    Uncertain(
+        "churning",
+        "law and immersion of the churning",
+        3.0,
+        "laws among each other, and oil thrown off",
+        None,
+        ("churning",),
+    ),
+    Uncertain("seals", "torque of the seals", 2.0, "seals among each other", None, ("seals",)),
 )
 
 
