@@ -69,10 +69,42 @@ Eyring stress: factor {eyring:g}, 2 to 5 MPa being in use.
   smaller and the stress larger: 7 MPa at 1 GPa for 4.5 MPa at ambient pressure.
 - **Limiting coefficient** Lambda: Höglund 1999, quoted by Arana et al. 2019. The law of the axle's
   flanks has no such limit; there it only sets the Eyring stress where none is given.
+  The fit below has it.
 - **Viscosity index**: quadratic forms of ASTM D2270, read in a published copy. They give the
   printed 97 of FVA 3A.
 - The density counts as constant in all computations, at its value at 70 degC: dynamic viscosity is
   2 % low at 40 and 2 % high at 100 degC.
+
+## Fit to measured traction
+
+```
+gearlube oil fit measurements.csv --oil my_oil.toml --radius-mm 9.525 --out fitted_oil.toml
+```
+
+The table has a line of column names and then one point a line:
+
+| Column | Unit | Meaning |
+|---|---|---|
+| `slide_roll_ratio` | - | Sliding speed over mean speed; or the next |
+| `sliding_speed_m_s` | m/s | Difference of the surface speeds |
+| `entrainment_speed_m_s` | m/s | Mean of the surface speeds |
+| `mean_pressure_gpa` | GPa | Load over area; or the next |
+| `hertz_pressure_gpa` | GPa | The largest |
+| `temperature_degc` | degC | Of the oil at the inlet |
+| `traction_coefficient` | - | Traction over load |
+
+Film from the formula of a circle (`--contact point`, Chittenden) or a line (`--contact line`,
+Dowson and Toyoda); traction by the law of the axle's flanks, Evans and Johnson 1986, no greater
+than Lambda times pressure. Least squares find the Eyring stress, and Lambda where three points or
+more lie on it and an F test gives it less than 1 % by chance. Factors are 95 % intervals from the
+Jacobian and the residual. On made-up points of the law with scatter, 56 points on 8 curves, 1000
+sets each, the interval held the Eyring stress in {coverage}
+
+- The factor counts scatter alone. Errors of film, alpha, viscosity and law bend a whole curve; the
+  mean residual of the worst curve shows them, and the command says when it is beyond scatter.
+- Use the fitted stress with the alpha that it was fitted with: their errors balance in traction.
+- Smooth surfaces: with films below three times the roughness, asperities rub too.
+- The written file keeps the fields of `--oil`; comments are lost.
 
 ## In the loss map
 
@@ -86,6 +118,12 @@ Eyring stress: factor {eyring:g}, 2 to 5 MPa being in use.
 - `gearlube sweep --oil` takes the oils of the papers alone; write the oil file into the axle file.
 """
 
+# 4 MPa without and with a limit of 0.055 (scatter 0.001, 0.002), 8 MPa with a limit of 0.05 (0.001)
+_COVERAGE = (
+    "94 of 100 where no limit is reached, in 95
+where a third of the points lie on one, and in 90 "
+    "where nine of ten do."
+)
 _CLASS = "by class"
 _WITHOUT = {
     "density_temperature_degc": "15",
@@ -145,12 +183,7 @@ def _sources() -> str:
 
 def page() -> str:
     """Return docs/oil_file.md."""
-    tail = _TAIL.format(
-        classes=_classes()
-        + "\nEach pair is value and factor. Where they are from:\n\n"
-        + _sources(),
-        eyring=EYRING_FACTOR,
-    )
+    tail = _TAIL.format(classes=classes, eyring=EYRING_FACTOR, coverage=_COVERAGE)
     return HEAD + "## Fields\n" + field_tables(OilFile, {"": "The file"}, _WITHOUT) + tail
 
 

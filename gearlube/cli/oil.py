@@ -10,6 +10,7 @@ import typer
 
 from gearlube.cli.default_command import ShowByDefault
 from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.oil_fit import fit
 
 if TYPE_CHECKING:
     from gearlube_core.oil.oil_file import DescribedOil
@@ -27,6 +28,9 @@ oil = typer.Typer(
 @oil.callback()
 def _oil() -> None:
     """Show oil files, and fit their stresses to measured traction."""
+
+
+oil.command()(fit)
 
 
 @oil.command()
