@@ -120,8 +120,7 @@ sets each, the interval held the Eyring stress in {coverage}
 
 # 4 MPa without and with a limit of 0.055 (scatter 0.001, 0.002), 8 MPa with a limit of 0.05 (0.001)
 _COVERAGE = (
-    "94 of 100 where no limit is reached, in 95
-where a third of the points lie on one, and in 90 "
+    "94 of 100 where no limit is reached, in\n95 where a third of the points lie on one, and in 90 "
     "where nine of ten do."
 )
 _CLASS = "by class"
@@ -183,6 +182,7 @@ def _sources() -> str:
 
 def page() -> str:
     """Return docs/oil_file.md."""
+    classes = _classes() + "\nEach pair is value and factor. Where they are from:\n\n" + _sources()
     tail = _TAIL.format(classes=classes, eyring=EYRING_FACTOR, coverage=_COVERAGE)
     return HEAD + "## Fields\n" + field_tables(OilFile, {"": "The file"}, _WITHOUT) + tail
 
