@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import xarray as xr
 
+from gearlube.output.csv_text import csv_text
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.biboulet_houpert_2010 import biboulet_houpert_force
@@ -22,6 +23,7 @@ from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.line_kinematics import line_kinematics
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 from gearlube_core.units import ZERO_CELSIUS
 
@@ -55,6 +57,15 @@ UNCERTAIN = (
     PairFactor("sliding", 1.2, "laws of traction among each other; assumed"),
     PairFactor("rolling", 2.0, "flooded or starved inlet"),
 )
+
+
+def uncertain_of(oil: Lubricant) -> tuple[PairFactor, ...]:
+    """Return the uncertain data, with the factors that an oil has of its own."""
+    own = {"alpha": oil.alpha_factor, "eyring_stress": oil.eyring_stress_factor}
+    return tuple(
+        one if (factor := own.get(one.name)) is None else PairFactor(one.name, factor, oil.name)
+        for one in UNCERTAIN
+    )
 
 
 @kernel
@@ -123,7 +134,8 @@ def losses_dataset(
     loss = np.empty((*shape, len(PARTS_OF_LOSS)))
     film, heat = np.empty(shape), np.empty(shape)
     low, high = np.empty(shape), np.empty(shape)
-    normals = np.random.default_rng(settings.seed).standard_normal((settings.draws, len(UNCERTAIN)))
+    uncertain = uncertain_of(settings.film().oil)
+    normals = np.random.default_rng(settings.seed).standard_normal((settings.draws, len(uncertain)))
     for j, torque in enumerate(torques):
         loads = [table_line_load(points, mesh, float(torque)) for points in (fine, coarse)]
         for i, temperature in enumerate(temperatures):
@@ -136,7 +148,9 @@ def losses_dataset(
                 heat[i, j, k] = cycle.temperature_rise[cycle.line_load > 0.0].max()
                 if settings.draws:
                     rough = _losses(coarse, loads[1], *point, base)[1].sum()
-                    drawn = [_drawn(row, coarse, loads[1], point, base) for row in normals]
+                    drawn = [
+                        _drawn(row, uncertain, coarse, loads[1], point, base) for row in normals
+                    ]
                     # bounds from a coarse mesh period, as shares of its own value
                     low[i, j, k], high[i, j, k] = (
                         np.percentile(drawn, _BOUNDS) / rough * loss[i, j, k].sum()
@@ -184,7 +198,7 @@ def losses_dataset(
             "draws": settings.draws,
             "seed": settings.seed,
             "uncertain": "; ".join(
-                f"{one.name}: factor {one.factor:g} (k = 2), {one.why}" for one in UNCERTAIN
+                f"{one.name}: factor {one.factor:g} (k = 2), {one.why}" for one in uncertain
             ),
             "loads": "static, of the mesh " + mesh.name,
         },
@@ -221,12 +235,17 @@ def _losses(
 
 
 def _drawn(
-    normals: Array, points: LinePoints, load: Array, point: tuple[float, float], film: FilmFriction
+    normals: Array,
+    uncertain: tuple[PairFactor, ...],
+    points: LinePoints,
+    load: Array,
+    point: tuple[float, float],
+    film: FilmFriction,
 ) -> float:
     """Return the total loss with the uncertain data at these standard normals [W]."""
     by = {
         one.name: one.multiplier(float(normal))
-        for one, normal in zip(UNCERTAIN, normals, strict=True)
+        for one, normal in zip(uncertain, normals, strict=True)
     }
     oil = film.oil
     ends = ZERO_CELSIUS + 40.0, ZERO_CELSIUS + 100.0
@@ -239,3 +258,31 @@ def _drawn(
     changed = replace(film, oil=oil, roughness_rms=film.roughness_rms * by["roughness"])
     sliding, rolling = _losses(points, load, *point, changed)[1]
     return float(by["sliding"] * sliding + by["rolling"] * rolling)
+
+
+def losses_csv(dataset: xr.Dataset) -> str:
+    """Return the losses as a table with a row for each point, units in the names of columns."""
+    columns = {
+        "loss_torque": "loss_torque_n_m",
+        "loss_torque_low": "loss_torque_low_n_m",
+        "loss_torque_high": "loss_torque_high_n_m",
+        "efficiency": "efficiency",
+        "film_ratio": "film_ratio",
+        "temperature_rise": "temperature_rise_k",
+    }
+    columns = {name: column for name, column in columns.items() if name in dataset}
+    parts = [str(one) for one in dataset["part"].values]
+    head = (
+        "oil_temperature_degc",
+        "pinion_torque_n_m",
+        "pinion_speed_rpm",
+        *columns.values(),
+        *(f"loss_{one}_w" for one in parts),
+    )
+    grid = [dataset[name].values for name in GRID]
+    rows = []
+    for place in np.ndindex(*(one.size for one in grid)):
+        where = [one[i] for one, i in zip(grid, place, strict=True)]
+        values = [dataset[name].values[place] for name in columns]
+        rows.append([f"{x:.7g}" for x in (*where, *values, *dataset["loss"].values[place])])
+    return csv_text(head, rows)

@@ -249,6 +249,7 @@ def quick_settings(settings: HelicalSettings) -> HelicalSettings:
         speed_count=min(settings.speed_count, 15),
         torques=settings.torques or thinned(settings.load_steps, 4),
         positions=min(settings.positions, 8),
+        draws=min(settings.draws, 10),
         stability_columns=min(settings.stability_columns, 40),
         stability_rows=min(settings.stability_rows, 7),
         separation_speeds=min(settings.separation_speeds, 60),
