@@ -19,6 +19,8 @@ SECTIONS = {
     "pinion.bearing": "[pinion.bearing] and [gear.bearing]: two opposed bearings on the shaft",
     "steel": "[steel]: flanks, rollers and races",
     "oil": "[oil]: a shipped oil, or what differs from it",
+    "housing": "[housing]: the gear in its oil",
+    "seals": "[seals]: of the shafts",
     "model": "[model]: how the axle is computed",
     "vehicle": "[vehicle]",
     "tyre": "[tyre]",
@@ -76,6 +78,11 @@ for note in paper.assumed:
   h/sigma 0.5 and 3. `gearlube axle show` tells the fit and by what factor it misses the table, up
   to 2.6 for Gaussian surfaces. Left out, `roughness_rms_um` is that of the table; given, it scales
   the film ratio alone.
+- `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
+  fields of `[oil]`.
+- Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
+  Immersion matters most; oil that is thrown off lowers it, and the laws differ by a
+  factor of three. A seal's torque is free of speed, `wheel_torque_n_m` that of both wheels' seals.
 - All wrong fields of a file are named at once, each with the value, its limits and unit, and, if
   another unit would bring the number within them, that unit. Nothing is compiled before.
 
@@ -96,7 +103,8 @@ torque of the mesh table, the sweep refuses before it builds anything; beyond th
 
 `gearlube build-fmu --axle my_axle.toml` builds native [FMUs](fmu.md), with `--python` one that
 computes in this package. The FMU carries the file as `resources/axle.toml`, a mesh table of its own
-as `resources/mesh_table.nc` and an asperity table as `resources/asperity_table.nc`; the paths in
+as `resources/mesh_table.nc`, an asperity table as `resources/asperity_table.nc` and an oil file
+as `resources/oil.toml`; the paths in
 the file have no meaning there. Its GUID depends on every byte of all three. Start values of its
 parameters are the file's. An oil of the file's own is the literal `custom` of `oil.name`.
 `--mesh-table` does not go with `--axle`: the file names its table. A sweep keeps one such FMU in
@@ -120,6 +128,8 @@ _FIELDS = {
     "bearing_preload": "`pinion.bearing.preload_n`",
     "gear_bearing_preload": "`gear.bearing.preload_n`",
     "oil": "`oil`",
+    "pinion_seal_torque": "`seals.pinion_torque_n_m`",
+    "wheel_seal_torque": "`seals.wheel_torque_n_m`",
     "bearing_approach": "`model.bearing_approach`",
 }
 
@@ -139,7 +149,7 @@ def _run_time_parameters() -> str:
     fields: dict[str, str] = {}
     for name in field_notes(AxleFile):
         section, _, key = name.rpartition(".")
-        prefix = f"{section}." if section not in ("gear_set", "model") else ""
+        prefix = "" if section in ("gear_set", "housing", "model") else f"{section}."
         fields[prefix + attribute_of(key)] = name
     starts = start_arguments(read_axle("mohammadpour_2015").axle)
     rows = [

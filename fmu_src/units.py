@@ -54,6 +54,7 @@ _ALL = (
     Unit(name="rad/s2", exponents={"s": -2, "rad": 1}),
     Unit(name="m/s2", exponents={"m": 1, "s": -2}),
     Unit(name="Hz", exponents={"s": -1}),
+    Unit(name="m3", exponents={"m": 3}, display=(DisplayUnit(name="l", factor=1e3),)),
     Unit(name="kg", exponents={"kg": 1}),
     Unit(name="kg.m2", exponents={"kg": 1, "m": 2}),
     Unit(

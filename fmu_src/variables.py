@@ -28,6 +28,7 @@ from fmu_src.variable_kinds import (
     parameter,
     rates,
 )
+from gearlube_core.drag.churning import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
 
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
@@ -204,9 +205,45 @@ _EVENTS = (
           "it falls below 0: place within the gap over 1 um"),
 )  # fmt: skip
 
+# churning and seals, younger than the rest
+_DRAG = (
+    option("churning.model", "Law of the churning of the gear in its oil", *CHURNING_LAWS,
+           start="none", argument="churning"),
+    parameter("churning.ring_diameter", "m", "Outside diameter of the gear", display_unit="mm",
+              start=0.165, minimum=0.01, maximum=3.0, nominal=0.1, argument="ring_diameter"),
+    parameter("churning.ring_width", "m", "Width of the teeth of the gear", display_unit="mm",
+              start=0.03, minimum=1e-3, maximum=1.0, nominal=0.01, argument="ring_width"),
+    parameter("churning.immersion", "m", "Depth of the lowest tooth of the gear in the oil at rest",
+              display_unit="mm", start=0.04, minimum=0.0, maximum=3.0, nominal=0.01,
+              argument="immersion"),
+    parameter("churning.oil_volume", "m3", "Volume of the oil in the axle", display_unit="l",
+              start=1.2e-3, minimum=1e-5, maximum=1.0, nominal=1e-3, argument="oil_volume"),
+    *(parameter(f"{name}.seal.torque", "N.m", f"Friction torque of {words}",
+                start=0.0, minimum=0.0, maximum=100.0, argument=f"{name}_seal_torque")
+      for name, words in (("pinion", "the seal of the pinion's shaft"),
+                          ("wheel", "the seals of both wheels, at the gear"))),
+)  # fmt: skip
+_DRAG_ENERGIES = energies(
+    {
+        "churning": "Heat of the churning of the gear since initialisation",
+        "seals": "Heat of the shaft seals since initialisation",
+    }
+)
+_DRAG_LOSSES = (
+    output("churning.power_loss", "W", "Loss by churning of the gear in its oil", 100.0),
+    output("seal.power_loss", "W", "Loss in the shaft seals", 10.0),
+)
+_LATER_STATES = tuple(variable.name for variable in _DRAG_ENERGIES)
+_BY_NAME |= {variable.name: variable for variable in _DRAG_ENERGIES}
+
 HYPOID_AXLE: tuple[Variable, ...] = (
     *_FIRST,
     *_STATES,
-    *rates([_BY_NAME[name] for name in STATE_NAMES]),
+    *rates([_BY_NAME[name] for name in STATE_NAMES if name not in _LATER_STATES]),
     *_EVENTS,
+    *_DRAG,
+    *options_by_number(_DRAG),
+    *_DRAG_LOSSES,
+    *_DRAG_ENERGIES,
+    *rates(_DRAG_ENERGIES),
 )

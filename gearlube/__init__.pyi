@@ -33,6 +33,8 @@ from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel as 
 # -- Oils
 from gearlube_core.oil.lubricant import Lubricant as Lubricant
 from gearlube_core.oil.lubricant import lubricant_names as lubricant_names
+from gearlube_core.oil.oil_file import read_oil as read_oil
+from gearlube_core.oil.oil_file import DescribedOil as DescribedOil
 from gearlube_core.oil.film_oil import FilmOil as FilmOil
 from gearlube_core.oil.oil_heat import OilHeat as OilHeat
 from gearlube_core.oil.film_oil_data import film_oil as film_oil

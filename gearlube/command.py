@@ -32,6 +32,11 @@ COMMANDS = (
         summary="Check an axle file and show its inputs.",
     ),
     LazyCommand(
+        name="oil",
+        target="gearlube.cli.oil:oil",
+        summary="Show an oil file; fit its stresses to measured traction.",
+    ),
+    LazyCommand(
         name="map",
         target="gearlube.studies.loss_map.command:loss_map",
         summary="Map the losses of an axle over torque, speed and oil temperature.",

@@ -13,6 +13,7 @@ from gearlube_core.units import ZERO_CELSIUS
 _POWERS = {
     "mm": -3,
     "um": -6,
+    "l": -3,
     "kN": 3,
     "MPa": 6,
     "GPa": 9,

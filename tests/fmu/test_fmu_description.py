@@ -29,6 +29,7 @@ DIMENSIONS = {
     "Hz": (0, 0, -1, 0, 0),
     "kg": (1, 0, 0, 0, 0),
     "kg.m2": (1, 2, 0, 0, 0),
+    "m3": (0, 3, 0, 0, 0),
     "N": (1, 1, -2, 0, 0),
     "N/m": (1, 0, -2, 0, 0),
     "N/m2": (1, -1, -2, 0, 0),
@@ -78,7 +79,8 @@ def test_names_and_value_references_are_those_of_the_first_release(case: Case) -
 
 def test_every_output_of_the_model_is_an_output_of_the_fmu(case: Case) -> None:
     outputs = [v.name for v in case.definition.variables if v.is_computed]
-    assert outputs == list(case.definition.output_names)
+    # younger variables stand at the end of the FMU's; each is found by its name
+    assert sorted(outputs) == sorted(case.definition.output_names)
     assert len(outputs) == len(case.direct(0))
 
 

@@ -23,6 +23,7 @@ from gearlube_core.dynamics.hypoid_axle.integrate import TOO_MANY_STEPS
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.dynamics.hypoid_axle.start import NO_EQUILIBRIUM
+from gearlube_core.dynamics.hypoid_axle.state import N_STATE
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_laws import MixedFlankFriction
@@ -175,7 +176,7 @@ def test_steps_continue_as_in_python_and_outputs_of_a_restored_state_are_the_sam
         axle.step(1e-3, torque, *CURRENT[1:])
     # other instructions on another processor type: roundings grow over 20 ms to below 1e-9
     assert_outputs_agree(run, axle, 1e-9)
-    assert run.state[36:39].tolist() == [79.0, *CURRENT[1:]]
+    assert run.state[N_STATE : N_STATE + 3].tolist() == [79.0, *CURRENT[1:]]
     other = native.instance(values, [0.0, 0.0, 300.0])
     assert other(Operation.RESUME) == OK
     other.state[:] = run.state

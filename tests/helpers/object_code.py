@@ -16,7 +16,7 @@ from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel, Operation
 from fmu_src.object_code import lower_to_object
 
 LIBM = {"exp", "expm1", "log", "pow", "sin", "cos", "tan", "sqrt", "asinh", "tanh", "erfc", "ceil"}
-LIBM |= {"floor", "hypot", "log1p", "cosh", "sinh", "fmod", "exp2", "sincos"}
+LIBM |= {"floor", "hypot", "log1p", "acos", "cosh", "sinh", "fmod", "exp2", "sincos"}
 # plain memory primitives that any C library and any compiler run-time provides
 FREESTANDING = {"memcpy", "memset", "memmove"}
 

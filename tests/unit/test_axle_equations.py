@@ -16,6 +16,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     BOUNDARY,
     CAGE_G,
     CAGE_P,
+    CHURNING,
     LOAD_TORQUE,
     MESH_DAMPING,
     N_ODE,
@@ -23,6 +24,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PHI_G,
     PHI_P,
     PINION_WORK,
+    SEALS,
     SIDE,
     U_G,
     U_P,
@@ -43,7 +45,7 @@ MESH = MeshForce(2500.0, 0.02, -80.0, 190.0, 1.7, 3e8, *NORMAL)
 # forces on the shafts by axis of the axle, and the power lost
 ON_PINION, ON_GEAR = np.array([900.0, -400.0, 250.0]), np.array([-700.0, 150.0, 500.0])
 LOST_P, LOST_G = 0.3, 0.4
-INPUTS = rhs.StepInputs(85.0, 170.0, 0.9, 1.3)
+INPUTS = rhs.StepInputs(85.0, 170.0, 0.9, 1.3, 0.21, 0.32, 0.43)
 SPEED_P, SPEED_G = 150.0, 55.0
 
 
@@ -107,8 +109,8 @@ def test_every_body_obeys_newton(monkeypatch, consistent, lateral_sign):
     # rollers push back on the cages that carry them; the pinion turns about -x, the gear about z
     cage_p = -np.cross(drawn[0], -ON_PINION)[0]
     cage_g = np.cross(drawn[1], -ON_GEAR)[2]
-    on_pinion = 85.0 - 80.0 - 3.0 + consistent * 0.43 * cage_p - 0.9
-    on_gear = -170.0 + 190.0 + 4.5 + consistent * 0.46 * cage_g - 1.3
+    on_pinion = 85.0 - 80.0 - 3.0 + consistent * 0.43 * cage_p - 0.9 - 0.32
+    on_gear = -170.0 + 190.0 + 4.5 + consistent * 0.46 * cage_g - 1.3 - 0.21 - 0.43
     assert ds[W_P] == pytest.approx(on_pinion / 0.006, rel=1e-12)
     assert ds[W_G] == pytest.approx(on_gear / 0.09, rel=1e-12)
     friction = consistent * np.array([20.0, -30.0, 45.0])
@@ -133,6 +135,7 @@ def test_positions_follow_speeds_and_energies_follow_powers(monkeypatch):
         PHI_P: SPEED_P, PHI_G: SPEED_G, CAGE_P: 0.43 * SPEED_P, CAGE_G: 0.46 * SPEED_G,
         PINION_WORK: 85.0 * SPEED_P, WHEEL_WORK: 170.0 * SPEED_G, VISCOUS: 60.0, BOUNDARY: 7.0,
         MESH_DAMPING: 1.7, BEARING_DAMPING: 0.7, BEARING_TORQUE: 0.9 * SPEED_P + 1.3 * SPEED_G,
+        CHURNING: 0.21 * SPEED_G, SEALS: 0.32 * SPEED_P + 0.43 * SPEED_G,
     }  # fmt: skip
     for place, value in expected.items():
         assert ds[place] == pytest.approx(value, rel=1e-14)

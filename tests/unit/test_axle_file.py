@@ -56,6 +56,16 @@ NUMBERS = {
     "oil.heat_capacity_j_kg_k": (1900.0, "axle.oil.heat_capacity", 1900.0),
     "oil.temperature_low_degc": (-10.0, "axle.oil.temperature_low", 263.15),
     "oil.temperature_high_degc": (160.0, "axle.oil.temperature_high", 433.15),
+    "housing.churning": ("boness_1989", "axle.churning", "boness_1989"),
+    "housing.ring_diameter_mm": (201.7, "axle.ring_diameter", 0.2017),
+    "housing.ring_width_mm": (33.3, "axle.ring_width", 0.0333),
+    "housing.immersion_mm": (41.7, "axle.immersion", 0.0417),
+    "housing.oil_volume_l": (1.43, "axle.oil_volume", 1.43e-3),
+    # ISO/TR 14179-1: 3.737e-3 N.m for each mm; two seals at the wheels
+    "seals.pinion_diameter_mm": (45.0, "axle.pinion_seal_torque", 3.737e-3 * 45.0),
+    "seals.wheel_diameter_mm": (35.0, "axle.wheel_seal_torque", 2 * 3.737e-3 * 35.0),
+    "seals.pinion_torque_n_m": (0.21, "axle.pinion_seal_torque", 0.21),
+    "seals.wheel_torque_n_m": (0.37, "axle.wheel_seal_torque", 0.37),
     "model.equations": ("as_printed", "axle.equations", "as_printed"),
     "model.friction": ("off", "axle.friction", "off"),
     "model.bearing_torque_loss": ("none", "axle.bearing_torque_loss", "none"),
@@ -137,7 +147,8 @@ GROUPS = {"oil.viscosity_40_degc_mm2_s", "oil.viscosity_100_degc_mm2_s", "oil.wa
 GROUPS |= {"oil.walther_b", "engine.orders", "engine.order_amplitudes", "engine.order_phases_deg"}
 GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gear")
            for side in ("inner", "outer")}  # fmt: skip
-WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table"}
+WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
+WORDS |= {"seals.material"}
 NOT_PACKED = {"oil.heat_capacity_j_kg_k"}  # the axle's films take no heat away with the oil
 
 

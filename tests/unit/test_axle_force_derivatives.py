@@ -29,7 +29,7 @@ def found(monkeypatch, of_speeds):
 
     def axle_rhs(s, inputs, mesh, oil, p, tractions, bearings, scratch, slope):
         assert (oil, p, tractions, bearings) == ("oil", axle, 1.0, 1.0)
-        assert tuple(inputs) == (0.0, 0.0, 0.0, 0.0)
+        assert tuple(inputs) == (0.0,) * 7
         changed = s - at
         moved = 1e-6 * changed[[*range(U_P, U_P + 3), *range(U_G, U_G + 3)]]
         force = -MESH_STIFFNESS * CLOSING * 1e-6 * changed[X] - SUPPORT @ moved

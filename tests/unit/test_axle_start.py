@@ -44,7 +44,7 @@ def with_scipy(axle, torque):
     state[W_P] = state[W_G] = 0.0
     problem = RestProblem(
         state,
-        StepInputs(torque, 0.0, 0.0, 0.0),
+        StepInputs(torque, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
         MeshAtLoad(means, 0, packed.windows, packed.nodes),
         lubricant_state(p.oil, OIL),
         p,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,7 +22,12 @@ from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError
 
-AXLE = mohammadpour_2015_axle()
+AXLE = replace(
+    mohammadpour_2015_axle(),
+    churning="changenet_velex_2007",
+    pinion_seal_torque=0.15,
+    wheel_seal_torque=0.3,
+)
 TORQUES = np.array([-100.0, -40.0, 0.0, 50.0, 150.0, 300.0])
 SPEEDS = np.array([50.0, 150.0, 300.0])
 DEGC = (60.0, 90.0)

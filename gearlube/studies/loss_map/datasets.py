@@ -9,6 +9,7 @@ from gearlube.studies.loss_map.sampling import Spread
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, AxleLosses
+from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.ranges import left_ranges
 from gearlube_core.units import ZERO_CELSIUS
 
@@ -19,8 +20,10 @@ SOURCE_WORDS = {
     "mesh_damping": "mesh damping",
     "bearing_damping": "roller hysteresis",
     "bearing_torque": "bearing drag",
+    "churning": "churning",
+    "seals": "seals",
 }
-NOT_MODELLED = ("churning", "seals", "rolling of the flanks", "windage")
+_NEVER_MODELLED = ("rolling of the flanks", "windage")
 _LEAST_INPUT = 0.5  # share of the input that is lost, above which no efficiency is stated
 
 
@@ -79,6 +82,18 @@ def loss_map_dataset(
     )
 
 
+def not_modelled(axle: HypoidAxleParameters) -> tuple[str, ...]:
+    """Return the losses that an axle leaves out."""
+    left_out = {
+        "churning": axle.churning == "none",
+        "pinion seal": axle.pinion_seal_torque == 0.0,
+        "wheel seals": axle.wheel_seal_torque == 0.0,
+        "bearing drag": axle.bearing_torque_loss == "none",
+        "flank friction": axle.friction == "off",
+    }
+    return (*(words for words, missing in left_out.items() if missing), *_NEVER_MODELLED)
+
+
 def _about(unit: str, words: str) -> dict[str, str]:
     return {"units": unit, "long_name": words}
 
@@ -102,7 +117,7 @@ def _attributes(settings: LossMapSettings, losses: AxleLosses) -> dict[str, obje
         "ratio": axle.mesh.ratio,
         "mesh": axle.mesh.name,
         "oil": axle.oil.name,
-        "not_modelled": ", ".join(NOT_MODELLED),
+        "not_modelled": ", ".join(not_modelled(axle)),
         "reasons": "; ".join(f"{key}: {words}" for key, words in FAILURES.items() if key),
         "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in left),
         "draws": settings.draws,

@@ -11,6 +11,8 @@ LOSSES = (
     "mesh_damping",
     "bearing_damping",
     "bearing_torque",
+    "churning",
+    "seals",
 )
 FLANK_QUANTITIES = ("load", "film_thickness", "film_ratio", "friction_coefficient", "temperature")
 

@@ -53,6 +53,8 @@ STATE_NAMES: tuple[str, ...] = (
     "energy.mesh_damping",
     "energy.bearing_damping",
     "energy.bearing_torque",
+    "energy.churning",
+    "energy.seals",
     "mesh.load_torque",
 )
 RATE_NAMES = tuple(f"der({name})" for name in STATE_NAMES)

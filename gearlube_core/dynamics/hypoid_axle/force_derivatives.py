@@ -90,7 +90,7 @@ def force_derivatives(
     mean_series(torque, mesh, series)
     series[R_G] = series[R_P] * p.ratio
     at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes)
-    inputs = StepInputs(0.0, 0.0, 0.0, 0.0)
+    inputs = StepInputs(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for j in range(N_COORDINATES):
         step = ANGLE_STEP if j < 2 else LENGTH_STEP
         if of_speeds != 0.0:

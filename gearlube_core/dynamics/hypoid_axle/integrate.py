@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import shaft_drag
+from gearlube_core.drag.churning import churning_torque
+from gearlube_core.drag.seals import seal_drag
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -177,13 +179,21 @@ def step_inputs(
     oil: LubricantState,
     p: AxleParameters,
 ) -> StepInputs:
-    """Return the torques on both shafts and the drag of both bearings of each."""
+    """Return the torques on both shafts and what drags on each."""
     drag_p = 0.0
     drag_g = 0.0
     if p.drag != 0.0:
         drag_p = 2.0 * shaft_drag(p.bearing_p, s[W_P], p.preload_p, oil)
         drag_g = 2.0 * shaft_drag(p.bearing_g, s[W_G], p.preload_g, oil)
-    return StepInputs(pinion_torque, wheel_torque, drag_p, drag_g)
+    return StepInputs(
+        pinion_torque,
+        wheel_torque,
+        drag_p,
+        drag_g,
+        churning_torque(s[W_G], oil.nu, p.oil.density, p.churning),
+        seal_drag(s[W_P], p.pinion_seal_torque),
+        seal_drag(s[W_G], p.wheel_seal_torque),
+    )
 
 
 @kernel

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.drag.churning import ChurningConstants
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.dynamics.scalars import Within
@@ -28,6 +29,8 @@ class AxleScalars(MeshForceScalars):
         [kg], 0.05 to 2000.
     backlash : float
         Total backlash 2b along the line of action [m], 0 to 2e-3.
+    pinion_seal_torque, wheel_seal_torque : float
+        Of the seal of the pinion's shaft, and of those of both wheels together [N.m], 0 to 100.
     """
 
     pinion_inertia: Annotated[float, _INERTIA]
@@ -35,6 +38,8 @@ class AxleScalars(MeshForceScalars):
     pinion_mass: Annotated[float, _MASS]
     gear_mass: Annotated[float, _MASS]
     backlash: Annotated[float, Within(0.0, 2e-3, "m", "150 um is 1.5e-4 m.")]
+    pinion_seal_torque: Annotated[float, Within(0.0, 100.0, "N.m", "0.15 N.m is usual.")] = 0.0
+    wheel_seal_torque: Annotated[float, Within(0.0, 100.0, "N.m", "0.3 N.m is usual.")] = 0.0
 
 
 class AxleParameters(NamedTuple):
@@ -56,6 +61,9 @@ class AxleParameters(NamedTuple):
     ranges: RangeLimits
     preload_p: float  # axial preload of a bearing of the pinion, for its drag [N]
     preload_g: float  # ditto of the gear
+    churning: ChurningConstants
+    pinion_seal_torque: float  # N.m
+    wheel_seal_torque: float  # of both seals [N.m]
     bearing_p: ShaftBearings
     bearing_g: ShaftBearings
     flank_law: FlankLaw

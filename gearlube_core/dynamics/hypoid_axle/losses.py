@@ -36,6 +36,8 @@ LOSS_SOURCES = (
     "mesh_damping",
     "bearing_damping",
     "bearing_torque",
+    "churning",
+    "seals",
 )
 FAILURES = {
     0: "",

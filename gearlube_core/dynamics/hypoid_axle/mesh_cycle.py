@@ -166,7 +166,7 @@ def mesh_cycle(
     oil = lubricant_state(p.oil, oil_temperature)
     carried = torque
     missing = math.inf
-    inputs = StepInputs(torque, 0.0, 0.0, 0.0)
+    inputs = StepInputs(torque, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for balance in range(_MOST_BALANCES):
         if balance < _RESTS:
             status, worst = rest(

@@ -42,6 +42,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     BOUNDARY,
     CAGE_G,
     CAGE_P,
+    CHURNING,
     LOAD_TORQUE,
     MESH_DAMPING,
     N_ENERGIES,
@@ -49,6 +50,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PHI_G,
     PHI_P,
     PINION_WORK,
+    SEALS,
     SIDE,
     TIME_IN_STEP,
     U_G,
@@ -85,6 +87,8 @@ _OUTPUTS: tuple[str, ...] = (
     "friction.power_loss",
     "friction.power_loss_boundary",
     "bearing.power_loss",
+    "churning.power_loss",
+    "seal.power_loss",
     "damping.power_loss",
     "efficiency",
     "axle.efficiency",
@@ -100,6 +104,8 @@ _OUTPUTS: tuple[str, ...] = (
     "energy.mesh_damping",
     "energy.bearing_damping",
     "energy.bearing_torque",
+    "energy.churning",
+    "energy.seals",
     "energy.stored",
     *RANGE_OUTPUTS,
 )
@@ -124,6 +130,8 @@ MESH_FREQUENCY = OUTPUT_INDEX["mesh.frequency"]
 FRICTION_LOSS = OUTPUT_INDEX["friction.power_loss"]
 BOUNDARY_LOSS = OUTPUT_INDEX["friction.power_loss_boundary"]
 BEARING_LOSS = OUTPUT_INDEX["bearing.power_loss"]
+CHURNING_LOSS = OUTPUT_INDEX["churning.power_loss"]
+SEAL_LOSS = OUTPUT_INDEX["seal.power_loss"]
 DAMPING_LOSS = OUTPUT_INDEX["damping.power_loss"]
 EFFICIENCY = OUTPUT_INDEX["efficiency"]
 AXLE_EFFICIENCY = OUTPUT_INDEX["axle.efficiency"]
@@ -201,10 +209,14 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
     mesh = mean_power(s, rates, MESH_DAMPING, WORK_MARK + 4, duration)
     rollers = mean_power(s, rates, BEARING_DAMPING, WORK_MARK + 5, duration)
     drag = mean_power(s, rates, BEARING_TORQUE, WORK_MARK + 6, duration)
+    churning = mean_power(s, rates, CHURNING, WORK_MARK + 7, duration)
+    seals = mean_power(s, rates, SEALS, WORK_MARK + 8, duration)
     friction = viscous + boundary
     out[FRICTION_LOSS] = friction
     out[BOUNDARY_LOSS] = boundary
     out[BEARING_LOSS] = drag
+    out[CHURNING_LOSS] = churning
+    out[SEAL_LOSS] = seals
     out[DAMPING_LOSS] = mesh + rollers
     out[EFFICIENCY] = 0.0
     out[AXLE_EFFICIENCY] = 0.0
@@ -212,7 +224,7 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
     put_in = pinion if pinion > 0.0 else -wheel
     if put_in > idle_power:
         out[EFFICIENCY] = 1.0 - friction / put_in
-        out[AXLE_EFFICIENCY] = 1.0 - (friction + mesh + rollers + drag) / put_in
+        out[AXLE_EFFICIENCY] = 1.0 - (friction + mesh + rollers + drag + churning + seals) / put_in
 
 
 @kernel

@@ -19,6 +19,7 @@ from gearlube_core.contact.solid import (
     contact_modulus,
     solid_parameters,
 )
+from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     MeshForceConstants,
@@ -92,6 +93,15 @@ class HypoidAxleParameters(AxleScalars):
         reads the paper so that its efficiency comes out: (13) without beta, as printed, at the mean
         pressure of a circle, `circular_pressure_coefficient`; asperities are consistent.
     bearing_torque_loss : {"none", "palmgren"}
+    churning : {"none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
+        Law of the gear's churning, see `churning_torque`.
+    ring_diameter, ring_width : float
+        Outside diameter and width of the teeth of the gear [m].
+    immersion : float
+        Depth of the lowest tooth below the surface of the oil at rest [m]; more than ring_diameter
+        counts as that.
+    oil_volume : float
+        [m3]
     steps_per_mesh_period, steps_per_highest_period : int
         Integrator steps per mesh period and per period of the highest mode.
 
@@ -122,6 +132,11 @@ class HypoidAxleParameters(AxleScalars):
     modal_loss_factor: Annotated[float, Within(0.0, 1.0)] = 0.06
     friction: Friction | FlankLawMaker = "consistent"
     bearing_torque_loss: TorqueLoss = "palmgren"
+    churning: ChurningLaw = "none"
+    ring_diameter: Annotated[float, Within(0.01, 3.0, "m", "165 mm is 0.165 m.")] = 0.165
+    ring_width: Annotated[float, Within(1e-3, 1.0, "m", "30 mm is 0.03 m.")] = 0.030
+    immersion: Annotated[float, Within(0.0, 3.0, "m", "40 mm is 0.04 m.")] = 0.040
+    oil_volume: Annotated[float, Within(1e-5, 1.0, "m3", "1.2 l is 1.2e-3 m3.")] = 1.2e-3
     steps_per_mesh_period: Annotated[int, Within(16, 4096, cure="Default 56.")] = 56
     steps_per_highest_period: Annotated[int, Within(8, 4096, cure="Default 17.")] = 17
 
@@ -133,6 +148,7 @@ class HypoidAxleParameters(AxleScalars):
         if isinstance(self.friction, str):
             check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
+        check_option("churning", self.churning, CHURNING_LAWS)
         check_scalars(self)
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
             raise ParameterError(NO_MODAL_LOSS)
@@ -235,6 +251,13 @@ class HypoidAxleParameters(AxleScalars):
             ),
             lateral_sign=-1.0 if as_printed else 1.0,
             friction=0.0 if self.friction == "off" else 1.0,
+            churning=ChurningConstants(
+                law=float(CHURNING_LAWS.index(self.churning)),
+                ring_diameter=float(self.ring_diameter),
+                ring_width=float(self.ring_width),
+                immersion=float(self.immersion),
+                oil_volume=float(self.oil_volume),
+            ),
             drag=1.0 if self.bearing_torque_loss == "palmgren" else 0.0,
             reduced_modulus=2.0 * contact_modulus(self.solid, self.solid),
             ranges=range_limits(self.ranges),

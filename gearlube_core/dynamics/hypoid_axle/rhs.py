@@ -22,11 +22,13 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     BOUNDARY,
     CAGE_G,
     CAGE_P,
+    CHURNING,
     MESH_DAMPING,
     MICRO,
     PHI_G,
     PHI_P,
     PINION_WORK,
+    SEALS,
     U_G,
     U_P,
     UM,
@@ -55,6 +57,9 @@ class StepInputs(NamedTuple):
     wheel_torque: float  # N.m
     drag_p: float  # drag torque of both pinion bearings [N.m]
     drag_g: float  # ditto of the gear's
+    churning: float  # of the gear in its oil [N.m]
+    seal_p: float  # of the pinion's seal [N.m]
+    seal_g: float  # of the seals of both wheels, at the gear [N.m]
 
 
 @kernel
@@ -162,8 +167,9 @@ def axle_rhs(
     shared = p.mesh.consistent
     cage_p = cage_torque(pinion.r1, pinion.r2, p_z, p_y)
     cage_g = cage_torque(gear.r1, gear.r2, g_x, g_y)
-    on_shaft_p = shared * p.bearing_p.cage_ratio * cage_p - inputs.drag_p
-    on_shaft_g = shared * p.bearing_g.cage_ratio * cage_g - inputs.drag_g
+    on_shaft_p = shared * p.bearing_p.cage_ratio * cage_p - inputs.drag_p - inputs.seal_p
+    drag_g = inputs.drag_g + inputs.churning + inputs.seal_g
+    on_shaft_g = shared * p.bearing_g.cage_ratio * cage_g - drag_g
 
     ds[X] = mesh.x_rate * MICRO
     ds[W_P] = (inputs.pinion_torque + mesh.torque_p + friction.torque_p + on_shaft_p) / p.I_p
@@ -189,4 +195,6 @@ def axle_rhs(
     ds[MESH_DAMPING] = mesh.damping_power
     ds[BEARING_DAMPING] = lost_p + lost_g
     ds[BEARING_TORQUE] = inputs.drag_p * w_p + inputs.drag_g * w_g
+    ds[CHURNING] = inputs.churning * w_g
+    ds[SEALS] = inputs.seal_p * w_p + inputs.seal_g * w_g
     return mesh.force

@@ -154,7 +154,7 @@ def rest(
     for i in range(N_FREE):
         scale[i] = _SCALE
     at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes)
-    inputs = StepInputs(torque, 0.0, 0.0, 0.0)
+    inputs = StepInputs(torque, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     problem = RestProblem(at_rest, inputs, at_load, oil, p, soft, scratch, slope)
     limit = _LARGEST_ERROR * max(abs(torque / series[R_P]), _LEAST_FORCE)
     worst = math.inf

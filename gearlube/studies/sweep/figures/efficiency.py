@@ -10,10 +10,12 @@ import xarray as xr
 from gearlube.plotting.style import (
     BLUE,
     GREEN,
+    GREY,
     HATCHES,
     ORANGE,
     PURPLE,
     SKY,
+    VERMILLION,
     house_style,
     new_figure,
     preload_label,
@@ -25,6 +27,8 @@ _SOURCES = {
     "friction_viscous": ("flank friction, fluid", BLUE),
     "friction_boundary": ("flank friction, asperities", SKY),
     "bearing_torque": ("bearing drag torque", ORANGE),
+    "churning": ("churning of the gear", VERMILLION),
+    "seals": ("shaft seals", GREY),
     "bearing_damping": ("roller hysteresis", PURPLE),
     "mesh_damping": ("mesh damping", GREEN),
 }
@@ -39,6 +43,11 @@ def efficiency(dataset: xr.Dataset) -> Any:
         _losses(below, dataset, _bar_group(dataset["speed_kmh"].values))
         below.set_xlabel("vehicle speed [km/h]")
         figure.suptitle("Transmission efficiency and losses", fontsize=11.5)
+        missing = [
+            words for source, (words, _) in _SOURCES.items() if not _modelled(dataset, source)
+        ]
+        if missing:
+            figure.supxlabel(f"Not modelled: {', '.join(missing)}.", fontsize=8.5, color="#555555")
     return figure
 
 
@@ -83,6 +92,8 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
         shift = (row - 0.5 * (preloads.size - 1)) * width
         bottom = np.zeros(speed.size)
         for source, (_, colour) in _SOURCES.items():
+            if not _modelled(dataset, source):
+                continue
             loss = np.nan_to_num(dataset["loss"].sel(source=source).values[row])
             ax.bar(
                 speed + shift,
@@ -98,6 +109,7 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
     handles = [
         Patch(color=colour, label=f"{name}, up to {_largest(dataset, source)} W")
         for source, (name, colour) in _SOURCES.items()
+        if _modelled(dataset, source)
     ]
     handles += [
         Patch(
@@ -110,6 +122,13 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
     ]
     ax.legend(handles=handles, loc="upper left")
     ax.set_ylabel("power lost [W]")
+
+
+def _modelled(dataset: xr.Dataset, source: str) -> bool:
+    """Whether a source loses anything; results of older versions lack some."""
+    if source not in dataset["source"].values:
+        return False
+    return bool(np.any(np.nan_to_num(dataset["loss"].sel(source=source).values) != 0.0))
 
 
 def _largest(dataset: xr.Dataset, source: str) -> str:
