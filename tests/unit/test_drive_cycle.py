@@ -25,7 +25,7 @@ def trace(**columns):
 
 
 def test_nedc_has_the_phases_that_the_regulation_counts():
-    """[unece_r83 Annex 4a, 6.1.1]: seconds at rest and at speed of an urban cycle."""
+    """[unece_2012 Annex 4a, 6.1.1]: seconds at rest and at speed of an urban cycle."""
     ends = [0, *(end for _, end in URBAN)]
     rows = list(zip(URBAN, ends, strict=False))
     rest = sum(s for (s, end), before in rows if end == before == 0)

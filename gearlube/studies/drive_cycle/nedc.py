@@ -7,7 +7,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 
 # Seconds and the speed at their end [km/h]; between the ends the speed is a straight line.
-# [unece_r83 Annex 4a, tables 1 and 2]; while gears are changed the speed is held.
+# [unece_2012 Annex 4a, tables 1 and 2]; while gears are changed the speed is held.
 URBAN = (
     (11, 0), (4, 15), (8, 15), (2, 10), (3, 0),
     (21, 0), (5, 15), (2, 15), (5, 32), (24, 32), (8, 10), (3, 0),
@@ -26,7 +26,7 @@ def nedc() -> tuple[Array, Array]:
 
     Notes
     -----
-    1180 s, up to 120 km/h [unece_r83 Annex 4a]. Straight lines between the ends make 11.028 km; the
+    1180 s, up to 120 km/h [unece_2012 Annex 4a]. Straight lines between the ends make 11.028 km; the
     regulation states 4.052 and 6.955 km, 0.2 % less.
 
     Examples

@@ -18,7 +18,7 @@ FTP75_DISTANCE = 17_769.0  # m
 
 
 def wltc() -> tuple[Array, Array]:
-    """Return time [s] and speed [m/s] of the WLTC of class 3b [unece_gtr15], from `wltp`.
+    """Return time [s] and speed [m/s] of the WLTC of class 3b [unece_2014], from `wltp`.
 
     Raises
     ------
@@ -34,7 +34,7 @@ def wltc() -> tuple[Array, Array]:
 
 
 def ftp75() -> tuple[Array, Array]:
-    """Return time [s] and speed [m/s] of FTP-75 [cfr_1066], from the UDDS of `fastsim`.
+    """Return time [s] and speed [m/s] of FTP-75 [epa_2014], from the UDDS of `fastsim`.
 
     Notes
     -----
