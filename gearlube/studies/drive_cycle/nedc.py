@@ -26,8 +26,8 @@ def nedc() -> tuple[Array, Array]:
 
     Notes
     -----
-    1180 s, up to 120 km/h [unece_2012 Annex 4a]. Straight lines between the ends make 11.028 km; the
-    regulation states 4.052 and 6.955 km, 0.2 % less.
+    1180 s, up to 120 km/h [unece_2012 Annex 4a]. Straight lines between the ends make 11.028 km;
+    the regulation states 4.052 and 6.955 km, 0.2 % less.
 
     Examples
     --------
