@@ -119,6 +119,14 @@ from gearlube.studies.bearing.run import run_bearing as run_bearing
 from gearlube.studies.loss_map.settings import LossMapSettings as LossMapSettings
 from gearlube.studies.loss_map.run import run_loss_map as run_loss_map
 
+# -- Study: drive cycle of an axle
+from gearlube.studies.drive_cycle.traces import DriveCycle as DriveCycle
+from gearlube.studies.drive_cycle.settings import DriveCycleSettings as DriveCycleSettings
+from gearlube.studies.drive_cycle.settings import LossGrid as LossGrid
+from gearlube.studies.drive_cycle.heat import SumpHeat as SumpHeat
+from gearlube.studies.drive_cycle.run import run_cycle as run_cycle
+from gearlube.studies.drive_cycle.steady import steady_temperature as steady_temperature
+
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
 from gearlube.studies.helical.run import run_helical as run_helical

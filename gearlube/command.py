@@ -43,6 +43,11 @@ COMMANDS = (
         command_class="MapCommand",
     ),
     LazyCommand(
+        name="cycle",
+        target="gearlube.studies.drive_cycle.command:drive_cycle",
+        summary="Drive a cycle: energy lost in the axle, and the oil temperature.",
+    ),
+    LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",
