@@ -14,7 +14,9 @@ from gearlube_core.oil.base_oils import (
     MEASURED_ALPHA_FACTOR,
     BaseOil,
 )
-from gearlube_core.oil.oil_file import OilFile
+from gearlube_core.oil.lubricant import lubricant_names
+from gearlube_core.oil.lubricant_state import lubricant_state
+from gearlube_core.oil.oil_file import OilFile, read_oil
 
 PAGE = Path(__file__).with_suffix(".md")
 
@@ -111,6 +113,14 @@ sets each, the interval held the Eyring stress in {coverage}
 `gearlube map` draws alpha and the Eyring stress within the factors of the oil (`alpha_factor`,
 `eyring_stress_factor`). Oils of the library have none; for them it takes 1.15 and 2.
 
+## Shipped oils
+
+`--oil NAME`, `gl.read_oil("NAME")`, `[oil] name` of an axle file; `gearlube oil NAME` shows where
+each number is from.
+
+{oils}
+Of the reference oils FVA 1, 2 and 4 no published data could be read.
+
 ## Limits
 
 - One line of viscosity after ASTM D341, above 2 mm2/s; oils with much polymer depart from it.
@@ -180,10 +190,27 @@ def _sources() -> str:
     return "".join(lines)
 
 
+def _oils() -> str:
+    lines = [
+        "| Name | nu 40 / 100 degC [mm2/s] | alpha 40 degC [1/GPa] | Eyring stress [MPa] | Source |\n",
+        "|---|---|---|---|---|\n",
+    ]
+    for name in (*lubricant_names(), *OilFile.shipped()):
+        described = read_oil(name)
+        oil = described.lubricant
+        cold, hot = (lubricant_state(oil.parameters(), 273.15 + t) for t in (40.0, 100.0))
+        stress = next(n for n in described.inputs if n.field.startswith("eyring_stress"))
+        lines.append(
+            f"| `{name}` | {1e6 * cold.nu:.3g} / {1e6 * hot.nu:.3g} | {1e9 * cold.alpha:.1f} | "
+            f"{1e-6 * oil.eyring_stress:.3g}, {stress.origin} | {described.source} |\n"
+        )
+    return "".join(lines)
+
+
 def page() -> str:
     """Return docs/oil_file.md."""
     classes = _classes() + "\nEach pair is value and factor. Where they are from:\n\n" + _sources()
-    tail = _TAIL.format(classes=classes, eyring=EYRING_FACTOR, coverage=_COVERAGE)
+    tail = _TAIL.format(classes=classes, eyring=EYRING_FACTOR, coverage=_COVERAGE, oils=_oils())
     return HEAD + "## Fields\n" + field_tables(OilFile, {"": "The file"}, _WITHOUT) + tail
 
 
