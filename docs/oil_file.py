@@ -115,8 +115,8 @@ sets each, the interval held the Eyring stress in {coverage}
 
 ## Shipped oils
 
-`--oil NAME`, `gl.read_oil("NAME")`, `[oil] name` of an axle file; `gearlube oil NAME` shows where
-each number is from.
+`--oil NAME`, `gl.read_oil("NAME")` and, but for the last one, `[oil] name` of an axle file.
+`gearlube oil NAME` shows where each number is from.
 
 {oils}
 Of the reference oils FVA 1, 2 and 4 no published data could be read.
@@ -192,7 +192,8 @@ def _sources() -> str:
 
 def _oils() -> str:
     lines = [
-        "| Name | nu 40 / 100 degC [mm2/s] | alpha 40 degC [1/GPa] | Eyring stress [MPa] | Source |\n",
+        "| Name | nu 40 / 100 degC [mm2/s] | alpha 40 degC [1/GPa] | Eyring stress [MPa] "
+        "| Source |\n",
         "|---|---|---|---|---|\n",
     ]
     for name in (*lubricant_names(), *OilFile.shipped()):

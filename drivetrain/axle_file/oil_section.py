@@ -99,7 +99,7 @@ class OilSection(ModelSection):
         if self.name is not None and self.name not in lubricant_names():
             problems.append(
                 f"name must be one of {', '.join(lubricant_names())}, got {self.name!r}; for "
-                "another oil give its data in place of the name"
+                "another oil give its data in place of the name, or an oil file"
             )
         for pair in (_SHEET, _WALTHER):
             given = [key for key in pair if self.has(key)]
