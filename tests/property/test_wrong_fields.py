@@ -20,6 +20,7 @@ from gearlube_core.input_file.input_file import InputFile, read_toml
 from gearlube_core.mesh_table.line_mesh_file import line_mesh_from_bytes
 from gearlube_core.mesh_table.netcdf import mesh_table_from_bytes
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
+from gearlube_core.oil.oil_file import OilFile
 
 NAN, INF = math.nan, math.inf
 # of the wrong type, of a size that no unit gives, no number, empty, missing
@@ -62,6 +63,7 @@ FILES: list[tuple[type[InputFile], str, Callable[[Any], object]]] = [
     (PointCase, "mourier_2006", built_case),
     (HypoidCase, "mohammadpour_2015", lambda case: (case.settings(), case.oil_temperature)),
     (AxleFile, "mohammadpour_2015", lambda file: file.car_axle(MESH).axle.kernel_parameters()),
+    (OilFile, "iso_vg_220_pao", lambda file: file.described().lubricant.parameters()),
 ]
 IDS = [f"{kind.__name__}-{name}" for kind, name, _ in FILES]
 

@@ -12,6 +12,7 @@ import gearlube as gl
 from docs import oil_file as page
 from drivetrain.axle_file.axle_file import read_axle
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
+from fmu_src.identity import guid_of
 from gearlube.command import app
 from gearlube.studies.loss_map.settings import UNCERTAIN
 from gearlube_core.errors import ParameterError
@@ -166,6 +167,35 @@ def test_the_fmu_carries_the_oil_file(tmp_path):
     made = gl.read_oil(oil).lubricant
     oil.unlink()
     assert car_axle_in(definition.resources).axle.oil == made
+
+
+def test_every_byte_of_the_oil_file_counts_for_the_fmu_s_identity(tmp_path):
+    axle = axle_with(tmp_path, 'file = "my_oil.toml"')
+    written(tmp_path)
+    guid = guid_of(definition_with_axle(axle))
+    written(tmp_path, density_kg_m3=881.0)
+    assert guid_of(definition_with_axle(axle)) != guid
+
+
+def test_the_map_command_computes_with_the_oil_file(tmp_path, monkeypatch):
+    seen = []
+
+    def stopped(settings, **_):
+        seen.append(settings)
+        raise ParameterError("far enough")
+
+    monkeypatch.setattr("gearlube.studies.loss_map.run.run_loss_map", stopped)
+    path = written(tmp_path, eyring_stress_factor=1.3)
+    words = ["map", "--oil", str(path), "--out", str(tmp_path / "map")]
+    assert CliRunner().invoke(app, words).exit_code == 2
+    assert seen[0].axle.oil == gl.read_oil(path).lubricant
+    assert {one.name: one.factor for one in seen[0].uncertain}["eyring_stress"] == 1.3
+
+
+def test_a_sweep_says_where_an_oil_file_goes(tmp_path, caplog):
+    done = CliRunner().invoke(app, ["sweep", "--oil", str(written(tmp_path))])
+    assert done.exit_code == 2
+    assert "Write the oil file into the axle file" in caplog.text
 
 
 def test_the_loss_map_takes_the_scatter_of_the_oil(tmp_path):
