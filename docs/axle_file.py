@@ -79,6 +79,8 @@ for note in paper.assumed:
   to 2.6 for Gaussian surfaces. Left out, `roughness_rms_um` is that of the table; given, it scales
   the film ratio alone.
 - Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
+- `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
+  fields of `[oil]`.
 - Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
   Immersion matters most; oil that is thrown off lowers it, and the laws differ by a
   factor of three. A seal's torque is free of speed, `wheel_torque_n_m` that of both wheels' seals.
@@ -102,7 +104,8 @@ torque of the mesh table, the sweep refuses before it builds anything; beyond th
 
 `gearlube build-fmu --axle my_axle.toml` builds native [FMUs](fmu.md), with `--python` one that
 computes in this package. The FMU carries the file as `resources/axle.toml`, a mesh table of its own
-as `resources/mesh_table.nc` and an asperity table as `resources/asperity_table.nc`; the paths in
+as `resources/mesh_table.nc`, an asperity table as `resources/asperity_table.nc` and an oil file
+as `resources/oil.toml`; the paths in
 the file have no meaning there. Its GUID depends on every byte of all three. Start values of its
 parameters are the file's. An oil of the file's own is the literal `custom` of `oil.name`.
 `--mesh-table` does not go with `--axle`: the file names its table. A sweep keeps one such FMU in

@@ -18,6 +18,8 @@ from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, mesh_table_from_bytes, read_content
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
+from gearlube_core.oil.oil_file import described_oil_of, read_oil_content
 from gearlube_core.rough_patch.asperity_file import FILE_IN_FMU as ASPERITIES_IN_FMU
 from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
 
@@ -84,6 +86,7 @@ def definition_with_axle(
     path: str | Path,
     mesh_table: str | Path | None = None,
     asperity_table: str | Path | None = None,
+    oil_file: str | Path | None = None,
 ) -> Definition:
     """Return the definition of the FMU with an axle file.
 
@@ -95,6 +98,8 @@ def definition_with_axle(
         Where the table that the file names as a file is; by default where the file says.
     asperity_table : path, optional
         The same of its asperity table.
+    oil_file : path, optional
+        The same of its oil file.
 
     Raises
     ------
@@ -112,7 +117,12 @@ def definition_with_axle(
         if asperities is not None:
             there = Path(path).parent / asperities if asperity_table is None else asperity_table
             of_patches = read_asperity_content(there)
-        return _definition_with(content, read_content(where) if table else None, of_patches)
+        oil = None
+        if file.oil.file is not None:
+            oil = read_oil_content(
+                Path(path).parent / file.oil.file if oil_file is None else oil_file
+            )
+        return _definition_with(content, read_content(where) if table else None, of_patches, oil)
     except GearLubeError as error:
         raise type(error)(f"{path}: {error}") from None
 
@@ -148,19 +158,23 @@ def car_axle_in(resources: Mapping[str, bytes]) -> CarAxle:
     content = resources.get(AXLE_FILE)
     file = AxleFile.named(PAPER) if content is None else parsed_axle_file(content)
     own = FILE_IN_FMU in resources
-    patches = resources.get(ASPERITIES_IN_FMU)
+    patches, oil = resources.get(ASPERITIES_IN_FMU), resources.get(OIL_IN_FMU)
     return file.car_axle(
         mesh_table_in(resources) if own else None,
         asperities_from_bytes(patches, ASPERITIES_IN_FMU) if patches else None,
+        described_oil_of(oil, OIL_IN_FMU) if oil else None,
     )
 
 
 @cache
 def _definition_with(
-    axle: bytes | None, table: bytes | None, asperities: bytes | None = None
+    axle: bytes | None,
+    table: bytes | None,
+    asperities: bytes | None = None,
+    oil: bytes | None = None,
 ) -> Definition:
     """Return the definition with these files; one object per content, for caches keyed by it."""
-    files = {AXLE_FILE: axle, FILE_IN_FMU: table, ASPERITIES_IN_FMU: asperities}
+    files = {AXLE_FILE: axle, FILE_IN_FMU: table, ASPERITIES_IN_FMU: asperities, OIL_IN_FMU: oil}
     resources = {name: content for name, content in files.items() if content is not None}
     described = car_axle_in(resources)
     base, mesh = described.axle, described.axle.mesh
@@ -200,5 +214,7 @@ class HypoidAxle(CoSimulationSlave):
         """Return the definition with the files in `resources`, else with those that ship."""
         axle, table = resources / AXLE_FILE, resources / FILE_IN_FMU
         if axle.is_file():
-            return definition_with_axle(axle, table, resources / ASPERITIES_IN_FMU)
+            return definition_with_axle(
+                axle, table, resources / ASPERITIES_IN_FMU, resources / OIL_IN_FMU
+            )
         return definition_with_table(table) if table.is_file() else DEFINITION

@@ -33,6 +33,8 @@ from gearlube_core.dynamics.helical_pair.march.model import HelicalPairModel as 
 # -- Oils
 from gearlube_core.oil.lubricant import Lubricant as Lubricant
 from gearlube_core.oil.lubricant import lubricant_names as lubricant_names
+from gearlube_core.oil.oil_file import read_oil as read_oil
+from gearlube_core.oil.oil_file import DescribedOil as DescribedOil
 from gearlube_core.oil.film_oil import FilmOil as FilmOil
 from gearlube_core.oil.oil_heat import OilHeat as OilHeat
 from gearlube_core.oil.film_oil_data import film_oil as film_oil
@@ -116,6 +118,14 @@ from gearlube.studies.bearing.run import run_bearing as run_bearing
 # -- Study: loss map of an axle
 from gearlube.studies.loss_map.settings import LossMapSettings as LossMapSettings
 from gearlube.studies.loss_map.run import run_loss_map as run_loss_map
+
+# -- Study: drive cycle of an axle
+from gearlube.studies.drive_cycle.traces import DriveCycle as DriveCycle
+from gearlube.studies.drive_cycle.settings import DriveCycleSettings as DriveCycleSettings
+from gearlube.studies.drive_cycle.settings import LossGrid as LossGrid
+from gearlube.studies.drive_cycle.heat import SumpHeat as SumpHeat
+from gearlube.studies.drive_cycle.run import run_cycle as run_cycle
+from gearlube.studies.drive_cycle.steady import steady_temperature as steady_temperature
 
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings

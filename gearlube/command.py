@@ -32,10 +32,20 @@ COMMANDS = (
         summary="Check an axle file and show its inputs.",
     ),
     LazyCommand(
+        name="oil",
+        target="gearlube.cli.oil:oil",
+        summary="Show an oil file; fit its stresses to measured traction.",
+    ),
+    LazyCommand(
         name="map",
         target="gearlube.studies.loss_map.command:loss_map",
         summary="Map the losses of an axle over torque, speed and oil temperature.",
         command_class="MapCommand",
+    ),
+    LazyCommand(
+        name="cycle",
+        target="gearlube.studies.drive_cycle.command:drive_cycle",
+        summary="Drive a cycle: energy lost in the axle, and the oil temperature.",
     ),
     LazyCommand(
         name="contact",

@@ -20,7 +20,6 @@ from drivetrain.axle_file.car_sections import (
 )
 from drivetrain.axle_file.drag_sections import Housing, Seals
 from drivetrain.axle_file.field_units import field_value, unit_of
-from drivetrain.axle_file.model_section import InputNote, Origin
 from drivetrain.axle_file.oil_section import OilSection
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import FinalDrive, RoadLoad
@@ -32,9 +31,12 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 )
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.input_file.input_note import InputNote, Origin
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.oil_file import DescribedOil, read_oil_file
 from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
 from gearlube_core.rough_patch.table import GreenwoodTrippFit
 
@@ -131,8 +133,15 @@ class AxleFile(InputFile):
             return None
         return asperities_from_bytes(read_asperity_content(folder / table), str(folder / table))
 
+    def described_oil(self, folder: Path = Path()) -> DescribedOil | None:
+        """Return the oil of the file's oil file; `folder` is that of the file; None: no such."""
+        return None if self.oil.file is None else read_oil_file(folder / self.oil.file)
+
     def car_axle(
-        self, mesh: MeshTable | None = None, asperities: GreenwoodTrippFit | None = None
+        self,
+        mesh: MeshTable | None = None,
+        asperities: GreenwoodTrippFit | None = None,
+        oil: DescribedOil | None = None,
     ) -> CarAxle:
         """Return the parameters of axle and car.
 
@@ -142,6 +151,8 @@ class AxleFile(InputFile):
             Read from the file's `mesh_table`; by default the shipped one that it names.
         asperities : GreenwoodTrippFit, optional
             Fit to the file's `asperity_table`; by default read where it names one.
+        oil : DescribedOil, optional
+            Of the file's `oil.file`; by default read where it names one.
 
         Raises
         ------
@@ -151,14 +162,15 @@ class AxleFile(InputFile):
         """
         mesh = mesh or self.mesh()
         asperities = asperities or self.asperities()
-        axle = self._axle(mesh, asperities)
+        oil = oil or self.described_oil()
+        axle = self._axle(mesh, asperities, self.oil.oil() if oil is None else oil.lubricant)
         driveline = self._driveline(mesh)
         return CarAxle(
             name=self.name,
             source=self.source or "",
             axle=axle,
             driveline=driveline,
-            inputs=tuple(self._notes(axle, driveline, asperities)),
+            inputs=tuple(self._notes(axle, driveline, asperities, oil)),
         )
 
     def _bearings(self) -> tuple[TaperedRollerBearing, TaperedRollerBearing | None]:
@@ -174,7 +186,9 @@ class AxleFile(InputFile):
             None if of_gear is None else replace(of_gear, **common),
         )
 
-    def _axle(self, mesh: MeshTable, fit: GreenwoodTrippFit | None) -> HypoidAxleParameters:
+    def _axle(
+        self, mesh: MeshTable, fit: GreenwoodTrippFit | None, oil: Lubricant
+    ) -> HypoidAxleParameters:
         base = mohammadpour_2015_axle(mesh=mesh)
         if fit is not None:
             base = replace(
@@ -201,7 +215,7 @@ class AxleFile(InputFile):
             bearing=bearing,
             gear_bearing=gear_bearing,
             solid=bearing.solid,
-            oil=self.oil.oil(),
+            oil=oil,
         )
 
     def _driveline(self, mesh: MeshTable) -> DrivelineParameters:
@@ -220,6 +234,7 @@ class AxleFile(InputFile):
         axle: HypoidAxleParameters,
         car: DrivelineParameters,
         fit: GreenwoodTrippFit | None,
+        oil: DescribedOil | None,
     ) -> list[InputNote]:
         of_table = {} if fit is None else {"roughness_rms_um": "asperity_table"}
         notes = self.gear_set.notes("gear_set.", axle, _MODEL, of_table)
@@ -234,7 +249,7 @@ class AxleFile(InputFile):
                 made = axle.bearings[role == "gear"]
                 notes += (section or BearingSection()).bearing_notes(prefix, made, _BEARING)
         notes += self.steel.notes("steel.", axle.solid, _PAPER)
-        notes += self.oil.oil_notes("oil.", axle.oil)
+        notes += self.oil.oil_notes("oil.", axle.oil, oil)
         notes += self.housing.housing_notes("housing.", axle)
         notes += self.seals.seal_notes("seals.", axle)
         notes += self.model.notes("model.", axle, _MODEL)
@@ -296,7 +311,7 @@ def read_axle(path: str | Path) -> CarAxle:
     """
     file = AxleFile.given(str(path))
     folder = Path(path).parent
-    return file.car_axle(file.mesh(folder), file.asperities(folder))
+    return file.car_axle(file.mesh(folder), file.asperities(folder), file.described_oil(folder))
 
 
 def parsed_axle_file(content: bytes) -> AxleFile:

@@ -9,10 +9,11 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.model_section import InputNote, ModelSection
+from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_note import InputNote
 
 LARGEST_PRELOAD = 1e5  # N
 

@@ -9,11 +9,12 @@ from typing import Annotated, Any
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.field_units import field_value, si_value
-from drivetrain.axle_file.model_section import InputNote, ModelSection
+from drivetrain.axle_file.model_section import ModelSection
 from drivetrain.engine import Engine, Gearbox, TorqueOrder
 from drivetrain.tyre import CIRCUMFERENCE_FACTOR, Tyre
 from drivetrain.vehicle import Vehicle, mohammadpour_2015_vehicle
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_note import InputNote
 
 Text = Annotated[str, Field(min_length=1)]
 Mass = Annotated[float, Field(ge=100.0, le=1e5, allow_inf_nan=False)]

@@ -7,9 +7,10 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.model_section import InputNote, ModelSection
+from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.drag.seals import SealMaterial, seal_torque
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.input_file.input_note import InputNote
 
 Size = Annotated[float, Field(ge=10.0, le=3000.0, allow_inf_nan=False)]
 Width = Annotated[float, Field(ge=1.0, le=1000.0, allow_inf_nan=False)]

@@ -3,36 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import Any, ClassVar
 
 from drivetrain.axle_file.field_units import attribute_of, field_value, si_value, unit_of
 from gearlube_core.input_file.input_file import Section
-
-Origin = Literal["given", "inferred", "assumed"]
-
-
-class InputNote(NamedTuple):
-    """One input of an axle and where its value is from.
-
-    `value` is in `unit`; `why` is empty where the file gives the value.
-    """
-
-    field: str  # dotted name in the axle file
-    value: Any
-    unit: str
-    origin: Origin
-    why: str
-
-    @property
-    def value_text(self) -> str:
-        """The value as a table shows it."""
-        return _text(self.value)
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, tuple | list):
-        return ", ".join(_text(one) for one in value)
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+from gearlube_core.input_file.input_note import InputNote, Origin
 
 
 class ModelSection(Section):

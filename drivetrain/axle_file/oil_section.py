@@ -7,9 +7,11 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.model_section import InputNote, ModelSection
+from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_note import InputNote
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
+from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.units import celsius_to_kelvin
 
 Text = Annotated[str, Field(min_length=1)]
@@ -36,6 +38,10 @@ class OilSection(ModelSection):
 
     name: Text | None = Field(
         default=None, description="Shipped oil; fields that are absent are taken from it"
+    )
+    file: Text | None = Field(
+        default=None,
+        description="Oil file (.toml), its path relative to the axle file, in place of all others",
     )
     viscosity_40_degc_mm2_s: Viscosity | None = Field(
         default=None, description="Kinematic, at 40 degC; with that at 100 degC"
@@ -83,10 +89,17 @@ class OilSection(ModelSection):
     @model_validator(mode="after")
     def _check_oil(self) -> OilSection:
         problems = []
+        if self.file is not None:
+            others = [key for key in type(self).model_fields if key != "file" and self.has(key)]
+            if others:
+                raise ValueError(
+                    f"file comes alone, got {', '.join(others)} beside it; write them into the file"
+                )
+            return self
         if self.name is not None and self.name not in lubricant_names():
             problems.append(
                 f"name must be one of {', '.join(lubricant_names())}, got {self.name!r}; for "
-                "another oil give its data in place of the name"
+                "another oil give its data in place of the name, or an oil file"
             )
         for pair in (_SHEET, _WALTHER):
             given = [key for key in pair if self.has(key)]
@@ -109,7 +122,7 @@ class OilSection(ModelSection):
         return not any(self.has(key) for key in type(self).model_fields if key != "name")
 
     def oil(self) -> Lubricant:
-        """Return the oil."""
+        """Return the oil; `file` is not read here."""
         base = Lubricant.named(self.name or OIL)
         if self.is_shipped:
             return base
@@ -126,8 +139,13 @@ class OilSection(ModelSection):
             changes |= {"walther_a": line.walther_a, "walther_b": line.walther_b}
         return replace(base, **changes)
 
-    def oil_notes(self, prefix: str, made: Lubricant) -> list[InputNote]:
-        """Return a note on every field; `made` is what `oil` returned."""
+    def oil_notes(
+        self, prefix: str, made: Lubricant, of_file: DescribedOil | None = None
+    ) -> list[InputNote]:
+        """Return a note on every field; `made` is what `oil` returned, or that of the file."""
+        if of_file is not None:
+            named = InputNote(f"{prefix}file", self.file, "", "given", "")
+            return [named, *(n._replace(field=f"{prefix}{n.field}") for n in of_file.inputs)]
         inferred = dict.fromkeys(_WALTHER, "the two viscosities") if self.has(_SHEET[0]) else {}
         if self.is_shipped and self.name is not None:
             return [InputNote(f"{prefix}name", self.name, "", "given", "")]

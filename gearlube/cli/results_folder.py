@@ -31,6 +31,7 @@ _RESULTS = frozenset(
         "geometry.nc",
         "bearing.nc",
         "map.nc",
+        "drive_cycle.nc",
     }
 )
 

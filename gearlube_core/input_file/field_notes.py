@@ -20,6 +20,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_kg": "kg",
     "_l": "l",
     "_kg_m3": "kg/m3",
+    "_kg_m3_k": "kg/(m3.K)",
     "_kg_m2": "kg.m2",
     "_kg_mm2": "kg.mm2",
     "_m2": "m2",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -58,6 +58,9 @@ class Lubricant:
         [J/(kg K)].
     temperature_low, temperature_high
         Range of oil temperatures for which the data are meant [K].
+    alpha_factor, eyring_stress_factor
+        The true value lies between value/factor and value * factor with 95 % (k = 2) [-]; None:
+        not known.
 
     Notes
     -----
@@ -88,6 +91,8 @@ class Lubricant:
     heat_capacity: float
     temperature_low: float
     temperature_high: float
+    alpha_factor: float | None = None
+    eyring_stress_factor: float | None = None
 
     def __post_init__(self) -> None:
         check_within("walther_a", self.walther_a, 1.0, 30.0)
@@ -104,6 +109,10 @@ class Lubricant:
         check_within("heat_capacity", self.heat_capacity, 100.0, 1e4, "J/(kg K)")
         check_positive("temperature_low", self.temperature_low, "K")
         check_within("temperature_high", self.temperature_high, self.temperature_low, 1000.0, "K")
+        for name in ("alpha_factor", "eyring_stress_factor"):
+            factor = getattr(self, name)
+            if factor is not None:
+                check_within(name, factor, 1.0, 10.0, "", "1.1 is 10 % either way.")
         for name in ("alpha_temperature", "conductivity_temperature"):
             self.check_temperature(getattr(self, name), name)
 
@@ -139,7 +148,8 @@ class Lubricant:
         """Return the lubricant `name` of a library file laid out like `lubricants.toml`."""
         data = lubricant_data(read_library(Path(path)), name)
         known = {field.name for field in fields(cls)}
-        unknown, missing = sorted(set(data) - known), sorted(known - set(data))
+        needed = {field.name for field in fields(cls) if field.default is MISSING}
+        unknown, missing = sorted(set(data) - known), sorted(needed - set(data))
         if unknown or missing:
             raise ParameterError(
                 f"Lubricant {name} in {path}: missing {missing or 'nothing'}, "
@@ -197,7 +207,7 @@ def lubricant_names() -> tuple[str, ...]:
 
     Examples
     --------
-    >>> lubricant_names()
-    ('fva_3', 'jamali_2015', 'karagiannis_2012', 'mohammadpour_2015')
+    >>> lubricant_names()[:4]
+    ('fva_3', 'fva_3a', 'arana_2019_m100', 'arana_2019_n100')
     """
     return tuple(read_library())

@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
-from drivetrain.axle_file.oil_file import given_oil
 from gearlube.command import app
 from gearlube.studies.bearing.run import run_bearing
 from gearlube.studies.bearing.settings import BearingSettings
@@ -116,7 +115,10 @@ def test_command_writes_each_part_on_its_own_line(tmp_path, caplog):
     shown = CliRunner().invoke(app, ["bearing", "--example"])
     path.write_text(shown.output.replace('name = "wing', 'name = "my_wing'))
     oil = tmp_path / "my_oil.toml"
-    oil.write_text('name = "fva_3"\nalpha_per_gpa = 20.0\n')
+    oil.write_text(
+        'name = "thin"\nbase_oil = "mineral"\ndensity_kg_m3 = 870.0\n'
+        "viscosity_40_degc_mm2_s = 32.0\nviscosity_100_degc_mm2_s = 5.4\n"
+    )
     out = tmp_path / "results"
     words = ["bearing", str(path), "--oil", str(oil), "--out", str(out)]
     conditions = ["--speed-rpm", "500", "2000", "--radial-load", "0", "--temperature", "50"]
@@ -156,13 +158,3 @@ def test_command_refuses_before_it_writes(options, words, tmp_path, caplog):
     assert done.exit_code == 2
     assert words in caplog.text
     assert not out.exists()
-
-
-def test_an_oil_file_has_the_fields_of_the_axle_file(tmp_path):
-    path = tmp_path / "oil.toml"
-    path.write_text("viscosity_40_degc_mm2_s = 100.0\nviscosity_100_degc_mm2_s = 11.0\n")
-    oil = given_oil(str(path))
-    assert oil.dynamic_viscosity(313.15) / oil.density == pytest.approx(1e-4, rel=1e-9)
-    path.write_text("viscosity_40_degc = 100.0\n")
-    with pytest.raises(ParameterError, match="is it viscosity_40_degc_mm2_s"):
-        given_oil(str(path))

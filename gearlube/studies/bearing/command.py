@@ -44,8 +44,8 @@ def bearing(
     oil: Annotated[
         str | None,
         typer.Option(
-            help="Shipped oil or an oil file (TOML, the fields of [oil] of an axle file). Default: "
-            "that of the bearing file."
+            help="Shipped oil or an oil file (TOML). Default: that of the bearing file.",
+            metavar="OIL",
         ),
     ] = None,
     law: Annotated[
@@ -87,7 +87,6 @@ def bearing(
 
     Writes bearing.nc, bearing.csv and figures. Conditions given here replace those of the file.
     """
-    from drivetrain.axle_file.oil_file import given_oil
     from gearlube.studies.bearing.run import run_bearing
     from gearlube.studies.bearing.settings import DEFAULT_LAWS, BearingSettings
     from gearlube.studies.bearing.summary import (
@@ -98,6 +97,7 @@ def bearing(
     from gearlube_core.bearings.bearing_file import BearingFile
     from gearlube_core.bearings.losses.laws import CATALOGUE_LAWS, LAWS
     from gearlube_core.bearings.losses.loss import LARGEST_SPEED_FACTOR, LossModel
+    from gearlube_core.oil.oil_file import read_oil
 
     began = time.monotonic()
     with exit_on_error():
@@ -105,7 +105,7 @@ def bearing(
             typer.echo(BearingFile.shipped_text("wingertszahn_2023"), nl=False)
             return
         given = BearingFile.given(file)
-        lubricant = given_oil(given.oil if oil is None else oil)
+        lubricant = read_oil(given.oil if oil is None else oil).lubricant
         operation = given.operation
         check_within("--inlet-layer-um", inlet_layer_um, 0.0, 1e4, "um")
         check_within("--temperature-rise", temperature_rise, 0.0, 100.0, "K")

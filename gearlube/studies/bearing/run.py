@@ -14,6 +14,7 @@ from gearlube.studies.bearing.settings import BearingSettings
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import bearing_loss
 from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 
@@ -59,7 +60,7 @@ def run_bearing(
     3.2
     """
     settings = settings or BearingSettings.of_file(file)
-    oil = Lubricant.named(file.oil) if oil is None else oil
+    oil = read_oil(file.oil).lubricant if oil is None else oil
     geometry = file.geometry()
     settings.check(geometry, oil)
     conditions = list(

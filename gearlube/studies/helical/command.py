@@ -42,7 +42,7 @@ console = Console(stderr=True)
 class HelicalCommand(MultiValueCommand):
     """A command with options that take several values."""
 
-    multi_value = frozenset({"--mu", "--speeds-rpm", "--torques"})
+    multi_value = frozenset({"--mu", "--speeds-rpm", "--torques", "--oil-temperatures"})
 
 
 def helical(
@@ -59,7 +59,8 @@ def helical(
     speeds_rpm: Annotated[
         list[str] | None,
         typer.Option(
-            help="Pinion speeds of the sweep [rpm]. Default: 60 past the mesh resonance.",
+            help="Pinion speeds of sweep and losses [rpm]. Default: of the sweep 60 past the mesh "
+            "resonance, of the losses 0.2 to 2 times SPEED.",
             metavar="RANGE...",
         ),
     ] = None,
@@ -98,13 +99,28 @@ def helical(
         int, typer.Option(help="Mesh phases of the loaded contact.", metavar="N")
     ] = 24,
     oil: Annotated[
-        str, typer.Option(help="mohammadpour_2015, karagiannis_2012 or jamali_2015.")
+        str, typer.Option(help="Shipped oil or an oil file (TOML).", metavar="OIL")
     ] = "mohammadpour_2015",
     oil_temperature: OilTemperatureOption = 80.0,
+    oil_temperatures: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Oil temperatures of the losses [degC]. Default: --oil-temperature.",
+            metavar="RANGE...",
+        ),
+    ] = None,
+    draws: Annotated[
+        int,
+        typer.Option(
+            help="Samples of the uncertain data for the error bars of the losses; 0: none.",
+            metavar="N",
+        ),
+    ] = 60,
+    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
     roughness_um: RoughnessOption = 0.5,
     parts: Annotated[
         str,
-        typer.Option(help="What to run.", metavar="all|contact|dynamics|geometry"),
+        typer.Option(help="What to run.", metavar="all|contact|dynamics|geometry|losses"),
     ] = "all",
     jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_helical"),
@@ -116,13 +132,14 @@ def helical(
     """Study a helical or spur pair; write NetCDF datasets, summary.csv and figures.
 
     Loaded contact, vibration under sliding friction, parametric instability, tooth separation,
-    oil film, geometry. Finished parts are kept in OUT/parts: run the same command again to go on
-    after a stop.
+    oil film, losses of the pair alone, geometry. Finished parts are kept in OUT/parts: run the same
+    command again to go on after a stop.
     """
     from gearlube.studies.helical import run
     from gearlube.studies.helical.settings import HelicalSettings, quick_settings
     from gearlube.studies.helical.summary import remarks, summary_rows
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    from gearlube_core.oil.oil_file import read_oil
 
     began = time.monotonic()
     with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
@@ -144,6 +161,10 @@ def helical(
         speeds = numbers_from(
             "--speeds-rpm", speeds_rpm or (), "rpm", 0.1, 1e6, example="100:3000:100"
         )
+        lubricant = read_oil(oil).lubricant
+        temperatures = numbers_from(
+            "--oil-temperatures", oil_temperatures or (), "degC", -60.0, 250.0, example="40:100:20"
+        )
         settings = HelicalSettings(
             file=file,
             pinion_torque=torque,
@@ -155,8 +176,13 @@ def helical(
             density=None if density is None else 1e9 * density,
             torques=tuple(sorted(set(torques or ()))),
             positions=positions,
-            oil=oil,
-            oil_temperature=oil_kelvin(oil_temperature, oil),
+            oil=lubricant,
+            oil_temperature=oil_kelvin(oil_temperature, lubricant),
+            oil_temperatures=tuple(
+                oil_kelvin(one, lubricant, "--oil-temperatures") for one in temperatures
+            ),
+            draws=draws,
+            seed=seed,
             roughness_rms=1e-6 * roughness_um,
             parts=parts,
         )

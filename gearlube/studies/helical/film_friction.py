@@ -115,7 +115,7 @@ def film_dataset(
         },
     )
     dataset.attrs |= {
-        "oil": settings.oil,
+        "oil": settings.film().oil.name,
         "oil_temperature": settings.oil_temperature,
         "oil_temperature_units": "K",
         "roughness_rms": settings.roughness_rms,

@@ -20,7 +20,7 @@ class HelicalResults:
     settings : HelicalSettings
     datasets : mapping of str to xarray.Dataset
         "contact", "response", "friction_sweep", "sweep", "stability", "separation", "film",
-        "geometry" and "geometry_" with each name in the gear file's `compared_with`.
+        "losses", "geometry" and "geometry_" with each name in the gear file's `compared_with`.
     mesh : LineMesh, optional
         Of the loaded contact.
     failures : mapping of str to str

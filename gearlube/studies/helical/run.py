@@ -6,6 +6,7 @@ from pathlib import Path
 
 from gearlube.studies.helical.figures.catalogue import save_helical_figures
 from gearlube.studies.helical.labels import study_attributes
+from gearlube.studies.helical.pair_losses import losses_csv
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.helical.stages import RunningStudy, StageReport, stages_of
@@ -85,6 +86,8 @@ def write_helical(results: HelicalResults, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, dataset in results.datasets.items():
         write_dataset(dataset, folder / f"{name}.nc")
+    if "losses" in results.datasets:
+        write_text(losses_csv(results.datasets["losses"]), folder / "losses.csv")
     if results.mesh is not None:
         write_line_mesh(results.mesh, folder / "line_mesh.nc")
     write_text(summary_csv(summary_rows(results)), folder / "summary.csv")

@@ -29,7 +29,7 @@ from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 
 MESHES = ("contact", "density")
 FRICTIONS = ("film", "constant")
-PARTS = ("all", "contact", "dynamics", "geometry")
+PARTS = ("all", "contact", "dynamics", "geometry", "losses")
 RPM = math.pi / 30.0  # rad/s
 
 HARMONICS = 15  # [he_2007 sec. 6]
@@ -71,12 +71,16 @@ class HelicalSettings:
         Pinion torques of the loaded contact [N.m]; empty: `LOAD_STEPS`.
     positions : int
         Mesh phases of the loaded contact.
-    oil : str
-        Of the library.
+    oil : str or Lubricant
+        Of the library by its name, or any other.
     oil_temperature, roughness_rms : float
         [K], composite of both flanks [m].
-    parts : {"all", "contact", "dynamics", "geometry"}
+    parts : {"all", "contact", "dynamics", "geometry", "losses"}
         What is run.
+    oil_temperatures : tuple of float
+        Of the losses [K], rising; empty: oil_temperature alone.
+    draws, seed : int
+        Samples of the uncertain data for the error bars of the losses, 0 to 10000; their seed.
     stability_columns, stability_rows : int
         Size of the maps of parametric instability.
     separation_speeds : int
@@ -103,10 +107,13 @@ class HelicalSettings:
     friction: str = "film"
     torques: tuple[float, ...] = ()
     positions: int = 24
-    oil: str = "mohammadpour_2015"
+    oil: str | Lubricant = "mohammadpour_2015"
     oil_temperature: float = 353.15
     roughness_rms: float = 0.5e-6
     parts: str = "all"
+    oil_temperatures: tuple[float, ...] = ()
+    draws: int = 60
+    seed: int = 1
     stability_columns: int = 120
     stability_rows: int = 33
     separation_speeds: int = 120
@@ -143,6 +150,11 @@ class HelicalSettings:
             )
             check_within("pinion_torque", self.pinion_torque, low, high, "N.m", cure)
         self.film()
+        for temperature in self.oil_temperatures:
+            self.film().oil.check_temperature(temperature, "oil_temperatures")
+        if any(np.diff(self.oil_temperatures) <= 0.0):
+            raise ParameterError(f"oil_temperatures must rise, got {self.oil_temperatures}.")
+        check_within("draws", self.draws, 0, 10_000, "", "60 are usual.")
         check_within("separation_speeds", self.separation_speeds, 0, 5000)
         check_within("speed_count", self.speed_count, 2, 2000)
         for name in ("stability_columns", "stability_rows"):
@@ -168,6 +180,11 @@ class HelicalSettings:
         return self.parts in ("all", "geometry")
 
     @property
+    def with_losses(self) -> bool:
+        """Whether the losses of the pair alone are computed."""
+        return self.parts in ("all", "losses")
+
+    @property
     def load_steps(self) -> tuple[float, ...]:
         """Pinion torques of the loaded contact [N.m], rising."""
         return self.torques or tuple(step * self.pinion_torque for step in LOAD_STEPS)
@@ -187,7 +204,7 @@ class HelicalSettings:
     def film(self) -> FilmFriction:
         """Return the oil and the flank data for film friction."""
         return FilmFriction(
-            oil=Lubricant.named(self.oil),
+            oil=Lubricant.named(self.oil) if isinstance(self.oil, str) else self.oil,
             oil_temperature=self.oil_temperature,
             solid=STEEL_MOHAMMADPOUR_2015,
             roughness_rms=self.roughness_rms,
@@ -232,6 +249,7 @@ def quick_settings(settings: HelicalSettings) -> HelicalSettings:
         speed_count=min(settings.speed_count, 15),
         torques=settings.torques or thinned(settings.load_steps, 4),
         positions=min(settings.positions, 8),
+        draws=min(settings.draws, 10),
         stability_columns=min(settings.stability_columns, 40),
         stability_rows=min(settings.stability_rows, 7),
         separation_speeds=min(settings.separation_speeds, 60),

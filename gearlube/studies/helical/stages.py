@@ -15,6 +15,7 @@ from gearlube.studies.helical.geometry_dataset import gear_file_geometry
 from gearlube.studies.helical.labels import pair_attributes
 from gearlube.studies.helical.loaded import analyse_loaded_contact, constant_density_stiffness
 from gearlube.studies.helical.operating_point import operating_point
+from gearlube.studies.helical.pair_losses import losses_dataset
 from gearlube.studies.helical.separation import separation_dataset
 from gearlube.studies.helical.settings import SHOWN_MU, HelicalSettings
 from gearlube.studies.helical.stability import stability_dataset
@@ -96,6 +97,8 @@ def stages_of(settings: HelicalSettings) -> list[Stage]:
             stages.append(Stage("tooth separation", 12.0, _separation))
         if settings.friction == "film":
             stages.append(Stage("friction of the oil film", 1.0, _film))
+    if settings.with_losses:
+        stages.append(Stage("losses", 5.0, _losses))
     if settings.with_geometry:
         stages.append(Stage("geometry", 2.0, _geometry))
     return stages
@@ -170,6 +173,12 @@ def _separation(study: RunningStudy, report: StageReport) -> None:
 
 def _film(study: RunningStudy, report: StageReport) -> None:
     study.datasets["film"] = film_dataset(study.settings, study.parameters.mesh, report)
+
+
+def _losses(study: RunningStudy, report: StageReport) -> None:
+    settings = study.settings
+    mesh = study.mesh if study.mesh is not None else settings.constant_mesh()
+    study.datasets["losses"] = losses_dataset(settings, mesh, report)
 
 
 def _geometry(study: RunningStudy, report: StageReport) -> None:

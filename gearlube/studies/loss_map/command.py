@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -51,6 +52,12 @@ def loss_map(
         list[str] | None,
         typer.Option(help="Oil temperatures [degC]. Default: 40 60 80 100.", metavar="RANGE..."),
     ] = None,
+    oil: Annotated[
+        str | None,
+        typer.Option(
+            help="Shipped oil or an oil file (TOML). Default: that of the axle.", metavar="OIL"
+        ),
+    ] = None,
     draws: Annotated[
         int,
         typer.Option(help="Samples of the uncertain data for error bars; 0: none.", metavar="N"),
@@ -70,6 +77,7 @@ def loss_map(
     from gearlube.cli.progress_report import progress_on
     from gearlube.studies.loss_map.run import run_loss_map
     from gearlube.studies.loss_map.settings import LossMapSettings
+    from gearlube_core.oil.oil_file import read_oil
 
     began = time.monotonic()
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
@@ -77,9 +85,12 @@ def loss_map(
             typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
             return
         described = read_axle(axle)
+        described_axle = described.axle
+        if oil is not None:
+            described_axle = replace(described_axle, oil=read_oil(oil).lubricant)
         grid = _grid(described.axle.torque_range, torques, speeds, temperatures)
         settings = LossMapSettings(
-            axle=described.axle,
+            axle=described_axle,
             torques=grid.get("torques"),
             speeds=grid["speeds"],
             temperatures=grid.get("temperatures"),

@@ -12,6 +12,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin
 
 MOST_POINTS = 200_000
@@ -114,6 +115,24 @@ UNCERTAIN = (
 )
 
 
+def uncertain_of(oil: Lubricant) -> tuple[Uncertain, ...]:
+    """Return the usual uncertain data, with the factors that an oil has of its own.
+
+    Examples
+    --------
+    >>> from gearlube_core.oil.oil_file import read_oil
+    >>> oil = read_oil("iso_vg_220_pao").lubricant
+    >>> {one.name: one.why for one in uncertain_of(oil)}["eyring_stress"]
+    'of ISO VG 220 PAO'
+    """
+    own = {"alpha": oil.alpha_factor, "eyring_stress": oil.eyring_stress_factor}
+    why = f"of {oil.name}".replace(";", ",")
+    return tuple(
+        one if (factor := own.get(one.name)) is None else replace(one, factor=factor, why=why)
+        for one in UNCERTAIN
+    )
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LossMapSettings:
     """A loss map: the axle, its grid and its uncertain data.
@@ -131,7 +150,8 @@ class LossMapSettings:
     draws : int
         Samples of the uncertain data, 0 to 10000; 0: no error bars.
     seed : int
-    uncertain : tuple of Uncertain
+    uncertain : tuple of Uncertain, optional
+        Default: `uncertain_of` the axle's oil.
 
     Examples
     --------
@@ -147,9 +167,11 @@ class LossMapSettings:
     temperatures: Array | None = None
     draws: int = 60
     seed: int = 1
-    uncertain: tuple[Uncertain, ...] = UNCERTAIN
+    uncertain: tuple[Uncertain, ...] = ()
 
     def __post_init__(self) -> None:
+        if not self.uncertain:
+            object.__setattr__(self, "uncertain", uncertain_of(self.axle.oil))
         low, high = self.axle.torque_range
         given = {
             "torques": (self.torques, _usual_torques(0.5 * low, high)),

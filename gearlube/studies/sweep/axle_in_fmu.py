@@ -10,7 +10,6 @@ from typing import Any
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle, read_axle
 from drivetrain.axle_file.field_units import attribute_of
-from drivetrain.axle_file.model_section import InputNote
 from fmu_src.axle_arguments import start_arguments
 from fmu_src.hypoid_axle import AXLE_FILE, PAPER, car_axle_in, check_one_table
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
@@ -18,12 +17,15 @@ from gearlube.studies.sweep.unpack import unpacked
 from gearlube_core.dynamics.hypoid_axle import HypoidAxleParameters
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.input_note import InputNote
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, read_mesh_table
+from gearlube_core.oil.oil_file import FILE_IN_FMU as OIL_IN_FMU
 from gearlube_core.rough_patch.asperity_file import FILE_IN_FMU as ASPERITIES_IN_FMU
 from gearlube_core.units import kmh_to_ms
 
 logger = logging.getLogger(__name__)
 
+_FILES = (AXLE_FILE, FILE_IN_FMU, ASPERITIES_IN_FMU, OIL_IN_FMU)
 _SWEPT = "pinion.bearing.preload_n"  # the sweep sets it
 
 
@@ -31,7 +33,7 @@ def car_axle_of(fmu: Path) -> CarAxle:
     """Return axle and car of an FMU, a file or an unzipped folder, by the files that it carries."""
     with unpacked(fmu) as directory:
         resources = directory / "resources"
-        found = {name: resources / name for name in (AXLE_FILE, FILE_IN_FMU, ASPERITIES_IN_FMU)}
+        found = {name: resources / name for name in _FILES}
         return car_axle_in({name: p.read_bytes() for name, p in found.items() if p.is_file()})
 
 

@@ -136,6 +136,11 @@ def sweep(
         if example:
             typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
             return
+        if oil is not None and oil.endswith(".toml"):
+            raise ParameterError(
+                f"--oil of a sweep must be one of {', '.join(OILS)}, got {oil}. Write the oil file "
+                "into the axle file: [oil] file."
+            )
         if oil is not None:
             check_option("--oil", oil, OILS)
         car_axle = chosen_axle(fmu, mesh_table, axle)

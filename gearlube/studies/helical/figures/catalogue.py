@@ -14,6 +14,7 @@ from gearlube.studies.helical.figures.friction_sweep import (
     friction_harmonics,
 )
 from gearlube.studies.helical.figures.geometry_catalogue import save_geometry_figures
+from gearlube.studies.helical.figures.losses import pair_losses
 from gearlube.studies.helical.figures.operating_point import (
     bearing_forces,
     composites,
@@ -46,6 +47,7 @@ HELICAL_CATALOGUE: dict[str, tuple[str, Callable[[xr.Dataset], Any]]] = {
     "separation": ("separation", separation),
     "film_on_lines": ("film", film_on_lines),
     "film_over_mesh": ("film", film_over_mesh),
+    "losses": ("losses", pair_losses),
 }
 
 

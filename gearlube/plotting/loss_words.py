@@ -1,0 +1,35 @@
+"""What figures call the losses of an axle."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+SOURCE_WORDS = {
+    "friction_viscous": "flank friction, fluid",
+    "friction_boundary": "flank friction, asperities",
+    "mesh_damping": "mesh damping",
+    "bearing_damping": "roller hysteresis",
+    "bearing_torque": "bearing drag",
+    "churning": "churning",
+    "seals": "seals",
+}
+_NEVER = ("rolling of the flanks", "windage")
+_SAID = ("bearing_torque", "churning", "seals")  # missing where they lose nothing
+
+
+def source_words(source: str) -> str:
+    """Return the words for a source of loss.
+
+    >>> source_words("bearing_torque")
+    'bearing drag'
+    """
+    return SOURCE_WORDS.get(source, source.replace("_", " "))
+
+
+def not_modelled(losing: Collection[str]) -> tuple[str, ...]:
+    """Return what is left out where only the sources `losing` lose power.
+
+    >>> not_modelled({"friction_viscous", "bearing_torque"})[:2]
+    ('churning', 'seals')
+    """
+    return (*(source_words(one) for one in _SAID if one not in losing), *_NEVER)

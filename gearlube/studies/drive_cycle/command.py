@@ -1,0 +1,114 @@
+"""The command `gearlube cycle`."""
+
+from __future__ import annotations
+
+import logging
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.options import ExampleOption, OverwriteOption
+from gearlube.cli.results_folder import results_folder
+
+logger = logging.getLogger("gearlube")
+
+
+def drive_cycle(
+    axle: Annotated[
+        str,
+        typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE"),
+    ] = "mohammadpour_2015",
+    cycle: Annotated[
+        str,
+        typer.Option(
+            help="nedc, wltc, ftp75, or a CSV file with time_s and speed_kmh, or with time_s, "
+            "pinion_speed_rpm and pinion_torque_n_m.",
+            metavar="NAME|FILE",
+        ),
+    ] = "nedc",
+    start_temperature: Annotated[
+        float, typer.Option(help="Of oil and housing at the start [degC].")
+    ] = 23.0,
+    air_temperature: Annotated[float, typer.Option(help="Of the air [degC].")] = 23.0,
+    regeneration: Annotated[
+        float,
+        typer.Option(
+            help="Share of the braking beyond coast torque that goes through the axle, 0 to 1."
+        ),
+    ] = 0.0,
+    coast_torque: Annotated[
+        float,
+        typer.Option(
+            help="Drag of engine and gearbox at the pinion [N.m]; assumed, 0 to 60 for cars."
+        ),
+    ] = 30.0,
+    heat_capacity: Annotated[
+        float, typer.Option(help="Of oil and housing [kJ/K]; assumed, 15 to 20.")
+    ] = 18.0,
+    conductance_at_rest: Annotated[
+        float, typer.Option(help="Housing to air at rest [W/K]; assumed, 4.5 to 10.")
+    ] = 7.0,
+    conductance_at_100: Annotated[
+        float, typer.Option(help="Ditto at 100 km/h [W/K]; assumed, 9 to 30.")
+    ] = 18.0,
+    check_grid: Annotated[
+        bool,
+        typer.Option(
+            "--check-grid", help="Compute once more with a map twice as fine; tell the change."
+        ),
+    ] = False,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_cycle"),
+    overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
+) -> None:
+    """Drive a car over a cycle: energy lost in its axle by source, and the oil temperature.
+
+    Writes drive_cycle.nc, drive_cycle.csv, summary.csv and a figure.
+    """
+    from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from gearlube.cli.console import console
+    from gearlube.cli.progress_report import progress_on
+    from gearlube.studies.drive_cycle.heat import SumpHeat
+    from gearlube.studies.drive_cycle.run import grid_change, run_cycle
+    from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+    from gearlube.studies.drive_cycle.traces import DriveCycle
+    from gearlube_core.units import celsius_to_kelvin
+
+    began = time.monotonic()
+    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        if example:
+            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
+            return
+        settings = DriveCycleSettings(
+            car=read_axle(axle),
+            cycle=DriveCycle.given(cycle),
+            start_temperature=celsius_to_kelvin(start_temperature),
+            air_temperature=celsius_to_kelvin(air_temperature),
+            regeneration=regeneration,
+            coast_torque=coast_torque,
+            heat=SumpHeat(
+                capacity=1e3 * heat_capacity,
+                conductance_at_rest=conductance_at_rest,
+                conductance_at_100_kmh=conductance_at_100,
+            ),
+        )
+        with results_folder(out, "cycle", overwrite=overwrite):
+            with progress_on(console, "cycle") as progress:
+                dataset = run_cycle(settings, folder=out, progress=progress)
+            if check_grid:
+                with progress_on(console, "finer map") as progress:
+                    change = grid_change(settings, dataset, progress)
+                logger.info("A map twice as fine changes the energy by %+.2f %%.", 100.0 * change)
+        lost, put_in = float(dataset["energy_lost"].sum()), float(dataset["energy_in"])
+        share = f", {100.0 * lost / put_in:.1f} % of what goes in" if put_in > 0.0 else ""
+        oil = dataset["oil_temperature"].values
+        logger.info("Lost %.1f kJ (%.1f Wh)%s.", lost, lost / 3.6, share)
+        logger.info("Oil from %.1f to %.1f degC.", oil[0], oil[-1])
+        logger.warning("Not modelled: %s.", dataset.attrs["not_modelled"])
+        logger.info("Computed in %.1f s.", time.monotonic() - began)
+        logger.info(
+            "Results: %s, %s, %s", out / "drive_cycle.nc", out / "summary.csv", out / "figures"
+        )

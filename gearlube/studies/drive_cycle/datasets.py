@@ -1,0 +1,128 @@
+"""A drive cycle as an xarray Dataset, every variable with unit and long name."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.loss_words import not_modelled
+from gearlube.studies.drive_cycle.demand import Demand
+from gearlube.studies.drive_cycle.heat import Warming
+from gearlube.studies.drive_cycle.loss_field import LossesAlong
+from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
+
+_KJ = 1e-3
+_NOT_HEATED = "heat from brakes, gearbox and exhaust"
+
+
+def cycle_dataset(
+    settings: DriveCycleSettings,
+    demand: Demand,
+    losses: LossesAlong,
+    warming: Warming,
+    others: list[Warming],
+) -> xr.Dataset:
+    """Return a cycle over time: demand, losses by source and oil temperature, and the energies.
+
+    Parameters
+    ----------
+    others
+        Temperatures with capacity and conductances at the ends of their intervals.
+    """
+    ratio = settings.car.driveline.road_load.final_drive.ratio
+    power = at_temperatures(losses.power, losses.temperatures, warming.mean)
+    torque = at_temperatures(losses.torque, losses.temperatures, warming.mean)
+    total = power.sum(axis=-1)
+    put_in = torque * demand.pinion_speed  # W at the pinion; below 0 it takes
+    given_out = put_in - total  # W at the wheels
+    turning = np.where(demand.pinion_speed > 0.0, demand.pinion_speed, 1.0)
+    wheel_torque = np.where(demand.pinion_speed > 0.0, given_out / turning * ratio, 0.0)
+    temperatures = np.array([one.temperature for one in (warming, *others)]) - ZERO_CELSIUS
+    lost = _KJ * (power * demand.steps[:, None]).sum(axis=0)
+    ends = _KJ * np.array(
+        [
+            float(
+                at_temperatures(losses.power, losses.temperatures, one.mean).sum(-1) @ demand.steps
+            )
+            for one in (warming, *others)
+        ]
+    )
+    energy_in = _energy(np.maximum(put_in, 0.0) + np.maximum(-given_out, 0.0), demand)
+    step, time = ("step",), ("time",)
+    variables = {
+        "oil_temperature": (time, temperatures[0], "degC", "oil temperature"),
+        "oil_temperature_low": (time, temperatures.min(axis=0), "degC", "oil, slowest warming"),
+        "oil_temperature_high": (time, temperatures.max(axis=0), "degC", "oil, fastest warming"),
+        "duration": (step, demand.steps, "s", "duration of the step"),
+        "vehicle_speed": (step, 3.6 * demand.speed, "km/h", "vehicle speed"),
+        "pinion_speed": (step, rads_to_rpm(1.0) * demand.pinion_speed, "rpm", "pinion speed"),
+        "pinion_torque": (step, torque, "N.m", "torque on the pinion; < 0: coast"),
+        "wheel_torque": (step, wheel_torque, "N.m", "torque of both wheels together"),
+        "brake_power": (step, demand.brakes, "W", "power of the friction brakes"),
+        "loss": (("step", "source"), power, "W", "power lost"),
+        "energy_in": ((), energy_in, "kJ", "energy into the axle, from either side"),
+        "energy_in_pinion": ((), _energy(np.maximum(put_in, 0.0), demand), "kJ", "by the pinion"),
+        "energy_lost": (("source",), lost, "kJ", "energy lost"),
+        "energy_lost_low": ((), ends.min(), "kJ", "energy lost in all, fastest warming"),
+        "energy_lost_high": ((), ends.max(), "kJ", "energy lost in all, slowest warming"),
+        "energy_brakes": ((), _energy(demand.brakes, demand), "kJ", "to the friction brakes"),
+        "efficiency": (
+            (),
+            1.0 - lost.sum() / energy_in if energy_in > 0.0 else np.nan,
+            "1",
+            "efficiency of the axle over the cycle",
+        ),
+    }
+    middle = 0.5 * (settings.cycle.time[1:] + settings.cycle.time[:-1])
+    coordinates = {
+        "time": ("time", np.array(settings.cycle.time), _about("s", "time")),
+        "step": ("step", middle, _about("s", "time, middle of the step")),
+        "source": ("source", np.array(LOSS_SOURCES), {"long_name": "kind of loss"}),
+    }
+    return xr.Dataset(
+        {
+            name: (dims, values, _about(unit, words))
+            for name, (dims, values, unit, words) in variables.items()
+        },
+        coords=coordinates,
+        attrs=_attributes(settings, lost),
+    )
+
+
+def at_temperatures(values: Array, nodes: Array, temperatures: Array) -> Array:
+    """Return values (n, k, ...) at a temperature for each of n steps, linear between k nodes."""
+    cell = np.searchsorted(nodes[1:-1], temperatures)
+    share = (temperatures - nodes[cell]) / (nodes[cell + 1] - nodes[cell])
+    share = share.reshape(-1, *(1,) * (values.ndim - 2))
+    rows = np.arange(len(temperatures))
+    return np.asarray((1.0 - share) * values[rows, cell] + share * values[rows, cell + 1])
+
+
+def _energy(power: Array, demand: Demand) -> float:
+    return _KJ * float(power @ demand.steps)
+
+
+def _about(unit: str, words: str) -> dict[str, str]:
+    return {"units": unit, "long_name": words}
+
+
+def _attributes(settings: DriveCycleSettings, lost: Array) -> dict[str, object]:
+    losing = {name for name, one in zip(LOSS_SOURCES, lost, strict=True) if one > 0.0}
+    heat, cycle = settings.heat, settings.cycle
+    return {
+        "cycle": cycle.name,
+        "axle": settings.car.name,
+        "oil": settings.car.axle.oil.name,
+        "not_modelled": ", ".join((*not_modelled(losing), _NOT_HEATED)),
+        "start_temperature_degc": settings.start_temperature - ZERO_CELSIUS,
+        "air_temperature_degc": settings.air_temperature - ZERO_CELSIUS,
+        "regeneration": settings.regeneration,
+        "coast_torque_n_m": settings.coast_torque,
+        "capacity_j_k": heat.capacity,
+        "conductance_at_rest_w_k": heat.conductance_at_rest,
+        "conductance_at_100_kmh_w_k": heat.conductance_at_100_kmh,
+        "band": "capacity and conductances at the ends of their assumed intervals",
+    }

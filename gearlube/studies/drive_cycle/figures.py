@@ -1,0 +1,86 @@
+"""Figures of a drive cycle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.loss_words import source_words
+from gearlube.plotting.style import BLUE, SERIES, VERMILLION, house_style, new_figure
+
+_LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn
+
+
+def save_cycle_figures(dataset: xr.Dataset, folder: Path) -> None:
+    """Write the figure as PNG."""
+    folder.mkdir(parents=True, exist_ok=True)
+    cycle_figure(dataset).savefig(folder / "drive_cycle.png", dpi=150)
+
+
+def cycle_figure(dataset: xr.Dataset) -> Any:
+    """Return speed and torque, power lost by source and oil temperature over time."""
+    with house_style():
+        figure = new_figure(8.6, 8.2)
+        above, middle, below = figure.subplots(3, 1, sharex=True)
+        _demand(above, dataset)
+        _losses(middle, dataset)
+        _temperature(below, dataset)
+        below.set_xlabel("time [s]")
+        below.set_xlim(float(dataset["time"][0]), float(dataset["time"][-1]))
+        lost, share = float(dataset["energy_lost"].sum()), float(dataset["efficiency"])
+        figure.suptitle(
+            f"{dataset.attrs['cycle']}: {lost:.0f} kJ lost in the axle, efficiency "
+            f"{100.0 * share:.1f} %"
+        )
+        figure.supxlabel(
+            f"Not modelled: {dataset.attrs['not_modelled']}.", fontsize=8.5, color="#555555"
+        )
+    return figure
+
+
+def _demand(ax: Any, dataset: xr.Dataset) -> None:
+    time = dataset["step"].values
+    ax.plot(time, dataset["vehicle_speed"].values, color=BLUE)
+    ax.set_ylabel("vehicle speed [km/h]", color=BLUE)
+    ax.set_ylim(bottom=0.0)
+    other = ax.twinx()
+    other.plot(time, dataset["pinion_torque"].values, color=VERMILLION, lw=0.9)
+    other.set_ylabel("pinion torque [N·m]", color=VERMILLION)
+    other.spines["right"].set_visible(True)
+    other.grid(visible=False)
+
+
+def _losses(ax: Any, dataset: xr.Dataset) -> None:
+    energy = dataset["energy_lost"].values
+    names = [str(one) for one in dataset["source"].values]
+    drawn = [i for i in range(len(names)) if energy[i] > _LEAST_SHARE * energy.sum()]
+    ax.stackplot(
+        dataset["step"].values,
+        dataset["loss"].values.T[drawn],
+        labels=[f"{source_words(names[i])}, {energy[i]:.0f} kJ" for i in drawn],
+        colors=[SERIES[i % len(SERIES)] for i in range(len(drawn))],
+        alpha=0.85,
+        lw=0.0,
+    )
+    ax.set_ylabel("power lost [W]")
+    top = float(dataset["loss"].sum("source").max())
+    ax.set_ylim(0.0, 1.3 * top if top > 0.0 else 1.0)
+    if drawn:
+        ax.legend(loc="upper left", ncols=3)
+
+
+def _temperature(ax: Any, dataset: xr.Dataset) -> None:
+    time = dataset["time"].values
+    low, high = (dataset[f"oil_temperature_{end}"].values for end in ("low", "high"))
+    if np.any(high > low):
+        ax.fill_between(
+            time, low, high, color=BLUE, alpha=0.2, lw=0.0, label="assumed heat data, their range"
+        )
+    ax.plot(time, dataset["oil_temperature"].values, color=BLUE, label="oil and housing")
+    air = dataset.attrs["air_temperature_degc"]
+    ax.axhline(air, color="#606060", lw=0.9, ls=":", label="air")
+    ax.set_ylabel("temperature [°C]")
+    ax.legend(loc="upper left")

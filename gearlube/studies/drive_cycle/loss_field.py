@@ -1,0 +1,155 @@
+"""Losses of an axle along a cycle, read from a map over torque, speed and oil temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+
+from gearlube.studies.drive_cycle.demand import Demand
+from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, axle_losses
+from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
+
+_ANGLES = 8  # of a mesh period: within 4e-4 of 256
+_RESERVE = 0.1, 15.0  # of the largest torque [-] and [N.m], for what the axle itself loses
+_SLOWEST = 0.01  # of the highest speed, below which the loss torque does not change
+_ROUNDS, _SETTLED = 100, 1e-9  # N.m
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LossesAlong:
+    """Losses of every step at the oil temperatures of the map.
+
+    Parameters
+    ----------
+    temperatures : ndarray of shape (k,)
+        [K]
+    power : ndarray of shape (n, k, sources)
+        [W], sources as in LOSS_SOURCES.
+    torque : ndarray of shape (n, k)
+        Of the pinion [N.m].
+    """
+
+    temperatures: Array
+    power: Array
+    torque: Array
+
+
+def losses_along(
+    settings: DriveCycleSettings, demand: Demand, progress: Progress = no_progress
+) -> LossesAlong:
+    """Return the losses of each step of a cycle at each oil temperature of the map.
+
+    Between the points of the map the loss torque of each source is linear in torque, speed and
+    temperature; below the lowest speed it is that of the lowest. The pinion's torque is that of
+    the wheels over the ratio plus the loss torque, solved by iteration.
+    """
+    axle = settings.car.axle
+    temperatures = _temperatures(settings)
+    turning = demand.pinion_speed > 0.0
+    count = demand.torque.size
+    power = np.zeros((count, temperatures.size, len(LOSS_SOURCES)))
+    torque = np.repeat(demand.torque[:, None], temperatures.size, axis=1)
+    if not np.any(turning):
+        return LossesAlong(temperatures=temperatures, power=power, torque=torque)
+    torques = torque_nodes(settings, demand.torque[turning])
+    speeds = speed_nodes(settings.grid.speeds, float(demand.pinion_speed.max()))
+    found = axle_losses(
+        axle,
+        torques=torques,
+        speeds=speeds,
+        temperatures=temperatures,
+        angles=_ANGLES,
+        extremes=False,
+        progress=progress,
+    )
+    _check_map(found.status, temperatures, speeds, torques)
+    asked, speed = demand.torque[turning], demand.pinion_speed[turning]
+    at_speed = np.clip(speed, speeds[0], speeds[-1])
+    for k in range(temperatures.size):
+        loss_torque = RegularGridInterpolator(
+            (speeds, torques), found.power[k] / speeds[:, None, None]
+        )
+        carried = asked
+        if not demand.measured:
+            carried = _with_losses(loss_torque, at_speed, asked, torques)
+        moments = loss_torque(np.column_stack([at_speed, carried]))
+        power[turning, k] = moments * speed[:, None]
+        torque[turning, k] = carried
+    return LossesAlong(temperatures=temperatures, power=power, torque=torque)
+
+
+def _with_losses(
+    loss_torque: RegularGridInterpolator, speed: Array, asked: Array, nodes: Array
+) -> Array:
+    """Return the pinion torques that are `asked` plus the loss torque at themselves [N.m]."""
+    carried = asked
+    for _ in range(_ROUNDS):
+        points = np.column_stack([speed, np.clip(carried, nodes[0], nodes[-1])])
+        new = asked + loss_torque(points).sum(axis=-1)
+        change = float(np.abs(new - carried).max())
+        carried = new
+        if change < _SETTLED:
+            break
+    else:
+        raise ParameterError(
+            f"The pinion torque must settle to {_SETTLED:g} N.m, got a change of {change:.2g} N.m "
+            "in the last round: the losses grow faster than the torque. Check the oil and the "
+            "roughness of the axle."
+        )
+    if carried.max() > nodes[-1] or carried.min() < nodes[0]:
+        raise ParameterError(
+            f"The pinion torque with losses must be within {nodes[0]:g} to {nodes[-1]:g} N.m, got "
+            f"{carried.min():.4g} to {carried.max():.4g} N.m. Run `gearlube contact` with higher "
+            "torques, or take a gentler trace."
+        )
+    return carried
+
+
+def torque_nodes(settings: DriveCycleSettings, torque: Array) -> Array:
+    """Return the torques of the map [N.m]: over the trace, denser near 0, and 0 itself."""
+    limits = torque_limits(settings.car.axle)
+    reach = _RESERVE[0] * float(np.abs(torque).max()) + _RESERVE[1]
+    low = max(limits.pinion_low, min(0.0, float(torque.min())) - reach)
+    high = min(limits.pinion_high, max(0.0, float(torque.max())) + reach)
+    roots = np.sqrt(-low), np.sqrt(high)
+    below = max(2, round((settings.grid.torques - 1) * roots[0] / sum(roots)))
+    above = max(2, settings.grid.torques - 1 - below)
+    return np.concatenate(
+        [
+            low * np.linspace(1.0, 0.0, below, endpoint=False) ** 2,
+            high * np.linspace(0.0, 1.0, above + 1) ** 2,
+        ]
+    )
+
+
+def speed_nodes(count: int, highest: float) -> Array:
+    """Return the pinion speeds of the map [rad/s], in a geometric series."""
+    nodes = np.geomspace(_SLOWEST * highest, highest, count)
+    nodes[-1] = highest
+    return nodes
+
+
+def _temperatures(settings: DriveCycleSettings) -> Array:
+    """Return the oil temperatures of the map [K], from the coldest to the end of the oil's data."""
+    low = min(settings.start_temperature, settings.air_temperature)
+    high = settings.car.axle.oil.temperature_high
+    low = min(low, high - 1.0)
+    count = max(1, int(np.ceil((high - low) / settings.grid.temperature_step)))
+    return np.linspace(low, high, count + 1)
+
+
+def _check_map(status: Array, temperatures: Array, speeds: Array, torques: Array) -> None:
+    if not np.any(status):
+        return
+    i, j, k = np.argwhere(status)[0]
+    raise ParameterError(
+        f"The losses must be found at every point of the map, got {int((status != 0).sum())} "
+        f"without. The first is at {temperatures[i]:.1f} K, {speeds[j]:.4g} rad/s and "
+        f"{torques[k]:.4g} N.m: {FAILURES[int(status[i, j, k])]}"
+    )

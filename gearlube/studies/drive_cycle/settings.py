@@ -1,0 +1,95 @@
+"""What a drive cycle is computed for: the car, its trace, oil temperature, brakes and heat."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from drivetrain.axle_file.axle_file import CarAxle
+from gearlube.studies.drive_cycle.heat import SumpHeat
+from gearlube.studies.drive_cycle.traces import DriveCycle
+from gearlube_core.checks import check_within
+from gearlube_core.units import celsius_to_kelvin
+
+COAST_TORQUE = 30.0  # N.m at the pinion; assumed, 0 to 60 for a car of 1.3 t
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LossGrid:
+    """Points of the map of losses that the cycle is read from.
+
+    Parameters
+    ----------
+    torques, speeds : int
+        Numbers of pinion torques, denser near zero, and of speeds, in a geometric series.
+    temperature_step : float
+        Of the oil [K].
+
+    Examples
+    --------
+    >>> LossGrid().finer
+    LossGrid(torques=48, speeds=32, temperature_step=5.0)
+    """
+
+    torques: int = 24
+    speeds: int = 16
+    temperature_step: float = 10.0
+
+    def __post_init__(self) -> None:
+        check_within("torques", self.torques, 4, 400, "", "24 are usual.")
+        check_within("speeds", self.speeds, 3, 400, "", "16 are usual.")
+        check_within("temperature_step", self.temperature_step, 0.5, 50.0, "K", "10 K is usual.")
+
+    @property
+    def finer(self) -> LossGrid:
+        """Twice as many points along each of the three."""
+        return LossGrid(
+            torques=2 * self.torques,
+            speeds=2 * self.speeds,
+            temperature_step=0.5 * self.temperature_step,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriveCycleSettings:
+    """A car over a drive cycle.
+
+    Parameters
+    ----------
+    car : CarAxle
+        Axle and vehicle of an axle file, see `read_axle`.
+    cycle : DriveCycle
+    start_temperature, air_temperature : float
+        Of oil and housing at the start, and of the air [K]. Default: 23 degC.
+    regeneration : float
+        Share of the braking beyond coast torque that goes through the axle, 0 to 1. The rest is
+        the friction brakes'.
+    coast_torque : float
+        Drag of engine and gearbox with closed throttle, at the pinion [N.m]; assumed.
+    heat : SumpHeat
+    grid : LossGrid
+
+    Examples
+    --------
+    >>> from drivetrain.axle_file.axle_file import read_axle
+    >>> settings = DriveCycleSettings(
+    ...     car=read_axle("mohammadpour_2015"), cycle=DriveCycle.named("nedc")
+    ... )
+    >>> settings.heat.capacity  # J/K, assumed
+    18000.0
+    """
+
+    car: CarAxle
+    cycle: DriveCycle
+    start_temperature: float = celsius_to_kelvin(23.0)
+    air_temperature: float = celsius_to_kelvin(23.0)
+    regeneration: float = 0.0
+    coast_torque: float = COAST_TORQUE
+    heat: SumpHeat = field(default_factory=SumpHeat)
+    grid: LossGrid = field(default_factory=LossGrid)
+
+    def __post_init__(self) -> None:
+        oil = self.car.axle.oil
+        for name in ("start_temperature", "air_temperature"):
+            oil.check_temperature(getattr(self, name), name)
+        check_within("regeneration", self.regeneration, 0.0, 1.0, "", "A half is 0.5.")
+        check_within("coast_torque", self.coast_torque, 0.0, 1e4, "N.m", "30 N.m is usual.")

@@ -1,0 +1,89 @@
+"""A drive cycle as tables: a row for each step, and the energies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import xarray as xr
+
+from gearlube.plotting.loss_words import source_words
+
+SUMMARY_HEAD = ("quantity", "value", "unit", "low", "high")
+_COLUMNS = {
+    "duration": "step_s",
+    "vehicle_speed": "vehicle_speed_kmh",
+    "pinion_speed": "pinion_speed_rpm",
+    "pinion_torque": "pinion_torque_n_m",
+    "wheel_torque": "wheel_torque_n_m",
+    "brake_power": "brake_power_w",
+}
+_WH = 1.0 / 3.6  # Wh in a kJ
+_NOTHING = 1e-6  # kJ, Wh
+
+
+def series_rows(dataset: xr.Dataset) -> tuple[tuple[str, ...], Iterator[tuple[str, ...]]]:
+    """Return the names of the columns and a row for each step, at its middle."""
+    sources = [str(one) for one in dataset["source"].values]
+    head = (
+        "time_s",
+        *_COLUMNS.values(),
+        *(f"loss_{one}_w" for one in sources),
+        "oil_temperature_at_end_degc",
+    )
+    return head, _series(dataset)
+
+
+def _series(dataset: xr.Dataset) -> Iterator[tuple[str, ...]]:
+    values = [dataset[name].values for name in _COLUMNS]
+    losses, oil = dataset["loss"].values, dataset["oil_temperature"].values
+    for i, time in enumerate(dataset["step"].values):
+        row = (time, *(one[i] for one in values), *losses[i], oil[i + 1])
+        yield tuple(f"{one:.7g}" for one in row)
+
+
+def summary_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
+    """Return energies in kJ and Wh, efficiency and the temperature at the end.
+
+    Low and high are those of the assumed heat capacity and conductances alone.
+    """
+    lost = dataset["energy_lost"]
+    rows = [
+        *_energy("energy into the axle", dataset["energy_in"]),
+        *_energy("of this by the pinion", dataset["energy_in_pinion"]),
+        *_energy(
+            "energy lost",
+            lost.sum(),
+            dataset["energy_lost_low"],
+            dataset["energy_lost_high"],
+        ),
+    ]
+    for source in lost["source"].values:
+        rows += _energy(f"lost by {source_words(str(source))}", lost.sel(source=source))
+    rows += _energy("energy to the friction brakes", dataset["energy_brakes"])
+    end = [
+        float(dataset[name][-1])
+        for name in ("oil_temperature", "oil_temperature_low", "oil_temperature_high")
+    ]
+    rows.append(("efficiency", f"{float(dataset['efficiency']):.6g}", "1", "", ""))
+    rows.append(
+        ("oil temperature at the end", f"{end[0]:.5g}", "degC", *(f"{t:.5g}" for t in end[1:]))
+    )
+    return rows
+
+
+def _energy(
+    words: str,
+    value: xr.DataArray,
+    low: xr.DataArray | None = None,
+    high: xr.DataArray | None = None,
+) -> list[tuple[str, ...]]:
+    numbers = [None if one is None else float(one) for one in (value, low, high)]
+    return [
+        (words, text[0], unit, *text[1:])
+        for unit, factor in (("kJ", 1.0), ("Wh", _WH))
+        for text in [["" if one is None else _number(factor * one) for one in numbers]]
+    ]
+
+
+def _number(value: float) -> str:
+    return f"{value:.6g}" if abs(value) >= _NOTHING else "0"

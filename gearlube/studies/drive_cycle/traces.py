@@ -1,0 +1,199 @@
+"""A drive cycle: speed over time, or pinion speed and torque as measured."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from gearlube.studies.drive_cycle.nedc import nedc
+from gearlube.studies.drive_cycle.packaged_cycles import ftp75, wltc
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.errors import ParameterError
+
+NAMED: dict[str, Callable[[], tuple[Array, Array]]] = {"nedc": nedc, "wltc": wltc, "ftp75": ftp75}
+MOST_ROWS = 200_000
+FASTEST = 90.0  # m/s
+_LONGEST_STEP, _SHORTEST_GAP = 5.0, 2.0  # s
+_USUAL_STEPS = 10.0  # that a gap lasts
+HARDEST = 8.0, 12.0  # m/s2: two driven tyres on dry road; four that brake
+_STEEPEST = 0.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriveCycle:
+    """Speed over time of a vehicle, or speed and torque of its pinion.
+
+    Between two rows all quantities are straight lines.
+
+    Parameters
+    ----------
+    name : str
+    time : ndarray of shape (n,)
+        Rising [s]. No step is longer than 5 s or, above 2 s, than ten usual steps.
+    speed : ndarray of shape (n,), optional
+        Of the vehicle, 0 to 90 [m/s]. It gains at most 8 and loses at most 12 m/s2.
+    grade : ndarray of shape (n,), optional
+        Rise over horizontal distance [-], -0.5 to 0.5. Default: that of the vehicle.
+    pinion_speed, pinion_torque : ndarray of shape (n,), optional
+        As measured, in the place of speed and grade [rad/s], [N.m]; torque below 0: coast.
+
+    Raises
+    ------
+    ParameterError
+        A row is wrong; the message says which.
+
+    Examples
+    --------
+    >>> cycle = DriveCycle.named("nedc")
+    >>> round(cycle.distance), cycle.duration  # m, s
+    (11028, 1180.0)
+    """
+
+    name: str
+    time: Array
+    speed: Array | None = None
+    grade: Array | None = None
+    pinion_speed: Array | None = None
+    pinion_torque: Array | None = None
+
+    def __post_init__(self) -> None:
+        measured = self.pinion_speed is not None and self.pinion_torque is not None
+        partly = self.pinion_speed is not None or self.pinion_torque is not None
+        if measured == (self.speed is not None) or partly != measured:
+            raise ParameterError(
+                f"{self.name} must have either speed, or pinion speed and pinion torque; got "
+                f"{', '.join(self._given()) or 'none of them'}. Give one kind of trace."
+            )
+        if measured and self.grade is not None:
+            raise ParameterError(
+                f"{self.name} has a measured torque, got a grade as well, which that torque "
+                "holds already. Remove the grade."
+            )
+        for name in ("time", *self._given(), "grade"):
+            values = getattr(self, name)
+            if values is not None:
+                object.__setattr__(self, name, self._checked(name, values))
+        self._check_time()
+        self._check_values()
+
+    def _given(self) -> list[str]:
+        names = ("speed", "pinion_speed", "pinion_torque")
+        return [name for name in names if getattr(self, name) is not None]
+
+    def _checked(self, name: str, values: Array) -> Array:
+        found = np.array(values, dtype=float)
+        rows = np.size(self.time)
+        if found.ndim != 1 or found.size != rows or not 2 <= rows <= MOST_ROWS:
+            raise ParameterError(
+                f"{name} of {self.name} must be a list of 2 to {MOST_ROWS} numbers, as many as "
+                f"times; got shape {found.shape}, and {rows} times. Give each row a time and a "
+                "value."
+            )
+        bad = np.flatnonzero(~np.isfinite(found))
+        if bad.size:
+            raise ParameterError(
+                f"{name} of {self.name} must be finite, got {found[bad[0]]} in row {bad[0] + 1}, "
+                f"and {bad.size} such rows in all. Fill them from their neighbours, or remove them."
+            )
+        found.flags.writeable = False
+        return found
+
+    def _check_time(self) -> None:
+        steps = np.diff(self.time)
+        if np.any(steps <= 0.0):
+            row = int(np.argmax(steps <= 0.0)) + 1
+            raise ParameterError(
+                f"The time of {self.name} must rise, got {self.time[row]:g} s in row {row + 1} "
+                f"after {self.time[row - 1]:g} s. Sort the rows, or cut the file where the clock "
+                "starts again."
+            )
+        usual = float(np.median(steps))
+        limit = min(_LONGEST_STEP, max(_SHORTEST_GAP, _USUAL_STEPS * usual))
+        if np.any(steps > limit):
+            row = int(np.argmax(steps > limit)) + 1
+            raise ParameterError(
+                f"A step of {self.name} must be at most {limit:g} s, got {steps[row - 1]:g} s "
+                f"before row {row + 1}. Fill the gap, or cut the file there; times are in seconds."
+            )
+
+    def _check_values(self) -> None:
+        if self.speed is None:
+            self._within(
+                "pinion_speed", 0.0, MAX_SPEED, "rad/s", "Name the column pinion_speed_rpm?"
+            )
+            return
+        kmh = "Are these km/h? Then name the column speed_kmh."
+        self._within("speed", 0.0, FASTEST, "m/s", kmh)
+        if self.grade is not None:
+            self._within(
+                "grade", -_STEEPEST, _STEEPEST, "", "5 % is 0.05, or name it grade_percent."
+            )
+        gained = np.diff(self.speed) / np.diff(self.time)
+        bad = (gained > HARDEST[0]) | (gained < -HARDEST[1])
+        if np.any(bad):
+            row = int(np.argmax(bad)) + 1
+            raise ParameterError(
+                f"The acceleration of {self.name} must be within {-HARDEST[1]:g} to "
+                f"{HARDEST[0]:g} m/s2, which is what tyres hold; got {gained[row - 1]:.3g} m/s2 "
+                f"before row {row + 1}. Smooth the speed if it is noise. {kmh} Times are in "
+                "seconds."
+            )
+
+    def _within(self, name: str, low: float, high: float, unit: str, cure: str) -> None:
+        values = getattr(self, name)
+        bad = np.flatnonzero((values < low) | (values > high))
+        if bad.size:
+            raise ParameterError(
+                f"{name} of {self.name} must be within {low:g} to {high:g} {unit}".rstrip()
+                + f", got {values[bad[0]]:g} in row {bad[0] + 1}. {cure}"
+            )
+
+    @property
+    def measured(self) -> bool:
+        """Whether speed and torque of the pinion are given."""
+        return self.speed is None
+
+    @property
+    def duration(self) -> float:
+        """From the first row to the last [s]."""
+        return float(self.time[-1] - self.time[0])
+
+    @property
+    def distance(self) -> float:
+        """Way of the vehicle [m]; NaN where the speed of the pinion is given."""
+        return float("nan") if self.speed is None else float(np.trapezoid(self.speed, self.time))
+
+    @classmethod
+    def named(cls, name: str) -> DriveCycle:
+        """Return nedc, wltc (class 3b) or ftp75.
+
+        nedc is built from its definition. The others are read from packages:
+        `pip install 'gearlube[cycles]'`.
+        """
+        if name not in NAMED:
+            raise ParameterError(
+                f"A cycle must be one of {', '.join(NAMED)}, got {name!r}. A trace of your own "
+                "is a CSV file."
+            )
+        time, speed = NAMED[name]()
+        return cls(name=name, time=time, speed=speed)
+
+    @classmethod
+    def read(cls, path: str | Path) -> DriveCycle:
+        """Return the cycle of a CSV file; see `trace_file.read_trace` for its columns."""
+        from gearlube.studies.drive_cycle.trace_file import read_trace
+
+        return cls(name=Path(path).stem, **read_trace(Path(path)))
+
+    @classmethod
+    def given(cls, text: str) -> DriveCycle:
+        """Return the cycle of a name, or of a file if the text ends in .csv or is a path."""
+        if text.lower() in NAMED:
+            return cls.named(text.lower())
+        if text.lower().endswith(".csv") or Path(text).exists():
+            return cls.read(text)
+        return cls.named(text)

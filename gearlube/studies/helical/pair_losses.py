@@ -1,0 +1,288 @@
+"""Losses of a pair alone over torque, speed and oil temperature, with error bars."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import xarray as xr
+
+from gearlube.output.csv_text import csv_text
+from gearlube.studies.helical.settings import HelicalSettings
+from gearlube_core.arrays import Array
+from gearlube_core.bearings.losses.biboulet_houpert_2010 import biboulet_houpert_force
+from gearlube_core.bearings.losses.rolling import inlet_heating_number
+from gearlube_core.bearings.losses.zhu_cheng_1989 import zhu_cheng_heating
+from gearlube_core.contact.line_hertz import line_mean_pressure
+from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
+from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
+from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
+from gearlube_core.helical_geometry.contact_line import ContactPlane
+from gearlube_core.helical_geometry.line_kinematics import line_kinematics
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.mesh_table.line_mesh import LineMesh
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
+from gearlube_core.units import ZERO_CELSIUS
+
+PARTS_OF_LOSS = ("sliding", "rolling")
+NOT_MODELLED = "bearings, seals, churning and squeezing of oil, windage"
+GRID = ("temperature", "torque", "speed")
+SPEED_STEPS = (0.2, 2.0, 7)  # of the operating point's speed, geometric
+_FINE, _COARSE = (48, 8), (16, 4)  # phases and nodes: of the values, of the draws
+_LARGEST_OVER_MEAN = 4.0 / math.pi  # pressure of a Hertz line
+_BOUNDS = (2.5, 97.5)  # percent
+
+
+@dataclass(frozen=True, slots=True)
+class PairFactor:
+    """A datum of the pair that is known to a factor (k = 2, log-normal)."""
+
+    name: str
+    factor: float
+    why: str
+
+    def multiplier(self, normal: float) -> float:
+        """Return the number to multiply with at a standard normal `normal`."""
+        return math.exp(0.5 * normal * math.log(self.factor))
+
+
+UNCERTAIN = (
+    PairFactor("viscosity", 1.08, "batches of one reference oil"),
+    PairFactor("eyring_stress", 2.0, "2 to 5 MPa in use"),
+    PairFactor("alpha", 1.15, "between methods; assumed"),
+    PairFactor("roughness", 1.4, "new against run in; assumed"),
+    PairFactor("sliding", 1.2, "laws of traction among each other; assumed"),
+    PairFactor("rolling", 2.0, "flooded or starved inlet"),
+)
+
+
+def uncertain_of(oil: Lubricant) -> tuple[PairFactor, ...]:
+    """Return the uncertain data, with the factors that an oil has of its own."""
+    own = {"alpha": oil.alpha_factor, "eyring_stress": oil.eyring_stress_factor}
+    return tuple(
+        one if (factor := own.get(one.name)) is None else PairFactor(one.name, factor, oil.name)
+        for one in UNCERTAIN
+    )
+
+
+@kernel
+def _rolling_powers(
+    x: Array,
+    line_load: Array,
+    speed: float,
+    plane: ContactPlane,
+    oil: LubricantState,
+    contact_modulus: float,
+    powers: Array,
+) -> None:
+    """Write the power that rolling takes per length at each point [W/m]."""
+    for j in range(x.size):
+        powers[j] = 0.0
+        if line_load[j] > 0.0:
+            motion = line_kinematics(x[j], speed, plane)
+            u, modulus = motion.entrainment, 2.0 * contact_modulus
+            force, _ = biboulet_houpert_force(
+                motion.R, line_load[j], modulus, oil.eta0, oil.alpha, u
+            )
+            pressure = _LARGEST_OVER_MEAN * line_mean_pressure(
+                line_load[j], motion.R, contact_modulus
+            )
+            heat = inlet_heating_number(oil.eta0, oil.beta, u, oil.conductivity)
+            factor = zhu_cheng_heating(heat, pressure / modulus, abs(motion.slide_roll))
+            powers[j] = 2.0 * force * u * factor
+
+
+def losses_dataset(
+    settings: HelicalSettings,
+    mesh: LineMesh,
+    observe: Callable[[float], None] = lambda share: None,
+) -> xr.Dataset:
+    """Return the mean losses of a mesh period, static loads on the lines.
+
+    Parameters
+    ----------
+    settings : HelicalSettings
+        `load_steps` [N.m], `speeds` [rad/s] (empty: 0.2 to 2 times that of the operating point) and
+        `oil_temperatures` [K] are the grid, `draws` and `seed` the error bars.
+    mesh : LineMesh
+        Whose static line loads press.
+    observe : callable
+        Called with the share that is done [-].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over temperature [degC], torque [N.m] and speed [rpm] of the pinion; `loss` [W] by part,
+        `loss_torque` [N.m] at the pinion with the bounds of 95 % of the draws.
+
+    Notes
+    -----
+    Sliding: `line_friction` at every point. Rolling: 2 F u per length by [biboulet_houpert_2010],
+    flooded, lowered by inlet heating [zhu_cheng_1989]. Loads are static.
+    """
+    torques = np.array(settings.load_steps)
+    speeds = np.array(settings.speeds)
+    if speeds.size == 0:
+        speeds = settings.pinion_speed * np.geomspace(*SPEED_STEPS)
+    temperatures = np.array(settings.oil_temperatures or (settings.oil_temperature,))
+    pair = settings.file.helical_pair()
+    fine, coarse = line_points(pair, *_FINE), line_points(pair, *_COARSE)
+    shape = temperatures.size, torques.size, speeds.size
+    loss = np.empty((*shape, len(PARTS_OF_LOSS)))
+    film, heat = np.empty(shape), np.empty(shape)
+    low, high = np.empty(shape), np.empty(shape)
+    uncertain = uncertain_of(settings.film().oil)
+    normals = np.random.default_rng(settings.seed).standard_normal((settings.draws, len(uncertain)))
+    for j, torque in enumerate(torques):
+        loads = [table_line_load(points, mesh, float(torque)) for points in (fine, coarse)]
+        for i, temperature in enumerate(temperatures):
+            observe((j * temperatures.size + i) / (torques.size * temperatures.size))
+            base = replace(settings.film(), oil_temperature=float(temperature))
+            for k, speed in enumerate(speeds):
+                point = float(torque), float(speed)
+                cycle, loss[i, j, k] = _losses(fine, loads[0], *point, base)
+                film[i, j, k] = cycle.film_ratio[cycle.line_load > 0.0].min()
+                heat[i, j, k] = cycle.temperature_rise[cycle.line_load > 0.0].max()
+                if settings.draws:
+                    rough = _losses(coarse, loads[1], *point, base)[1].sum()
+                    drawn = [
+                        _drawn(row, uncertain, coarse, loads[1], point, base) for row in normals
+                    ]
+                    # bounds from a coarse mesh period, as shares of its own value
+                    low[i, j, k], high[i, j, k] = (
+                        np.percentile(drawn, _BOUNDS) / rough * loss[i, j, k].sum()
+                    )
+    total = loss.sum(axis=-1)
+    variables = {
+        "loss": ((*GRID, "part"), loss, "W", "mean power lost"),
+        "loss_torque": (GRID, total / speeds, "N.m", "loss torque at the pinion"),
+        "efficiency": (
+            GRID,
+            1.0 - total / (torques[:, None] * speeds),
+            "1",
+            "efficiency of the mesh",
+        ),
+        "film_ratio": (GRID, film, "1", "least central film over roughness"),
+        "temperature_rise": (GRID, heat, "K", "largest mean rise of the film over the oil"),
+    }
+    if settings.draws:
+        variables |= {
+            "loss_torque_low": (GRID, low / speeds, "N.m", "2.5 % of draws are below"),
+            "loss_torque_high": (GRID, high / speeds, "N.m", "97.5 % of draws are below"),
+        }
+    return xr.Dataset(
+        {
+            name: (dims, values, {"units": unit, "long_name": words})
+            for name, (dims, values, unit, words) in variables.items()
+        },
+        coords={
+            "temperature": (
+                "temperature",
+                temperatures - ZERO_CELSIUS,
+                {"units": "degC", "long_name": "oil temperature"},
+            ),
+            "torque": ("torque", torques, {"units": "N.m", "long_name": "pinion torque"}),
+            "speed": (
+                "speed",
+                speeds * 30.0 / math.pi,
+                {"units": "rpm", "long_name": "pinion speed"},
+            ),
+            "part": ("part", np.array(PARTS_OF_LOSS), {"long_name": "kind of loss"}),
+        },
+        attrs={
+            "not_modelled": NOT_MODELLED,
+            "oil": settings.film().oil.name,
+            "draws": settings.draws,
+            "seed": settings.seed,
+            "uncertain": "; ".join(
+                f"{one.name}: factor {one.factor:g} (k = 2), {one.why}" for one in uncertain
+            ),
+            "loads": "static, of the mesh " + mesh.name,
+        },
+    )
+
+
+def _losses(
+    points: LinePoints, load: Array, torque: float, speed: float, film: FilmFriction
+) -> tuple[LineFrictionCycle, Array]:
+    """Return the friction of a mesh period and its mean powers, sliding and rolling [W]."""
+    constants = film.constants()
+    cycle = friction_along_lines(
+        points,
+        load,
+        pinion_speed=speed,
+        pinion_torque=torque,
+        lubricant=film.oil,
+        oil_temperature=film.oil_temperature,
+        surface=constants.surface,
+        solid=constants.solid,
+    )
+    powers = np.empty(load.size)
+    _rolling_powers(
+        points.x.ravel(),
+        np.ascontiguousarray(load).ravel(),
+        speed,
+        points.pair.plane,
+        lubricant_state(film.oil.parameters(), film.oil_temperature),
+        constants.solid.contact_modulus,
+        powers,
+    )
+    rolling = (powers.reshape(load.shape) * points.length).sum(axis=(1, 2)).mean()
+    return cycle, np.array([cycle.mean_power_loss, rolling])
+
+
+def _drawn(
+    normals: Array,
+    uncertain: tuple[PairFactor, ...],
+    points: LinePoints,
+    load: Array,
+    point: tuple[float, float],
+    film: FilmFriction,
+) -> float:
+    """Return the total loss with the uncertain data at these standard normals [W]."""
+    by = {
+        one.name: one.multiplier(float(normal))
+        for one, normal in zip(uncertain, normals, strict=True)
+    }
+    oil = film.oil
+    ends = ZERO_CELSIUS + 40.0, ZERO_CELSIUS + 100.0
+    nu = [by["viscosity"] * oil.dynamic_viscosity(end) / oil.density for end in ends]
+    oil = replace(
+        oil.with_two_viscosities(nu[0], ends[0], nu[1], ends[1], name=oil.name),
+        eyring_stress=oil.eyring_stress * by["eyring_stress"],
+        alpha=oil.alpha * by["alpha"],
+    )
+    changed = replace(film, oil=oil, roughness_rms=film.roughness_rms * by["roughness"])
+    sliding, rolling = _losses(points, load, *point, changed)[1]
+    return float(by["sliding"] * sliding + by["rolling"] * rolling)
+
+
+def losses_csv(dataset: xr.Dataset) -> str:
+    """Return the losses as a table with a row for each point, units in the names of columns."""
+    columns = {
+        "loss_torque": "loss_torque_n_m",
+        "loss_torque_low": "loss_torque_low_n_m",
+        "loss_torque_high": "loss_torque_high_n_m",
+        "efficiency": "efficiency",
+        "film_ratio": "film_ratio",
+        "temperature_rise": "temperature_rise_k",
+    }
+    columns = {name: column for name, column in columns.items() if name in dataset}
+    parts = [str(one) for one in dataset["part"].values]
+    head = (
+        "oil_temperature_degc",
+        "pinion_torque_n_m",
+        "pinion_speed_rpm",
+        *columns.values(),
+        *(f"loss_{one}_w" for one in parts),
+    )
+    grid = [dataset[name].values for name in GRID]
+    rows = []
+    for place in np.ndindex(*(one.size for one in grid)):
+        where = [one[i] for one, i in zip(grid, place, strict=True)]
+        values = [dataset[name].values[place] for name in columns]
+        rows.append([f"{x:.7g}" for x in (*where, *values, *dataset["loss"].values[place])])
+    return csv_text(head, rows)

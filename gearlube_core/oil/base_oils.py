@@ -1,0 +1,108 @@
+"""What an oil file takes for the class of a base oil where the data sheet says nothing.
+
+Limiting coefficients are those of [hoglund_1999] that [arana_2019] quotes.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class ClassValue(NamedTuple):
+    """A value of a class of oils.
+
+    Oils of the class lie within `value`/`factor` and `value` * `factor` with 95 % (k = 2).
+    """
+
+    value: float
+    factor: float
+    why: str
+
+
+class BaseOil(NamedTuple):
+    """Values of one class of base oils."""
+
+    words: str
+    density_slope: ClassValue  # d rho/dT [kg/(m3 K)]
+    alpha: ClassValue  # measured over estimated pressure-viscosity coefficient [-]
+    limiting_coefficient: ClassValue  # limiting shear stress of the film over pressure [-]
+    conductivity: ClassValue  # [W/(m K)]
+    heat_capacity: ClassValue  # [J/(kg K)]
+
+
+EYRING_FACTOR = 2.0  # 2 to 5 MPa are in use for mineral gear oils, and alpha falls with pressure
+MEASURED_ALPHA_FACTOR = 1.15  # of a given alpha: between methods of measurement, assumed
+GIVEN_LIMIT_FACTOR = 1.2  # of a given limiting coefficient: assumed
+BOUNDARY_STRESS, BOUNDARY_FRICTION = 2.0e6, 0.17  # Pa and [-], of the library's hypoid oils
+REFERENCE_DENSITY_DEGC = 70.0  # density counts as constant; midway between 40 and 100 degC
+
+_USUAL = "usual for the class; no source compared"
+_HOGLUND = "[arana_2019] after [hoglund_1999]"
+_GOLD = "[gold_2001] against measured oils, see docs/oil_file.md"
+_NO_OIL = "no measured oil of the class was at hand"
+
+BASE_OILS = {
+    "mineral": BaseOil(
+        "paraffinic mineral oil",
+        ClassValue(-0.6, 1.2, "reference oil FVA 3 [wingertszahn_2023]"),
+        ClassValue(1.0, 1.3, f"{_GOLD}; a naphthenic oil is 25 % higher"),
+        ClassValue(0.047, 1.2, f"{_HOGLUND}; a naphthenic oil has 0.053"),
+        ClassValue(0.134, 1.15, "reference oil FVA 3 [wingertszahn_2023]"),
+        ClassValue(2000.0, 1.15, _USUAL),
+    ),
+    "pao": BaseOil(
+        "polyalphaolefin",
+        ClassValue(-0.6, 1.2, _USUAL),
+        ClassValue(1.0, 1.15, f"{_GOLD}; one PAO is 7 to 11 % lower"),
+        ClassValue(0.035, 1.2, _HOGLUND),
+        ClassValue(0.15, 1.15, _USUAL),
+        ClassValue(2100.0, 1.15, _USUAL),
+    ),
+    "ester": BaseOil(
+        "polyol ester or diester",
+        ClassValue(-0.7, 1.2, _USUAL),
+        ClassValue(1.0, 1.3, f"[gold_2001]; {_NO_OIL}"),
+        ClassValue(0.035, 1.4, f"that of a polyalphaolefin; {_NO_OIL}"),
+        ClassValue(0.14, 1.15, _USUAL),
+        ClassValue(2000.0, 1.15, _USUAL),
+    ),
+    "pag": BaseOil(
+        "polyglycol",
+        ClassValue(-0.75, 1.2, _USUAL),
+        ClassValue(1.0, 1.3, f"[gold_2001]; {_NO_OIL}"),
+        ClassValue(0.044, 1.2, _HOGLUND),
+        ClassValue(0.15, 1.2, _USUAL),
+        ClassValue(2000.0, 1.15, _USUAL),
+    ),
+}
+
+
+def eyring_stress_of(limiting_coefficient: float, alpha: float) -> float:
+    """Return the Eyring stress that goes with a limiting shear stress.
+
+    tau_E = 2 Lambda/alpha
+
+    Parameters
+    ----------
+    limiting_coefficient : float
+        Lambda, limiting shear stress of the film over pressure [-].
+    alpha : float
+        Pressure-viscosity coefficient [1/Pa].
+
+    Returns
+    -------
+    float
+        [Pa].
+
+    Notes
+    -----
+    [arana_2019] evaluates alpha at the contact's pressure and temperature, where it is smaller:
+    4.5 MPa of the paraffinic oil there at ambient pressure are 7 MPa at 1 GPa and 60 degC.
+    Source: [bair_winer_1990], as quoted by [arana_2019 (12)].
+
+    Examples
+    --------
+    >>> round(1e-6 * eyring_stress_of(0.047, 20.8e-9), 1)  # MPa
+    4.5
+    """
+    return 2.0 * limiting_coefficient / alpha

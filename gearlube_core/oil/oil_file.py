@@ -1,0 +1,267 @@
+"""The oil file: an oil as its data sheet describes it."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from gearlube_core.errors import ParameterError, why
+from gearlube_core.input_file.field_notes import field_unit
+from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.oil.library import read_library
+from gearlube_core.oil.lubricant import Lubricant, lubricant_names
+from gearlube_core.oil.sheet_values import SheetValues, sheet_values
+
+FILE_IN_FMU = "oil.toml"  # among the resources of an FMU
+
+Text = Annotated[str, Field(min_length=1)]
+Viscosity = Annotated[float, Field(ge=2.0, le=1e5, allow_inf_nan=False)]
+Index = Annotated[float, Field(ge=0.0, le=400.0, allow_inf_nan=False)]
+Density = Annotated[float, Field(ge=500.0, le=2000.0, allow_inf_nan=False)]
+DensitySlope = Annotated[float, Field(ge=-2.0, le=0.0, allow_inf_nan=False)]
+PressureViscosity = Annotated[float, Field(ge=1.0, le=100.0, allow_inf_nan=False)]
+Factor = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
+Stress = Annotated[float, Field(ge=0.01, le=1000.0, allow_inf_nan=False)]
+Strength = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
+Limit = Annotated[float, Field(ge=0.005, le=0.3, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Conductivity = Annotated[float, Field(ge=0.02, le=2.0, allow_inf_nan=False)]
+HeatCapacity = Annotated[float, Field(ge=100.0, le=1e4, allow_inf_nan=False)]
+Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False)]
+
+_ORIGINS: dict[str, Origin] = {
+    "printed": "given",
+    "corrected": "inferred",
+    "completed": "inferred",
+    "assumed": "assumed",
+}
+_LIBRARY_UNITS = {
+    "dynamic_1": "Pa.s",
+    "dynamic_2": "Pa.s",
+    "density": "kg/m3",
+    "alpha": "1/Pa",
+    "eyring_stress": "Pa",
+    "limiting_shear_stress": "Pa",
+    "conductivity": "W/(m.K)",
+    "conductivity_slope": "W/(m.K2)",
+    "heat_capacity": "J/(kg.K)",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DescribedOil:
+    """An oil and where its numbers are from.
+
+    Parameters
+    ----------
+    name, source : str
+    lubricant : Lubricant
+        What every computation takes.
+    inputs : tuple of InputNote
+        Every number with value, unit, and whether it is given, inferred or assumed.
+    limiting_coefficient : float
+        Limiting shear stress of the film over pressure [-]; nan of a shipped oil.
+    density_slope : float
+        d rho/dT [kg/(m3 K)]; nan of a shipped oil, whose density is one number.
+
+    Examples
+    --------
+    >>> oil = read_oil("iso_vg_220_pao")
+    >>> note = next(note for note in oil.assumed if note.field == "conductivity_w_m_k")
+    >>> note.value, note.origin
+    (0.15, 'assumed')
+    """
+
+    name: str
+    source: str
+    lubricant: Lubricant
+    inputs: tuple[InputNote, ...]
+    limiting_coefficient: float
+    density_slope: float
+
+    @property
+    def assumed(self) -> tuple[InputNote, ...]:
+        """The numbers that the file does not give: assumed ones and those inferred from others."""
+        return tuple(note for note in self.inputs if note.origin != "given")
+
+
+class OilFile(InputFile):
+    """An oil as its data sheet describes it.
+
+    Examples
+    --------
+    >>> OilFile.shipped()
+    ('iso_vg_220_pao',)
+    >>> oil = OilFile.named("iso_vg_220_pao").described().lubricant
+    >>> round(1e9 * oil.alpha, 1)  # 1/GPa at 40 degC
+    18.6
+    """
+
+    package: ClassVar[str] = "gearlube_core.oil"
+    title: ClassVar[str] = "oil file"
+
+    name: Text = Field(description="What results call the oil")
+    source: Text | None = Field(default=None, description="Where the numbers are from")
+    base_oil: Literal["mineral", "pao", "ester", "pag"] = Field(
+        description="Class of the base oil: paraffinic mineral, polyalphaolefin, ester, polyglycol"
+    )
+    density_kg_m3: Density = Field(description="At density_temperature_degc")
+    density_temperature_degc: Temperature | None = Field(
+        default=None, description="Where that density holds"
+    )
+    density_slope_kg_m3_k: DensitySlope | None = Field(
+        default=None, description="Change of the density with temperature"
+    )
+    viscosity_40_degc_mm2_s: Viscosity | None = Field(
+        default=None, description="Kinematic, at 40 degC; two of this and the next two"
+    )
+    viscosity_100_degc_mm2_s: Viscosity | None = Field(
+        default=None, description="Kinematic, at 100 degC"
+    )
+    viscosity_index: Index | None = Field(
+        default=None, description="After ASTM D2270, in place of one viscosity"
+    )
+    alpha_per_gpa: PressureViscosity | None = Field(
+        default=None, description="Pressure-viscosity coefficient at low pressure"
+    )
+    alpha_temperature_degc: Temperature | None = Field(
+        default=None, description="Where alpha holds"
+    )
+    alpha_factor: Factor | None = Field(
+        default=None, description="The true alpha is within this factor, either way, k = 2"
+    )
+    eyring_stress_mpa: Stress | None = Field(
+        default=None, description="Shear stress where thinning begins"
+    )
+    eyring_stress_factor: Factor | None = Field(
+        default=None, description="The true Eyring stress is within this factor, k = 2"
+    )
+    limiting_coefficient: Limit | None = Field(
+        default=None, description="Limiting shear stress of the film over pressure"
+    )
+    limiting_coefficient_factor: Factor | None = Field(
+        default=None, description="The true coefficient is within this factor, k = 2"
+    )
+    limiting_shear_stress_mpa: Strength | None = Field(
+        default=None, description="Shear strength of boundary junctions without pressure"
+    )
+    boundary_friction: Share | None = Field(
+        default=None, description="Slope of that strength with pressure"
+    )
+    conductivity_w_m_k: Conductivity | None = Field(default=None, description="Of heat")
+    heat_capacity_j_kg_k: HeatCapacity | None = Field(default=None, description="Per mass")
+    temperature_low_degc: Temperature | None = Field(
+        default=None, description="Lowest oil temperature that the data are meant for"
+    )
+    temperature_high_degc: Temperature | None = Field(
+        default=None, description="Highest oil temperature that the data are meant for"
+    )
+
+    @model_validator(mode="after")
+    def _check_oil(self) -> OilFile:
+        cold, hot = self.viscosity_40_degc_mm2_s, self.viscosity_100_degc_mm2_s
+        given = sum(one is not None for one in (cold, hot, self.viscosity_index))
+        if given != 2:
+            raise ValueError(
+                "two of viscosity_40_degc_mm2_s, viscosity_100_degc_mm2_s and viscosity_index "
+                f"make the viscosity line, got {given}"
+            )
+        if cold is not None and hot is not None and cold <= hot:
+            raise ValueError(
+                f"viscosity must fall with temperature, got {cold:g} mm2/s at 40 degC and {hot:g} "
+                "mm2/s at 100 degC. Are they exchanged?"
+            )
+        try:
+            self.described()
+        except ParameterError as reason:
+            raise ValueError(str(reason).removesuffix(".")) from None
+        return self
+
+    def described(self) -> DescribedOil:
+        """Return the oil in SI units with a note on every number."""
+        given = self.model_dump(exclude_none=True)
+        values: SheetValues = sheet_values(given)
+        return DescribedOil(
+            name=self.name,
+            source=self.source or "",
+            lubricant=Lubricant(name=self.name, source=self.source or "an oil file", **values.data),
+            inputs=tuple(values.notes),
+            limiting_coefficient=values.limiting_coefficient,
+            density_slope=values.density_slope,
+        )
+
+
+def described_library_oil(name: str) -> DescribedOil:
+    """Return an oil of the library with its notes: assumed is what its entry calls so."""
+    oil = Lubricant.named(name)
+    entry = read_library()[name]
+    notes = []
+    for section in ("viscosity", "data"):
+        for key, (value, tag, source) in entry[section].items():
+            unit = _LIBRARY_UNITS.get(key) or field_unit(key)[0]
+            why = "" if tag == "printed" else source
+            notes.append(InputNote(key, value, unit, _ORIGINS[tag], why))
+    return DescribedOil(
+        name=name,
+        source=oil.source,
+        lubricant=oil,
+        inputs=tuple(notes),
+        limiting_coefficient=float("nan"),
+        density_slope=float("nan"),
+    )
+
+
+def read_oil(name: str | Path) -> DescribedOil:
+    """Return the oil of an oil file, of a shipped oil file or of the library, by path or name.
+
+    Raises
+    ------
+    ParameterError
+        The file is missing or wrong, all wrong fields are named; or there is no such oil.
+
+    Examples
+    --------
+    >>> read_oil("fva_3").lubricant.density  # kg/m3
+    866.6
+    >>> oil = read_oil("iso_vg_220_pao")
+    >>> round(1e-6 * oil.lubricant.eyring_stress, 1)  # MPa
+    3.8
+    """
+    text = str(name)
+    if text.endswith(".toml") or Path(text).is_file():
+        return read_oil_file(Path(text))
+    if text in lubricant_names():
+        return described_library_oil(text)
+    if text in OilFile.shipped():
+        return OilFile.named(text).described()
+    raise ParameterError(
+        f"The oil must be one of {', '.join((*lubricant_names(), *OilFile.shipped()))} or a file, "
+        f"got {text!r}. A file's name ends in .toml; docs/oil_file.md lists its fields."
+    )
+
+
+def read_oil_file(path: Path) -> DescribedOil:
+    """Return the oil of the oil file at a path."""
+    return OilFile.from_toml(path).described()
+
+
+def read_oil_content(path: str | Path) -> bytes:
+    """Return an oil file's bytes, with the ends of lines of all platforms alike."""
+    try:
+        return Path(path).read_bytes().replace(b"\r\n", b"\n")
+    except OSError as reason:
+        raise ParameterError(f"No oil file can be read at {path}: {why(reason)}.") from None
+
+
+def described_oil_of(content: bytes, where: str) -> DescribedOil:
+    """Return the oil of a file's bytes, e.g. in those of an FMU's resource."""
+    try:
+        data = tomllib.loads(content.decode())
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as reason:
+        raise ParameterError(f"{where} is not a readable TOML file: {reason}.") from None
+    return OilFile.from_data(data, where).described()

@@ -1,0 +1,263 @@
+"""A drive cycle against closed forms: energies, brakes, heat."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
+
+import gearlube as gl
+from gearlube.studies.drive_cycle.demand import demand_of, resistance
+from gearlube.studies.drive_cycle.heat import warm
+from gearlube.studies.drive_cycle.run import grid_change
+from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
+from gearlube_core.errors import ParameterError
+
+CAR = gl.read_axle("mohammadpour_2015")
+ROAD = CAR.driveline.road_load
+RADIUS, RATIO = ROAD.tyre.rolling_radius, ROAD.final_drive.ratio
+MASS = ROAD.vehicle.mass + 4.0 * CAR.driveline.wheel_inertia / RADIUS**2
+WARM = gl.celsius_to_kelvin(130.0)  # few temperatures to map
+STILL = gl.SumpHeat(capacity=1e8)  # its temperature does not change
+
+
+def settings(cycle, **changed):
+    usual = {"start_temperature": WARM, "air_temperature": WARM, "heat": STILL}
+    return gl.DriveCycleSettings(car=CAR, cycle=cycle, **(usual | changed))
+
+
+def cruise(speed, seconds=50):
+    return gl.DriveCycle(name="cruise", time=np.arange(seconds + 1.0), speed=np.full(51, speed))
+
+
+def at(torque, speed, temperature):
+    found = axle_losses(
+        CAR.axle,
+        torques=np.array([torque]),
+        speeds=np.array([speed]),
+        temperatures=np.array([temperature]),
+        extremes=False,
+    )
+    return found.power[0, 0, 0]
+
+
+# 1 %: the map is linear between its points, see the test of a finer grid
+@pytest.mark.parametrize("kmh", [20.0, 50.0, 90.0])
+def test_a_cruise_loses_its_power_times_its_time(kmh):
+    found = gl.run_cycle(settings(cruise(kmh / 3.6)))
+    turning = kmh / 3.6 / RADIUS * RATIO
+    asked = ROAD.ring_gear_torque(kmh / 3.6) / RATIO
+    torque = brentq(lambda t: t - asked - at(t, turning, WARM).sum() / turning, asked, 2.0 * asked)
+    power = at(torque, turning, WARM)
+    assert float(found["energy_lost"].sum()) == pytest.approx(1e-3 * 50.0 * power.sum(), rel=0.01)
+    assert float(found["energy_lost"][0]) == pytest.approx(1e-3 * 50.0 * power[0], rel=0.01)
+    assert found["pinion_torque"].values[7] == pytest.approx(torque, rel=1e-3)
+
+
+@pytest.fixture(scope="module")
+def nedc():
+    return gl.run_cycle(settings(gl.DriveCycle.named("nedc")))
+
+
+def test_pinion_less_wheels_is_what_the_axle_loses(nedc):
+    turning = nedc["pinion_speed"] * np.pi / 30.0
+    at_pinion = float((nedc["pinion_torque"] * turning * nedc["duration"]).sum())
+    at_wheels = float((nedc["wheel_torque"] * turning / RATIO * nedc["duration"]).sum())
+    lost = float(nedc["energy_lost"].sum())
+    assert 1e-3 * (at_pinion - at_wheels) == pytest.approx(lost, rel=1e-9)
+    assert lost / float(nedc["energy_in"]) == pytest.approx(1.0 - float(nedc["efficiency"]))
+
+
+def test_wheels_and_brakes_do_the_work_of_the_road(nedc):
+    """From rest to rest inertia does no work: what is left is the resistance over the way."""
+    cycle = gl.DriveCycle.named("nedc")
+    turning = nedc["pinion_speed"] * np.pi / 30.0 / RATIO
+    work = float((nedc["wheel_torque"] * turning * nedc["duration"]).sum())
+    work -= 1e3 * float(nedc["energy_brakes"])
+    vehicle = ROAD.vehicle
+    cubes = quad(
+        lambda t: np.interp(t, cycle.time, cycle.speed) ** 3,
+        0.0,
+        1180.0,
+        points=range(1, 1180),
+        limit=3000,
+    )[0]
+    road = vehicle.drag_area * cubes + vehicle.rolling_resistance * cycle.distance
+    # the air's drag at the middle of a second, not its mean over it: (a dt)^2/(4 v^2) of it
+    assert work == pytest.approx(road, rel=1e-3)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+def test_brakes_take_what_is_beyond_coast_torque(share):
+    deceleration = 2.0  # m/s2
+    time = np.arange(11.0)
+    cycle = gl.DriveCycle(name="stop", time=time, speed=20.0 - deceleration * time)
+    asked = demand_of(settings(cycle, regeneration=share, coast_torque=25.0))
+    speed = 20.0 - deceleration * 4.5  # in the middle of the fifth second
+    force = ROAD.resistance(speed) - MASS * deceleration
+    whole = force * RADIUS / RATIO
+    assert whole < -25.0
+    expected = -25.0 + share * (whole + 25.0)
+    assert asked.torque[4] == pytest.approx(expected, rel=1e-12)
+    power = (expected - whole) * speed / RADIUS * RATIO
+    assert asked.brakes[4] == pytest.approx(power, rel=1e-9, abs=1e-9)
+
+
+def test_gentle_braking_needs_no_friction_brakes():
+    time = np.arange(11.0)
+    cycle = gl.DriveCycle(name="roll", time=time, speed=20.0 - 0.3 * time)
+    asked = demand_of(settings(cycle))
+    assert np.all(asked.brakes == 0.0)
+    speed = 20.0 - 0.3 * 0.5
+    force = ROAD.resistance(speed) - MASS * 0.3
+    assert asked.torque[0] == pytest.approx(force * RADIUS / RATIO, rel=1e-12)
+
+
+@pytest.mark.parametrize("grade", [-0.04, 0.0, 0.07])
+def test_resistance_on_a_slope_is_that_of_the_road_load(grade):
+    slope = replace(ROAD, vehicle=replace(ROAD.vehicle, grade=grade))
+    for found in (
+        resistance(ROAD.vehicle, np.array([15.0]), np.array([grade])),
+        resistance(slope.vehicle, np.array([15.0])),
+    ):
+        assert found[0] == pytest.approx(slope.resistance(15.0), rel=1e-12)
+
+
+def test_a_measured_torque_is_the_pinions():
+    time = np.arange(21.0)
+    cycle = gl.DriveCycle(
+        name="rig", time=time, pinion_speed=np.full(21, 200.0), pinion_torque=np.full(21, -60.0)
+    )
+    found = gl.run_cycle(settings(cycle))
+    power = at(-60.0, 200.0, WARM)
+    assert float(found["energy_lost"].sum()) == pytest.approx(0.02 * power.sum(), rel=0.01)
+    assert found["pinion_torque"].values == pytest.approx(np.full(20, -60.0), rel=1e-12)
+    # the wheels put in what the pinion takes and the loss
+    assert float(found["energy_in"]) == pytest.approx(0.02 * (60.0 * 200.0 + power.sum()), rel=1e-3)
+
+
+def test_standing_still_loses_nothing_and_cools():
+    cycle = gl.DriveCycle(name="idle", time=np.arange(301.0), speed=np.zeros(301))
+    heat = gl.SumpHeat(capacity=2e4, conductance_at_rest=8.0)
+    start, air = gl.celsius_to_kelvin(80.0), gl.celsius_to_kelvin(20.0)
+    found = gl.run_cycle(settings(cycle, heat=heat, start_temperature=start, air_temperature=air))
+    assert float(found["energy_lost"].sum()) == 0.0
+    expected = 20.0 + 60.0 * np.exp(-8.0 * 300.0 / 2e4)
+    assert float(found["oil_temperature"][-1]) == pytest.approx(expected, rel=1e-9)
+
+
+def steps_of(power, nodes, **changed):
+    count = len(power)
+    usual = {
+        "steps": np.full(count, 5.0),
+        "speeds": np.zeros(count),
+        "power": power,
+        "nodes": nodes,
+        "start": 280.0,
+        "air": 290.0,
+    }
+    heat = gl.SumpHeat(capacity=12e3, conductance_at_rest=9.0)
+    return heat, warm(heat, **(usual | changed))
+
+
+@pytest.mark.parametrize("slope", [0.0, -6.0, 9.0])
+def test_oil_warms_by_the_exponential(slope):
+    """P = 700 + slope (T - 280); at slope 9 W/K cooling and loss grow alike: a straight line."""
+    nodes = np.array([280.0, 320.0, 400.0])
+    power = np.tile(700.0 + slope * (nodes - 280.0), (400, 1))
+    _, found = steps_of(power, nodes)
+    rate = (slope - 9.0) / 12e3
+    time = 5.0 * np.arange(401)
+    first = (700.0 + 9.0 * 10.0) / 12e3  # K/s at 280 K, where the air still warms
+    rise = first * time if rate == 0.0 else first * np.expm1(rate * time) / rate
+    assert found.temperature == pytest.approx(280.0 + rise, rel=1e-10)
+
+
+def test_heat_lost_is_stored_or_taken_by_the_air():
+    nodes = np.array([280.0, 400.0])
+    power = np.tile([900.0, 300.0], (200, 1))
+    heat, found = steps_of(power, nodes, speeds=np.linspace(0.0, 30.0, 200))
+    lost = np.sum(5.0 * (900.0 - 5.0 * (found.mean - 280.0)))
+    taken = sum(
+        5.0 * heat.conductance(v) * (mean - 290.0)
+        for v, mean in zip(np.linspace(0.0, 30.0, 200), found.mean, strict=True)
+    )
+    stored = heat.capacity * (found.temperature[-1] - 280.0)
+    assert lost == pytest.approx(stored + taken, rel=1e-10)
+
+
+def test_the_loss_between_temperatures_of_the_map_is_found():
+    """Against another integrator where the oil crosses the points of the map."""
+    nodes = np.array([280.0, 290.0, 300.0, 310.0, 400.0])
+    lost = np.array([1500.0, 1100.0, 800.0, 650.0, 400.0])
+    heat, found = steps_of(np.tile(lost, (600, 1)), nodes)
+    other = solve_ivp(
+        lambda t, y: (np.interp(y, nodes, lost) - 9.0 * (y - 290.0)) / heat.capacity,
+        (0.0, 3000.0),
+        [280.0],
+        rtol=1e-9,
+        atol=1e-9,
+        max_step=2.0,
+    )
+    # a step that crosses a point goes on with the slope before it: some mK at 0.1 K/s and 5 s
+    assert found.temperature[-1] == pytest.approx(other.y[0, -1], abs=0.02)
+
+
+def test_steady_temperature_is_where_a_long_cruise_comes_to_rest():
+    """Capacity of a tenth: 25 time constants in 3000 s."""
+    speed = 25.0
+    heat = gl.SumpHeat(capacity=2e3)
+    air = gl.celsius_to_kelvin(40.0)
+    cycle = gl.DriveCycle(name="long", time=5.0 * np.arange(601.0), speed=np.full(601, speed))
+    found = gl.run_cycle(settings(cycle, heat=heat, start_temperature=air, air_temperature=air))
+    torque = float(found["pinion_torque"][-1])
+    steady = gl.steady_temperature(
+        CAR, torque=torque, speed=speed / RADIUS * RATIO, air_temperature=air, heat=heat
+    )
+    lost = at(torque, speed / RADIUS * RATIO, steady).sum()
+    assert lost == pytest.approx(heat.conductance(speed) * (steady - air), rel=1e-6)
+    # 1 % of the loss by the map is 1 % of the rise
+    rise = steady - air
+    assert float(found["oil_temperature"][-1]) - 40.0 == pytest.approx(rise, rel=0.01)
+
+
+def test_no_steady_temperature_is_said_with_its_surplus():
+    heat = gl.SumpHeat(conductance_at_rest=0.5, conductance_at_100_kmh=0.5)
+    with pytest.raises(ParameterError, match=r"below 423\.15 K.*W more lost.*larger conductance"):
+        gl.steady_temperature(CAR, torque=300.0, speed=300.0, heat=heat)
+
+
+def test_oil_beyond_its_data_is_refused_with_the_time():
+    heat = gl.SumpHeat(capacity=100.0, conductance_at_rest=1.0, conductance_at_100_kmh=1.0)
+    with pytest.raises(ParameterError, match=r"at most 423\.15 K.* s on, up to"):
+        gl.run_cycle(settings(cruise(30.0), heat=heat))
+
+
+def test_cold_oil_loses_more():
+    cycle = cruise(15.0)
+    cold, hot = gl.celsius_to_kelvin(20.0), gl.celsius_to_kelvin(90.0)
+    lost = [
+        float(gl.run_cycle(settings(cycle, start_temperature=t, air_temperature=t))["efficiency"])
+        for t in (cold, hot)
+    ]
+    assert lost[0] < lost[1]
+
+
+def test_energy_hardly_changes_with_a_finer_map(nedc):
+    assert abs(grid_change(settings(gl.DriveCycle.named("nedc")), nedc)) < 0.01
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("degc", [0.0, 23.0])
+def test_energy_from_a_cold_start_hardly_changes_with_a_finer_map(degc):
+    cold = gl.celsius_to_kelvin(degc)
+    one = settings(
+        gl.DriveCycle.named("nedc"),
+        start_temperature=cold,
+        air_temperature=cold,
+        heat=gl.SumpHeat(),
+    )
+    assert abs(grid_change(one, gl.run_cycle(one))) < 0.01
