@@ -78,6 +78,7 @@ for note in paper.assumed:
   h/sigma 0.5 and 3. `gearlube axle show` tells the fit and by what factor it misses the table, up
   to 2.6 for Gaussian surfaces. Left out, `roughness_rms_um` is that of the table; given, it scales
   the film ratio alone.
+- Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
 - `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
   fields of `[oil]`.
 - Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
@@ -130,6 +131,7 @@ _FIELDS = {
     "oil": "`oil`",
     "pinion_seal_torque": "`seals.pinion_torque_n_m`",
     "wheel_seal_torque": "`seals.wheel_torque_n_m`",
+    "rolling": "`model.flank_rolling`",
     "bearing_approach": "`model.bearing_approach`",
 }
 

@@ -30,6 +30,7 @@ from fmu_src.variable_kinds import (
 )
 from gearlube_core.drag.churning import CHURNING_LAWS
 from gearlube_core.dynamics.hypoid_axle.continuous import STATE_NAMES
+from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS
 
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
 
@@ -233,8 +234,22 @@ _DRAG_LOSSES = (
     output("churning.power_loss", "W", "Loss by churning of the gear in its oil", 100.0),
     output("seal.power_loss", "W", "Loss in the shaft seals", 10.0),
 )
-_LATER_STATES = tuple(variable.name for variable in _DRAG_ENERGIES)
-_BY_NAME |= {variable.name: variable for variable in _DRAG_ENERGIES}
+
+# rolling of the flanks, younger still
+_ROLLING = (
+    option("friction.rolling", "Law of the rolling loss of the flanks", *FLANK_ROLLING_LAWS,
+           start="none", argument="rolling"),
+)  # fmt: skip
+_ROLLING_LOSSES = (
+    output("friction.power_loss_rolling", "W",
+           "Rolling loss of the flanks, beside friction.power_loss", 10.0),
+)  # fmt: skip
+_ROLLING_ENERGIES = energies(
+    {"friction_rolling": "Rolling loss of the flanks since initialisation"}
+)
+_LATER_ENERGIES = _DRAG_ENERGIES + _ROLLING_ENERGIES
+_LATER_STATES = tuple(variable.name for variable in _LATER_ENERGIES)
+_BY_NAME |= {variable.name: variable for variable in _LATER_ENERGIES}
 
 HYPOID_AXLE: tuple[Variable, ...] = (
     *_FIRST,
@@ -246,4 +261,9 @@ HYPOID_AXLE: tuple[Variable, ...] = (
     *_DRAG_LOSSES,
     *_DRAG_ENERGIES,
     *rates(_DRAG_ENERGIES),
+    *_ROLLING,
+    *options_by_number(_ROLLING),
+    *_ROLLING_LOSSES,
+    *_ROLLING_ENERGIES,
+    *rates(_ROLLING_ENERGIES),
 )

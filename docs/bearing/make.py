@@ -16,11 +16,11 @@ from docs.helical.pages import table
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.bearing.figures import LAW_NAMES
 from gearlube_core.bearings.bearing_file import BearingFile
-from gearlube_core.bearings.losses.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.bearings.losses.loss import DEFAULT_LAW, BearingLoss, LossModel, bearing_loss
 from gearlube_core.bearings.losses.zhou_hoeprich_1991 import zhou_hoeprich_force
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
+from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.oil.film_oil_data import film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads

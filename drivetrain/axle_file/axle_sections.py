@@ -101,11 +101,16 @@ class Steel(ModelSection):
 class ModelOptions(ModelSection):
     """How the axle is computed."""
 
+    renamed: ClassVar[Mapping[str, str]] = {"flank_rolling": "rolling"}
+
     equations: Literal["consistent", "as_printed"] | None = Field(
         default=None, description="Of motion: with corrected misprints, or as printed"
     )
     friction: Literal["consistent", "as_printed", "off", "printed_traction_circular"] | None = (
         Field(default=None, description="Of the flanks")
+    )
+    flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
+        default=None, description="Rolling loss of the flanks"
     )
     bearing_torque_loss: Literal["none", "palmgren"] | None = Field(
         default=None, description="Drag torque of the bearings"

@@ -27,6 +27,7 @@ SIZES = (6.5, 3.8, 3.6, 3.2, 3.0, 2.8)
 MARKERS = ("o", "s", "^", "D", "v", "P")
 HATCHES = ("", "////", "....", "xxxx", "\\\\\\\\", "++++")
 GREY = "#B0B0B0"
+YELLOW = "#F0E442"
 
 _STYLE = {
     "font.size": 9.5,

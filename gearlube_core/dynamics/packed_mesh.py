@@ -8,6 +8,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.friction.flank_data import contact_geometry
+from gearlube_core.friction.flank_rolling import rolling_geometry
 from gearlube_core.friction.thermal_eyring_data import circular_pressure_coefficient
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_G, R_P, E
 from gearlube_core.mesh_table.table import MeshTable
@@ -18,7 +19,9 @@ STIFFNESS_SERIES = {"tangent": "k_t", "secant": "k_m"}
 PACKED_SERIES = ("k_m", "R_p", "R_g", "n_x", "n_y", "n_z", "e")
 # order of the channels of a packed window
 SHARE, R_E, SIDE_FLOW, PRESSURE, ENTRAIN, ARM_P, ARM_G, XI_X, XI_Y, XI_Z = range(10)
-N_CHANNELS = 10
+# of the line that rolls: its radius, its length over load^(1/3), and the entrainment across it
+LINE_RADIUS, LINE_LENGTH, ROLL = range(10, 13)
+N_CHANNELS = 13
 _SAMPLES_PER_ORDER = 8  # of the period, where a quotient of series is made a series again
 
 
@@ -103,7 +106,8 @@ def pack_mesh(
     for level in range(levels):
         for node in range(nodes):
             R_x, R_y = data["R_x"][level, node], data["R_y"][level, node]
-            geometry = contact_geometry(R_x, R_y, data["psi"][level, node], contact_modulus)
+            psi = data["psi"][level, node]
+            geometry = contact_geometry(R_x, R_y, psi, contact_modulus)
             if pressure == "circular":
                 circle = circular_pressure_coefficient(R_x, R_y, contact_modulus)
                 geometry = geometry._replace(pressure_coefficient=circle)
@@ -116,6 +120,8 @@ def pack_mesh(
                 data["xi_x"][level, node],
                 data["xi_y"][level, node],
                 data["xi_z"][level, node],
+                *rolling_geometry(R_x, R_y, contact_modulus),
+                data["entrainment_arm"][level, node] * np.cos(psi),
             )
     windows[:, nodes] = windows[:, 0]
     return PackedMesh(

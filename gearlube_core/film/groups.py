@@ -150,3 +150,17 @@ def line_moes_groups(
     stiffness = reduced_modulus * R
     root = math.sqrt(math.sqrt(2.0 * eta0 * speed / stiffness))
     return line_load / (stiffness * root * root), alpha * reduced_modulus * root
+
+
+@kernel
+def inlet_heating_number(eta0: float, beta: float, speed: float, conductivity: float) -> float:
+    """Return Lt = eta0 beta u^2/K [-].
+
+    Parameters
+    ----------
+    eta0, beta, conductivity
+        Of the oil at the inlet: viscosity [Pa s], -d ln eta0/dT [1/K], K [W/(m K)].
+    speed
+        u, mean surface speed [m/s].
+    """
+    return eta0 * beta * speed * speed / conductivity

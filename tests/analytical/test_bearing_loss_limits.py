@@ -13,17 +13,17 @@ from gearlube_core.bearings.losses.aihara_1987 import (
     aihara_heating,
     aihara_rib_torque,
 )
-from gearlube_core.bearings.losses.biboulet_houpert_2010 import (
-    biboulet_houpert_force,
-    biboulet_houpert_starvation,
-)
 from gearlube_core.bearings.losses.geometry import Rib
 from gearlube_core.bearings.losses.goksem_hargreaves_1978 import goksem_hargreaves_force
 from gearlube_core.bearings.losses.ring_loads import roller_loads_between_rings
 from gearlube_core.bearings.losses.zhou_hoeprich_1991 import asperity_share, zhou_hoeprich_force
-from gearlube_core.bearings.losses.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
+from gearlube_core.film.biboulet_houpert_2010 import (
+    biboulet_houpert_force,
+    biboulet_houpert_starvation,
+)
+from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.oil.film_oil_data import film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.bearing_32216 import BEARING, F_A, RPM, loss_at

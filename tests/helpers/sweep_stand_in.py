@@ -16,7 +16,7 @@ TEETH, WHEEL_TEETH, RADIUS = 13, 36, 0.32
 CAGE_ORDER = 0.4
 MEAN_DTE, MESH_DTE, SECOND_DTE = 4e-6, 1e-6, 3e-7
 INPUT_POWER = 2000.0
-LOSS_POWERS = dict(zip(LOSSES, (10.0, 4.0, 0.5, 1.0, 20.0, 2.0, 1.5), strict=True))
+LOSS_POWERS = dict(zip(LOSSES, (10.0, 4.0, 0.5, 1.0, 20.0, 2.0, 1.5, 3.0), strict=True))
 
 
 def pinion_speed_at(speed_kmh):

@@ -24,6 +24,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PHI_G,
     PHI_P,
     PINION_WORK,
+    ROLLING,
     SEALS,
     SIDE,
     U_G,
@@ -39,7 +40,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.mesh_table.kernels import N_SERIES
 from tests.helpers.source_of import interpret, source_of
 
-FRICTION = FlankSum(-3.0, 4.5, 20.0, -30.0, 45.0, 60.0, 7.0)
+FRICTION = FlankSum(-3.0, 4.5, 20.0, -30.0, 45.0, 60.0, 7.0, 2.5)
 NORMAL = np.array([0.6, 0.48, 0.64])
 MESH = MeshForce(2500.0, 0.02, -80.0, 190.0, 1.7, 3e8, *NORMAL)
 # forces on the shafts by axis of the axle, and the power lost
@@ -135,7 +136,7 @@ def test_positions_follow_speeds_and_energies_follow_powers(monkeypatch):
         PHI_P: SPEED_P, PHI_G: SPEED_G, CAGE_P: 0.43 * SPEED_P, CAGE_G: 0.46 * SPEED_G,
         PINION_WORK: 85.0 * SPEED_P, WHEEL_WORK: 170.0 * SPEED_G, VISCOUS: 60.0, BOUNDARY: 7.0,
         MESH_DAMPING: 1.7, BEARING_DAMPING: 0.7, BEARING_TORQUE: 0.9 * SPEED_P + 1.3 * SPEED_G,
-        CHURNING: 0.21 * SPEED_G, SEALS: 0.32 * SPEED_P + 0.43 * SPEED_G,
+        CHURNING: 0.21 * SPEED_G, SEALS: 0.32 * SPEED_P + 0.43 * SPEED_G, ROLLING: 2.5,
     }  # fmt: skip
     for place, value in expected.items():
         assert ds[place] == pytest.approx(value, rel=1e-14)

@@ -68,6 +68,7 @@ NUMBERS = {
     "seals.wheel_torque_n_m": (0.37, "axle.wheel_seal_torque", 0.37),
     "model.equations": ("as_printed", "axle.equations", "as_printed"),
     "model.friction": ("off", "axle.friction", "off"),
+    "model.flank_rolling": ("biboulet_houpert_2010", "axle.rolling", "biboulet_houpert_2010"),
     "model.bearing_torque_loss": ("none", "axle.bearing_torque_loss", "none"),
     "model.bearing_approach": ("as_printed", "axle.bearing.approach", "as_printed"),
     "model.steps_per_mesh_period": (72, "axle.steps_per_mesh_period", 72),

@@ -19,12 +19,13 @@ OIL_TEMPERATURE = 350.0
 FORCE = -2000.0  # N, on the coast flanks
 SHARES = np.array([0.3, 0.0, 0.7])
 FIRST = 4  # place of the first output
-# the rows are share, R_e, side flow, pressure, entrainment arm, arms, direction of sliding
+# the rows are share, R_e, side flow, pressure, entrainment arm, arms, direction of sliding, and of
+# the line that rolls radius, length over load^(1/3) and arm of the entrainment across it
 PAIRS = np.array(
     [
-        [0.3, 0.011, 0.9, 2.1e7, -0.021, 0.012, 0.035, 0.6, -0.48, 0.64],
-        [0.0, 0.013, 0.7, 2.3e7, 0.023, 0.017, 0.031, 0.8, 0.36, 0.48],
-        [0.7, 0.017, 0.8, 2.7e7, 0.029, -0.019, 0.041, -0.36, 0.8, 0.48],
+        [0.3, 0.011, 0.9, 2.1e7, -0.021, 0.012, 0.035, 0.6, -0.48, 0.64, 0.010, 1.1e-3, 0.013],
+        [0.0, 0.013, 0.7, 2.3e7, 0.023, 0.017, 0.031, 0.8, 0.36, 0.48, 0.011, 1.2e-3, 0.015],
+        [0.7, 0.017, 0.8, 2.7e7, 0.029, -0.019, 0.041, -0.36, 0.8, 0.48, 0.012, 1.3e-3, -0.018],
     ]
 )
 WINDOW = np.concatenate([PAIRS, PAIRS[:1]]).ravel()
@@ -39,15 +40,16 @@ def moving():
     return s
 
 
-def parameters(friction=1.0):
+def parameters(friction=1.0, rolling=0.0):
     return SimpleNamespace(
-        mesh=SimpleNamespace(z_p=13.0), friction=friction, reduced_modulus=2.3e11, flank_law="law"
-    )
+        mesh=SimpleNamespace(z_p=13.0), friction=friction, reduced_modulus=2.3e11, flank_law="law",
+        rolling=rolling, ratio=2.4,
+    )  # fmt: skip
 
 
 def sliding_of(row):
     """Speed of the pinion's surface over the gear's along xi."""
-    return row[5] * 150.0 - row[6] * 60.0 + row[7:] @ np.array([0.7, -1.2, 0.9])
+    return row[5] * 150.0 - row[6] * 60.0 + row[7:10] @ np.array([0.7, -1.2, 0.9])
 
 
 def flank_under(load, film_ratio=2.0):
@@ -157,19 +159,20 @@ def test_law_meets_load_speeds_and_geometry_of_its_flank(monkeypatch):
 @pytest.mark.parametrize("fresh", [1.0, 0.0])
 def test_friction_of_all_flanks_is_the_sum_of_forces_against_sliding(monkeypatch, fresh, force):
     monkeypatch.setattr(flanks, "pair_friction", lambda s, load, *_: flank_under(load))
-    kept = np.array([0.02, 0.04, 0.03, 0.05, 0.07, 0.11])  # viscous and boundary of each flank
-    mu = kept.reshape(3, 2) if fresh == 0.0 else np.array([[0.05, 0.01]] * 3)
+    # viscous and boundary of each flank, then what rolls, which is off
+    kept = np.array([0.02, 0.04, 0.03, 0.05, 0.07, 0.11, 9.0, 9.0, 9.0])
+    mu = kept[:6].reshape(3, 2) if fresh == 0.0 else np.array([[0.05, 0.01]] * 3)
     s = moving()
     found = source_of(flanks.flank_sum)(
         s, force, WINDOW, 3, OIL, parameters(), fresh, kept, np.zeros(N_CHANNELS)
     )
-    expected = np.zeros(7)
+    expected = np.zeros(8)
     for row, load, coefficients in zip(PAIRS, abs(force) * SHARES, mu, strict=True):
         sliding = sliding_of(row)
         f = np.sign(sliding) * coefficients.sum() * load
         expected[:2] += -f * row[5], f * row[6]
-        expected[2:5] -= f * row[7:]
-        expected[5:] += coefficients * load * abs(sliding)
+        expected[2:5] -= f * row[7:10]
+        expected[5:7] += coefficients * load * abs(sliding)
     np.testing.assert_allclose(found, expected, rtol=1e-12)
     # the work of torques and forces is what is lost
     given = found.torque_p * 150.0 + found.torque_g * 60.0
@@ -178,19 +181,60 @@ def test_friction_of_all_flanks_is_the_sum_of_forces_against_sliding(monkeypatch
     # one flank slides forward and one backward, or the signs would not count
     assert sliding_of(PAIRS[0]) * sliding_of(PAIRS[2]) < 0.0
     if fresh != 0.0:
-        np.testing.assert_allclose(kept, [0.05, 0.01, 0.0, 0.0, 0.05, 0.01], rtol=1e-14)
+        np.testing.assert_allclose(kept[:6], [0.05, 0.01, 0.0, 0.0, 0.05, 0.01], rtol=1e-14)
 
 
 @pytest.mark.parametrize(("force", "friction"), [(0.0, 1.0), (FORCE, 0.0)])
 @pytest.mark.parametrize("fresh", [1.0, 0.0])
 def test_no_friction_without_force_or_with_friction_off(force, friction, fresh):
-    kept = np.full(6, 0.05)
+    kept = np.full(9, 0.05)
     found = source_of(flanks.flank_sum)(
         moving(), force, WINDOW, 3, OIL, parameters(friction), fresh, kept, np.zeros(N_CHANNELS)
     )
-    assert found == (0.0,) * 7
+    assert found == (0.0,) * 8
     # a touch before the next refresh uses what stands there
     np.testing.assert_array_equal(kept, 0.0 if fresh else 0.05)
+
+
+@pytest.mark.parametrize("friction", [0.0, 1.0])
+@pytest.mark.parametrize("turning", [1.0, -1.0])
+@pytest.mark.parametrize("fresh", [1.0, 0.0])
+def test_rolling_takes_two_forces_times_the_entrainment_across_the_line(
+    monkeypatch, fresh, turning, friction
+):
+    met = []
+
+    def force_of(load, rolling, sliding, *_):
+        met.append((load, rolling, sliding))
+        return 2e-3 * load
+
+    monkeypatch.setattr(flanks, "pair_rolling", force_of)
+    monkeypatch.setattr(flanks, "pair_friction", lambda s, load, *_: flank_under(load))
+    s = moving()
+    s[[W_P, W_G]] *= turning
+    kept = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.2, 7.0, 2.8])
+    arguments = s, FORCE, WINDOW, 3, OIL
+    with_it, without = (
+        source_of(flanks.flank_sum)(
+            *arguments, parameters(friction, rolling), fresh, kept, np.zeros(N_CHANNELS)
+        )
+        for rolling in (1.0, 0.0)
+    )
+    found = np.subtract(with_it, without)
+    # mean of both shafts' entrainment, 0.5 (150 + 2.4 60) rad/s of the pinion
+    mean = 0.5 * (150.0 + 2.4 * 60.0)
+    forces = 2e-3 * 600.0, 2e-3 * 1400.0
+    lost = sum(2.0 * F * arm * mean for F, arm in zip(forces, (0.013, 0.018), strict=True))
+    # roundings of friction powers of 1 kW
+    assert found[7] == pytest.approx(lost, rel=1e-10)
+    np.testing.assert_allclose(found[2:7], 0.0, atol=1e-10)
+    assert (found[0] * 150.0 + found[1] * 60.0) * turning == pytest.approx(-lost, rel=1e-10)
+    assert found[0] * turning < 0.0
+    if fresh != 0.0:
+        assert [(load, abs(rolling)) for load, rolling, _ in met] == [
+            (600.0, pytest.approx(0.013 * mean)), (1400.0, pytest.approx(0.018 * mean)),
+        ]  # fmt: skip
+        assert kept[7] == 0.0
 
 
 def test_sliding_speed_has_the_relative_velocity_along_the_direction_of_sliding():

@@ -183,12 +183,14 @@ def all_cases():
         ),
         (flanks.sliding_speed, (state, channels)),
         (flanks.pair_friction, (state, 900.0, 0.7, channels, state_of_oil, p)),
+        (flanks.pair_rolling, (900.0, -2.0, 0.7, channels, state_of_oil, p)),
         *(
             (
                 flanks.flank_sum,
-                (state, force, window, mesh.nodes, state_of_oil, p, refresh, friction, channels),
+                (state, force, window, mesh.nodes, state_of_oil, one, refresh, friction, channels),
             )
             for refresh in (1.0, 0.0)
+            for one in (p, p._replace(rolling=1.0))
         ),
         (rhs.pinion_motion, (state,)),
         (rhs.gear_motion, (state,)),

@@ -25,6 +25,7 @@ from gearlube_core.errors import ParameterError
 AXLE = replace(
     mohammadpour_2015_axle(),
     churning="changenet_velex_2007",
+    rolling="biboulet_houpert_2010",
     pinion_seal_torque=0.15,
     wheel_seal_torque=0.3,
 )

@@ -26,7 +26,8 @@ ROW = 1  # the row in use; the others hold what must not be read
 
 def rows():
     found = np.full((3, N_ROW), np.nan)
-    found[ROW, PAIRS_AT:] = PAIRS.ravel()
+    of_pairs = found[ROW, PAIRS_AT:].reshape(3, N_CHANNELS)
+    of_pairs[:, : PAIRS.shape[1]] = PAIRS
     return found
 
 

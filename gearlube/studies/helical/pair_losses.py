@@ -12,11 +12,11 @@ import xarray as xr
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.losses.biboulet_houpert_2010 import biboulet_houpert_force
-from gearlube_core.bearings.losses.rolling import inlet_heating_number
-from gearlube_core.bearings.losses.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.contact.line_hertz import line_mean_pressure
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
+from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
+from gearlube_core.film.groups import inlet_heating_number
+from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
 from gearlube_core.helical_geometry.contact_line import ContactPlane

@@ -22,8 +22,9 @@ SOURCE_WORDS = {
     "bearing_torque": "bearing drag",
     "churning": "churning",
     "seals": "seals",
+    "friction_rolling": "rolling of the flanks",
 }
-_NEVER_MODELLED = ("rolling of the flanks", "windage")
+_NEVER_MODELLED = ("windage",)
 _LEAST_INPUT = 0.5  # share of the input that is lost, above which no efficiency is stated
 
 
@@ -90,6 +91,7 @@ def not_modelled(axle: HypoidAxleParameters) -> tuple[str, ...]:
         "wheel seals": axle.wheel_seal_torque == 0.0,
         "bearing drag": axle.bearing_torque_loss == "none",
         "flank friction": axle.friction == "off",
+        "rolling of the flanks": axle.rolling == "none",
     }
     return (*(words for words, missing in left_out.items() if missing), *_NEVER_MODELLED)
 

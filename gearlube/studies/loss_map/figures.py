@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import SERIES, house_style, new_figure
+from gearlube.plotting.style import GREY, SERIES, YELLOW, house_style, new_figure
 from gearlube.studies.loss_map.datasets import SOURCE_WORDS
 
+_COLOURS = (*SERIES, GREY, YELLOW)  # of the sources, in their order
 _MOST_PANELS = 6
 _LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
@@ -100,7 +101,7 @@ def _split(ax: Any, one: xr.Dataset) -> None:
         torque,
         np.nan_to_num(loss[drawn]),
         labels=[SOURCE_WORDS[names[i]] for i in drawn],
-        colors=[SERIES[i % len(SERIES)] for i in drawn],
+        colors=[_COLOURS[i % len(_COLOURS)] for i in drawn],
         alpha=0.85,
     )
     if "loss_torque_low" in one:

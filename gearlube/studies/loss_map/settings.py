@@ -104,6 +104,14 @@ UNCERTAIN = (
         ("churning",),
     ),
     Uncertain("seals", "torque of the seals", 2.0, "seals among each other", None, ("seals",)),
+    Uncertain(
+        "flank_rolling",
+        "law of the rolling of the flanks",
+        2.0,
+        "assumed, laws of rolling among each other, and inlet heating",
+        None,
+        ("friction_rolling",),
+    ),
 )
 
 

@@ -13,6 +13,7 @@ LOSSES = (
     "bearing_torque",
     "churning",
     "seals",
+    "friction_rolling",
 )
 FLANK_QUANTITIES = ("load", "film_thickness", "film_ratio", "friction_coefficient", "temperature")
 

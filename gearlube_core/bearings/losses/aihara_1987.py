@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.bearings.losses.status import IN_RANGE
+from gearlube_core.film.status import IN_RANGE
 from gearlube_core.kernels.jit import kernel
 
 
@@ -40,7 +40,7 @@ def aihara_heating(heating_number: float) -> float:
     Parameters
     ----------
     heating_number
-        Lt = eta0 beta u^2/K, see `rolling.inlet_heating_number` [-].
+        Lt = eta0 beta u^2/K, see `groups.inlet_heating_number` [-].
 
     Notes
     -----

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlube_core.bearings.losses.status import IN_RANGE
+from gearlube_core.film.status import IN_RANGE
 from gearlube_core.kernels.jit import kernel
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from gearlube_core.bearings.losses.aihara_1987 import aihara_force, aihara_heating
-from gearlube_core.bearings.losses.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.bearings.losses.goksem_hargreaves_1978 import goksem_hargreaves_force
 from gearlube_core.bearings.losses.zhou_hoeprich_1991 import zhou_hoeprich_force
-from gearlube_core.bearings.losses.zhu_cheng_1989 import zhu_cheng_heating
+from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
+from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.kernels.jit import kernel
 
 BIBOULET_HOUPERT, ZHOU_HOEPRICH, GOKSEM_HARGREAVES, AIHARA = 0, 1, 2, 3

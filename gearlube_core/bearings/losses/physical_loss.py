@@ -6,16 +6,16 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.losses.biboulet_houpert_2010 import biboulet_houpert_starvation
 from gearlube_core.bearings.losses.laws import heating_factor, rolling_force
 from gearlube_core.bearings.losses.liebrecht_drag import liebrecht_drag
 from gearlube_core.bearings.losses.rib import RibParameters, rib_friction
 from gearlube_core.bearings.losses.rolling import (
     hysteresis_power,
-    inlet_heating_number,
     rolling_power,
 )
+from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_starvation
 from gearlube_core.film.dowson_1968 import minimum_line_film_thickness
+from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube_core.bearings.losses.rolling import inlet_heating_number
 from gearlube_core.bearings.losses.zhou_hoeprich_1991 import asperity_share
-from gearlube_core.bearings.losses.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.film.chittenden_1985 import central_film_thickness
+from gearlube_core.film.groups import inlet_heating_number
+from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState

@@ -32,20 +32,6 @@ def rolling_power(force: float, speed: float, length: float) -> float:
 
 
 @kernel
-def inlet_heating_number(eta0: float, beta: float, speed: float, conductivity: float) -> float:
-    """Return Lt = eta0 beta u^2/K [-].
-
-    Parameters
-    ----------
-    eta0, beta, conductivity
-        Of the oil at the inlet: viscosity [Pa s], -d ln eta0/dT [1/K], K [W/(m K)].
-    speed
-        u, mean surface speed [m/s].
-    """
-    return eta0 * beta * speed * speed / conductivity
-
-
-@kernel
 def hysteresis_power(
     load: float, line_load: float, R: float, reduced_modulus: float, speed: float
 ) -> float:

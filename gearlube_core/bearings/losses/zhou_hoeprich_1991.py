@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.bearings.losses.status import IN_RANGE
+from gearlube_core.film.status import IN_RANGE
 from gearlube_core.kernels.jit import kernel
 
 

@@ -55,6 +55,7 @@ STATE_NAMES: tuple[str, ...] = (
     "energy.bearing_torque",
     "energy.churning",
     "energy.seals",
+    "energy.friction_rolling",
     "mesh.load_torque",
 )
 RATE_NAMES = tuple(f"der({name})" for name in STATE_NAMES)

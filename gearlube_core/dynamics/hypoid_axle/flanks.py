@@ -11,9 +11,12 @@ from gearlube_core.dynamics.packed_mesh import (
     ARM_G,
     ARM_P,
     ENTRAIN,
+    LINE_LENGTH,
+    LINE_RADIUS,
     N_CHANNELS,
     PRESSURE,
     R_E,
+    ROLL,
     SHARE,
     SIDE_FLOW,
     XI_X,
@@ -22,6 +25,7 @@ from gearlube_core.dynamics.packed_mesh import (
 )
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.friction.flank_law import flank_state
+from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
@@ -31,7 +35,7 @@ _PAIRS = PAIRS
 
 
 class FlankSum(NamedTuple):
-    """Friction of all pairs: torques, force on the pinion, and power lost."""
+    """Friction and rolling of all pairs: torques, force on the pinion, and power lost."""
 
     torque_p: float  # N.m
     torque_g: float  # N.m
@@ -40,6 +44,7 @@ class FlankSum(NamedTuple):
     f_z: float
     viscous_power: float  # W
     boundary_power: float  # W
+    rolling_power: float  # W
 
 
 @kernel
@@ -79,6 +84,26 @@ def pair_friction(
 
 
 @kernel
+def pair_rolling(
+    load: float,
+    rolling: float,
+    sliding: float,
+    channels: Array,
+    oil: LubricantState,
+    p: AxleParameters,
+) -> float:
+    """Return the rolling force of one pair [N] at its rolling and sliding speed [m/s]."""
+    return flank_rolling_force(
+        load,
+        abs(rolling),
+        abs(sliding),
+        RollingGeometry(channels[LINE_RADIUS], channels[LINE_LENGTH]),
+        oil,
+        p.reduced_modulus,
+    )
+
+
+@kernel
 def flank_sum(
     s: Array,
     force: float,
@@ -90,7 +115,7 @@ def flank_sum(
     friction: Array,
     channels: Array,
 ) -> FlankSum:
-    """Return the friction of all pairs that share the mesh force `force` [N].
+    """Return friction and rolling losses of all pairs that share the mesh force `force` [N].
 
     Parameters
     ----------
@@ -105,8 +130,8 @@ def flank_sum(
     refresh : float
         Not 0: evaluate film and traction anew; else keep the coefficients in `friction`, with
         the loads, arms and directions of this state.
-    friction : ndarray of shape (2 PAIRS,)
-        Viscous and boundary friction over load of each pair [-].
+    friction : ndarray of shape (3 PAIRS,)
+        Viscous and boundary friction over load of each pair [-], then the rolling forces [N].
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
 
@@ -114,6 +139,8 @@ def flank_sum(
     ----------
     [mohammadpour_2015 (10)] [mohammadpour_2015 (11)] [mohammadpour_2015 (20)]
     [mohammadpour_2015 (23)]
+    Rolling takes the entrainment of (11) across the contact line, half of it from either shaft, so
+    that its torques lose 2 F l u_n; its forces on the shafts, of a newton, are left out.
     (10) prints the arm of the normal force; a friction force acts at the arm xi . (j x r) of
     `friction_arm_p`. (20) prints the shafts' motion along the line of action for the sliding.
     """
@@ -124,33 +151,49 @@ def flank_sum(
     f_z = 0.0
     viscous = 0.0
     boundary = 0.0
-    if p.friction != 0.0 and force != 0.0:
+    rolled = 0.0
+    if (p.friction != 0.0 or p.rolling != 0.0) and force != 0.0:
         for pair in range(_PAIRS):
             pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
             load = abs(force) * channels[SHARE]
             if load > 0.0:
                 sliding = sliding_speed(s, channels)
-                if refresh != 0.0:
-                    flank = pair_friction(s, load, sliding, channels, oil, p)
-                    friction[2 * pair] = flank.viscous_friction / load
-                    friction[2 * pair + 1] = flank.boundary_friction / load
-                f_v = friction[2 * pair] * load
-                f_b = friction[2 * pair + 1] * load
-                f = f_v + f_b
-                if sliding < 0.0:
-                    f = -f
-                torque_p -= f * channels[ARM_P]
-                torque_g += f * channels[ARM_G]
-                f_x -= f * channels[XI_X]
-                f_y -= f * channels[XI_Y]
-                f_z -= f * channels[XI_Z]
-                viscous += f_v * abs(sliding)
-                boundary += f_b * abs(sliding)
+                if p.friction != 0.0:
+                    if refresh != 0.0:
+                        flank = pair_friction(s, load, sliding, channels, oil, p)
+                        friction[2 * pair] = flank.viscous_friction / load
+                        friction[2 * pair + 1] = flank.boundary_friction / load
+                    f_v = friction[2 * pair] * load
+                    f_b = friction[2 * pair + 1] * load
+                    f = f_v + f_b
+                    if sliding < 0.0:
+                        f = -f
+                    torque_p -= f * channels[ARM_P]
+                    torque_g += f * channels[ARM_G]
+                    f_x -= f * channels[XI_X]
+                    f_y -= f * channels[XI_Y]
+                    f_z -= f * channels[XI_Z]
+                    viscous += f_v * abs(sliding)
+                    boundary += f_b * abs(sliding)
+                if p.rolling != 0.0:
+                    speed = s[W_P] + p.ratio * s[W_G]
+                    rolling = 0.5 * channels[ROLL] * speed
+                    if refresh != 0.0:
+                        friction[2 * _PAIRS + pair] = pair_rolling(
+                            load, rolling, sliding, channels, oil, p
+                        )
+                    arm = friction[2 * _PAIRS + pair] * abs(channels[ROLL])
+                    if speed < 0.0:
+                        arm = -arm
+                    torque_p -= arm
+                    torque_g -= arm * p.ratio
+                    rolled += arm * speed
             elif refresh != 0.0:
                 friction[2 * pair] = 0.0
                 friction[2 * pair + 1] = 0.0
+                friction[2 * _PAIRS + pair] = 0.0
     elif refresh != 0.0:
         # teeth may touch before the next refresh: what stands here is then used
-        for i in range(2 * _PAIRS):
+        for i in range(3 * _PAIRS):
             friction[i] = 0.0
-    return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary)
+    return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary, rolled)

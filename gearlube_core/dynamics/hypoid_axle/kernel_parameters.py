@@ -56,6 +56,7 @@ class AxleParameters(NamedTuple):
     mesh: MeshForceConstants
     lateral_sign: float  # +1 consistent, -1 as printed in [mohammadpour_2015 (1)] c-h
     friction: float  # 1 with flank friction, 0 without
+    rolling: float  # place of the law in FLANK_ROLLING_LAWS; 0 none
     drag: float  # 1 with bearing drag torque, 0 without
     reduced_modulus: float  # E' = 2 E* of the flanks [Pa]
     ranges: RangeLimits
@@ -74,6 +75,7 @@ def without_losses(p: AxleParameters) -> AxleParameters:
     """Return the axle without flank friction and hysteresis: what is in static equilibrium."""
     return p._replace(
         friction=0.0,
+        rolling=0.0,
         mesh=p.mesh._replace(hysteretic_loss=0.0),
         bearing_p=p.bearing_p.without_loss(),
         bearing_g=p.bearing_g.without_loss(),

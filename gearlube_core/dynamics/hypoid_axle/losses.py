@@ -38,6 +38,7 @@ LOSS_SOURCES = (
     "bearing_torque",
     "churning",
     "seals",
+    "friction_rolling",
 )
 FAILURES = {
     0: "",

@@ -50,6 +50,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PHI_G,
     PHI_P,
     PINION_WORK,
+    ROLLING,
     SEALS,
     SIDE,
     TIME_IN_STEP,
@@ -89,6 +90,7 @@ _OUTPUTS: tuple[str, ...] = (
     "bearing.power_loss",
     "churning.power_loss",
     "seal.power_loss",
+    "friction.power_loss_rolling",
     "damping.power_loss",
     "efficiency",
     "axle.efficiency",
@@ -106,6 +108,7 @@ _OUTPUTS: tuple[str, ...] = (
     "energy.bearing_torque",
     "energy.churning",
     "energy.seals",
+    "energy.friction_rolling",
     "energy.stored",
     *RANGE_OUTPUTS,
 )
@@ -132,6 +135,7 @@ BOUNDARY_LOSS = OUTPUT_INDEX["friction.power_loss_boundary"]
 BEARING_LOSS = OUTPUT_INDEX["bearing.power_loss"]
 CHURNING_LOSS = OUTPUT_INDEX["churning.power_loss"]
 SEAL_LOSS = OUTPUT_INDEX["seal.power_loss"]
+ROLLING_LOSS = OUTPUT_INDEX["friction.power_loss_rolling"]
 DAMPING_LOSS = OUTPUT_INDEX["damping.power_loss"]
 EFFICIENCY = OUTPUT_INDEX["efficiency"]
 AXLE_EFFICIENCY = OUTPUT_INDEX["axle.efficiency"]
@@ -211,12 +215,14 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
     drag = mean_power(s, rates, BEARING_TORQUE, WORK_MARK + 6, duration)
     churning = mean_power(s, rates, CHURNING, WORK_MARK + 7, duration)
     seals = mean_power(s, rates, SEALS, WORK_MARK + 8, duration)
+    rolling = mean_power(s, rates, ROLLING, WORK_MARK + 9, duration)
     friction = viscous + boundary
     out[FRICTION_LOSS] = friction
     out[BOUNDARY_LOSS] = boundary
     out[BEARING_LOSS] = drag
     out[CHURNING_LOSS] = churning
     out[SEAL_LOSS] = seals
+    out[ROLLING_LOSS] = rolling
     out[DAMPING_LOSS] = mesh + rollers
     out[EFFICIENCY] = 0.0
     out[AXLE_EFFICIENCY] = 0.0
@@ -224,7 +230,8 @@ def write_losses(s: Array, rates: Array, out: Array) -> None:
     put_in = pinion if pinion > 0.0 else -wheel
     if put_in > idle_power:
         out[EFFICIENCY] = 1.0 - friction / put_in
-        out[AXLE_EFFICIENCY] = 1.0 - (friction + mesh + rollers + drag + churning + seals) / put_in
+        others = mesh + rollers + drag + churning + seals + rolling
+        out[AXLE_EFFICIENCY] = 1.0 - (friction + others) / put_in
 
 
 @kernel

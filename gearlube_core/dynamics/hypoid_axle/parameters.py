@@ -34,6 +34,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.film import chittenden_1985
 from gearlube_core.friction.flank_law import FlankLaw, FlankLawMaker
 from gearlube_core.friction.flank_laws import CONTACT_PRESSURES, FLANK_LAWS
+from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS, FlankRolling
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
@@ -92,6 +93,8 @@ class HypoidAxleParameters(AxleScalars):
         Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`. The last name
         reads the paper so that its efficiency comes out: (13) without beta, as printed, at the mean
         pressure of a circle, `circular_pressure_coefficient`; asperities are consistent.
+    rolling : {"none", "biboulet_houpert_2010"}
+        Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : {"none", "palmgren"}
     churning : {"none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
         Law of the gear's churning, see `churning_torque`.
@@ -131,6 +134,7 @@ class HypoidAxleParameters(AxleScalars):
     mesh_damping: MeshDamping = "hysteretic"
     modal_loss_factor: Annotated[float, Within(0.0, 1.0)] = 0.06
     friction: Friction | FlankLawMaker = "consistent"
+    rolling: FlankRolling = "none"
     bearing_torque_loss: TorqueLoss = "palmgren"
     churning: ChurningLaw = "none"
     ring_diameter: Annotated[float, Within(0.01, 3.0, "m", "165 mm is 0.165 m.")] = 0.165
@@ -148,6 +152,7 @@ class HypoidAxleParameters(AxleScalars):
         if isinstance(self.friction, str):
             check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
+        check_option("rolling", self.rolling, FLANK_ROLLING_LAWS)
         check_option("churning", self.churning, CHURNING_LAWS)
         check_scalars(self)
         if self.mesh_damping == "modal" and self.modal_loss_factor == 0.0:
@@ -258,6 +263,7 @@ class HypoidAxleParameters(AxleScalars):
                 immersion=float(self.immersion),
                 oil_volume=float(self.oil_volume),
             ),
+            rolling=float(FLANK_ROLLING_LAWS.index(self.rolling)),
             drag=1.0 if self.bearing_torque_loss == "palmgren" else 0.0,
             reduced_modulus=2.0 * contact_modulus(self.solid, self.solid),
             ranges=range_limits(self.ranges),

@@ -28,6 +28,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     PHI_G,
     PHI_P,
     PINION_WORK,
+    ROLLING,
     SEALS,
     U_G,
     U_P,
@@ -45,7 +46,7 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant_state import LubricantState
 
-N_FRICTION = 2 * PAIRS
+N_FRICTION = 3 * PAIRS
 AT_EXPANSION = N_FRICTION + N_CHANNELS
 SCRATCH = AT_EXPANSION + 2 * N_EXPANSION
 
@@ -197,4 +198,5 @@ def axle_rhs(
     ds[BEARING_TORQUE] = inputs.drag_p * w_p + inputs.drag_g * w_g
     ds[CHURNING] = inputs.churning * w_g
     ds[SEALS] = inputs.seal_p * w_p + inputs.seal_g * w_g
+    ds[ROLLING] = friction.rolling_power
     return mesh.force

@@ -16,6 +16,7 @@ from gearlube.plotting.style import (
     PURPLE,
     SKY,
     VERMILLION,
+    YELLOW,
     house_style,
     new_figure,
     preload_label,
@@ -29,6 +30,7 @@ _SOURCES = {
     "bearing_torque": ("bearing drag torque", ORANGE),
     "churning": ("churning of the gear", VERMILLION),
     "seals": ("shaft seals", GREY),
+    "friction_rolling": ("rolling of the flanks", YELLOW),
     "bearing_damping": ("roller hysteresis", PURPLE),
     "mesh_damping": ("mesh damping", GREEN),
 }

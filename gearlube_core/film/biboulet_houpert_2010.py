@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.bearings.losses.status import IN_RANGE, OUT_OF_RANGE
+from gearlube_core.film.status import IN_RANGE, OUT_OF_RANGE
 from gearlube_core.kernels.jit import kernel
 
 LOAD_RANGE, MATERIAL_RANGE = (0.2, 200.0), (4.0, 16.0)  # of M and L below

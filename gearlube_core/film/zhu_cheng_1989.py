@@ -16,7 +16,7 @@ def zhu_cheng_heating(
     Parameters
     ----------
     heating_number
-        Lt = eta0 beta u^2/K, see `rolling.inlet_heating_number` [-].
+        Lt = eta0 beta u^2/K, see `groups.inlet_heating_number` [-].
     pressure_ratio
         Largest Hertz pressure over E' [-].
     slide_roll_ratio
