@@ -104,9 +104,9 @@ sets each, the interval held the Eyring stress in {coverage}
 
 - The factor counts scatter alone. Errors of film, alpha, viscosity and law bend a whole curve; the
   mean residual of the worst curve shows them, and the command says when it is beyond scatter.
-- Few points of little scatter give a factor near 1, and the loss map then shows next to no error bar
-  by the Eyring stress. Enlarge `eyring_stress_factor` where pressures or temperatures of the map lie
-  outside the measured range.
+- Many points of little scatter give a factor near 1, and the loss map then shows next to no error
+  bar by the Eyring stress. Enlarge `eyring_stress_factor` where pressures or temperatures of the
+  map lie outside the measured range.
 - Use the fitted stress with the alpha that it was fitted with: their errors balance in traction.
 - Smooth surfaces: with films below three times the roughness, asperities rub too.
 - The written file keeps the fields of `--oil`; comments are lost.
