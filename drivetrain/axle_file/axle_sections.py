@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.model_section import ModelSection
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
 
 Text = Annotated[str, Field(min_length=1)]
 Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False)]
@@ -112,8 +113,10 @@ class ModelOptions(ModelSection):
     flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
         default=None, description="Rolling loss of the flanks"
     )
-    bearing_torque_loss: Literal["none", "palmgren"] | None = Field(
-        default=None, description="Drag torque of the bearings"
+    bearing_torque_loss: TorqueLoss | None = Field(
+        default=None,
+        description="Drag torque of the bearings; all but palmgren: of the raceways alone, under "
+        "the load of each roller",
     )
     bearing_approach: Literal["full", "as_printed"] | None = Field(
         default=None, description="Roller approach under shaft displacement: full, or halved"

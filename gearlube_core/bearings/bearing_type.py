@@ -82,6 +82,13 @@ class ShaftBearings(Protocol):
     def shaft_drag(self, speed: float, axial_load: float, oil: LubricantState) -> float:
         """Return the drag torque of one bearing with the sign of the speed [N m]."""
 
+    def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
+        """Return the torque of both bearings by a law of `losses.laws.ROLLING_LAWS` [N m].
+
+        With the sign of the speed, under the present load of each roller; 0 for a bearing without
+        rollers.
+        """
+
     def without_loss(self) -> Self:
         """Return these bearings without hysteresis; called from Python only."""
 
@@ -102,3 +109,4 @@ shaft_forces = by_class()(ShaftBearings.shaft_forces)
 shaft_energy = by_class()(ShaftBearings.shaft_energy)
 roller_load_range = by_class()(ShaftBearings.roller_load_range)
 shaft_drag = by_class()(ShaftBearings.shaft_drag)
+raceway_torque = by_class()(ShaftBearings.raceway_torque)

@@ -14,7 +14,12 @@ from gearlube_core.bearings.parameters import (
 from gearlube_core.bearings.roller_contact import N_LINE, contact_angle_terms, preload_approach
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, pi_contact_modulus
+from gearlube_core.contact.solid import (
+    STEEL_MOHAMMADPOUR_2015,
+    Solid,
+    pi_contact_modulus,
+    reduced_modulus,
+)
 from gearlube_core.errors import ParameterError
 from gearlube_core.film.mostofi_gohar_1983 import (
     COEFFICIENT,
@@ -234,6 +239,10 @@ class TaperedRollerBearing:
     def parameters(self) -> TaperedRollerParameters:
         """Return the floats for the kernels."""
         sin_contact, cos_contact, axial_factor = contact_angle_terms(float(self.contact_angle))
+        roller = 0.5 * float(self.roller_diameter)
+        # the races' radii of curvature lie across the line of contact
+        inner = 0.5 * float(self.inner_race_diameter) / cos_contact
+        outer = 0.5 * float(self.outer_race_diameter) / cos_contact
         return TaperedRollerParameters(
             kn=float(self.stiffness_constant),
             n=float(self.exponent),
@@ -252,4 +261,8 @@ class TaperedRollerBearing:
             f0=float(self.f0),
             f1=float(self.f1),
             axial_factor=axial_factor,
+            roller_length=float(self.roller_length),
+            inner_radius=roller * inner / (inner + roller),
+            outer_radius=roller * outer / (outer - roller),
+            reduced_modulus=reduced_modulus(self.solid, self.solid),
         )

@@ -6,6 +6,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.bearings.parameters import BearingParameters
+from gearlube_core.bearings.raceway_drag import raceway_drag
 from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
 from gearlube_core.bearings.shaft_expansion import expand_shaft_bearings, expanded_shaft_forces
@@ -101,6 +102,11 @@ class TaperedRollerParameters(BearingParameters):
     def shaft_drag(self, speed: float, axial_load: float, oil: LubricantState) -> float:
         """Return the drag torque of one bearing [N m]."""
         return drag_torque(speed, axial_load, oil.nu, self)
+
+    @kernel
+    def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
+        """Return the torque of the raceways of both bearings [N m]."""
+        return raceway_drag(motion, law, oil, self)
 
     def without_loss(self) -> TaperedRollerParameters:
         """Return the bearings without hysteresis."""

@@ -54,6 +54,10 @@ class SpringBearings(NamedTuple):
     def shaft_drag(self, speed, axial_load, oil):
         return 0.0
 
+    @kernel
+    def raceway_torque(self, motion, law, oil):
+        return 0.0
+
     def without_loss(self):
         return self
 

@@ -18,6 +18,7 @@ from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameter
 from gearlube_core.dynamics import flank_force, hypoid_axle, mean_power
 from gearlube_core.dynamics.hypoid_axle import (
     HypoidAxle,
+    bearing_drag,
     bearing_outputs,
     continuous,
     flank_outputs,
@@ -180,6 +181,14 @@ def all_cases():
             (mesh_force.mesh_force, (state, series, mesh.orders, parameters.mesh))
             for state in (state, separated, coasting)
             for parameters in (p, printed)
+        ),
+        *(
+            (bearing_drag.bearing_drag, (state, state_of_oil, p._replace(drag=law)))
+            for law in (0.0, 1.0, 2.0, 3.0, 4.0)
+        ),
+        (
+            integrate.inputs_with_drag,
+            (state, 3.0, 5.0, bearing_drag.BearingDrag(0.2, 0.3), state_of_oil, p),
         ),
         (flanks.sliding_speed, (state, channels)),
         (flanks.pair_friction, (state, 900.0, 0.7, channels, state_of_oil, p)),

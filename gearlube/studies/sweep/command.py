@@ -84,7 +84,8 @@ def sweep(
     bearing_torque_loss: Annotated[
         str | None,
         typer.Option(
-            help="Drag torque of the bearings: palmgren or none. Default: that of the axle."
+            help="Drag torque of the bearings: palmgren, none, zhou_hoeprich_1991, "
+            "biboulet_houpert_2010 or aihara_1987. Default: that of the axle."
         ),
     ] = None,
     driver: Annotated[

@@ -6,9 +6,9 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.bearing_type import shaft_drag
 from gearlube_core.drag.churning import churning_torque
 from gearlube_core.drag.seals import seal_drag
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, BearingDrag, bearing_drag
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
@@ -180,16 +180,24 @@ def step_inputs(
     p: AxleParameters,
 ) -> StepInputs:
     """Return the torques on both shafts and what drags on each."""
-    drag_p = 0.0
-    drag_g = 0.0
-    if p.drag != 0.0:
-        drag_p = 2.0 * shaft_drag(p.bearing_p, s[W_P], p.preload_p, oil)
-        drag_g = 2.0 * shaft_drag(p.bearing_g, s[W_G], p.preload_g, oil)
+    return inputs_with_drag(s, pinion_torque, wheel_torque, bearing_drag(s, oil, p), oil, p)
+
+
+@kernel
+def inputs_with_drag(
+    s: Array,
+    pinion_torque: float,
+    wheel_torque: float,
+    drag: BearingDrag,
+    oil: LubricantState,
+    p: AxleParameters,
+) -> StepInputs:
+    """Return the same with a drag of the bearings that is given."""
     return StepInputs(
         pinion_torque,
         wheel_torque,
-        drag_p,
-        drag_g,
+        drag.pinion,
+        drag.gear,
         churning_torque(s[W_G], oil.nu, p.oil.density, p.churning),
         seal_drag(s[W_P], p.pinion_seal_torque),
         seal_drag(s[W_G], p.wheel_seal_torque),
@@ -254,14 +262,18 @@ def advance(
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
     expanded_at = displacements(s, 0.0)
     age = 0
+    drag = bearing_drag(s, oil, p)
     for k in range(steps):
-        inputs = step_inputs(s, torques[0], torques[1], oil, p)
         expand = 0.0
         moved = largest_change(displacements(s, h), expanded_at)
         if k > 0 and (age == STEPS_PER_EXPANSION or moved > reach):
             expand = 1.0
             expanded_at = displacements(s, 0.5 * h)
             age = 0
+        # raceways are dear: anew where the bearing forces are
+        if k > 0 and (expand != 0.0 or p.drag <= PALMGREN):
+            drag = bearing_drag(s, oil, p)
+        inputs = inputs_with_drag(s, torques[0], torques[1], drag, oil, p)
         age += 1
         rk4_step(
             s,

@@ -57,7 +57,7 @@ class AxleParameters(NamedTuple):
     lateral_sign: float  # +1 consistent, -1 as printed in [mohammadpour_2015 (1)] c-h
     friction: float  # 1 with flank friction, 0 without
     rolling: float  # place of the law in FLANK_ROLLING_LAWS; 0 none
-    drag: float  # 1 with bearing drag torque, 0 without
+    drag: float  # place of the law of bearing drag in TORQUE_LOSSES; 0 none
     reduced_modulus: float  # E' = 2 E* of the flanks [Pa]
     ranges: RangeLimits
     preload_p: float  # axial preload of a bearing of the pinion, for its drag [N]

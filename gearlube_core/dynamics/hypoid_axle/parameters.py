@@ -20,6 +20,7 @@ from gearlube_core.contact.solid import (
     solid_parameters,
 )
 from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES, TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     MeshForceConstants,
@@ -45,7 +46,6 @@ MeshStiffness = Literal["tangent", "secant"]
 MeshDamping = Literal["hysteretic", "modal"]
 Friction = Literal["consistent", "as_printed", "off", "printed_traction_circular"]
 Approach = Literal["full", "as_printed"]
-TorqueLoss = Literal["none", "palmgren"]
 
 NO_MODAL_LOSS = (
     "modal_loss_factor must be above 0 with mesh_damping 'modal', got 0. "
@@ -95,7 +95,10 @@ class HypoidAxleParameters(AxleScalars):
         pressure of a circle, `circular_pressure_coefficient`; asperities are consistent.
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
-    bearing_torque_loss : {"none", "palmgren"}
+    bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
+        "aihara_1987"}
+        Palmgren's law under the preload, or the raceways by a law of rolling under the load of each
+        roller, without rib and oil drag.
     churning : {"none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
         Law of the gear's churning, see `churning_torque`.
     ring_diameter, ring_width : float
@@ -151,7 +154,7 @@ class HypoidAxleParameters(AxleScalars):
         check_option("mesh_damping", self.mesh_damping, get_args(MeshDamping))
         if isinstance(self.friction, str):
             check_option("friction", self.friction, get_args(Friction))
-        check_option("bearing_torque_loss", self.bearing_torque_loss, get_args(TorqueLoss))
+        check_option("bearing_torque_loss", self.bearing_torque_loss, TORQUE_LOSSES)
         check_option("rolling", self.rolling, FLANK_ROLLING_LAWS)
         check_option("churning", self.churning, CHURNING_LAWS)
         check_scalars(self)
@@ -264,7 +267,7 @@ class HypoidAxleParameters(AxleScalars):
                 oil_volume=float(self.oil_volume),
             ),
             rolling=float(FLANK_ROLLING_LAWS.index(self.rolling)),
-            drag=1.0 if self.bearing_torque_loss == "palmgren" else 0.0,
+            drag=float(TORQUE_LOSSES.index(self.bearing_torque_loss)),
             reduced_modulus=2.0 * contact_modulus(self.solid, self.solid),
             ranges=range_limits(self.ranges),
             preload_p=of_pinion.preload_force(),

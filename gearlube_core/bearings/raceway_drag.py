@@ -1,0 +1,88 @@
+"""Drag torque of the raceways of two opposed bearings under the load of each roller."""
+
+from __future__ import annotations
+
+import math
+
+from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.cage_frame import approach_terms
+from gearlube_core.bearings.losses.laws import (
+    AIHARA_HEATING,
+    ZHOU_HOEPRICH,
+    ZHU_CHENG_HEATING,
+    heating_factor,
+    rolling_force,
+)
+from gearlube_core.bearings.parameters import (
+    COS_TABLE,
+    FILM_FLOOR_APPROACH,
+    SIN_TABLE,
+    BearingParameters,
+)
+from gearlube_core.bearings.roller_contact import (
+    N_LINE,
+    film_amplitude,
+    roller_load_general,
+    roller_load_line,
+)
+from gearlube_core.film.groups import inlet_heating_number
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.lubricant_state import LubricantState
+
+
+@kernel
+def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingParameters) -> float:
+    """Return the torque of the raceways of both bearings, with the sign of the speed [N m].
+
+    T = sum over rollers and races of 2 F phi r_u l
+
+    Parameters
+    ----------
+    motion
+        Of the shaft; its velocities play no part.
+    law
+        Value of `laws.ROLLING_LAWS`; inlet heating is what the law is used with.
+    oil
+        At the inlet.
+    p
+        Either bearing.
+
+    Notes
+    -----
+    F is the rolling force of the law for each length under the steady load of the roller, which is
+    the same at both races; r_u is the mean surface speed over the shaft speed, l the length of the
+    roller. Each contact is flooded and heated once. Rib, oil drag and the steel's hysteresis are
+    not in it.
+    Source: [zhou_hoeprich_1991 (42)]
+    """
+    u = p.film_speed_radius * abs(motion.speed)
+    if u == 0.0:
+        return 0.0
+    heating = ZHU_CHENG_HEATING if law == ZHOU_HOEPRICH else AIHARA_HEATING
+    number = inlet_heating_number(oil.eta0, oil.beta, u, oil.conductivity)
+    film, _ = film_amplitude(motion.speed, oil.eta0, oil.alpha, p)
+    terms = approach_terms(motion, math.cos(motion.cage_angle), math.sin(motion.cage_angle), p)
+    K = p.kn * FILM_FLOOR_APPROACH**p.n
+    count = int(p.n_rollers)
+    line = p.n == N_LINE
+    E = p.reduced_modulus
+    total = 0.0
+    for bearing in range(2):
+        side = 1.0 - 2.0 * bearing
+        for i in range(count):
+            g = terms.g0 + side * terms.ga
+            g += terms.g1 * COS_TABLE[count, i] + terms.g2 * SIN_TABLE[count, i]
+            if line:
+                load, _ = roller_load_line(g, 0.0, film, 0.0, K, 0.0, 0.0)
+            else:
+                load, _ = roller_load_general(g, 0.0, film, 0.0, K, 0.0, 0.0, p.n)
+            if load <= 0.0:
+                continue
+            q = load / p.roller_length
+            for race in range(2):
+                R = p.inner_radius if race == 0 else p.outer_radius
+                force, _ = rolling_force(law, R, q, E, oil.eta0, oil.alpha, u)
+                pressure_ratio = math.sqrt(q / (2.0 * math.pi * R * E))
+                total += force * heating_factor(heating, number, pressure_ratio)
+    torque = 2.0 * total * p.film_speed_radius * p.roller_length
+    return torque if motion.speed > 0.0 else -torque
