@@ -44,6 +44,7 @@ class BearingParameters(NamedTuple):
     f1: float  # load factor of the drag [-], 0 off
     axial_factor: float  # 2 Y = 0.8 cot(contact angle), load of the drag over axial load [-]
     roller_length: float  # [m]
-    inner_radius: float  # relative radius of curvature at the inner race [m]
-    outer_radius: float  # at the outer race [m]
+    roller_radius: float  # at the middle [m]
+    inner_radius: float  # of the inner race there, from the shaft's axis [m]
+    outer_radius: float  # ditto of the outer race [m]
     reduced_modulus: float  # E' = 2 E* of rollers and races [Pa]

@@ -66,6 +66,9 @@ def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingP
     count = int(p.n_rollers)
     line = p.n == N_LINE
     E = p.reduced_modulus
+    # the races are cones: their curvature lies across the line of contact
+    R_inner = 1.0 / (1.0 / p.roller_radius + p.cos_contact / p.inner_radius)
+    R_outer = 1.0 / (1.0 / p.roller_radius - p.cos_contact / p.outer_radius)
     total = 0.0
     for bearing in range(2):
         side = 1.0 - 2.0 * bearing
@@ -80,7 +83,7 @@ def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingP
                 continue
             q = load / p.roller_length
             for race in range(2):
-                R = p.inner_radius if race == 0 else p.outer_radius
+                R = R_inner if race == 0 else R_outer
                 force, _ = rolling_force(law, R, q, E, oil.eta0, oil.alpha, u)
                 pressure_ratio = math.sqrt(q / (2.0 * math.pi * R * E))
                 total += force * heating_factor(heating, number, pressure_ratio)

@@ -239,10 +239,6 @@ class TaperedRollerBearing:
     def parameters(self) -> TaperedRollerParameters:
         """Return the floats for the kernels."""
         sin_contact, cos_contact, axial_factor = contact_angle_terms(float(self.contact_angle))
-        roller = 0.5 * float(self.roller_diameter)
-        # the races' radii of curvature lie across the line of contact
-        inner = 0.5 * float(self.inner_race_diameter) / cos_contact
-        outer = 0.5 * float(self.outer_race_diameter) / cos_contact
         return TaperedRollerParameters(
             kn=float(self.stiffness_constant),
             n=float(self.exponent),
@@ -262,7 +258,8 @@ class TaperedRollerBearing:
             f1=float(self.f1),
             axial_factor=axial_factor,
             roller_length=float(self.roller_length),
-            inner_radius=roller * inner / (inner + roller),
-            outer_radius=roller * outer / (outer - roller),
+            roller_radius=0.5 * float(self.roller_diameter),
+            inner_radius=0.5 * float(self.inner_race_diameter),
+            outer_radius=0.5 * float(self.outer_race_diameter),
             reduced_modulus=reduced_modulus(self.solid, self.solid),
         )

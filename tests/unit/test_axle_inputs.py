@@ -66,7 +66,10 @@ def test_a_parameter_out_of_range_says_what_limit_and_cure(change, message):
         ("mesh_damping", "hysteretic, modal"),
         ("friction", "consistent, as_printed, off, printed_traction_circular"),
         ("bearing_approach", "full, as_printed"),
-        ("bearing_torque_loss", "none, palmgren, zhou_hoeprich_1991"),
+        (
+            "bearing_torque_loss",
+            "none, palmgren, zhou_hoeprich_1991, biboulet_houpert_2010, aihara_1987",
+        ),
     ],
 )
 def test_an_unknown_option_is_refused_with_the_choices(option, choices):
