@@ -34,6 +34,7 @@ gearlube oil --example > my_oil.toml          # a file to start from
 gearlube oil my_oil.toml --figure oil.png     # checks it; numbers, table over temperature, figure
 gearlube bearing --oil my_oil.toml
 gearlube map my_axle.toml --oil my_oil.toml
+gearlube sweep my_axle.toml --oil my_oil.toml
 ```
 
 In an axle file, also for sweeps and FMUs: `[oil]` with `file = "my_oil.toml"`, relative to the axle
@@ -128,7 +129,7 @@ Of the reference oils FVA 1, 2 and 4 no published data could be read.
 
 - One line of viscosity after ASTM D341, above 2 mm2/s; oils with much polymer depart from it.
 - Conductivity and heat capacity have no temperature dependence.
-- `gearlube sweep --oil` takes the oils of the papers alone; write the oil file into the axle file.
+- Beside oil files `gearlube sweep --oil` takes the two oils of the hypoid papers alone.
 """
 
 # 4 MPa without and with a limit of 0.055 (scatter 0.001, 0.002), 8 MPa with a limit of 0.05 (0.001)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gearlube.cli.exit_codes import exit_on_error
+from gearlube.output.toml_text import toml_text
 
 if TYPE_CHECKING:
     from gearlube_core.friction.traction_fit import TractionFit
@@ -63,7 +64,9 @@ def fit(
         )
         for line in fit_lines(measured, found):
             typer.echo(line)
-        text = oil_text(fitted_fields(file.model_dump(exclude_none=True), found, measurements.name))
+        text = toml_text(
+            fitted_fields(file.model_dump(exclude_none=True), found, measurements.name)
+        )
         write_text(text, out)
         logger.info("Oil file: %s", out)
 
@@ -124,16 +127,3 @@ def fitted_fields(fields: Mapping[str, Any], found: TractionFit, table: str) -> 
 
 def _rounded(value: float) -> float:
     return float(f"{value:.6g}")
-
-
-def oil_text(fields: Mapping[str, Any]) -> str:
-    """Return fields as the text of a flat TOML file."""
-    return "".join(f"{key} = {_toml(value)}\n" for key, value in fields.items())
-
-
-def _toml(value: Any) -> str:
-    if not isinstance(value, str):
-        return repr(value)
-    # control characters need an escape of their own
-    escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,11 +12,14 @@ from typer.testing import CliRunner
 import gearlube as gl
 from docs import oil_file as page
 from drivetrain.axle_file.axle_file import read_axle
+from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
 from fmu_src.identity import guid_of
 from gearlube.command import app
 from gearlube.studies.loss_map.settings import UNCERTAIN
 from gearlube_core.errors import ParameterError
+from gearlube_core.mesh_table.netcdf import write_mesh_table
+from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.oil.oil_file import FILE_IN_FMU, OilFile
 
 SHEET = {
@@ -192,10 +196,44 @@ def test_the_map_command_computes_with_the_oil_file(tmp_path, monkeypatch):
     assert {one.name: one.factor for one in seen[0].uncertain}["eyring_stress"] == 1.3
 
 
-def test_a_sweep_says_where_an_oil_file_goes(tmp_path, caplog):
-    done = CliRunner().invoke(app, ["sweep", "--oil", str(written(tmp_path))])
+@pytest.mark.parametrize("own", [False, True])
+def test_the_sweep_runs_the_axle_with_the_oil_file(tmp_path, monkeypatch, own):
+    seen = []
+
+    def stopped(settings, **others):
+        seen.append((settings, others["mesh_table"], read_axle(others["axle"])))
+        raise ParameterError("far enough")
+
+    monkeypatch.setattr("gearlube.studies.sweep.run.run_sweep", stopped)
+    path, words = written(tmp_path), []
+    given = tmp_path / "axle.toml"
+    if own:
+        # a table of its own beside the file, and an oil that gives way
+        write_mesh_table(shipped_mesh_table("mohammadpour_2015"), tmp_path / "own.nc")
+        given.write_text(
+            '[gear_set]\nmesh_table = "own.nc"\n[pinion]\nmass_kg = 9.5\n'
+            'bearing = { f0 = 5.0 }\n[oil]\nname = "karagiannis_2012"\n[engine]\norders = []\n'
+            "order_amplitudes = []\norder_phases_deg = []\n"
+        )
+        words = [str(given)]
+    done = CliRunner().invoke(
+        app, ["sweep", *words, "--oil", str(path), "--out", str(tmp_path / "out")]
+    )
     assert done.exit_code == 2
-    assert "Write the oil file into the axle file" in caplog.text
+    [(settings, table, described)] = seen
+    assert table is None
+    assert settings.oil == CUSTOM_OIL
+    assert described.axle.oil == gl.read_oil(path).lubricant
+    bare = read_axle(given if own else "mohammadpour_2015")
+    assert replace(described.axle, oil=bare.axle.oil, mesh=bare.axle.mesh) == bare.axle
+    assert described.driveline == bare.driveline
+    assert described.axle.mesh.name == bare.axle.mesh.name
+
+
+def test_a_sweep_of_a_built_fmu_takes_no_oil_file(tmp_path, caplog):
+    words = ["sweep", "--fmu", str(tmp_path / "a.fmu"), "--oil", str(written(tmp_path))]
+    assert CliRunner().invoke(app, words).exit_code == 2
+    assert "--oil must not be a file with --fmu" in caplog.text
 
 
 def test_the_loss_map_takes_the_scatter_of_the_oil(tmp_path):

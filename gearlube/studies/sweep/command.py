@@ -7,6 +7,7 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Annotated
 
 import typer
@@ -61,7 +62,11 @@ def sweep(
     oil_temperature: OilTemperatureOption = 95.0,
     oil: Annotated[
         str | None,
-        typer.Option(help="mohammadpour_2015 or karagiannis_2012. Default: that of the axle."),
+        typer.Option(
+            help="mohammadpour_2015, karagiannis_2012 or an oil file (TOML). Default: that of the "
+            "axle.",
+            metavar="OIL",
+        ),
     ] = None,
     roughness_um: Annotated[
         float | None,
@@ -122,6 +127,7 @@ def sweep(
     from gearlube.studies.sweep import run
     from gearlube.studies.sweep.axle_in_fmu import chosen_axle, given_preload, settings_of
     from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
+    from gearlube.studies.sweep.oil_in_axle import axle_with_oil
     from gearlube.studies.sweep.report import write_sweep_report
     from gearlube.studies.sweep.settings import (
         OILS,
@@ -133,15 +139,22 @@ def sweep(
     from gearlube_core.errors import ParameterError
     from gearlube_core.oil.lubricant import Lubricant
 
-    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+    with (
+        exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."),
+        TemporaryDirectory(prefix="gearlube-") as folder,
+    ):
         if example:
             typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
             return
+        own_axle = axle is not None
         if oil is not None and oil.endswith(".toml"):
-            raise ParameterError(
-                f"--oil of a sweep must be one of {', '.join(OILS)}, got {oil}. Write the oil file "
-                "into the axle file: [oil] file."
-            )
+            if fmu is not None:
+                raise ParameterError(
+                    f"--oil must not be a file with --fmu, which has its oil, got {oil}. Build the "
+                    "FMU with it by `gearlube build-fmu`, or leave out --fmu."
+                )
+            axle = str(axle_with_oil(axle, mesh_table, oil, Path(folder)))
+            mesh_table, oil = None, None
         if oil is not None:
             check_option("--oil", oil, OILS)
         car_axle = chosen_axle(fmu, mesh_table, axle)
@@ -170,7 +183,7 @@ def sweep(
             "--speeds", ranges, "km/h", *SPEED_RANGE, example="20:100:5", most=500
         )
         preloads = [check_within("--preload", p, *PRELOAD_RANGE, "N") for p in preload or ()]
-        of_file = () if axle is None else given_preload(car_axle)
+        of_file = given_preload(car_axle) if own_axle else ()
         if jobs is not None:
             check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")
         logger.info("Preparing the axle; the first time this compiles it, about 15 s.")

@@ -1,0 +1,35 @@
+"""Input files as TOML text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+
+def toml_text(data: Mapping[str, Any], prefix: str = "") -> str:
+    """Return nested tables of numbers, texts and lists as TOML.
+
+    Examples
+    --------
+    >>> print(toml_text({"name": "a", "oil": {"file": "oil.toml"}}), end="")
+    name = "a"
+    [oil]
+    file = "oil.toml"
+    """
+    plain = {key: value for key, value in data.items() if not isinstance(value, Mapping)}
+    lines = "".join(f"{key} = {_value(value)}\n" for key, value in plain.items())
+    for key, value in data.items():
+        if isinstance(value, Mapping):
+            lines += f"[{prefix}{key}]\n{toml_text(value, f'{prefix}{key}.')}"
+    return lines
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(_value(one) for one in value)}]"
+    if not isinstance(value, str):
+        return repr(value)
+    escaped = value.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'

@@ -1,0 +1,55 @@
+"""An axle file with another oil, for a sweep."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from drivetrain.axle_file.axle_file import AxleFile, read_axle
+from fmu_src.hypoid_axle import PAPER, check_one_table
+from gearlube.output.toml_text import toml_text
+from gearlube_core.mesh_table.netcdf import read_mesh_table
+from gearlube_core.oil.oil_file import read_oil_file
+from gearlube_core.storage.atomic_file import write_text
+
+_TABLES = ("mesh_table", "asperity_table")
+
+
+def axle_with_oil(
+    axle: Path | str | None, mesh_table: Path | None, oil: Path | str, folder: Path
+) -> Path:
+    """Return an axle file in `folder` that has the oil of an oil file; copies lie beside it.
+
+    Parameters
+    ----------
+    axle : path, optional
+        Axle file, or the name of a shipped one; by default the paper's.
+    mesh_table : path, optional
+        Of the paper's axle with other gears.
+    oil : path
+    folder : path
+
+    Raises
+    ------
+    ParameterError, TableError
+        A file is missing or wrong, or a mesh table comes with an axle file.
+    """
+    read_oil_file(Path(oil))
+    if axle is not None:
+        check_one_table(mesh_table)
+    read_axle(axle or PAPER)  # with its tables, before any is copied
+    file = AxleFile.given(str(axle or PAPER))
+    data = file.model_dump(exclude_none=True)
+    data["oil"] = {"file": "oil.toml"}
+    shutil.copyfile(oil, folder / "oil.toml")
+    if mesh_table is not None:
+        read_mesh_table(mesh_table)
+        data["gear_set"]["mesh_table"] = str(mesh_table.resolve())
+    for key in _TABLES:
+        named = data["gear_set"].get(key, "")
+        if named.endswith(".nc"):
+            shutil.copyfile(Path(axle or "").parent / named, folder / f"{key}.nc")
+            data["gear_set"][key] = f"{key}.nc"
+    path = folder / "axle.toml"
+    write_text(toml_text(data), path)
+    return path
