@@ -79,8 +79,9 @@ for note in paper.assumed:
   to 2.6 for Gaussian surfaces. Left out, `roughness_rms_um` is that of the table; given, it scales
   the film ratio alone.
 - Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
-- `bearing_torque_loss` of `[model]` other than palmgren sums the raceways under the load of each roller,
-  once in 12 integrator steps or less. A communication step of 0.1 ms then takes 1.4 to 2 times as long.
+- `bearing_torque_loss` of `[model]` other than palmgren sums the raceways under the load of each
+  roller, at least once in 12 integrator steps. A communication step of 0.1 ms then takes 1.4 to 2
+  times as long.
 - `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
   fields of `[oil]`.
 - Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
