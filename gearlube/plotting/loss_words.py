@@ -12,9 +12,15 @@ SOURCE_WORDS = {
     "bearing_torque": "bearing drag",
     "churning": "churning",
     "seals": "seals",
+    "friction_rolling": "rolling of the flanks",
 }
-_NEVER = ("rolling of the flanks", "windage")
-_SAID = ("bearing_torque", "churning", "seals")  # missing where they lose nothing
+_NEVER = ("windage",)
+_SAID = (
+    "bearing_torque",
+    "churning",
+    "seals",
+    "friction_rolling",
+)  # missing where they lose nothing
 
 
 def source_words(source: str) -> str:

@@ -163,7 +163,7 @@ def test_both_flows_across_the_slope_answer_to_a_change_of_pressure_by_one_facto
     xx, yy, xy = (np.full(shape, value) for value in (0.8, 1.3, 0.2))
     zero, metric = np.zeros(shape), mesh_metric(np.arange(7.0), 1.0)
     none = NodeSlopes(*(zero,) * 4)
-    factors = ObliqueFactors(xx, yy, lambda _: TensorSlopes(none, none, none), xy)
+    factors = ObliqueFactors(xx, yy, lambda *_: TensorSlopes(none, none, none), xy)
     cubic, fluidity = np.full(shape, 0.7), np.full(shape, 0.4)
     flow = factors.flow(cubic * factors.xx, fluidity, -np.log(fluidity))
     parameters = StencilParameters(9.0, 4.0, 1.0, 0.0, 1.5, -0.5, 0.0, 0.0)

@@ -83,7 +83,10 @@ class Case:
         oil_temperature: float = 333.15,
         **settings: Any,
     ) -> list[float]:
-        """Outputs of the model in Python, without FMI, after steps of H."""
+        """Outputs of the model in Python, without FMI, after steps of H.
+
+        In the order of the FMU's variables: younger ones stand at the end there.
+        """
         torques = torques or steps * [self.torques] or [self.torques]
         model = self.model(self.parameters(**settings))
         model.initialise(
@@ -94,7 +97,9 @@ class Case:
         )
         for k in range(steps):
             model.step(H, *torques[k], oil_temperature)
-        return model.outputs.tolist()
+        places = self.definition.output_names
+        computed = [v.name for v in self.definition.variables if v.is_computed]
+        return [float(model.outputs[places.index(name)]) for name in computed]
 
 
 def helical(gear_name: str = "he_2007", stiffness_model: str = "uniform", **settings: Any) -> Any:

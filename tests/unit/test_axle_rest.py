@@ -42,7 +42,7 @@ def searched(monkeypatch, left, torque=60.0, balance=OPEN):
         u += STEP
 
     def rest_forces(u, problem, out):
-        assert tuple(problem.inputs) == (torque, 0.0, 0.0, 0.0)
+        assert tuple(problem.inputs) == (torque, *[0.0] * 6)
         found = {place: value for place, value in enumerate(problem.s) if value != 0.0}
         side = -1.0 if torque < 0.0 else 1.0
         expected = {LOAD_TORQUE: abs(torque), SIDE: side, X: s[X]}

@@ -14,16 +14,6 @@ from gearlube_core.dynamics.ranges import left_ranges
 from gearlube_core.units import ZERO_CELSIUS
 
 GRID = ("temperature", "speed", "torque")
-SOURCE_WORDS = {
-    "friction_viscous": "flank friction, fluid",
-    "friction_boundary": "flank friction, asperities",
-    "mesh_damping": "mesh damping",
-    "bearing_damping": "roller hysteresis",
-    "bearing_torque": "bearing drag",
-    "churning": "churning",
-    "seals": "seals",
-    "friction_rolling": "rolling of the flanks",
-}
 _NEVER_MODELLED = ("windage",)
 _LEAST_INPUT = 0.5  # share of the input that is lost, above which no efficiency is stated
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.loss_words import SOURCE_WORDS
 from gearlube.plotting.style import GREY, SERIES, YELLOW, house_style, new_figure
-from gearlube.studies.loss_map.datasets import SOURCE_WORDS
 
 _COLOURS = (*SERIES, GREY, YELLOW)  # of the sources, in their order
 _MOST_PANELS = 6

@@ -1,0 +1,69 @@
+"""Compute and draw what docs/drive_cycle.md shows: python -m docs.drive_cycle.make.
+
+A minute of one processor; the WLTC needs `pip install 'gearlube[cycles]'`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from drivetrain.axle_file.axle_file import CarAxle, read_axle
+from gearlube.output.csv_text import csv_text
+from gearlube.studies.drive_cycle.figures import cycle_figure
+from gearlube.studies.drive_cycle.run import grid_change, run_cycle
+from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+from gearlube.studies.drive_cycle.traces import DriveCycle
+from gearlube.studies.loss_map.figures import loss_contours
+from gearlube.studies.loss_map.run import run_loss_map
+from gearlube.studies.loss_map.settings import LossMapSettings
+from gearlube_core.storage.atomic_file import write_text
+
+ROOT = Path(__file__).resolve().parents[2]
+IMAGES = ROOT / "docs" / "images"
+NUMBERS = Path(__file__).parent / "numbers.csv"
+VAN = ROOT / "examples" / "my_axle.toml"
+
+
+def _rows(name: str, car: CarAxle, cycle: str) -> list[tuple[str, str, str, str, str]]:
+    settings = DriveCycleSettings(car=car, cycle=DriveCycle.named(cycle))
+    found = run_cycle(settings)
+    if (name, cycle) == ("van", "wltc"):
+        cycle_figure(found).savefig(IMAGES / "drive_cycle_van_wltc.png", dpi=100)
+    energy = found["energy_lost"]
+    values = [
+        (f"lost: {source}", float(one), "kJ")
+        for source, one in zip(energy["source"].values, energy.values, strict=True)
+        if one > 1e-3 * float(energy.sum())
+    ]
+    oil = found["oil_temperature"].values
+    values += [
+        ("lost in all", float(energy.sum()), "kJ"),
+        ("put in", float(found["energy_in"]), "kJ"),
+        ("efficiency", 100.0 * float(found["efficiency"]), "%"),
+        ("oil at the end", float(oil[-1]), "degC"),
+        ("lowest oil at the end, assumed data", float(found["oil_temperature_low"][-1]), "degC"),
+        ("highest oil at the end, assumed data", float(found["oil_temperature_high"][-1]), "degC"),
+        ("change of the energy by a map twice as fine", 100.0 * grid_change(settings, found), "%"),
+    ]
+    return [(name, cycle, words, f"{value:.4g}", unit) for words, value, unit in values]
+
+
+def main() -> None:
+    """Compute both axles over the cycles, and the map of the van's axle."""
+    rows = []
+    for name, car in (("paper", read_axle("mohammadpour_2015")), ("van", read_axle(VAN))):
+        for cycle in ("nedc", "wltc"):
+            rows += _rows(name, car, cycle)
+    head = ("axle", "cycle", "quantity", "value", "unit")
+    write_text(csv_text(head, rows), NUMBERS)
+    low, high = read_axle(VAN).axle.torque_range
+    van = run_loss_map(
+        LossMapSettings(axle=read_axle(VAN).axle, torques=np.linspace(0.5 * low, high, 31), draws=0)
+    )
+    loss_contours(van).savefig(IMAGES / "own_axle_map.png", dpi=100)
+
+
+if __name__ == "__main__":
+    main()
