@@ -2,13 +2,29 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
 
 from gearlube.variation.design import Design
 from gearlube.variation.point_study import PointStudy
-from gearlube.variation.store import FAILED, FINISHED, Block
+from gearlube_core.arrays import Array
 from gearlube_core.errors import GearLubeError
 from gearlube_core.storage.process_pool import single_threaded
+
+FINISHED, FAILED = 1, 0
+
+
+class Block(NamedTuple):
+    """Results of neighbouring points.
+
+    values has the shape (points, quantities).
+    """
+
+    values: Array
+    status: NDArray[np.int8]
+    messages: list[str]
 
 
 def computed_block(study: PointStudy, design: Design, block: int, number: int) -> Block:

@@ -7,10 +7,9 @@ from typing import Any
 
 from distributed import get_worker
 
-from gearlube.variation.block import computed_block
+from gearlube.variation.block import Block, computed_block
 from gearlube.variation.design import Design
 from gearlube.variation.point_study import PointStudy
-from gearlube.variation.store import Block
 from gearlube_core.storage.dask_pool import NamedPlugin
 
 

@@ -30,6 +30,11 @@ class Axis:
     ----------
     key : str
     values : tuple of float, int or str
+
+    Examples
+    --------
+    >>> Axis("oil.temperature_degc", (40.0, 80.0)).values
+    (40.0, 80.0)
     """
 
     key: str

@@ -10,7 +10,7 @@ import xarray as xr
 
 from gearlube.plotting.style import HATCHES, MARKERS, SERIES, house_style, new_figure
 from gearlube.variation.store import gridded
-from gearlube.variation.summary import cells, inputs_of
+from gearlube.variation.summary import cells, inputs_of, varies
 
 _MOST_SERIES = len(SERIES)
 _MOST_BARS = 12  # inputs of a chart of ranks
@@ -70,7 +70,7 @@ def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
             for i, (values, _) in enumerate(some):
                 column = over[name].sel(values).values
                 column = column[np.isfinite(column)]
-                if column.size:
+                if column.size and varies(column):
                     ax.hist(
                         column,
                         bins=min(_BINS, max(5, column.size // 10)),

@@ -118,10 +118,11 @@ class AxleVariants:
         """Return axle and car at a point; keys that are not of the axle are left out."""
         file = self.varied(point)
         asperities, oil = file.gear_set.asperity_table, file.oil.file
+        folder = self.folder
         car = file.car_axle(
-            self.meshes[file.gear_set.mesh_table],
-            None if asperities is None else self.asperities[asperities],
-            None if oil is None else self.oils[oil],
+            self.meshes.get(file.gear_set.mesh_table) or file.mesh(folder),
+            self.asperities.get(asperities or "") or file.asperities(folder),
+            self.oils.get(oil or "") or file.described_oil(folder),
         )
         arguments = _fmu_arguments()
         given = {

@@ -18,10 +18,10 @@ import drivetrain
 import fmu_src
 import gearlube
 import gearlube_core
-from gearlube.variation.block import computed_block
+from gearlube.variation.block import FINISHED, Block, computed_block
 from gearlube.variation.design import Design
 from gearlube.variation.point_study import PointStudy
-from gearlube.variation.store import FINISHED, Block, BlockStore
+from gearlube.variation.store import BlockStore
 from gearlube_core import __version__
 from gearlube_core.checks import check_within
 from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
@@ -101,7 +101,15 @@ def run_variation(
     Notes
     -----
     The memory of this process does not grow with the results: it holds the blocks that have just
-    arrived.
+    arrived. A script calls this under `if __name__ == "__main__":`, as each process reads it.
+
+    Examples
+    --------
+    >>> from gearlube.variation.design import Axis
+    >>> from gearlube.variation.studies import point_study
+    >>> design = Design(axes=(Axis("bearing.preload", (2500.0, 6000.0)),))
+    >>> run_variation(point_study("map"), design, out="my_variation").computed  # doctest: +SKIP
+    2
     """
     began = time.monotonic()
     if jobs is not None:
@@ -230,6 +238,10 @@ def _lost(number: int, error: Exception) -> Block:
     return Block(np.empty((0, 0)), np.empty(0, dtype=np.int8), [reason or type(error).__name__])
 
 
+def _compile(study: PointStudy, design: Design) -> None:
+    computed_block(study, design, 1, 0)
+
+
 def _workers(
     study: PointStudy, design: Design, block: int, key: str, jobs: int | None, scheduler: str | None
 ) -> tuple[Callable[[int], Block], Pool]:
@@ -240,6 +252,6 @@ def _workers(
         plugin = StudyOnWorker(study, design, key)
         return partial(block_on_worker, plugin.name, block), DaskPool(scheduler, plugin)
     # one point here, so that the processes find compiled kernels and do not all compile them
-    first = partial(computed_block, study, design, 1, 0)
-    pool = ProcessPool(jobs=jobs, before=lambda: first() and None)
+    before = None if jobs == 1 else partial(_compile, study, design)
+    pool = ProcessPool(jobs=jobs, before=before)
     return partial(computed_block, study, design, block), pool

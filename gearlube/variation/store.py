@@ -16,19 +16,18 @@ import json
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
 import zarr
-from numpy.typing import NDArray
 
+from gearlube.variation.block import Block
 from gearlube.variation.design import Axis, Design
 from gearlube.variation.point_study import PointStudy, Quantity
-from gearlube_core.arrays import Array
 from gearlube_core.errors import FileError, ParameterError
 
-FINISHED, FAILED, MISSING = 1, 0, -1
+MISSING = -1  # status of a point that has not been computed
 FILE = "results.zarr"
 _FORMAT: Literal[2] = (
     2  # of Zarr: read by every library, with names of dimensions as xarray writes them
@@ -42,17 +41,6 @@ _AS_WRITTEN: dict[str, Any] = {  # no number is taken for a missing one
 }
 _DIMENSIONS = "_ARRAY_DIMENSIONS"
 _CURE = "Give another --out, or --overwrite to begin anew there."
-
-
-class Block(NamedTuple):
-    """Results of neighbouring points.
-
-    values has the shape (points, quantities).
-    """
-
-    values: Array
-    status: NDArray[np.int8]
-    messages: list[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,7 +228,8 @@ def open_variation(folder: Path | str) -> xr.Dataset:
     found = raw.drop_vars("results")
     for column, row in enumerate(attributes["quantities"]):
         name, unit, meaning = Quantity(*row)
-        found[name] = raw["results"][:, column].assign_attrs(units=unit, long_name=meaning)
+        found[name] = raw["results"][:, column]
+        found[name].attrs = {"units": unit, "long_name": meaning}
     keys = [one["key"] for one in attributes["inputs"]]
     for key in keys:
         texts = found[key].attrs.pop("texts", None)
@@ -249,6 +238,13 @@ def open_variation(folder: Path | str) -> xr.Dataset:
     found = found.set_coords(keys)
     found.attrs.pop("quantities")
     return found.assign_attrs(inputs=json.dumps(attributes["inputs"]))
+
+
+def read_points(folder: Path, points: slice, columns: slice = slice(None)) -> dict[str, Any]:
+    """Return the arrays of the store at some points, `results` with some of its columns."""
+    group: Any = zarr.open_group(str(folder / FILE), mode="r")
+    found = {name: array[points] for name, array in group.arrays() if name != "results"}
+    return found | {"results": group["results"][points, columns]}
 
 
 def gridded(results: xr.Dataset) -> xr.Dataset:

@@ -12,14 +12,17 @@ import xarray as xr
 from scipy.stats import rankdata
 
 from gearlube.output.csv_text import csv_text
-from gearlube.variation.store import FINISHED, gridded, open_variation
+from gearlube.variation.block import FINISHED
+from gearlube.variation.store import open_variation, read_points
 from gearlube_core.arrays import Array
 from gearlube_core.storage.atomic_file import write_compressed_dataset, write_text
 
 PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)
 STATISTICS = ("mean", "deviation", "low", *(f"p{p:g}" for p in PERCENTILES), "high")
+_ROUNDINGS = 1e-9
 _LEAST = 8  # points of a rank correlation
 _AT_ONCE = 1 << 25  # numbers in memory
+_ROWS = 1000  # of a table, likewise
 
 
 def inputs_of(results: xr.Dataset) -> list[dict[str, Any]]:
@@ -33,13 +36,13 @@ def quantities_of(results: xr.Dataset) -> list[str]:
     return [str(name) for name in results.data_vars if name not in ("status", "message")]
 
 
-def summarised(results: xr.Dataset, limits: Mapping[str, float] | None = None) -> xr.Dataset:
+def summarised(folder: Path, limits: Mapping[str, float] | None = None) -> xr.Dataset:
     """Return the statistics of all quantities.
 
     Parameters
     ----------
-    results : xarray.Dataset
-        Of `open_variation`.
+    folder : Path
+        Of the results.
     limits : mapping, optional
         Limit of a quantity in its unit.
 
@@ -52,43 +55,39 @@ def summarised(results: xr.Dataset, limits: Mapping[str, float] | None = None) -
         or nothing varies.
     """
     limits = dict(limits or {})
-    over = gridded(results)
+    results = open_variation(folder)
     axes = [one["key"] for one in inputs_of(results) if not one["sampled"]]
     sampled = [one["key"] for one in inputs_of(results) if one["sampled"]]
     names = quantities_of(results)
-    shape = tuple(over.sizes[axis] for axis in axes)
-    status = over["status"].values
+    *shape, samples = (int(n) for n in results.attrs["shape"])
+    status = results["status"].values.reshape(*shape, samples)
     statistics = np.full((*shape, len(names), len(STATISTICS)), np.nan)
     ranks = np.full((*shape, len(names), len(sampled)), np.nan)
     shares = np.full((*shape, len(limits)), np.nan)
-    inputs = np.array([over[key].values for key in sampled])
-    batch = max(1, _AT_ONCE // max(status.size, 1))
+    inputs = [results[key].values.reshape(*shape, samples) for key in sampled]
+    batch = max(1, _AT_ONCE // status.size)
     for first in range(0, len(names), batch):
-        some = names[first : first + batch]
-        values = over[some].load()
-        for i, name in enumerate(some, first):
-            column = values[name].values
+        some = read_points(folder, slice(None), slice(first, first + batch))["results"]
+        for i, name in enumerate(names[first : first + batch]):
+            column = some[:, i].reshape(*shape, samples)
             for cell in np.ndindex(*shape):
                 good = np.isfinite(column[cell])
                 if not good.any():
                     continue
-                statistics[(*cell, i)] = _statistics(column[cell][good])
-                for j in range(len(sampled)):
-                    ranks[(*cell, i, j)] = rank_correlation(
-                        inputs[(j, *cell)][good], column[cell][good]
-                    )
+                values = column[cell][good]
+                statistics[(*cell, first + i)] = _statistics(values)
+                for j, one in enumerate(inputs):
+                    ranks[(*cell, first + i, j)] = rank_correlation(one[cell][good], values)
                 if name in limits:
-                    at = list(limits).index(name)
-                    shares[(*cell, at)] = np.mean(column[cell][good] > limits[name])
+                    shares[(*cell, list(limits).index(name))] = np.mean(values > limits[name])
     found = xr.Dataset(
         {
             "statistics": ((*axes, "quantity", "statistic"), statistics),
             "rank_correlation": ((*axes, "quantity", "input"), ranks),
             "failed": (tuple(axes), (status != FINISHED).sum(axis=-1)),
-            "points": ((), status.shape[-1]),
         },
         coords={
-            **{axis: over[axis] for axis in axes},
+            **{axis: _values_along(results, axis, axes, shape) for axis in axes},
             "quantity": names,
             "statistic": list(STATISTICS),
             "input": sampled,
@@ -102,17 +101,31 @@ def summarised(results: xr.Dataset, limits: Mapping[str, float] | None = None) -
     return found
 
 
+def _values_along(
+    results: xr.Dataset, axis: str, axes: list[str], shape: list[int]
+) -> tuple[str, Array, dict[str, Any]]:
+    """Return the coordinate of an axis: the values at the first place of all others."""
+    first: list[Any] = [0] * (len(shape) + 1)
+    first[axes.index(axis)] = slice(None)
+    return axis, results[axis].values.reshape(*shape, -1)[tuple(first)], results[axis].attrs
+
+
 def rank_correlation(a: Array, b: Array) -> float:
-    """Return Spearman's rank correlation of two columns; NaN where one does not vary.
+    """Return Spearman's rank correlation of two columns; NaN where one varies by roundings only.
 
     Examples
     --------
     >>> round(rank_correlation(np.arange(9.0), np.arange(9.0) ** 3), 12)
     1.0
     """
-    if a.size < _LEAST or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
+    if a.size < _LEAST or not (varies(a) and varies(b)):
         return float("nan")
     return float(np.corrcoef(rankdata(a), rankdata(b))[0, 1])
+
+
+def varies(values: Array) -> bool:
+    """Return whether numbers differ by more than roundings."""
+    return bool(np.ptp(values) > _ROUNDINGS * np.abs(values).max())
 
 
 def _statistics(values: Array) -> list[float]:
@@ -126,12 +139,12 @@ def write_summary(
 ) -> tuple[xr.Dataset, xr.Dataset]:
     """Write summary.nc, summary.csv, sensitivity.csv and points.csv; return results and summary."""
     results = open_variation(folder)
-    summary = summarised(results, limits)
+    summary = summarised(folder, limits)
     write_compressed_dataset(summary, folder / "summary.nc")
     write_text(csv_text(*_summary_rows(summary)), folder / "summary.csv")
     if summary.sizes["input"]:
         write_text(csv_text(*_rank_rows(summary)), folder / "sensitivity.csv")
-    _write_points(results, folder / "points.csv")
+    _write_points(results, folder)
     return results, summary
 
 
@@ -177,20 +190,25 @@ def _rank_rows(summary: xr.Dataset) -> tuple[list[str], list[list[object]]]:
     return [*axes, "quantity", *inputs], rows
 
 
-def _write_points(results: xr.Dataset, path: Path) -> None:
-    """Write a row for each point, block by block, so that memory does not grow."""
+def _write_points(results: xr.Dataset, folder: Path) -> None:
+    """Write a row for each point, some blocks at a time, so that memory does not grow."""
     keys = [one["key"] for one in inputs_of(results)]
-    columns = [*keys, "status", *quantities_of(results), "message"]
-    block = max(int(results.attrs["block"]), 1000)
+    texts = {key: results[key].values for key in keys if results[key].dtype.kind in "UO"}
+    head = [*keys, "status", *quantities_of(results), "message"]
+    block = int(results.attrs["block"])
+    together = block * max(1, _ROWS // block)
+    path = folder / "points.csv"
     partial = path.with_name(f"{path.name}.part")
     with partial.open("w", encoding="utf-8", newline="") as stream:
-        for first in range(0, results.sizes["point"], block):
-            part = results.isel(point=slice(first, first + block)).load()
-            part["message"] = (
-                "point",
-                [one.decode(errors="replace") for one in part["message"].values],
+        stream.write(csv_text(head, []))
+        for first in range(0, results.sizes["point"], together):
+            points = slice(first, first + together)
+            found = read_points(folder, points)
+            inputs = [(texts[key][points] if key in texts else found[key]).tolist() for key in keys]
+            messages = [one.decode(errors="replace") for one in found["message"]]
+            columns = zip(
+                *inputs, found["status"], found["results"].tolist(), messages, strict=True
             )
-            rows = zip(*(part[name].values.tolist() for name in columns), strict=True)
-            text = csv_text(columns, [list(row) for row in rows])
-            stream.write(text if first == 0 else text.partition("\n")[2])
+            rows = [[*row[:-2], *row[-2], row[-1]] for row in columns]
+            stream.write(csv_text(head, rows).partition("\n")[2])
     partial.replace(path)

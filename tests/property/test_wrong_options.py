@@ -32,6 +32,7 @@ SOLVERS = (
     "gearlube.studies.films.hypoid.flank.dynamic_drive",
     "gearlube.studies.films.hypoid.flank.static_drive",
     "gearlube.studies.bearing.run.bearing_loss",
+    "gearlube.variation.run.BlockStore.made",
     "fmu_src.build._build",
 )
 COMMANDS = (
@@ -45,8 +46,15 @@ COMMANDS = (
     ("ehl", "point"),
     ("ehl", "helical"),
     ("ehl", "hypoid"),
+    ("vary", "map"),
+    ("vary", "bearing"),
     ("ehl", "compare"),
 )
+# without these a command does not begin
+NEEDED = {
+    ("vary", "map"): ("--vary", "bearing.preload=2000,3000"),
+    ("vary", "bearing"): ("--vary", "load.axial=1000:4000", "--design", "lhs:4"),
+}
 NUMBERS = ("nan", "inf", "-inf", "-1e308", "1e308", "-1", "0", "1,5", "1e999", "0x10")
 TEXTS = ("", "text", "no such thing", "a\nb", "no_file.toml", "../..", "1:2:3:4", "5:1", "\u20ac")
 WRONG = (*NUMBERS, *TEXTS)
@@ -78,6 +86,8 @@ def nothing_computes(monkeypatch, tmp_path):
 def run(caplog) -> Callable[..., tuple[int, str]]:
     def invoke(*arguments: str) -> tuple[int, str]:
         caplog.clear()
+        needed = NEEDED.get(arguments[:2], ())
+        arguments = (*arguments[:2], *needed, *arguments[2:])
         with caplog.at_level(logging.WARNING):
             result = CliRunner().invoke(command.app, list(arguments))
         said = result.output + caplog.text
@@ -91,8 +101,8 @@ def run(caplog) -> Callable[..., tuple[int, str]]:
 def options_of(words: tuple[str, ...]) -> Iterator[str]:
     """Flags of the options that take a value; empty for an argument."""
     group: Any = typer.main.get_command(command.app)
-    for word in words:
-        group = group.get_command(None, word)
+    for word in words:  # a word after the command is an argument
+        group = group.get_command(None, word) if hasattr(group, "get_command") else group
     for parameter in group.params:
         if parameter.name not in HARMLESS:
             yield parameter.opts[0] if parameter.param_type_name == "option" else ""

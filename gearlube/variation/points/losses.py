@@ -26,7 +26,7 @@ _OPERANDS = {key.name: key for key in (TORQUE, SPEED, TEMPERATURE)}
 _QUANTITIES = (
     Quantity("loss", "W", "power lost in all"),
     Quantity("loss_torque", "N m", "loss torque at the pinion"),
-    Quantity("efficiency", "1", "efficiency of the axle; NaN where it carries no power"),
+    Quantity("efficiency", "1", "efficiency of the axle"),
     *(Quantity(f"loss_{name}", "W", f"power lost by {name}") for name in LOSS_SOURCES),
     Quantity("film_ratio", "1", "least film ratio of a flank"),
     Quantity("flank_temperature", "degC", "hottest flank film"),
