@@ -32,6 +32,9 @@ SOLVERS = (
     "gearlube.studies.films.hypoid.flank.dynamic_drive",
     "gearlube.studies.films.hypoid.flank.static_drive",
     "gearlube.studies.bearing.run.bearing_loss",
+    "gearlube.studies.loss_map.run.axle_losses",
+    "gearlube.studies.drive_cycle.run.losses_along",
+    "gearlube.studies.films.rough.run.FilmMarch",
     "fmu_src.build._build",
 )
 COMMANDS = (
@@ -39,12 +42,15 @@ COMMANDS = (
     ("build-fmu",),
     ("contact",),
     ("bearing",),
+    ("map",),
+    ("cycle",),
     ("resonance",),
     ("helical",),
     ("ehl", "line"),
     ("ehl", "point"),
     ("ehl", "helical"),
     ("ehl", "hypoid"),
+    ("ehl", "rough"),
     ("ehl", "compare"),
 )
 NUMBERS = ("nan", "inf", "-inf", "-1e308", "1e308", "-1", "0", "1,5", "1e999", "0x10")
@@ -235,3 +241,27 @@ def test_speed_limits_are_those_of_the_library(run):
 
     low, high = SPEED_RANGE
     assert run("sweep", "--speeds", f"{low:g}", f"{high:g}")[0] == REACHED
+
+
+# commands that write no folder of results
+SHOWING = (("axle", "show"), ("oil", "show"), ("oil", "fit"))
+
+
+@pytest.mark.parametrize("words", SHOWING, ids=" ".join)
+def test_what_shows_or_fits_refuses_every_wrong_value_with_a_reason(words, run, tmp_path):
+    measured = tmp_path / "measured.csv"
+    measured.write_text("slide_roll_ratio,traction_coefficient\n0.1,0.05\n")
+    refused = 0
+    for flag in options_of(words):
+        for value in (*WRONG, str(tmp_path / "notes.txt"), str(tmp_path)):
+            given = [f"{flag}={value}"] if flag else ["--", value]
+            if flag and words == ("oil", "fit"):
+                given = [str(measured), *given]
+            code, said = run(*words, *given)
+            if code != 0:
+                assert code in (1, 2), (flag, value, code, said)
+                assert len(said) > 30, (flag, value, said)
+                refused += 1
+            left = sorted(path.name for path in tmp_path.iterdir())
+            assert left == ["measured.csv", "notes.txt"], (flag, value, left)
+    assert refused > 5
