@@ -135,21 +135,21 @@ def test_measured_torques_narrow_the_bar_of_palmgrens_law_alone():
     known = drag_of("palmgren", calibrated_bearings=True)
     assert known.factor == CALIBRATED == 1.25
     assert "measured torques" in known.why
-    with pytest.raises(ParameterError, match="law palmgren.*got aihara_1987"):
+    with pytest.raises(ParameterError, match=r"law palmgren.*got aihara_1987"):
         drag_of("aihara_1987", calibrated_bearings=True)
 
 
 def test_the_command_tells_a_calibrated_map_from_another(tmp_path):
     words = ["map", "--torques", "80", "--speeds", "1000", "2000", "--temperatures", "60"]
     width = {}
-    for name, more in (("usual", []), ("measured", ["--calibrated-bearings"])):
+    for name, more, factor in (("usual", [], 2), ("measured", ["--calibrated-bearings"], 1.25)):
         out = tmp_path / name
         ended = CliRunner().invoke(command_line(COMMANDS), [*words, *more, "--out", str(out)])
         assert ended.exit_code == 0, ended.output
         with xr.open_dataset(out / "map.nc", engine="scipy") as read:
             one = read.isel(speed=0).squeeze()
             width[name] = float(one["swing"].sel(input="bearing_drag"))
-            assert f"factor {dict(usual=2, measured=1.25)[name]:g} (k" in one.attrs["uncertain"]
+            assert f"bearing_drag: factor {factor:g} (k" in one.attrs["uncertain"]
     # half of f - 1/f: 0.75 and 0.225 of the drag
     assert width["measured"] / width["usual"] == pytest.approx(0.3, rel=1e-6)
 
