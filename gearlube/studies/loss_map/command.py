@@ -63,6 +63,14 @@ def loss_map(
         typer.Option(help="Samples of the uncertain data for error bars; 0: none.", metavar="N"),
     ] = 60,
     seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    calibrated_bearings: Annotated[
+        bool,
+        typer.Option(
+            "--calibrated-bearings",
+            help="f0 and f1 of the axle are from measured torques of its bearings: their drag is "
+            "known to a factor of 1.25 in place of 2.",
+        ),
+    ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_map"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -96,6 +104,7 @@ def loss_map(
             temperatures=grid.get("temperatures"),
             draws=draws,
             seed=seed,
+            calibrated_bearings=calibrated_bearings,
         )
         with (
             results_folder(out, "map", overwrite=overwrite),
