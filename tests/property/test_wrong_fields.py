@@ -10,8 +10,10 @@ from typing import Any
 import pytest
 
 from drivetrain.axle_file.axle_file import AxleFile
+from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -35,6 +37,11 @@ def built_pair(file: HelicalGearFile) -> None:
 
 def built_case(case: Any) -> None:
     case.problem()
+    case.settings()
+
+
+def built_rough_case(case: RoughCase) -> None:
+    case.film()
     case.settings()
 
 
@@ -63,6 +70,8 @@ FILES: list[tuple[type[InputFile], str, Callable[[Any], object]]] = [
     (PointCase, "mourier_2006", built_case),
     (HypoidCase, "mohammadpour_2015", lambda case: (case.settings(), case.oil_temperature)),
     (AxleFile, "mohammadpour_2015", lambda file: file.car_axle(MESH).axle.kernel_parameters()),
+    (RoughCase, "jamali_2015_a", built_rough_case),
+    (BearingFile, "wingertszahn_2023", lambda file: file.geometry()),
     (OilFile, "iso_vg_220_pao", lambda file: file.described().lubricant.parameters()),
 ]
 IDS = [f"{kind.__name__}-{name}" for kind, name, _ in FILES]
