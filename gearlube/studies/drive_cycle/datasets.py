@@ -142,8 +142,8 @@ def _about(unit: str, words: str) -> dict[str, str]:
 def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> dict[str, object]:
     losing = {name for name, one in zip(LOSS_SOURCES, lost, strict=True) if one > 0.0}
     heat, cycle = settings.heat, settings.cycle
-    left = outside.any(axis=0)
-    ranges = [one for one, some in zip(settings.car.axle.ranges, left, strict=True) if some]
+    left = np.flatnonzero(outside.sum(axis=0))
+    ranges = [settings.car.axle.ranges[i] for i in left]
     return {
         "cycle": cycle.name,
         "axle": settings.car.name,
