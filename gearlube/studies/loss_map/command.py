@@ -71,6 +71,22 @@ def loss_map(
             "known to a factor of 1.25 in place of 2.",
         ),
     ] = False,
+    regulation_grid: Annotated[
+        bool,
+        typer.Option(
+            "--regulation-grid",
+            help="Also write a file for VECTO at 70 degC on the grid of heavy-duty axle tests: "
+            "wheel speeds in steps of 50 rpm, wheel torques in steps of 250 N.m and more.",
+        ),
+    ] = False,
+    regulation_raised: Annotated[
+        bool,
+        typer.Option(
+            "--regulation-raised",
+            help="The same with the loss raised by its uncertainty less the larger of 5 % and "
+            "1 N.m.",
+        ),
+    ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_map"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -83,6 +99,7 @@ def loss_map(
     from drivetrain.axle_file.axle_file import AxleFile, read_axle
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
+    from gearlube.studies.loss_map.exports import write_regulation_map
     from gearlube.studies.loss_map.run import run_loss_map
     from gearlube.studies.loss_map.settings import LossMapSettings
     from gearlube_core.oil.oil_file import read_oil
@@ -111,6 +128,9 @@ def loss_map(
             progress_on(console, "map") as progress,
         ):
             dataset = run_loss_map(settings, folder=out, progress=progress)
+            for raised, wanted in ((False, regulation_grid), (True, regulation_raised)):
+                if wanted:
+                    write_regulation_map(settings, out, raised=raised, progress=progress)
         for sentence in remarks(dataset):
             logger.warning("%s", sentence)
         points = dataset["status"].size
