@@ -22,7 +22,7 @@ _FACE = np.linspace(0.0, 1.0, 49)
 
 
 @kernel
-def _along_normals(
+def along_normals(
     motion: CuttingMotion,
     placement: Placement,
     gear_placement: Placement,
@@ -113,7 +113,7 @@ def gap_map(pair: FlankPair, gear_angle: float, pinion_angle: float) -> GapMap:
     starts = pinion.parameters(1.05 - 0.9 * s, t)
     starts[np.isnan(starts[..., 0])] = pinion.start
     placed = pair.gear_placed(gear_angle)
-    found = _along_normals(
+    found = along_normals(
         pinion.motion,
         pair.pinion_placed(pinion_angle),
         placed,

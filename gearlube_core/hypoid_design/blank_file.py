@@ -49,7 +49,7 @@ class BlankFile(InputFile):
     )
     pair: BlankPair
     cutter: BlankCutter
-    depth: BlankDepth = Field(default_factory=BlankDepth)
+    depth: BlankDepth = BlankDepth()
 
     @model_validator(mode="after")
     def _check_relations(self) -> BlankFile:

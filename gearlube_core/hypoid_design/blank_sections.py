@@ -25,16 +25,16 @@ class BlankPair(Section):
     offset_mm: Offset = Field(description="Distance of the axes (pinion offset); 0: bevel gears")
     face_width_mm: Length = Field(description="Face width of the gear along its pitch cone")
     outer_pitch_diameter_mm: Length | None = Field(
-        None, description="Of the gear at the heel; methods 0, 1 and 3"
+        default=None, description="Of the gear at the heel; methods 0, 1 and 3"
     )
     mean_pitch_diameter_mm: Length | None = Field(
-        None, description="Of the gear at mid-face; method 2"
+        default=None, description="Of the gear at mid-face; method 2"
     )
     pinion_spiral_angle_deg: SpiralAngle | None = Field(
-        None, description="Mean spiral angle of the pinion; method 1"
+        default=None, description="Mean spiral angle of the pinion; method 1"
     )
     gear_spiral_angle_deg: SpiralAngle | None = Field(
-        None, description="Mean spiral angle of the gear; methods 0, 2 and 3"
+        default=None, description="Mean spiral angle of the gear; methods 0, 2 and 3"
     )
 
 
@@ -49,11 +49,11 @@ class BlankCutter(Section):
         "milling)",
     )
     drive_pressure_angle_deg: PressureAngle = Field(
-        20.0,
+        default=20.0,
         description="Effective pressure angle of the drive flanks, counted from the limit angle",
     )
     coast_pressure_angle_deg: PressureAngle = Field(
-        20.0,
+        default=20.0,
         description="Effective pressure angle of the coast flanks, counted from the limit angle",
     )
 
@@ -61,12 +61,14 @@ class BlankCutter(Section):
 class BlankDepth(Section):
     """Tooth depth in mean normal modules; the same from toe to heel."""
 
-    depth_factor: Depth = Field(2.0, description="k_d: working depth over the mean normal module")
+    depth_factor: Depth = Field(
+        default=2.0, description="k_d: working depth over the mean normal module"
+    )
     clearance_factor: Clearance = Field(
-        0.125, description="k_c: bottom clearance over the working depth"
+        default=0.125, description="k_c: bottom clearance over the working depth"
     )
     gear_addendum_factor: Share | None = Field(
-        None,
+        default=None,
         description="c_ham: addendum of the gear over the working depth; absent: 0.21 + "
         "0.29 (pinion teeth / gear teeth)^2",
     )
