@@ -69,9 +69,9 @@ def drive_cycle(
     Writes drive_cycle.nc, drive_cycle.csv, summary.csv and a figure.
     """
     from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from drivetrain.sump_heat import SumpHeat
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
-    from gearlube.studies.drive_cycle.heat import SumpHeat
     from gearlube.studies.drive_cycle.run import grid_change, run_cycle
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
     from gearlube.studies.drive_cycle.tables import range_sentence

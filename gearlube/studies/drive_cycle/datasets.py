@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from drivetrain.sump_heat import Warming
 from gearlube.plotting.loss_words import not_modelled
 from gearlube.studies.drive_cycle.demand import Demand
-from gearlube.studies.drive_cycle.heat import Warming
 from gearlube.studies.drive_cycle.loss_field import LossesAlong
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
 from gearlube_core.arrays import Array

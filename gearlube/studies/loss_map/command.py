@@ -18,6 +18,8 @@ from gearlube.cli.results_folder import results_folder
 if TYPE_CHECKING:
     import xarray as xr
 
+    from drivetrain.driveline.parameters import DrivelineParameters
+    from drivetrain.steady_temperature import Cooling
     from gearlube_core.arrays import Array
 
 logger = logging.getLogger("gearlube")
@@ -71,6 +73,26 @@ def loss_map(
             "known to a factor of 1.25 in place of 2.",
         ),
     ] = False,
+    steady_temperature: Annotated[
+        bool,
+        typer.Option(
+            "--steady-temperature",
+            help="Also find the oil temperature at which each torque and speed comes to rest in "
+            "the car, and the loss there.",
+        ),
+    ] = False,
+    air_temperature: Annotated[
+        float | None,
+        typer.Option(help="Of the air, for the steady temperature [degC]. Default: 23."),
+    ] = None,
+    conductance_at_rest: Annotated[
+        float | None,
+        typer.Option(help="Housing to air at rest [W/K]; default 7, assumed, 4.5 to 10."),
+    ] = None,
+    conductance_at_100: Annotated[
+        float | None,
+        typer.Option(help="Ditto at 100 km/h [W/K]; default 18, assumed, 9 to 30."),
+    ] = None,
     regulation_grid: Annotated[
         bool,
         typer.Option(
@@ -122,6 +144,13 @@ def loss_map(
             draws=draws,
             seed=seed,
             calibrated_bearings=calibrated_bearings,
+            cooling=_cooling(
+                described.driveline,
+                steady_temperature,
+                air_temperature,
+                conductance_at_rest,
+                conductance_at_100,
+            ),
         )
         with (
             results_folder(out, "map", overwrite=overwrite),
@@ -149,7 +178,51 @@ def remarks(dataset: xr.Dataset) -> list[str]:
             f"{share:.0f} % of the points are outside a range: {dataset.attrs['ranges_left']}. "
             "The column range_exceeded says which."
         )
+    if "steady_temperature" in dataset:
+        steady = dataset["steady_temperature"]
+        missing = int(steady.isnull().sum())
+        if missing:
+            said.append(
+                f"{missing} of {steady.size} torques and speeds come to no rest within the data "
+                "of the oil; their steady temperature is empty."
+            )
     return said
+
+
+def _cooling(
+    driveline: DrivelineParameters,
+    wanted: bool,
+    air: float | None,
+    at_rest: float | None,
+    at_100: float | None,
+) -> Cooling | None:
+    """Return the cooling that the options give; None if no steady temperature is wanted."""
+    from drivetrain.steady_temperature import Cooling
+    from drivetrain.sump_heat import SumpHeat
+    from gearlube_core.errors import ParameterError
+    from gearlube_core.units import celsius_to_kelvin
+
+    given = {
+        "--air-temperature": air,
+        "--conductance-at-rest": at_rest,
+        "--conductance-at-100": at_100,
+    }
+    if not wanted:
+        idle = [name for name, value in given.items() if value is not None]
+        if idle:
+            raise ParameterError(
+                f"{idle[0]} needs --steady-temperature, got it alone. Add that option, or remove "
+                "this one."
+            )
+        return None
+    usual = SumpHeat()
+    heat = SumpHeat(
+        conductance_at_rest=usual.conductance_at_rest if at_rest is None else at_rest,
+        conductance_at_100_kmh=usual.conductance_at_100_kmh if at_100 is None else at_100,
+    )
+    if air is None:
+        return Cooling(driveline=driveline, heat=heat)
+    return Cooling(driveline=driveline, heat=heat, air_temperature=celsius_to_kelvin(air))
 
 
 def _grid(

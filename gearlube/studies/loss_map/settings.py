@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from drivetrain.steady_temperature import Cooling
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.checks import check_within
@@ -186,6 +187,9 @@ class LossMapSettings:
         known to a factor of 1.25.
     uncertain : tuple of Uncertain, optional
         Default: `uncertain_of` the axle.
+    cooling : Cooling, optional
+        Of the axle in a car; with it the map has the oil temperature at which each torque and
+        speed comes to rest, and the loss there.
 
     Examples
     --------
@@ -203,6 +207,7 @@ class LossMapSettings:
     seed: int = 1
     calibrated_bearings: bool = False
     uncertain: tuple[Uncertain, ...] = ()
+    cooling: Cooling | None = None
 
     def __post_init__(self) -> None:
         if not self.uncertain:
@@ -225,6 +230,8 @@ class LossMapSettings:
                     "what stands twice."
                 )
             object.__setattr__(self, name, chosen)
+        if self.cooling is not None:
+            self.axle.oil.check_temperature(self.cooling.air_temperature, "air_temperature")
         check_within("draws", self.draws, 0, MOST_DRAWS, "", "60 are usual.")
         check_within("seed", self.seed, 0, 2**32 - 1, "", "Any whole number.")
         points = math.prod(self.shape)
