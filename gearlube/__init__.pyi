@@ -123,9 +123,9 @@ from gearlube.studies.loss_map.run import run_loss_map as run_loss_map
 from gearlube.studies.drive_cycle.traces import DriveCycle as DriveCycle
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings as DriveCycleSettings
 from gearlube.studies.drive_cycle.settings import LossGrid as LossGrid
-from gearlube.studies.drive_cycle.heat import SumpHeat as SumpHeat
+from drivetrain.sump_heat import SumpHeat as SumpHeat
 from gearlube.studies.drive_cycle.run import run_cycle as run_cycle
-from gearlube.studies.drive_cycle.steady import steady_temperature as steady_temperature
+from drivetrain.steady_temperature import steady_temperature as steady_temperature
 
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings

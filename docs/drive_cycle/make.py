@@ -47,6 +47,11 @@ def _rows(name: str, car: CarAxle, cycle: str) -> list[tuple[str, str, str, str,
         ("highest oil at the end, assumed data", float(found["oil_temperature_high"][-1]), "degC"),
         ("change of the energy by a map twice as fine", 100.0 * grid_change(settings, found), "%"),
     ]
+    values += [
+        (f"energy lost outside {one['range'].item()}", 100.0 * float(one), "%")
+        for one in found["energy_outside_range"]
+        if float(one) > 0.0
+    ]
     return [(name, cycle, words, f"{value:.4g}", unit) for words, value, unit in values]
 
 

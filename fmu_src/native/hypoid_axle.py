@@ -8,9 +8,10 @@ from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
-from fmu_src.axle_arguments import axle_parameters, tapered_bearings
+from fmu_src.axle_arguments import axle_parameters
 from fmu_src.definition import Definition, Value
 from fmu_src.hypoid_axle import car_axle_in
+from fmu_src.native.axle_settings import AxleSettings, axle_settings
 from fmu_src.native.model import Exchange, NativeModel, Operation
 from fmu_src.native.parameter_map import ParameterMap, parameter_map, write_packed
 from fmu_src.object_code import array_at
@@ -32,7 +33,6 @@ from gearlube_core.dynamics.hypoid_axle.mesh_force import equivalent_mass, modal
 from gearlube_core.dynamics.hypoid_axle.model import (
     START_WORK,
     STEP_REFUSALS,
-    torque_limits,
 )
 from gearlube_core.dynamics.hypoid_axle.outputs import MOTION_OUTPUTS, N_OUTPUTS, POWERS
 from gearlube_core.dynamics.hypoid_axle.parameters import (
@@ -66,54 +66,6 @@ _N_INPUTS = 3
 _N_CONTROL = count_floats(StepControl)
 _CONTROL_AT = N_STATE + _N_INPUTS
 _STATE_SIZE = _CONTROL_AT + _N_CONTROL
-
-
-class AxleSettings(NamedTuple):
-    """What else of an axle a parameter can change, packed behind its `AxleParameters`."""
-
-    torque_low: float  # N.m, limits of the inputs in their order
-    torque_high: float
-    wheel_low: float  # N.m
-    wheel_high: float
-    oil_low: float  # K
-    oil_high: float
-    steps_per_mesh_period: float
-    steps_per_highest_period: float
-    radii: float  # place of the option in `Radii`
-    stiffness: float  # ditto in `MeshStiffness`
-    pressure: float  # ditto in `PRESSURES`
-    modal: float  # 1 with modal damping of the mesh, 0 with hysteresis
-    modal_loss_factor: float
-    reference_stiffness: float  # N/m, of the modal damping
-    mean_pinion_radius: float  # m, ditto
-    gear_preload: float  # N, as given: below 0 that of the pinion's shaft holds
-    contact_angle_p: float  # rad
-    contact_angle_g: float  # rad
-
-
-def _settings(axle: HypoidAxleParameters, gear_preload: float) -> AxleSettings:
-    torques = torque_limits(axle)
-    of_pinion, of_gear = tapered_bearings(axle)
-    return AxleSettings(
-        torques.pinion_low,
-        torques.pinion_high,
-        -torques.wheel,
-        torques.wheel,
-        axle.oil.temperature_low,
-        axle.oil.temperature_high,
-        float(axle.steps_per_mesh_period),
-        float(axle.steps_per_highest_period),
-        float(get_args(Radii).index(axle.radii)),
-        float(get_args(MeshStiffness).index(axle.mesh_stiffness)),
-        float(list(PRESSURES).index(axle.contact_pressure)),
-        1.0 if axle.mesh_damping == "modal" else 0.0,
-        float(axle.modal_loss_factor),
-        axle.reference_stiffness,
-        axle.mean_pinion_radius,
-        gear_preload,
-        float(of_pinion.contact_angle),
-        float(of_gear.contact_angle),
-    )
 
 
 class _Places(NamedTuple):
@@ -372,7 +324,7 @@ def native_model(definition: Definition) -> NativeModel:
     def pack(arguments: Mapping[str, Value]) -> Array:
         given = {name: value for name, value in arguments.items() if name != "pinion_speed"}
         one = axle_parameters(given, by_default)
-        settings = _settings(one, float(arguments["gear_bearing_preload"]))
+        settings = axle_settings(one, float(arguments["gear_bearing_preload"]))
         return np.concatenate([flatten(one.kernel_parameters()), flatten(settings)])
 
     found = parameter_map(definition.variables, pack, frozenset(_DERIVED.values()))

@@ -50,6 +50,7 @@ def show(
 ) -> None:
     """Check an oil file; print its numbers, where each is from, and a table over temperature."""
     from gearlube.plotting.oil_properties import properties_figure
+    from gearlube_core.errors import ParameterError
     from gearlube_core.oil.oil_file import OilFile, read_oil
     from gearlube_core.storage.atomic_file import atomic_write
 
@@ -57,6 +58,8 @@ def show(
         if example:
             typer.echo(OilFile.shipped_text("iso_vg_220_pao"), nl=False)
             return
+        if figure is not None and figure.suffix != ".png":
+            raise ParameterError(f"--figure must be a file whose name ends in .png, got {figure}.")
         described = read_oil(file)
         typer.echo(f"{described.name}{f' ({described.source})' if described.source else ''}")
         for line in note_lines(described, assumed):

@@ -26,6 +26,7 @@ from gearlube_core.surface.generator import generated_map
 from gearlube_core.surface.generator_request import RoughnessRequest
 from gearlube_core.surface.heights import HeightMap
 
+_WIDEST = 1000.0  # film ratio; roughness no longer matters by far
 FILM_RATIOS = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0)
 _UNIT = 1.0e11  # Pa: E* of the contact; only ratios to it come out
 _LOADS = np.geomspace(5e-5, 0.8, 14)  # mean pressure over E* and the rms slope [-]
@@ -124,10 +125,11 @@ def patch_table(
     True
     """
     ratios = np.array(film_ratios, dtype=float)
-    if not patches or ratios.size == 0 or ratios.min() <= 0.0 or (np.diff(ratios) <= 0.0).any():
+    rising = ratios.size > 0 and ratios.min() > 0.0 and bool((np.diff(ratios) > 0.0).all())
+    if not patches or not rising or not np.isfinite(ratios).all() or ratios.max() > _WIDEST:
         raise ParameterError(
-            "patch_table must have at least one patch and rising film ratios above 0, got "
-            f"{len(patches)} patches and {ratios.tolist()}."
+            f"patch_table must have at least one patch and rising film ratios above 0 and up to "
+            f"{_WIDEST:g}, got {len(patches)} patches and {ratios.tolist()}. Usual are 0.5 to 6."
         )
     total = len(patches) * (ratios.size + (_LOADS.size if contact else 0))
     done = 0

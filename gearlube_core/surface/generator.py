@@ -17,7 +17,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface.generator_request import RoughnessRequest
 from gearlube_core.surface.generator_spectrum import asked_lengths, wave_amplitudes
-from gearlube_core.surface.heights import HeightMap, Profile, S, check_plausible
+from gearlube_core.surface.heights import MICROMETRE, HeightMap, Profile, S, check_plausible
 from gearlube_core.surface.johnson_1949 import johnson_transform, normal_scores
 from gearlube_core.surface.statistics import skewness_kurtosis
 
@@ -164,7 +164,12 @@ def _generated(
     sides = spacing[:1] if lone else spacing
     shortest, notes = request.resolved_shortest(max(sides))
     periods = [count * one for count, one in zip(shape, sides, strict=False)]
-    longest = min(request.longest_wave or math.inf, max(periods))
+    longest = max(periods) if request.longest_wave is None else request.longest_wave
+    if longest > max(periods) * (1.0 + 1e-9):
+        raise ParameterError(
+            f"longest_wave must be at most the longest period, {max(periods) / MICROMETRE:.4g} um, "
+            f"got {longest / MICROMETRE:.4g} um. Leave it out for the longest that fits."
+        )
     amplitude, lengths = wave_amplitudes(request, shape, spacing, (shortest, longest))
     height = _with_moments(amplitude, shape, request, random)
     mean, rms = float(np.abs(height).mean()), float(np.sqrt(np.mean(height**2)))

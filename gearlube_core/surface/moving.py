@@ -316,7 +316,8 @@ class MovingRoughness:
                 raise ParameterError(
                     f"The grid must have {NODES_PER_WAVE:g} nodes a wave along {axis}, a step of "
                     f"at most {limit / MICROMETRE:.4g} um for {one.heights.name}, got "
-                    f"{step / MICROMETRE:.4g} um. Take more nodes, or filter short waves out."
+                    f"{step / MICROMETRE:.4g} um. Take more nodes, or filter short waves out "
+                    "(cutoff_um in a case file)."
                 )
 
     def _check_step(self, one: MovingSurface) -> None:

@@ -112,4 +112,5 @@ def test_friction_coefficient_is_total_friction_over_load(
 ) -> None:
     state = flank_friction(load, speed, slip, *contact, form)
     total = state.viscous_friction + state.boundary_friction
-    assert state.friction_coefficient * load == pytest.approx(total, rel=1e-13)
+    # rounding; sliding of 1e-300 m/s and less leaves subnormal numbers with few digits
+    assert state.friction_coefficient * load == pytest.approx(total, rel=1e-13, abs=1e-290)

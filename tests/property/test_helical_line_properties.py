@@ -14,7 +14,7 @@ from gearlube_core.helical_geometry.modification import FlankModification, Modif
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.tip_relief import TipRelief
 
-FEW = settings(max_examples=60, deadline=None, derandomize=True)
+FEW = settings(max_examples=60)
 
 
 @st.composite

@@ -106,7 +106,8 @@ def test_forces_per_length_add_up_to_the_coefficient(
 ) -> None:
     state = line_friction(load, R, speed, slip, *pair)
     total = state.viscous_friction + state.boundary_friction
-    assert state.friction_coefficient * load == pytest.approx(total, rel=1e-13)
+    # rounding; sliding of 1e-300 m/s and less leaves subnormal numbers with few digits
+    assert state.friction_coefficient * load == pytest.approx(total, rel=1e-13, abs=1e-290)
     assert abs(state.signed_coefficient) == state.friction_coefficient
 
 

@@ -54,7 +54,7 @@ def test_rows_are_motions_and_their_multipliers_those_of_the_map():
     assert (np.diff(branch.arclength) > 0.0).all()
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     w=st.floats(0.4, 2.0),
     force=st.floats(0.05, 1.0),

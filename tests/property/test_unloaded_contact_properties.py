@@ -121,7 +121,7 @@ def test_pinion_position_moves_the_contact_over_the_profile():
     assert shifts["pinion_axial"] > 2.0 * max(shifts["pinion_offset"], shifts["gear_axial"])
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(
     offset=st.floats(-5e-5, 5e-5),
     axial=st.floats(-5e-5, 5e-5),

@@ -10,10 +10,15 @@ from typing import Any
 import pytest
 
 from drivetrain.axle_file.axle_file import AxleFile
+from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.hypoid_design.blank_file import BlankFile
+from gearlube_core.hypoid_design.blank_limits import check_blank
+from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile, read_toml
@@ -38,6 +43,11 @@ def built_case(case: Any) -> None:
     case.settings()
 
 
+def built_rough_case(case: RoughCase) -> None:
+    case.film()
+    case.settings()
+
+
 MESH = shipped_mesh_table("mohammadpour_2015")
 
 
@@ -58,11 +68,14 @@ FILES: list[tuple[type[InputFile], str, Callable[[Any], object]]] = [
     (HelicalGearFile, "he_2007", built_pair),
     (HelicalGearFile, "jamali_2015_a", built_pair),
     (HypoidGearFile, "mohammadpour_2015", lambda file: file.blank()),
+    (BlankFile, "hypoid_13_42", lambda file: check_blank(DesignedBlank.from_file(file))),
     (LineCase, "jamali_2015", built_case),
     (LineCase, "jamali_2015_thermal", built_case),
     (PointCase, "mourier_2006", built_case),
     (HypoidCase, "mohammadpour_2015", lambda case: (case.settings(), case.oil_temperature)),
     (AxleFile, "mohammadpour_2015", lambda file: file.car_axle(MESH).axle.kernel_parameters()),
+    (RoughCase, "jamali_2015_a", built_rough_case),
+    (BearingFile, "wingertszahn_2023", lambda file: file.geometry()),
     (OilFile, "iso_vg_220_pao", lambda file: file.described().lubricant.parameters()),
 ]
 IDS = [f"{kind.__name__}-{name}" for kind, name, _ in FILES]

@@ -33,6 +33,11 @@ SOLVERS = (
     "gearlube.studies.films.hypoid.flank.static_drive",
     "gearlube.studies.bearing.run.bearing_loss",
     "gearlube.variation.run.BlockStore.made",
+    "gearlube.studies.loss_map.run.axle_losses",
+    "gearlube.studies.drive_cycle.run.losses_along",
+    "gearlube.studies.films.rough.run.FilmMarch",
+    "gearlube.studies.roughness.results.write_results",
+    "gearlube_core.rough_patch.table.flow_factors",
     "fmu_src.build._build",
 )
 COMMANDS = (
@@ -40,18 +45,26 @@ COMMANDS = (
     ("build-fmu",),
     ("contact",),
     ("bearing",),
+    ("map",),
+    ("cycle",),
     ("resonance",),
     ("helical",),
     ("ehl", "line"),
     ("ehl", "point"),
     ("ehl", "helical"),
     ("ehl", "hypoid"),
+    ("ehl", "rough"),
+    ("roughness", "make"),
+    ("roughness", "stand-in"),
+    ("roughness", "flow-factors"),
     ("vary", "map"),
     ("vary", "bearing"),
     ("ehl", "compare"),
 )
-# without these a command does not begin
+# without which a command is refused for that reason alone
 NEEDED = {
+    ("roughness", "make"): ("--rq-um=0.4",),
+    ("roughness", "stand-in"): ("A",),
     ("vary", "map"): ("--vary", "bearing.preload=2000,3000"),
     ("vary", "bearing"): ("--vary", "load.axial=1000:4000", "--design", "lhs:4"),
 }
@@ -86,8 +99,6 @@ def nothing_computes(monkeypatch, tmp_path):
 def run(caplog) -> Callable[..., tuple[int, str]]:
     def invoke(*arguments: str) -> tuple[int, str]:
         caplog.clear()
-        needed = NEEDED.get(arguments[:2], ())
-        arguments = (*arguments[:2], *needed, *arguments[2:])
         with caplog.at_level(logging.WARNING):
             result = CliRunner().invoke(command.app, list(arguments))
         said = result.output + caplog.text
@@ -115,7 +126,8 @@ def check_wrong_values(words, run, folder, every):
     for number, flag in enumerate(options_of(words)):
         for value in wrong[number % every :: every]:
             given = [f"{flag}={value}"] if flag else ["--", value]
-            code, said = run(*words, "--out", "results", *given)
+            needed = NEEDED.get(words, ()) if flag else ()
+            code, said = run(*words, "--out", "results", *needed, *given)
             if code == REACHED:
                 assert value not in ("text", "nan", "inf", "-inf", "1e308", "1e999"), (flag, value)
             else:
@@ -141,7 +153,7 @@ def test_every_wrong_value_is_refused_with_a_reason(words, run, tmp_path):
 @pytest.mark.parametrize("words", COMMANDS[:-1], ids=" ".join)
 def test_a_folder_that_cannot_be_written_is_refused_in_plain_words(words, run, tmp_path):
     for out in ("notes.txt", "notes.txt/deeper", "/proc/nothing/here"):
-        code, said = run(*words, "--out", out)
+        code, said = run(*words, *NEEDED.get(words, ()), "--out", out)
         assert code == 2
         assert f"--out must be a folder that can be written, got {out}" in said.replace("\n", " ")
         assert "Errno" not in said
@@ -245,3 +257,27 @@ def test_speed_limits_are_those_of_the_library(run):
 
     low, high = SPEED_RANGE
     assert run("sweep", "--speeds", f"{low:g}", f"{high:g}")[0] == REACHED
+
+
+# commands that write no folder of results
+SHOWING = (("axle", "show"), ("oil", "show"), ("oil", "fit"))
+
+
+@pytest.mark.parametrize("words", SHOWING, ids=" ".join)
+def test_what_shows_or_fits_refuses_every_wrong_value_with_a_reason(words, run, tmp_path):
+    measured = tmp_path / "measured.csv"
+    measured.write_text("slide_roll_ratio,traction_coefficient\n0.1,0.05\n")
+    refused = 0
+    for flag in options_of(words):
+        for value in (*WRONG, str(tmp_path / "notes.txt"), str(tmp_path)):
+            given = [f"{flag}={value}"] if flag else ["--", value]
+            if flag and words == ("oil", "fit"):
+                given = [str(measured), *given]
+            code, said = run(*words, *given)
+            if code != 0:
+                assert code in (1, 2), (flag, value, code, said)
+                assert len(said) > 30, (flag, value, said)
+                refused += 1
+            left = sorted(path.name for path in tmp_path.iterdir())
+            assert left == ["measured.csv", "notes.txt"], (flag, value, left)
+    assert refused > 5

@@ -92,6 +92,11 @@ def test_a_trace_that_is_not_the_regulations_is_refused(monkeypatch):
 STEADY = np.full(20, 10.0)
 
 
+def test_the_hardest_braking_and_gaining_that_tyres_hold_are_taken():
+    speed = np.array([0.0, 7.9, 15.8, 11.9, 0.0, 0.0])
+    assert np.diff(trace(speed=speed).speed).min() == pytest.approx(-11.9)
+
+
 def changed(row, value, values=STEADY):
     new = np.array(values, dtype=float)
     new[row] = value
@@ -105,6 +110,10 @@ def changed(row, value, values=STEADY):
         ({"speed": changed(4, -1.0)}, r"within 0 to 90 m/s, got -1 in row 5"),
         ({"speed": changed(4, 120.0)}, r"got 120 in row 5\. Are these km/h"),
         ({"speed": changed(4, 22.0)}, r"within -12 to 8 m/s2.*got 12 m/s2 before row 5"),
+        (
+            {"speed": changed(range(9, 20), 0.0, np.full(20, 12.5))},
+            r"within -12 to 8 m/s2.*got -12\.5 m/s2 before row 10",
+        ),
         ({"speed": changed(range(9, 20), 25.0)}, r"got 15 m/s2 before row 10.*km/h"),
         (
             {"speed": STEADY, "time": changed(7, 3.0, np.arange(20.0))},

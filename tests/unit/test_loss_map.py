@@ -18,6 +18,9 @@ import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
 from gearlube.studies.loss_map.settings import UNCERTAIN
+from gearlube_core.bearings.losses.laws import LAWS
+from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError
@@ -99,6 +102,56 @@ def test_one_law_alone_spreads_the_loss_by_its_own_factor():
     swing = 0.5 * (drag.factor - 1.0 / drag.factor) * lost["bearing_torque"] / 200.0
     # flanks at 8 angles in place of 32 cancel in the difference
     assert float(one["swing"]) == pytest.approx(swing, rel=1e-9)
+
+
+def drag_of(law, **options):
+    axle = replace(AXLE, bearing_torque_loss=law)
+    known = gl.LossMapSettings(axle=axle, **options).uncertain
+    return next(one for one in known if one.name == "bearing_drag")
+
+
+# docs/bearing.md states these a priori, from one measured bearing
+@pytest.mark.parametrize(
+    ("law", "factor"),
+    [
+        ("palmgren", 2.0),
+        ("zhou_hoeprich_1991", 2.0),
+        ("biboulet_houpert_2010", 3.0),
+        ("aihara_1987", 2.0),
+    ],
+)
+def test_bearing_drag_is_as_uncertain_as_the_law_of_a_single_bearing(law, factor):
+    assert drag_of(law).factor == factor
+    assert UNCALIBRATED[BEARING_LAWS[law]] == factor
+    assert "no torque measured" in drag_of(law).why
+
+
+def test_every_law_of_the_axle_is_a_law_of_a_single_bearing():
+    assert set(BEARING_LAWS) == set(TORQUE_LOSSES) - {"none"}
+    assert set(BEARING_LAWS.values()) <= set(LAWS)
+
+
+def test_measured_torques_narrow_the_bar_of_palmgrens_law_alone():
+    known = drag_of("palmgren", calibrated_bearings=True)
+    assert known.factor == CALIBRATED == 1.25
+    assert "measured torques" in known.why
+    with pytest.raises(ParameterError, match=r"law palmgren.*got aihara_1987"):
+        drag_of("aihara_1987", calibrated_bearings=True)
+
+
+def test_the_command_tells_a_calibrated_map_from_another(tmp_path):
+    words = ["map", "--torques", "80", "--speeds", "1000", "2000", "--temperatures", "60"]
+    width = {}
+    for name, more, factor in (("usual", [], 2), ("measured", ["--calibrated-bearings"], 1.25)):
+        out = tmp_path / name
+        ended = CliRunner().invoke(command_line(COMMANDS), [*words, *more, "--out", str(out)])
+        assert ended.exit_code == 0, ended.output
+        with xr.open_dataset(out / "map.nc", engine="scipy") as read:
+            one = read.isel(speed=0).squeeze()
+            width[name] = float(one["swing"].sel(input="bearing_drag"))
+            assert f"bearing_drag: factor {factor:g} (k" in one.attrs["uncertain"]
+    # half of f - 1/f: 0.75 and 0.225 of the drag
+    assert width["measured"] / width["usual"] == pytest.approx(0.3, rel=1e-6)
 
 
 def test_the_same_seed_gives_the_same_bars(found):

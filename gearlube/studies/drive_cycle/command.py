@@ -69,11 +69,12 @@ def drive_cycle(
     Writes drive_cycle.nc, drive_cycle.csv, summary.csv and a figure.
     """
     from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from drivetrain.sump_heat import SumpHeat
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
-    from gearlube.studies.drive_cycle.heat import SumpHeat
     from gearlube.studies.drive_cycle.run import grid_change, run_cycle
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+    from gearlube.studies.drive_cycle.tables import range_sentence
     from gearlube.studies.drive_cycle.traces import DriveCycle
     from gearlube_core.units import celsius_to_kelvin
 
@@ -108,6 +109,8 @@ def drive_cycle(
         logger.info("Lost %.1f kJ (%.1f Wh)%s.", lost, lost / 3.6, share)
         logger.info("Oil from %.1f to %.1f degC.", oil[0], oil[-1])
         logger.warning("Not modelled: %s.", dataset.attrs["not_modelled"])
+        if left := range_sentence(dataset):
+            logger.warning("%s", left)
         logger.info("Computed in %.1f s.", time.monotonic() - began)
         logger.info(
             "Results: %s, %s, %s", out / "drive_cycle.nc", out / "summary.csv", out / "figures"

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from drivetrain.sump_heat import Warming
 from gearlube.plotting.loss_words import not_modelled
 from gearlube.studies.drive_cycle.demand import Demand
-from gearlube.studies.drive_cycle.heat import Warming
 from gearlube.studies.drive_cycle.loss_field import LossesAlong
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
 from gearlube_core.arrays import Array
@@ -35,6 +35,7 @@ def cycle_dataset(
     ratio = settings.car.driveline.road_load.final_drive.ratio
     power = at_temperatures(losses.power, losses.temperatures, warming.mean)
     torque = at_temperatures(losses.torque, losses.temperatures, warming.mean)
+    outside = at_temperatures(losses.outside, losses.temperatures, warming.mean)
     total = power.sum(axis=-1)
     put_in = torque * demand.pinion_speed  # W at the pinion; below 0 it takes
     given_out = put_in - total  # W at the wheels
@@ -63,6 +64,24 @@ def cycle_dataset(
         "wheel_torque": (step, wheel_torque, "N.m", "torque of both wheels together"),
         "brake_power": (step, demand.brakes, "W", "power of the friction brakes"),
         "loss": (("step", "source"), power, "W", "power lost"),
+        "outside_range": (
+            ("step", "range"),
+            outside,
+            "1",
+            "share of the points of the map around the step that are outside a range",
+        ),
+        "time_outside_range": (
+            ("range",),
+            _share(outside, np.where(demand.pinion_speed > 0.0, demand.steps, 0.0)),
+            "1",
+            "share of the running time outside a range",
+        ),
+        "energy_outside_range": (
+            ("range",),
+            _share(outside, total * demand.steps),
+            "1",
+            "share of the energy lost that is lost outside a range",
+        ),
         "energy_in": ((), energy_in, "kJ", "energy into the axle, from either side"),
         "energy_in_pinion": ((), _energy(np.maximum(put_in, 0.0), demand), "kJ", "by the pinion"),
         "energy_lost": (("source",), lost, "kJ", "energy lost"),
@@ -81,6 +100,11 @@ def cycle_dataset(
         "time": ("time", np.array(settings.cycle.time), _about("s", "time")),
         "step": ("step", middle, _about("s", "time, middle of the step")),
         "source": ("source", np.array(LOSS_SOURCES), {"long_name": "kind of loss"}),
+        "range": (
+            "range",
+            np.array([one.output for one in settings.car.axle.ranges]),
+            {"long_name": "range of a formula or table"},
+        ),
     }
     return xr.Dataset(
         {
@@ -88,7 +112,7 @@ def cycle_dataset(
             for name, (dims, values, unit, words) in variables.items()
         },
         coords=coordinates,
-        attrs=_attributes(settings, lost),
+        attrs=_attributes(settings, lost, outside),
     )
 
 
@@ -101,6 +125,12 @@ def at_temperatures(values: Array, nodes: Array, temperatures: Array) -> Array:
     return np.asarray((1.0 - share) * values[rows, cell] + share * values[rows, cell + 1])
 
 
+def _share(outside: Array, weights: Array) -> Array:
+    """Return the weighted mean over the steps; 0 where the weights are 0."""
+    whole = float(weights.sum())
+    return np.asarray(weights @ outside / whole if whole > 0.0 else 0.0 * outside.sum(axis=0))
+
+
 def _energy(power: Array, demand: Demand) -> float:
     return _KJ * float(power @ demand.steps)
 
@@ -109,14 +139,17 @@ def _about(unit: str, words: str) -> dict[str, str]:
     return {"units": unit, "long_name": words}
 
 
-def _attributes(settings: DriveCycleSettings, lost: Array) -> dict[str, object]:
+def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> dict[str, object]:
     losing = {name for name, one in zip(LOSS_SOURCES, lost, strict=True) if one > 0.0}
     heat, cycle = settings.heat, settings.cycle
+    left = np.flatnonzero(outside.sum(axis=0))
+    ranges = [settings.car.axle.ranges[i] for i in left]
     return {
         "cycle": cycle.name,
         "axle": settings.car.name,
         "oil": settings.car.axle.oil.name,
         "not_modelled": ", ".join((*not_modelled(losing), _NOT_HEATED)),
+        "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in ranges),
         "start_temperature_degc": settings.start_temperature - ZERO_CELSIUS,
         "air_temperature_degc": settings.air_temperature - ZERO_CELSIUS,
         "regeneration": settings.regeneration,

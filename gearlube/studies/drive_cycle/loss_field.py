@@ -33,11 +33,15 @@ class LossesAlong:
         [W], sources as in LOSS_SOURCES.
     torque : ndarray of shape (n, k)
         Of the pinion [N.m].
+    outside : ndarray of shape (n, k, ranges)
+        Share of the points of the map around it that are outside each range of the axle [-];
+        ranges as in `HypoidAxleParameters.ranges`.
     """
 
     temperatures: Array
     power: Array
     torque: Array
+    outside: Array
 
 
 def losses_along(
@@ -47,7 +51,9 @@ def losses_along(
 
     Between the points of the map the loss torque of each source is linear in torque, speed and
     temperature; below the lowest speed it is that of the lowest. The pinion's torque is that of
-    the wheels over the ratio plus the loss torque, solved by iteration.
+    the wheels over the ratio plus the loss torque, solved by iteration. What is outside a range
+    of a formula is 1 at the points of the map where that range is left, 0 at others, and linear
+    between them as well.
     """
     axle = settings.car.axle
     temperatures = _temperatures(settings)
@@ -55,8 +61,10 @@ def losses_along(
     count = demand.torque.size
     power = np.zeros((count, temperatures.size, len(LOSS_SOURCES)))
     torque = np.repeat(demand.torque[:, None], temperatures.size, axis=1)
+    outside = np.zeros((count, temperatures.size, len(axle.ranges)))
+    along = LossesAlong(temperatures=temperatures, power=power, torque=torque, outside=outside)
     if not np.any(turning):
-        return LossesAlong(temperatures=temperatures, power=power, torque=torque)
+        return along
     torques = torque_nodes(settings, demand.torque[turning])
     speeds = speed_nodes(settings.grid.speeds, float(demand.pinion_speed.max()))
     found = axle_losses(
@@ -65,10 +73,10 @@ def losses_along(
         speeds=speeds,
         temperatures=temperatures,
         angles=_ANGLES,
-        extremes=False,
         progress=progress,
     )
     _check_map(found.status, temperatures, speeds, torques)
+    left = found.exceeded.astype(int)[..., None] >> np.arange(len(axle.ranges)) & 1
     asked, speed = demand.torque[turning], demand.pinion_speed[turning]
     at_speed = np.clip(speed, speeds[0], speeds[-1])
     for k in range(temperatures.size):
@@ -78,10 +86,11 @@ def losses_along(
         carried = asked
         if not demand.measured:
             carried = _with_losses(loss_torque, at_speed, asked, torques)
-        moments = loss_torque(np.column_stack([at_speed, carried]))
-        power[turning, k] = moments * speed[:, None]
+        points = np.column_stack([at_speed, carried])
+        power[turning, k] = loss_torque(points) * speed[:, None]
         torque[turning, k] = carried
-    return LossesAlong(temperatures=temperatures, power=power, torque=torque)
+        outside[turning, k] = RegularGridInterpolator((speeds, torques), left[k])(points)
+    return along
 
 
 def _with_losses(

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from drivetrain.sump_heat import SumpHeat, Warming, warm
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.drive_cycle.datasets import cycle_dataset
 from gearlube.studies.drive_cycle.demand import demand_of
 from gearlube.studies.drive_cycle.figures import save_cycle_figures
-from gearlube.studies.drive_cycle.heat import SumpHeat, Warming, warm
 from gearlube.studies.drive_cycle.loss_field import losses_along
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
 from gearlube.studies.drive_cycle.tables import SUMMARY_HEAD, series_rows, summary_rows

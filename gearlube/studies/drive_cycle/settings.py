@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from drivetrain.axle_file.axle_file import CarAxle
-from gearlube.studies.drive_cycle.heat import SumpHeat
+from drivetrain.sump_heat import SumpHeat
 from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube_core.checks import check_within
 from gearlube_core.units import celsius_to_kelvin

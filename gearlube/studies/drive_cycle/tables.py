@@ -68,7 +68,29 @@ def summary_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
     rows.append(
         ("oil temperature at the end", f"{end[0]:.5g}", "degC", *(f"{t:.5g}" for t in end[1:]))
     )
+    for name, words in (("time", "running time"), ("energy", "energy lost")):
+        for one in dataset[f"{name}_outside_range"]:
+            output = str(one["range"].values)
+            rows.append(
+                (f"share of the {words} outside {output}", _number(float(one)), "1", "", "")
+            )
     return rows
+
+
+def range_sentence(dataset: xr.Dataset) -> str:
+    """Return what share of the cycle is outside which ranges; empty where none is left."""
+    parts = []
+    named = dataset.attrs["ranges_left"].split("; ") if dataset.attrs["ranges_left"] else []
+    for words in named:
+        output = words[words.rindex("(") + 1 : -1]
+        time, energy = (
+            100.0 * float(dataset[f"{name}_outside_range"].sel(range=output))
+            for name in ("time", "energy")
+        )
+        parts.append(
+            f"{words}: {time:.2g} % of the running time, {energy:.2g} % of the energy lost"
+        )
+    return f"Outside ranges: {'; '.join(parts)}." if parts else ""
 
 
 def _energy(

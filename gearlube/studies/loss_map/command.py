@@ -18,6 +18,8 @@ from gearlube.cli.results_folder import results_folder
 if TYPE_CHECKING:
     import xarray as xr
 
+    from drivetrain.driveline.parameters import DrivelineParameters
+    from drivetrain.steady_temperature import Cooling
     from gearlube_core.arrays import Array
 
 logger = logging.getLogger("gearlube")
@@ -63,6 +65,50 @@ def loss_map(
         typer.Option(help="Samples of the uncertain data for error bars; 0: none.", metavar="N"),
     ] = 60,
     seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    calibrated_bearings: Annotated[
+        bool,
+        typer.Option(
+            "--calibrated-bearings",
+            help="f0 and f1 of the axle are from measured torques of its bearings: their drag is "
+            "known to a factor of 1.25 in place of 2.",
+        ),
+    ] = False,
+    steady_temperature: Annotated[
+        bool,
+        typer.Option(
+            "--steady-temperature",
+            help="Also find the oil temperature at which each torque and speed comes to rest in "
+            "the car, and the loss there.",
+        ),
+    ] = False,
+    air_temperature: Annotated[
+        float | None,
+        typer.Option(help="Of the air, for the steady temperature [degC]. Default: 23."),
+    ] = None,
+    conductance_at_rest: Annotated[
+        float | None,
+        typer.Option(help="Housing to air at rest [W/K]; default 7, assumed, 4.5 to 10."),
+    ] = None,
+    conductance_at_100: Annotated[
+        float | None,
+        typer.Option(help="Ditto at 100 km/h [W/K]; default 18, assumed, 9 to 30."),
+    ] = None,
+    regulation_grid: Annotated[
+        bool,
+        typer.Option(
+            "--regulation-grid",
+            help="Also write a file for VECTO at 70 degC on the grid of heavy-duty axle tests: "
+            "wheel speeds in steps of 50 rpm, wheel torques in steps of 250 N.m and more.",
+        ),
+    ] = False,
+    regulation_raised: Annotated[
+        bool,
+        typer.Option(
+            "--regulation-raised",
+            help="The same with the loss raised by its uncertainty less the larger of 5 % and "
+            "1 N.m.",
+        ),
+    ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_map"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -75,6 +121,7 @@ def loss_map(
     from drivetrain.axle_file.axle_file import AxleFile, read_axle
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
+    from gearlube.studies.loss_map.exports import write_regulation_map
     from gearlube.studies.loss_map.run import run_loss_map
     from gearlube.studies.loss_map.settings import LossMapSettings
     from gearlube_core.oil.oil_file import read_oil
@@ -96,12 +143,23 @@ def loss_map(
             temperatures=grid.get("temperatures"),
             draws=draws,
             seed=seed,
+            calibrated_bearings=calibrated_bearings,
+            cooling=_cooling(
+                described.driveline,
+                steady_temperature,
+                air_temperature,
+                conductance_at_rest,
+                conductance_at_100,
+            ),
         )
         with (
             results_folder(out, "map", overwrite=overwrite),
             progress_on(console, "map") as progress,
         ):
             dataset = run_loss_map(settings, folder=out, progress=progress)
+            for raised, wanted in ((False, regulation_grid), (True, regulation_raised)):
+                if wanted:
+                    write_regulation_map(settings, out, raised=raised, progress=progress)
         for sentence in remarks(dataset):
             logger.warning("%s", sentence)
         points = dataset["status"].size
@@ -120,7 +178,51 @@ def remarks(dataset: xr.Dataset) -> list[str]:
             f"{share:.0f} % of the points are outside a range: {dataset.attrs['ranges_left']}. "
             "The column range_exceeded says which."
         )
+    if "steady_temperature" in dataset:
+        steady = dataset["steady_temperature"]
+        missing = int(steady.isnull().sum())
+        if missing:
+            said.append(
+                f"{missing} of {steady.size} torques and speeds come to no rest within the data "
+                "of the oil; their steady temperature is empty."
+            )
     return said
+
+
+def _cooling(
+    driveline: DrivelineParameters,
+    wanted: bool,
+    air: float | None,
+    at_rest: float | None,
+    at_100: float | None,
+) -> Cooling | None:
+    """Return the cooling that the options give; None if no steady temperature is wanted."""
+    from drivetrain.steady_temperature import Cooling
+    from drivetrain.sump_heat import SumpHeat
+    from gearlube_core.errors import ParameterError
+    from gearlube_core.units import celsius_to_kelvin
+
+    given = {
+        "--air-temperature": air,
+        "--conductance-at-rest": at_rest,
+        "--conductance-at-100": at_100,
+    }
+    if not wanted:
+        idle = [name for name, value in given.items() if value is not None]
+        if idle:
+            raise ParameterError(
+                f"{idle[0]} needs --steady-temperature, got it alone. Add that option, or remove "
+                "this one."
+            )
+        return None
+    usual = SumpHeat()
+    heat = SumpHeat(
+        conductance_at_rest=usual.conductance_at_rest if at_rest is None else at_rest,
+        conductance_at_100_kmh=usual.conductance_at_100_kmh if at_100 is None else at_100,
+    )
+    if air is None:
+        return Cooling(driveline=driveline, heat=heat)
+    return Cooling(driveline=driveline, heat=heat, air_temperature=celsius_to_kelvin(air))
 
 
 def _grid(

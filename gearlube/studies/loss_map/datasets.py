@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from drivetrain.steady_temperature import Cooling
 from gearlube.studies.loss_map.sampling import Spread
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
@@ -70,6 +71,35 @@ def loss_map_dataset(
         },
         coords=coordinates,
         attrs=_attributes(settings, losses),
+    )
+
+
+def with_steady_temperature(
+    dataset: xr.Dataset, cooling: Cooling, temperature: Array, power: Array
+) -> xr.Dataset:
+    """Return the map with the oil temperature at rest [K] and the loss there [W].
+
+    Both over (speed, torque); NaN where the oil would leave the range of its data.
+    """
+    turning = dataset["speed"].values[:, None] * np.pi / 30.0
+    heat = cooling.heat
+    return dataset.assign(
+        {
+            "steady_temperature": (
+                GRID[1:],
+                temperature - ZERO_CELSIUS,
+                _about("degC", "oil temperature at constant running"),
+            ),
+            "steady_loss_torque": (
+                GRID[1:],
+                power / turning,
+                _about("N.m", "loss torque at the pinion, at that temperature"),
+            ),
+        }
+    ).assign_attrs(
+        air_temperature_degc=cooling.air_temperature - ZERO_CELSIUS,
+        conductance_at_rest_w_k=heat.conductance_at_rest,
+        conductance_at_100_kmh_w_k=heat.conductance_at_100_kmh,
     )
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import xarray as xr
 
-from gearlube.studies.loss_map.datasets import loss_map_dataset
+from drivetrain.steady_temperature import steady_temperatures
+from gearlube.studies.loss_map.datasets import loss_map_dataset, with_steady_temperature
 from gearlube.studies.loss_map.exports import write_exports
 from gearlube.studies.loss_map.figures import save_loss_map_figures
 from gearlube.studies.loss_map.sampling import spread_of
@@ -70,6 +71,15 @@ def run_loss_map(
     if settings.draws:
         spread = spread_of(settings, part_of(progress, _OF_MAP, 1.0))
     dataset = loss_map_dataset(settings, losses, spread)
+    if settings.cooling is not None:
+        steady = steady_temperatures(
+            settings.axle,
+            settings.cooling,
+            torques=torques,
+            speeds=speeds,
+            progress=lambda _, words: progress(1.0, f"steady temperature, {words}"),
+        )
+        dataset = with_steady_temperature(dataset, settings.cooling, *steady)
     if folder is not None:
         progress(1.0, "files and figures")
         folder.mkdir(parents=True, exist_ok=True)

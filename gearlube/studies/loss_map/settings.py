@@ -8,11 +8,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from drivetrain.steady_temperature import Cooling
 from gearlube_core.arrays import Array
+from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.checks import check_within
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin
 
 MOST_POINTS = 200_000
@@ -74,6 +76,9 @@ def _roughness(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
     return replace(axle, roughness_rms=axle.roughness_rms * by)
 
 
+_NOT_MEASURED = "state of lubrication not known, no torque measured"
+_MEASURED = "drag calibrated with measured torques of the bearings"
+
 UNCERTAIN = (
     Uncertain("viscosity", "oil viscosity", 1.08, "batches of one reference oil", _viscosity),
     Uncertain("eyring_stress", "Eyring stress of the oil", 2.0, "2 to 5 MPa in use", _eyring),
@@ -90,8 +95,8 @@ UNCERTAIN = (
     Uncertain(
         "bearing_drag",
         "law of bearing drag",
-        1.25,
-        "Palmgren's law against measured tapered roller bearings",
+        UNCALIBRATED["palmgren"],
+        _NOT_MEASURED,
         None,
         ("bearing_torque",),
     ),
@@ -115,22 +120,49 @@ UNCERTAIN = (
 )
 
 
-def uncertain_of(oil: Lubricant) -> tuple[Uncertain, ...]:
-    """Return the usual uncertain data, with the factors that an oil has of its own.
+def uncertain_of(
+    axle: HypoidAxleParameters, *, calibrated_bearings: bool = False
+) -> tuple[Uncertain, ...]:
+    """Return the usual uncertain data, with the factors of an axle's oil and bearing law.
+
+    Parameters
+    ----------
+    axle
+        Its oil has factors of its own; the factor of the bearing drag is that of its law, from
+        the table that `bearing_loss` takes as well.
+    calibrated_bearings
+        f0 and f1 of Palmgren's law are from measured torques of these bearings.
+
+    Raises
+    ------
+    ParameterError
+        Calibrated bearings with another law: only Palmgren's has factors to calibrate.
 
     Examples
     --------
-    >>> from gearlube_core.oil.oil_file import read_oil
-    >>> oil = read_oil("iso_vg_220_pao").lubricant
-    >>> {one.name: one.why for one in uncertain_of(oil)}["eyring_stress"]
-    'of ISO VG 220 PAO'
+    >>> from dataclasses import replace
+    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+    >>> axle = replace(mohammadpour_2015_axle(), bearing_torque_loss="biboulet_houpert_2010")
+    >>> {one.name: one.factor for one in uncertain_of(axle)}["bearing_drag"]
+    3.0
     """
-    own = {"alpha": oil.alpha_factor, "eyring_stress": oil.eyring_stress_factor}
-    why = f"of {oil.name}".replace(";", ",")
-    return tuple(
-        one if (factor := own.get(one.name)) is None else replace(one, factor=factor, why=why)
-        for one in UNCERTAIN
-    )
+    oil, law = axle.oil, axle.bearing_torque_loss
+    if calibrated_bearings and law != "palmgren":
+        raise ParameterError(
+            "Calibrated bearings must have the law palmgren, whose f0 and f1 hold the measured "
+            f"torque, got {law}. Leave the calibration out, or take palmgren."
+        )
+    of_oil = f"of {oil.name}".replace(";", ",")
+    own = {"alpha": (oil.alpha_factor, of_oil), "eyring_stress": (oil.eyring_stress_factor, of_oil)}
+    if calibrated_bearings:
+        own["bearing_drag"] = (CALIBRATED, _MEASURED)
+    elif law in BEARING_LAWS:
+        own["bearing_drag"] = (UNCALIBRATED[BEARING_LAWS[law]], _NOT_MEASURED)
+    found = []
+    for one in UNCERTAIN:
+        factor, why = own.get(one.name, (None, ""))
+        found.append(one if factor is None else replace(one, factor=factor, why=why))
+    return tuple(found)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,8 +182,14 @@ class LossMapSettings:
     draws : int
         Samples of the uncertain data, 0 to 10000; 0: no error bars.
     seed : int
+    calibrated_bearings : bool
+        f0 and f1 of Palmgren's law are from measured torques of these bearings: their drag is
+        known to a factor of 1.25.
     uncertain : tuple of Uncertain, optional
-        Default: `uncertain_of` the axle's oil.
+        Default: `uncertain_of` the axle.
+    cooling : Cooling, optional
+        Of the axle in a car; with it the map has the oil temperature at which each torque and
+        speed comes to rest, and the loss there.
 
     Examples
     --------
@@ -167,11 +205,14 @@ class LossMapSettings:
     temperatures: Array | None = None
     draws: int = 60
     seed: int = 1
+    calibrated_bearings: bool = False
     uncertain: tuple[Uncertain, ...] = ()
+    cooling: Cooling | None = None
 
     def __post_init__(self) -> None:
         if not self.uncertain:
-            object.__setattr__(self, "uncertain", uncertain_of(self.axle.oil))
+            usual = uncertain_of(self.axle, calibrated_bearings=self.calibrated_bearings)
+            object.__setattr__(self, "uncertain", usual)
         low, high = self.axle.torque_range
         given = {
             "torques": (self.torques, _usual_torques(0.5 * low, high)),
@@ -189,6 +230,8 @@ class LossMapSettings:
                     "what stands twice."
                 )
             object.__setattr__(self, name, chosen)
+        if self.cooling is not None:
+            self.axle.oil.check_temperature(self.cooling.air_temperature, "air_temperature")
         check_within("draws", self.draws, 0, MOST_DRAWS, "", "60 are usual.")
         check_within("seed", self.seed, 0, 2**32 - 1, "", "Any whole number.")
         points = math.prod(self.shape)

@@ -264,7 +264,7 @@ def _run_in(surface: Any, height_um: float | None) -> Any:
         return surface
     from gearlube_core.surface.running_in import peaks_cut
 
-    height = check_finite("--cut-peaks-um", height_um, "um") * _MICRO
+    height = check_within("--cut-peaks-um", height_um, -_HIGHEST_UM, _HIGHEST_UM, "um") * _MICRO
     cut = peaks_cut(surface, height)
     logger.info("Model of running-in: %.2f %% of the points were cut.", 100.0 * cut.share)
     return cut.surface

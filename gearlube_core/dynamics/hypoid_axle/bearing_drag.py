@@ -17,6 +17,13 @@ TorqueLoss = Literal[
     "none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", "aihara_1987"
 ]
 TORQUE_LOSSES: tuple[str, ...] = get_args(TorqueLoss)
+# what `bearings.losses.laws` calls them
+BEARING_LAWS = {
+    "palmgren": "palmgren",
+    "zhou_hoeprich_1991": "zhou_hoeprich",
+    "biboulet_houpert_2010": "biboulet_houpert",
+    "aihara_1987": "aihara",
+}
 PALMGREN = float(TORQUE_LOSSES.index("palmgren"))
 _ZHOU_HOEPRICH = float(TORQUE_LOSSES.index("zhou_hoeprich_1991"))
 _AIHARA = float(TORQUE_LOSSES.index("aihara_1987"))

@@ -12,8 +12,11 @@ from gearlube.studies.loss_map.exports.gem import gem_text
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_text
 from gearlube.studies.loss_map.exports.mat import write_mat
 from gearlube.studies.loss_map.exports.table import table_rows
-from gearlube.studies.loss_map.exports.vtlm import vtlm_text
+from gearlube.studies.loss_map.exports.vtlm import regulation_text, vtlm_text
+from gearlube.studies.loss_map.regulation import OIL_DEGC, regulation_map
+from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_text
 
 logger = logging.getLogger("gearlube")
@@ -33,3 +36,17 @@ def write_exports(dataset: xr.Dataset, folder: Path) -> None:
             logger.warning("No vecto_%s.vtlm: %s", name, reason)
         write_text(gem_text(one), folder / f"gem_{name}.csv")
         write_text(lossy_gear_text(one), folder / f"lossy_gear_{name}.mo")
+
+
+def write_regulation_map(
+    settings: LossMapSettings,
+    folder: Path,
+    *,
+    raised: bool = False,
+    progress: Progress = no_progress,
+) -> Path:
+    """Write the map on the grid of heavy-duty axle tests for VECTO; return its path."""
+    kind = "raised_" if raised else ""
+    path = folder / f"vecto_regulation_{kind}{OIL_DEGC:g}degC.vtlm"
+    write_text(regulation_text(regulation_map(settings, raised=raised, progress=progress)), path)
+    return path

@@ -19,11 +19,16 @@ _COLUMNS = {
     "flank_temperature": "flank_temperature_degc",
     "range_exceeded": "range_exceeded",
 }
+_STEADY = {
+    "steady_temperature": "steady_oil_temperature_degc",
+    "steady_loss_torque": "steady_loss_torque_n_m",
+}  # of speed and torque alone
 
 
 def table_rows(dataset: xr.Dataset) -> tuple[tuple[str, ...], Iterator[tuple[str, ...]]]:
     """Return the names of the columns and the rows; a point that failed says why."""
     kept = {name: column for name, column in _COLUMNS.items() if name in dataset}
+    steady = {name: column for name, column in _STEADY.items() if name in dataset}
     sources = [str(one) for one in dataset["source"].values]
     head = (
         "oil_temperature_degc",
@@ -31,14 +36,18 @@ def table_rows(dataset: xr.Dataset) -> tuple[tuple[str, ...], Iterator[tuple[str
         "pinion_torque_n_m",
         *kept.values(),
         *(f"loss_{one}_w" for one in sources),
+        *steady.values(),
         "reason",
     )
-    return head, _rows(dataset, tuple(kept))
+    return head, _rows(dataset, tuple(kept), tuple(steady))
 
 
-def _rows(dataset: xr.Dataset, names: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+def _rows(
+    dataset: xr.Dataset, names: tuple[str, ...], steady: tuple[str, ...]
+) -> Iterator[tuple[str, ...]]:
     reasons = dict(part.split(": ", 1) for part in dataset.attrs["reasons"].split("; "))
     values = [dataset[name].values for name in names]
+    at_rest = [dataset[name].transpose(*GRID[1:]).values for name in steady]
     losses, statuses = dataset["loss"].values, dataset["status"].values
     temperatures, speeds, torques = (dataset[name].values for name in GRID)
     for i, temperature in enumerate(temperatures):
@@ -50,6 +59,7 @@ def _rows(dataset: xr.Dataset, names: tuple[str, ...]) -> Iterator[tuple[str, ..
                     f"{torque:.10g}",
                     *(_number(one[i, j, k]) for one in values),
                     *(_number(one) for one in losses[i, j, k]),
+                    *(_number(one[j, k]) for one in at_rest),
                     reasons.get(str(int(statuses[i, j, k])), ""),
                 )
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import xarray as xr
 
+from gearlube.studies.loss_map.regulation import RegulationMap
 from gearlube_core.errors import ParameterError
 
 HEAD = "Input Speed [rpm],Input Torque [Nm],Torque Loss [Nm]"
@@ -21,12 +24,23 @@ def vtlm_text(dataset: xr.Dataset) -> str:
     ParameterError
         Fewer than four points are left; VECTO refuses such a map.
     """
-    lines = [HEAD]
     loss = dataset["loss_torque"].transpose("speed", "torque").values
-    for j, speed in enumerate(dataset["speed"].values):
-        for k, torque in enumerate(dataset["torque"].values):
-            if np.isfinite(loss[j, k]):
-                lines.append(f"{speed:.2f},{torque:.2f},{loss[j, k]:.4f}")
+    return _text(
+        (float(speed), float(torque), float(loss[j, k]))
+        for j, speed in enumerate(dataset["speed"].values)
+        for k, torque in enumerate(dataset["torque"].values)
+        if np.isfinite(loss[j, k])
+    )
+
+
+def regulation_text(found: RegulationMap) -> str:
+    """Return the lines of a .vtlm file of a map over speeds and torques of the wheels."""
+    return _text(zip(found.speed, found.torque, found.loss, strict=True))
+
+
+def _text(rows: Iterable[tuple[float, float, float]]) -> str:
+    lines = [HEAD]
+    lines += [f"{speed:.4f},{torque:.4f},{loss:.4f}" for speed, torque, loss in rows]
     if len(lines) <= _LEAST_ROWS:
         raise ParameterError(
             f"A .vtlm map must have at least {_LEAST_ROWS} points, got {len(lines) - 1}. Take more "

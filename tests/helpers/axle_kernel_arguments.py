@@ -1,0 +1,370 @@
+"""Arguments of every kernel of the axle, from an axle that runs."""
+
+from functools import cache
+
+import numpy as np
+
+from gearlube_core.bearings import bearing_type, cage_frame, shaft_expansion
+from gearlube_core.bearings.parameters import ROLLERS_MAX
+from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
+from gearlube_core.dynamics import flank_force, mean_power
+from gearlube_core.dynamics.hypoid_axle import (
+    HypoidAxle,
+    bearing_drag,
+    bearing_outputs,
+    continuous,
+    flank_outputs,
+    flanks,
+    force_derivatives,
+    integrate,
+    mesh_at_load,
+    mesh_force,
+    outputs,
+    rhs,
+    start,
+    step_control,
+)
+from gearlube_core.dynamics.hypoid_axle.communication import axle_kernels
+from gearlube_core.dynamics.hypoid_axle.kernel_parameters import without_losses
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
+from gearlube_core.dynamics.hypoid_axle.model import START_WORK
+from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, N_OUTPUTS, PINION_BEARINGS
+from gearlube_core.dynamics.hypoid_axle.state import (
+    LOAD_TORQUE,
+    N_CONTINUOUS,
+    N_ODE,
+    N_STATE,
+    PHI_P,
+    PINION_WORK,
+    SIDE,
+    TIME_IN_STEP,
+    W_G,
+    WORK_MARK,
+    X,
+)
+from gearlube_core.dynamics.packed_mesh import N_CHANNELS, pack_mesh
+from gearlube_core.friction.flank_laws import MixedFlankFriction
+from gearlube_core.kernels.flat_tuples import flatten
+from gearlube_core.mesh_table import kernels
+from gearlube_core.oil.lubricant_state import lubricant_state
+from tests.helpers.axle_cases import OIL, axle_with, running_axle, with_coast_flanks
+
+COMPILED = axle_kernels(TaperedRollerParameters, MixedFlankFriction)
+
+
+def zeros(size):
+    return np.zeros(size)
+
+
+@cache
+def all_cases():
+    """Kernels with arguments; made by the first test, as collecting them would compile an axle."""
+    axle, torque_p, torque_g = running_axle(60)
+    for _ in range(20):
+        axle.step(1e-4, torque_p, torque_g, OIL)
+    state = axle.get_state()[:N_STATE]
+    mesh = axle.packed
+    p = axle.kernel_parameters
+    printed = HypoidAxle(
+        axle_with(
+            equations="as_printed", friction="as_printed", mesh_damping="modal", radii="paper"
+        )
+    ).kernel_parameters
+    state_of_oil = lubricant_state(p.oil, OIL)
+    inputs = integrate.step_inputs(state, torque_p, torque_g, state_of_oil, p)
+    series, window = np.zeros(mesh.series_size), np.zeros(mesh.window_size)
+    table = MeshLevels(mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
+    mesh_data = MeshAtLoad(series, mesh.orders, window, mesh.nodes)
+    mesh_at_load.blend_mesh(state[LOAD_TORQUE], 1.0, table, mesh_data)
+    at_load = (mesh_data, state_of_oil)
+    force = mesh_force.mesh_force(state, series, mesh.orders, p.mesh).force
+    channels, friction = np.zeros(N_CHANNELS), np.zeros(rhs.N_FRICTION)
+    kernels.pair_channels(window, mesh.nodes, p.mesh.z_p, state[PHI_P], 0, N_CHANNELS, channels)
+    control = axle.step_control
+    scratch = np.zeros(rhs.SCRATCH)
+    slope = np.zeros(N_ODE)
+    rhs.axle_rhs(state, inputs, *at_load, p, 1.0, 1.0, scratch, slope)
+    motion = bearing_type.ShaftMotion(3e-6, -1e-6, 0.5e-6, 1e-3, 2e-3, -1e-3, 0.3, 145.0)
+    moved = bearing_type.ShaftMotion(3.1e-6, -1.2e-6, 0.6e-6, 2e-3, 1e-3, -2e-3, 0.31, 145.0)
+    terms = cage_frame.ApproachTerms(10.0, 3.0, 1.0, 0.5, 20.0, -30.0, 5.0)
+    loop = (12, terms, 0.7, 3e-5, 40.0, 3e-5, 0.0)
+    expansion = np.zeros(bearing_type.N_EXPANSION)
+    shaft_expansion.expand_shaft_bearings(motion, 300.0, 0.0171, 2.4e-8, p.bearing_p, expansion)
+    separated = state.copy()
+    separated[X] = -3.0
+    coasting = state.copy()
+    coasting[X] = -155.0
+    both = pack_mesh(with_coast_flanks(axle.parameters.mesh), 115e9, "consistent", "tangent")
+    both_sides = MeshLevels(both.levels, both.series, both.orders, both.windows, both.nodes)
+    crossed, crossed_back = state.copy(), state.copy()
+    crossed[X], crossed_back[X] = -100.0, -50.0
+    crossed_back[SIDE] = -1.0
+    at_start = state.copy()
+    at_start[TIME_IN_STEP] = 0.0
+    torques = (torque_p, torque_g)
+    work = zeros(integrate.work_size(mesh.orders, mesh.nodes))
+    lossless = without_losses(p)
+    at_rest = start.RestProblem(
+        state, inputs, mesh_data, state_of_oil, lossless, zeros(1), zeros(rhs.SCRATCH), zeros(N_ODE)
+    )
+    stiffness = zeros(force_derivatives.N_COORDINATES**2)
+    force_derivatives.force_derivatives(
+        state, 0.0, 60.0, OIL, table, lossless, zeros(START_WORK), stiffness
+    )
+    bracket = kernels.load_bracket(33.0, 1.0, mesh.levels, mesh.levels.size)
+    write_shaft = (motion, 300.0, state_of_oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0))
+    found = [
+        *(
+            (kernels.load_bracket, (torque, side, levels, levels.size))
+            for torque in (0.0, 33.0, 1e3)
+            for side in (1.0, -1.0)
+            for levels in (mesh.levels, both.levels)
+        ),
+        (kernels.blend_levels, (mesh.series, mesh.series_size, bracket, zeros(mesh.series_size))),
+        (kernels.mesh_series, (series, mesh.orders, 13.0, 0.3)),
+        (kernels.transmission_error, (series, mesh.orders, 13.0, 0.3)),
+        (kernels.pair_channels, (window, mesh.nodes, 13.0, 0.3, 1, N_CHANNELS, zeros(N_CHANNELS))),
+        (shaft_expansion._sums_line, loop),
+        (shaft_expansion._sums_general, (*loop, 1.3, zeros(bearing_type.N_EXPANSION))),
+        (
+            shaft_expansion.expand_shaft_bearings,
+            (motion, 300.0, 0.0171, 2.4e-8, p.bearing_p, zeros(bearing_type.N_EXPANSION)),
+        ),
+        (
+            shaft_expansion.expand_shaft_bearings,
+            (
+                motion,
+                300.0,
+                0.0171,
+                2.4e-8,
+                p.bearing_p._replace(n=1.2),
+                zeros(bearing_type.N_EXPANSION),
+            ),
+        ),
+        (
+            shaft_expansion.expanded_shaft_forces,
+            (moved, p.bearing_p, expansion),
+        ),
+        (flank_force.backlash_deflection, (3e-6, 150e-6)),
+        (flank_force.backlash_deflection, (-3e-6, 150e-6)),
+        (flank_force.backlash_deflection, (-153e-6, 150e-6)),
+        (flank_force.gated_force, (900.0, 2278.0, -0.1, 3e-6)),
+        (flank_force.gated_force, (-30.0, 2278.0, -0.1, -0.1e-6)),
+        (mesh_force.reference_frequency, (p.mesh, 145.0)),
+        (mesh_force.reference_frequency, (p.mesh, -1.0)),
+        *(
+            (mesh_force.mesh_force, (state, series, mesh.orders, parameters.mesh))
+            for state in (state, separated, coasting)
+            for parameters in (p, printed)
+        ),
+        *(
+            (bearing_drag.bearing_drag, (state, state_of_oil, p._replace(drag=law)))
+            for law in (0.0, 1.0, 2.0, 3.0, 4.0)
+        ),
+        (
+            integrate.inputs_with_drag,
+            (state, 3.0, 5.0, bearing_drag.BearingDrag(0.2, 0.3), state_of_oil, p),
+        ),
+        (flanks.sliding_speed, (state, channels)),
+        (flanks.pair_friction, (state, 900.0, 0.7, channels, state_of_oil, p)),
+        (flanks.pair_rolling, (900.0, -2.0, 0.7, channels, state_of_oil, p)),
+        *(
+            (
+                flanks.flank_sum,
+                (state, force, window, mesh.nodes, state_of_oil, one, refresh, friction, channels),
+            )
+            for refresh in (1.0, 0.0)
+            for one in (p, p._replace(rolling=1.0))
+        ),
+        (rhs.pinion_motion, (state,)),
+        (rhs.gear_motion, (state,)),
+        *(
+            (rhs.axle_rhs, (state, inputs, *at_load, parameters, fresh, fresh, scratch, slope))
+            for state in (state, separated, coasting)
+            for parameters in (p, printed)
+            for fresh in (1.0, 0.0)
+        ),
+        (start.mean_series, (33.0, table, zeros(kernels.N_SERIES))),
+        (start.rest_forces, (np.array([1.0, 2.0, 3.0, -1.0, -2.0, 4.0]), at_rest, zeros(6))),
+        *(
+            (start.rest, (zeros(N_STATE), 145.0, torque, OIL, table, lossless, zeros(START_WORK)))
+            for torque in (60.0, -60.0)
+        ),
+        *((force_derivatives._rate_place, (j,)) for j in range(8)),
+        *((force_derivatives.mass_of, (j, p)) for j in range(8)),
+        *(
+            (
+                force_derivatives.force_derivatives,
+                (state, of_speeds, 60.0, OIL, table, p, zeros(START_WORK), zeros(64)),
+            )
+            for of_speeds in (0.0, 1.0)
+        ),
+        (step_control.highest_frequency, (stiffness, p, zeros(8), zeros(8))),
+        (
+            step_control.write_step_control,
+            (state, 64.0, 22.0, 60.0, OIL, table, lossless, zeros(START_WORK), zeros(5)),
+        ),
+        (mesh_force.modal_damping, (0.06, 5e8, 3.4)),
+        (mesh_force.equivalent_mass, (0.021, 2.77, 1.7e-3, 0.058)),
+        (integrate.step_limit, (p, control, 145.0, 5e8)),
+        (integrate.step_limit, (printed, control, 145.0, 5e8)),
+        *(
+            (
+                integrate.rk4_step,
+                (
+                    state,
+                    2e-5,
+                    first,
+                    expand,
+                    inputs,
+                    *at_load,
+                    p,
+                    scratch,
+                    zeros(N_STATE + 2 * N_ODE),
+                ),
+            )
+            for first in (1.0, 0.0)
+            for expand in (1.0, 0.0)
+        ),
+        (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p)),
+        (integrate.step_inputs, (state, 60.0, 100.0, state_of_oil, p._replace(drag=0.0))),
+        (integrate.displacements, (state, 1e-5)),
+        (
+            integrate.largest_change,
+            ((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), (1.5, 2.0, 0.0, 4.0, 5.0, 7.0)),
+        ),
+        (
+            mesh_at_load.blend_mesh,
+            (33.0, -1.0, both_sides, mesh_data),
+        ),
+        (
+            mesh_at_load.lateral_and_unloaded,
+            (state, kernels.mesh_series(series, mesh.orders, 13.0, 0.3), series, mesh.orders, 13.0),
+        ),
+        *(
+            (mesh_at_load.follow_flank, (state, both_sides, parameters, mesh_data))
+            for state in (state, separated, coasting, crossed, crossed_back)
+            for parameters in (p.mesh, p.mesh._replace(backlash=0.0))
+        ),
+        *(
+            (
+                mesh_at_load.gap_rotation,
+                (
+                    one,
+                    kernels.mesh_series(series, mesh.orders, 13.0, one[PHI_P]),
+                    p.mesh,
+                    series,
+                    mesh.orders,
+                ),
+            )
+            for one in (state, separated, coasting)
+        ),
+        (continuous.write_rates, (state, slope, -60.0, zeros(N_CONTINUOUS))),
+        *(
+            (continuous.write_event_indicators, (one, levels, mesh_data, p.mesh, zeros(3)))
+            for one in (state, separated, coasting)
+            for levels in (table, both_sides)
+        ),
+        *(
+            (continuous.change_side, (one, levels, p.mesh, work))
+            for one in (state, crossed, crossed_back)
+            for levels in (table, both_sides)
+        ),
+        (outputs.write_derivatives, (state, torques, OIL, table, p, work, zeros(N_OUTPUTS))),
+        (outputs.stored_energy, (state, 5e8, state_of_oil, p)),
+        (
+            flank_outputs.write_flanks,
+            (
+                state,
+                force,
+                window,
+                mesh.nodes,
+                OIL,
+                state_of_oil,
+                p,
+                FLANKS,
+                channels,
+                zeros(N_OUTPUTS),
+            ),
+        ),
+        (bearing_outputs.write_shaft, (*write_shaft, zeros(ROLLERS_MAX), zeros(N_OUTPUTS))),
+        *(
+            (mean_power.mean_power, (state, slope, PINION_WORK, WORK_MARK, duration))
+            for duration in (0.0, 1e-4)
+        ),
+        *((outputs.write_losses, (state, slope, zeros(N_OUTPUTS))) for state in (state, at_start)),
+        *(
+            (integrate.advance, (state, duration, torques, OIL, table, p, control, work))
+            for duration in (1e-4, 1e9)
+        ),
+        *(
+            (outputs.write_motion, (one, slope, series, mesh.orders, p, zeros(N_OUTPUTS)))
+            for one in (state, at_start, separated)
+        ),
+        (outputs.write_motion_after_step, (state, table, p, work, zeros(N_OUTPUTS))),
+        (
+            outputs.write_outputs,
+            (state, torques, OIL, table, p, work, zeros(ROLLERS_MAX), zeros(N_OUTPUTS)),
+        ),
+    ]
+    inputs_now = np.array([*torques, OIL])
+    too_fast, broken = state.copy(), state.copy()
+    too_fast[W_G] = -5001.0
+    broken[X] = -2e5
+    found += [
+        (
+            COMPILED.static_state,
+            (zeros(N_STATE), 145.0, inputs_now, tuple(table), flatten(lossless), zeros(START_WORK)),
+        ),
+        (
+            COMPILED.step_control,
+            (
+                state, 64.0, 22.0, inputs_now, tuple(table), flatten(lossless), zeros(START_WORK),
+                zeros(5),
+            ),
+        ),
+        (
+            COMPILED.derivatives,
+            (state, 0.0, 60.0, OIL, tuple(table), flatten(p), zeros(START_WORK), zeros(64)),
+        ),
+        (
+            COMPILED.communication_step,
+            (
+                state, zeros(N_STATE), 1e-4, np.array([*torques, OIL]), tuple(table), flatten(p),
+                flatten(control), work, zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
+            ),
+        ),
+        (
+            COMPILED.step_without_outputs,
+            (
+                state, zeros(N_STATE), 1e-4, np.array([*torques, OIL]), tuple(table), flatten(p),
+                flatten(control), work,
+            ),
+        ),
+        *(
+            (
+                COMPILED.continuous_rates,
+                (
+                    one, np.array([*torques, OIL]), tuple(table), flatten(p), work,
+                    zeros(N_OUTPUTS),
+                ),
+            )
+            for one in (state, too_fast, broken)
+        ),
+        (COMPILED.event, (crossed, tuple(both_sides), flatten(p), work)),
+        (
+            COMPILED.motion_outputs,
+            (state, tuple(table), flatten(p), work, zeros(N_OUTPUTS)),
+        ),
+        (
+            COMPILED.outputs,
+            (
+                state, np.array([*torques, OIL]), tuple(table), flatten(p), work,
+                zeros(ROLLERS_MAX), zeros(N_OUTPUTS),
+            ),
+        ),
+    ]  # fmt: skip
+    return found
+
+
+# sums over 24 rollers that may be taken in any order: 1e-12 of the largest
