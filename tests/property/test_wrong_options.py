@@ -166,16 +166,16 @@ def test_a_folder_of_another_study_or_version_is_not_written_into(words, run, tm
     folder.mkdir()
     mark = folder / results_folder.MARK
     mark.write_text('{"study": "ehl gears", "gearlube_version": "0.0.1"}')
-    code, said = run(*words, "--out", "results")
+    code, said = run(*words, *NEEDED.get(words, ()), "--out", "results")
     assert code == 2
     assert "holds results of `gearlube ehl gears`" in said
     mark.write_text(json.dumps({"study": " ".join(words), "gearlube_version": "0.0.1"}))
-    code, said = run(*words, "--out", "results")
+    code, said = run(*words, *NEEDED.get(words, ()), "--out", "results")
     assert code == 2
     assert "holds results of gearlube 0.0.1" in said
-    code, _ = run(*words, "--out", "results", "--overwrite")
+    code, _ = run(*words, *NEEDED.get(words, ()), "--out", "results", "--overwrite")
     assert code == REACHED
-    code, _ = run(*words, "--out", "results")  # now it is ours
+    code, _ = run(*words, *NEEDED.get(words, ()), "--out", "results")  # now it is ours
     assert code == REACHED
 
 

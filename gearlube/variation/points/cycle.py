@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from drivetrain.sump_heat import SumpHeat
 from gearlube.studies.drive_cycle.demand import demand_of
-from gearlube.studies.drive_cycle.heat import SumpHeat
 from gearlube.studies.drive_cycle.run import run_cycle
 from gearlube.studies.drive_cycle.settings import COAST_TORQUE, DriveCycleSettings
 from gearlube.studies.drive_cycle.traces import DriveCycle
