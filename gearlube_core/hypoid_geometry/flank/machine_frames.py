@@ -157,7 +157,7 @@ def _blade(member: Gear | Pinion, curve: Curve) -> dict[str, float]:
     else:
         sign = -1.0
         angle = cutter.concave_flank_blade_angle_deg + cutter.concave_flank_angle_correction_deg
-    radius = cutter.blade_edge_radius_mm
+    radius = cutter.edge_radius_mm(curve)
     bend = 0.0 if radius is None else -sign / (2.0 * radius * MILLIMETRE)
     return {
         "radius": cutter.point_radius_mm * MILLIMETRE,
