@@ -12,6 +12,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_pattern import MARKING_COMPOUND
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_design.conjugate_flank import ConjugateFlank, conjugate_flank
+from gearlube_core.hypoid_geometry.flank.flank import Flank
 
 _STEP = 2e-3  # of s and t
 _ITERATIONS = 8
@@ -100,9 +101,7 @@ class MeanContact:
         e2 = np.cross(flank.normal[0], e1)
         places = np.linalg.lstsq(steps, np.stack([e1, e2], axis=1), rcond=None)[0]
         ways = np.stack([g_s, g_t], axis=1) @ places  # (3, 2), on the gear
-        heel = g_t / np.linalg.norm(g_t)
-        tip = g_s - (g_s @ heel) * heel
-        tip /= np.linalg.norm(tip)
+        heel, tip = _directions(g_s, g_t)
         return cls(
             flank.r[0],
             e1,
@@ -144,6 +143,19 @@ class MeanContact:
         """Return the path angle [rad] whose tan(eta) is `turn`."""
         along, up = self.to_gear @ np.array([1.0, turn])
         return math.atan2(up, along) % math.pi
+
+
+def flank_steps(flank: Flank, s: float, t: float) -> tuple[Array, Array]:
+    """Return the unit tangents of a flank at (s, t): to the heel along the root, and to the tip."""
+    h = _STEP
+    r = flank.sample(np.array([s + h, s - h, s, s]), np.array([t, t, t + h, t - h])).r
+    return _directions(r[0] - r[1], r[2] - r[3])
+
+
+def _directions(by_s: Array, by_t: Array) -> tuple[Array, Array]:
+    heel = by_t / np.linalg.norm(by_t)
+    tip = by_s - (by_s @ heel) * heel
+    return heel, tip / np.linalg.norm(tip)
 
 
 def target_gap(
