@@ -13,6 +13,7 @@ SECTIONS = {
     "pair": "[pair]",
     "cutter": "[cutter]",
     "depth": "[depth]: may be left out",
+    "contact": "[contact]: may be left out",
 }
 
 HEAD = """# The blank file
@@ -69,6 +70,31 @@ Every number carries its origin: `given` in the file, `assumed` because the file
   file has one point radius for the blades of both flanks. There is no backlash in it.
 - **Blade angles**: the effective pressure angle plus the limit pressure angle on the gear's drive
   flank, less it on the coast flank. Both flanks then roll alike.
+
+## Machine settings
+
+```python
+from gearlube_core.hypoid_design.design import design_pair
+
+design = design_pair(BlankFile.from_toml("my_blank.toml"))
+design.file  # a gear file, as `gearlube contact` takes it
+design.measured["drive"]  # what the contact analysis finds of what was asked
+```
+
+1. **Gear**: form-cut (Formate). Its cutter stands where the blade passes the calculation point at
+   the spiral angle of the blank, the reference plane at the middle of the working depth.
+2. **Image**: the pinion starts as what the gear itself would cut, the cradle turning as the gear
+   does in the mesh. Such flanks are conjugate: without crowning and without transmission error.
+3. **Wanted gap**: a parabola along every line of contact, 6.35 um at the ends of the ellipse, and
+   along the path a parabolic transmission error. Error, ellipse and path direction are the three
+   numbers of the second-order gap at the mean contact.
+4. **Fit**: eleven settings of the pinion's machine and cutter and the edge radius of its blades,
+   one for each flank, by least squares over both flanks, the coast side with 0.3 of the weight. The
+   cutter's reference plane stays in the middle of the working depth, the backlash at zero.
+5. **Judgement**: the unloaded contact analysis of the finished gear file. What it finds too much or
+   too little is taken off the targets, and the fit goes on; three rounds in all.
+
+Generated gears, duplex pinions and modified roll are not here.
 
 ## Against printed samples
 

@@ -6,7 +6,12 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field, model_validator
 
-from gearlube_core.hypoid_design.blank_sections import BlankCutter, BlankDepth, BlankPair
+from gearlube_core.hypoid_design.blank_sections import (
+    BlankCutter,
+    BlankDepth,
+    BlankPair,
+    WantedContact,
+)
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
@@ -50,6 +55,7 @@ class BlankFile(InputFile):
     pair: BlankPair
     cutter: BlankCutter
     depth: BlankDepth = BlankDepth()
+    contact: WantedContact = WantedContact()
 
     @model_validator(mode="after")
     def _check_relations(self) -> BlankFile:
@@ -72,6 +78,12 @@ class BlankFile(InputFile):
                 f"method {method} needs {_listed(_NEEDS[method])} and no other diameter or spiral "
                 f"angle, got {_listed(given) or 'none of them'}. What is left follows from the "
                 "cones"
+            )
+        length = self.contact.ellipse_length_mm
+        if length is not None and not length <= 2.0 * pair.face_width_mm:
+            raise ValueError(
+                "contact.ellipse_length_mm must be at most twice pair.face_width_mm, "
+                f"{2.0 * pair.face_width_mm:g} mm, got {length:g} mm"
             )
         size = pair.outer_pitch_diameter_mm or pair.mean_pitch_diameter_mm or 0.0
         if not 2.0 * pair.offset_mm < size:

@@ -14,6 +14,10 @@ SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
 PressureAngle = Annotated[float, Field(ge=10.0, le=30.0, allow_inf_nan=False)]
 Depth = Annotated[float, Field(ge=1.0, le=3.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Error = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
+PathAngle = Annotated[float, Field(ge=1.0, le=179.0, allow_inf_nan=False)]
+Place = Annotated[float, Field(ge=0.2, le=0.8, allow_inf_nan=False)]
+EllipseLength = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False)]
 Clearance = Annotated[float, Field(gt=0.0, le=0.5, allow_inf_nan=False)]
 
 
@@ -71,4 +75,43 @@ class BlankDepth(Section):
         default=None,
         description="c_ham: addendum of the gear over the working depth; absent: 0.21 + "
         "0.29 (pinion teeth / gear teeth)^2",
+    )
+
+
+class WantedContact(Section):
+    """Contact without load that the pinion is cut for, on the gear flank."""
+
+    drive_error_urad: Error = Field(
+        default=50.0,
+        description="Transmission error of the drive flanks, peak to peak at the pinion",
+    )
+    coast_error_urad: Error = Field(
+        default=80.0,
+        description="Transmission error of the coast flanks, peak to peak at the pinion",
+    )
+    ellipse_length_mm: EllipseLength | None = Field(
+        default=None,
+        description="Length of the contact ellipse at a gap of 6.35 um, both sides; absent: a "
+        "third of the face width",
+    )
+    profile_position: Place | None = Field(
+        default=None,
+        description="Mean contact over the tooth height, 0 root, 1 tip; absent: the middle of the "
+        "working depth",
+    )
+    face_position: Place = Field(
+        default=0.5, description="Mean contact over the face, 0 toe, 1 heel"
+    )
+    drive_path_angle_deg: PathAngle | None = Field(
+        default=None,
+        description="Direction of the path of contact on the drive flank, from the root line "
+        "towards the heel, to the tip positive; absent: 44 deg from across the lines of contact",
+    )
+    coast_path_angle_deg: PathAngle | None = Field(
+        default=None,
+        description="The same on the coast flank",
+    )
+    curved_blades: bool = Field(
+        default=True,
+        description="Whether the pinion's blades may have hollow edges, each flank its own radius",
     )
