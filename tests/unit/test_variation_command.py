@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 
 from gearlube import command
 from gearlube.variation.store import open_variation
+from gearlube_core.errors import GearLubeError
 
 WORDS = (
     "vary", "bearing", "--vary", "load.axial=1000:3000", "shaft.speed=500,2000", "--design",
@@ -46,10 +47,6 @@ def test_a_bearing_is_varied_and_all_files_are_there(run, tmp_path):
     code, said = run(*WORDS)
     assert code == 0
     assert "0 points computed" in said
-    code, said = run(*WORDS[:-1], "other", "--seed", "2", "--scatter")
-    assert code == 2
-    assert "--scatter is for axle files" in said
-    assert not (tmp_path / "other").exists()
 
 
 def test_the_keys_of_a_study_are_listed_with_units_and_usual_values(run):
@@ -61,3 +58,32 @@ def test_the_keys_of_a_study_are_listed_with_units_and_usual_values(run):
     assert "usually 80.0" in rows["oil.temperature_degc"]
     assert "gearbox.ratios" not in rows
     assert " W " in rows["loss"]
+
+
+def test_scatter_samples_the_tolerances_of_the_file_that_are_not_varied_otherwise(
+    run, tmp_path, monkeypatch
+):
+    made = []
+
+    def stop(folder, study, design, **others):
+        made.append(design)
+        raise GearLubeError("far enough")
+
+    monkeypatch.setattr("gearlube.variation.run.BlockStore.made", stop)
+    monkeypatch.setattr("gearlube.variation.run.check_all", lambda *others: None)
+    (tmp_path / "axle.toml").write_text(
+        'gear_set.mesh_table = "mohammadpour_2015"\n'
+        "tolerances.gear_set.backlash_um = { plus_minus = 30.0 }\n"
+        "tolerances.pinion.bearing.preload_n = { plus_minus = 500.0 }\n"
+    )
+    run("vary", "map", "axle.toml", "--scatter", "--vary", "pinion.bearing.preload=2000,3000")
+    assert [axis.key for axis in made[0].axes] == ["pinion.bearing.preload_n"]
+    assert [one.key for one in made[0].spreads] == ["gear_set.backlash_um"]
+    assert (made[0].sampling.method, made[0].sampling.count) == ("lhs", 1000)
+    for words, reason in (
+        (("vary", "bearing", "--scatter"), "--scatter is for axle files"),
+        (("vary", "map", "--scatter"), "needs [tolerances] in the axle file"),
+    ):
+        code, said = run(*words)
+        assert code == 2
+        assert reason in said
