@@ -1,7 +1,8 @@
 """March what docs/rough_line_contact.md compares: other seeds, cases, speeds, grids and tolerances.
 
-python -m docs.rough_line_contact.variants [FOLDER [NAME ...]]: hours of one processor. Each march is kept
-in a folder of its own, by default below build/rough_line_contact; a stopped one goes on, a finished one is
+python -m docs.rough_line_contact.variants [FOLDER [NAME ...]]: hours of one processor. Each march
+is kept in a folder of its own, by default below build/rough_line_contact; a stopped one goes on, a
+finished one is
 only read. Writes variants.csv from all that are finished.
 """
 
