@@ -149,7 +149,7 @@ GROUPS |= {"oil.walther_b", "engine.orders", "engine.order_amplitudes", "engine.
 GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gear")
            for side in ("inner", "outer")}  # fmt: skip
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
-WORDS |= {"seals.material"}
+WORDS |= {"seals.material", "tolerances"}
 NOT_PACKED = {"oil.heat_capacity_j_kg_k"}  # the axle's films take no heat away with the oil
 
 
