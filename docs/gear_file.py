@@ -66,7 +66,8 @@ of signs misses by 0.23 mm or more (`tests/literature/test_flank_surface_karagia
   angle). The pinion axis lies a sliding base from the cutter centre's plane, on the side of the
   blade tips.
 - **`blade_edge_radius_mm`**: a hollow blade, which crowns the tooth along its profile; without it
-  the edge is straight.
+  the edge is straight. The blades of either flank may have their own radius,
+  `convex_flank_edge_radius_mm` and `concave_flank_edge_radius_mm`.
 - Root fillets are not described: below the flanks the tooth ends on the root cone.
 
 ## Where a number is from

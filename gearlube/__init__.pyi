@@ -157,6 +157,16 @@ from gearlube.studies.sweep.run import run_sweep as run_sweep
 from gearlube.studies.sweep.datasets import load_sweep as load_sweep
 from gearlube.studies.sweep.report import write_sweep_report as write_sweep_report
 
+# -- Variation of any parameter
+from gearlube.variation.studies import point_study as point_study
+from gearlube.variation.design import Axis as Axis
+from gearlube.variation.design import Spread as Spread
+from gearlube.variation.design import Sampling as Sampling
+from gearlube.variation.design import Design as Design
+from gearlube.variation.run import run_variation as run_variation
+from gearlube.variation.store import open_variation as open_variation
+from gearlube.variation.store import gridded as gridded
+
 # -- FMUs
 from fmu_src.build import build_hypoid_axle as build_hypoid_axle
 from fmu_src.build import build_helical_pair as build_helical_pair

@@ -48,6 +48,12 @@ COMMANDS = (
         summary="Drive a cycle: energy lost in the axle, and the oil temperature.",
     ),
     LazyCommand(
+        name="vary",
+        target="gearlube.variation.command:vary",
+        summary="Vary any parameter in a study: grids, samples, scatter.",
+        command_class="VaryCommand",
+    ),
+    LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",

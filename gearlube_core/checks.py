@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 
 from gearlube_core.errors import ParameterError
@@ -53,3 +54,13 @@ def check_option(name: str, value: str, options: Iterable[str]) -> str:
     if value not in allowed:
         raise ParameterError(f"{name} must be one of {', '.join(allowed)}; got {value!r}.")
     return value
+
+
+def check_address(scheduler: str, name: str = "--scheduler") -> str:
+    """Return the address of a Dask scheduler; raise ParameterError unless it looks like one."""
+    if not re.fullmatch(r"[a-z]+://[^\s/]+", scheduler):
+        raise ParameterError(
+            f"{name} must be an address such as tcp://host:8786, got {scheduler!r}. "
+            "Take the one that the Dask scheduler prints when it starts."
+        )
+    return scheduler

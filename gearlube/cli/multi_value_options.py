@@ -12,8 +12,10 @@ from typer.core import TyperCommand
 _VALUE = re.compile(r"^[+\-]?\.?\d[^/\\]*$(?<!\.toml)")
 
 
-def repeat_flags(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
-    """Return the arguments with a flag repeated before each of its numbers.
+def repeat_flags(
+    arguments: Sequence[str], flags: Collection[str], value: re.Pattern[str] = _VALUE
+) -> list[str]:
+    """Return the arguments with a flag repeated before each of its values, by default numbers.
 
     >>> repeat_flags(["--preload", "2500", "6000", "--out", "x"], {"--preload"})
     ['--preload', '2500', '--preload', '6000', '--out', 'x']
@@ -23,7 +25,7 @@ def repeat_flags(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
     for argument in arguments:
         if argument in flags:
             flag, values = argument, 0
-        elif not _VALUE.match(argument):
+        elif not value.match(argument):
             flag = ""
         elif flag:
             if values:
@@ -34,10 +36,14 @@ def repeat_flags(arguments: Sequence[str], flags: Collection[str]) -> list[str]:
 
 
 class MultiValueCommand(TyperCommand):
-    """A command whose options in `multi_value` take one or more numbers each."""
+    """A command whose options in `multi_value` take one or more values each.
+
+    `value` is what such a value begins with; by default it is a number or a range.
+    """
 
     multi_value: Collection[str] = frozenset()
+    value: re.Pattern[str] = _VALUE
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse `args` after repeating the flags."""
-        return super().parse_args(ctx, repeat_flags(args, self.multi_value))
+        return super().parse_args(ctx, repeat_flags(args, self.multi_value, self.value))

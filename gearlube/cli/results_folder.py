@@ -32,6 +32,7 @@ _RESULTS = frozenset(
         "bearing.nc",
         "map.nc",
         "drive_cycle.nc",
+        "results.zarr",
     }
 )
 

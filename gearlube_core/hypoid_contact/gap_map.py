@@ -22,7 +22,7 @@ _FACE = np.linspace(0.0, 1.0, 49)
 
 
 @kernel
-def _along_normals(
+def along_normals(
     motion: CuttingMotion,
     placement: Placement,
     gear_placement: Placement,
@@ -30,6 +30,24 @@ def _along_normals(
     normal: Array,
     starts: Array,
 ) -> Array:
+    """Return where lines along the normals of gear points meet a pinion flank, (n, 4).
+
+    Parameters
+    ----------
+    motion, placement : CuttingMotion, Placement
+        Of the pinion flank.
+    gear_placement : Placement
+        Of the gear points.
+    r, normal : ndarray of shape (n, 3)
+        Gear points [m] and unit normals out of the tooth, in the gear's frame; NaN is skipped.
+    starts : ndarray of shape (n, 3)
+        u [m], th, ph [rad] of the pinion from which each search starts.
+
+    Returns
+    -------
+    ndarray of shape (n, 4)
+        u [m], th, ph [rad] of the pinion point, and the gap [m]; NaN where the line meets none.
+    """
     found = np.full((r.shape[0], 4), np.nan)
     for i in range(r.shape[0]):
         if np.isnan(r[i, 0]):
@@ -113,7 +131,7 @@ def gap_map(pair: FlankPair, gear_angle: float, pinion_angle: float) -> GapMap:
     starts = pinion.parameters(1.05 - 0.9 * s, t)
     starts[np.isnan(starts[..., 0])] = pinion.start
     placed = pair.gear_placed(gear_angle)
-    found = _along_normals(
+    found = along_normals(
         pinion.motion,
         pair.pinion_placed(pinion_angle),
         placed,

@@ -56,7 +56,12 @@ FLANK_FIELDS = (
     *(
         f"{role}.cutter.{name}"
         for role in ("pinion", "gear")
-        for name in ("blade_edge_radius_mm", "blade_offset_angle_deg")
+        for name in (
+            "blade_edge_radius_mm",
+            "convex_flank_edge_radius_mm",
+            "concave_flank_edge_radius_mm",
+            "blade_offset_angle_deg",
+        )
     ),
 )
 _ALL = (*PINION_FIELDS, "pinion.machine.ratio_of_roll", *GEAR_FIELDS, *FLANK_FIELDS)

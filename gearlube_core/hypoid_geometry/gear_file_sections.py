@@ -5,7 +5,7 @@ The reference page of the docs and the error messages come from these models.
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -13,6 +13,7 @@ from gearlube_core.input_file.input_file import Section
 
 Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
 Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
+EdgeRadius = Annotated[float, Field(gt=0.0, le=1e6, allow_inf_nan=False)]
 Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
 ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False)]
 SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
@@ -49,16 +50,35 @@ class Cutter(Section):
         description="Blade groups of the cutter head; the work turns by one tooth per group (face "
         "hobbing). 0: it stands still, single indexing (face milling)",
     )
-    blade_edge_radius_mm: Length | None = Field(
+    blade_edge_radius_mm: EdgeRadius | None = Field(
         None,
         description="Radius of a curved blade edge, hollow, so that the flank is crowned along its "
         "profile; absent: straight",
+    )
+    convex_flank_edge_radius_mm: EdgeRadius | None = Field(
+        None,
+        description="Radius of the edge of the blades that cut the convex flank; absent: "
+        "blade_edge_radius_mm",
+    )
+    concave_flank_edge_radius_mm: EdgeRadius | None = Field(
+        None,
+        description="Radius of the edge of the blades that cut the concave flank; absent: "
+        "blade_edge_radius_mm",
     )
     blade_offset_angle_deg: Slant | None = Field(
         None,
         description="Angle from the cutter radius to the blade face, about the cutter axis; "
         "absent: the blade face is normal to the cutting velocity at the reference point",
     )
+
+    def edge_radius_mm(self, curve: Literal["convex", "concave"]) -> float | None:
+        """Return the edge radius [mm] of the blades that cut a flank; None: straight."""
+        own = (
+            self.convex_flank_edge_radius_mm
+            if curve == "convex"
+            else self.concave_flank_edge_radius_mm
+        )
+        return self.blade_edge_radius_mm if own is None else own
 
 
 class FormateMachine(Section):

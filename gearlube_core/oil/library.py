@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +21,21 @@ LOWEST_VISCOSITY = 2.0e-6  # m2/s, [astm_d341] for the shift of 0.7 mm2/s
 
 
 def read_library(path: Path = LIBRARY_PATH) -> dict[str, Any]:
-    """Return the lubricants of a TOML file as nested dictionaries, as written there."""
+    """Return the lubricants of a TOML file as nested dictionaries, as written there.
+
+    A file is read once until it changes; do not write into what is returned.
+    """
+    try:
+        return _read(path, path.stat().st_mtime_ns)
+    except FileNotFoundError:
+        raise ParameterError(f"There is no lubricant library at {path}.") from None
+
+
+@lru_cache(maxsize=8)
+def _read(path: Path, _changed: int) -> dict[str, Any]:
     try:
         with path.open("rb") as file:
             return tomllib.load(file)
-    except FileNotFoundError:
-        raise ParameterError(f"There is no lubricant library at {path}.") from None
     except tomllib.TOMLDecodeError as error:
         raise ParameterError(f"{path} is not valid TOML: {error}.") from error
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from typing import Generic, NamedTuple, TypeVar
+from itertools import islice
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 from gearlube_core.storage.interrupts import deferred_interrupts
 from gearlube_core.storage.process_pool import Pool, single_threaded
-from gearlube_core.storage.result_store import ResultStore
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -18,6 +18,19 @@ logger = logging.getLogger(__name__)
 
 _POLL = 0.25  # s, time after which Ctrl-C is noticed
 _ATTEMPTS = 3  # pools, should processes die
+_SUBMITTED = 1000  # tasks that wait for a worker; more would only cost time and memory
+
+
+class Store(Protocol[Result]):
+    """Interface of where results are kept, such as `ResultStore`."""
+
+    def read(self, key: str) -> Result | None:
+        """Return a result; None when it is absent."""
+        ...
+
+    def keep(self, key: str, result: Result) -> None:
+        """Write a result in one atomic step."""
+        ...
 
 
 class Finished(NamedTuple, Generic[Task, Result]):
@@ -32,7 +45,7 @@ def resumable_results(
     tasks: Sequence[Task],
     key: Callable[[Task], str],
     compute: Callable[[Task], Result],
-    store: ResultStore[Result],
+    store: Store[Result],
     pool: Pool,
     *,
     failed: Callable[[Task, Exception], Result] | None = None,
@@ -118,9 +131,15 @@ def _in_pool(
             yield task, result
         return
     with deferred_interrupts() as interrupt:
-        waiting: dict[Future[Result], Task] = {executor.submit(compute, t): t for t in tasks}
+        left = iter(tasks)
+        waiting: dict[Future[Result], Task] = {}
         stopping = False
-        while waiting:
+        while True:
+            if not stopping:
+                more = islice(left, _SUBMITTED - len(waiting))
+                waiting.update((executor.submit(compute, task), task) for task in more)
+            if not waiting:
+                break
             if interrupt.requested and not stopping:
                 stopping = True
                 logger.info("Stopping; tasks under way will be kept (Ctrl-C again drops them).")

@@ -60,6 +60,25 @@ def test_curved_blade_edge_curves_the_face_milled_flank_by_its_own_radius():
     )
 
 
+def test_the_blades_of_either_flank_may_have_their_own_edge_radius():
+    """The flank that has none of its own keeps that of the cutter, bit by bit."""
+    own = {
+        "gear.cutter.blade_edge_radius_mm": 762.0,
+        "gear.cutter.convex_flank_edge_radius_mm": 400.0,
+    }
+    usual = {"gear.cutter.blade_edge_radius_mm": 762.0}
+    both = [FILE.varied(SINGLE_INDEXED | changes) for changes in (own, usual)]
+    coast = [Flank.from_file(file, "gear", "coast").sample(*PLACES).r for file in both]
+    np.testing.assert_array_equal(*coast)
+    drive = Flank.from_file(both[0], "gear", "drive")
+    sample = drive.sample(*PLACES)
+    height, _ = of_cutter(drive, sample.r)
+    slope = math.tan(math.radians(15.815)) - height / 0.4
+    np.testing.assert_allclose(
+        sample.curvature[..., 0, 0], -1.0 / 0.4 / (1.0 + slope**2) ** 1.5, rtol=1e-9
+    )
+
+
 def test_blade_offset_angle_makes_a_face_milled_flank_a_hyperboloid():
     """A line skew to the axis sweeps x^2 + y^2 = a^2 + (h - h0)^2 tan^2(b); Gauss K < 0."""
     offset = {"gear.cutter.blade_offset_angle_deg": 16.7}

@@ -16,6 +16,9 @@ from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.hypoid_design.blank_file import BlankFile
+from gearlube_core.hypoid_design.blank_limits import check_blank
+from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile, read_toml
@@ -65,6 +68,7 @@ FILES: list[tuple[type[InputFile], str, Callable[[Any], object]]] = [
     (HelicalGearFile, "he_2007", built_pair),
     (HelicalGearFile, "jamali_2015_a", built_pair),
     (HypoidGearFile, "mohammadpour_2015", lambda file: file.blank()),
+    (BlankFile, "hypoid_13_42", lambda file: check_blank(DesignedBlank.from_file(file))),
     (LineCase, "jamali_2015", built_case),
     (LineCase, "jamali_2015_thermal", built_case),
     (PointCase, "mourier_2006", built_case),

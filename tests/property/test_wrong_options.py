@@ -32,6 +32,7 @@ SOLVERS = (
     "gearlube.studies.films.hypoid.flank.dynamic_drive",
     "gearlube.studies.films.hypoid.flank.static_drive",
     "gearlube.studies.bearing.run.bearing_loss",
+    "gearlube.variation.run.BlockStore.made",
     "gearlube.studies.loss_map.run.axle_losses",
     "gearlube.studies.drive_cycle.run.losses_along",
     "gearlube.studies.films.rough.run.FilmMarch",
@@ -56,15 +57,33 @@ COMMANDS = (
     ("roughness", "make"),
     ("roughness", "stand-in"),
     ("roughness", "flow-factors"),
+    ("vary", "map"),
+    ("vary", "bearing"),
     ("ehl", "compare"),
 )
 # without which a command is refused for that reason alone
-NEEDED = {("roughness", "make"): ("--rq-um=0.4",), ("roughness", "stand-in"): ("A",)}
+NEEDED = {
+    ("roughness", "make"): ("--rq-um=0.4",),
+    ("roughness", "stand-in"): ("A",),
+    ("vary", "map"): ("--vary", "bearing.preload=2000,3000"),
+    ("vary", "bearing"): ("--vary", "load.axial=1000:4000", "--design", "lhs:4"),
+}
 NUMBERS = ("nan", "inf", "-inf", "-1e308", "1e308", "-1", "0", "1,5", "1e999", "0x10")
 TEXTS = ("", "text", "no such thing", "a\nb", "no_file.toml", "../..", "1:2:3:4", "5:1", "\u20ac")
 WRONG = (*NUMBERS, *TEXTS)
 # these only ask, or name things that are not input
-HARMLESS = {"help", "out", "quick", "example", "overwrite", "export", "newtonian", "no_march"}
+HARMLESS = {
+    "help",
+    "out",
+    "quick",
+    "example",
+    "overwrite",
+    "export",
+    "newtonian",
+    "no_march",
+    "scatter",
+    "keys",
+}
 
 
 @pytest.fixture(autouse=True)
@@ -104,8 +123,8 @@ def run(caplog) -> Callable[..., tuple[int, str]]:
 def options_of(words: tuple[str, ...]) -> Iterator[str]:
     """Flags of the options that take a value; empty for an argument."""
     group: Any = typer.main.get_command(command.app)
-    for word in words:
-        group = group.get_command(None, word)
+    for word in words:  # a word after the command is an argument
+        group = group.get_command(None, word) if hasattr(group, "get_command") else group
     for parameter in group.params:
         if parameter.name not in HARMLESS:
             yield parameter.opts[0] if parameter.param_type_name == "option" else ""
@@ -158,16 +177,16 @@ def test_a_folder_of_another_study_or_version_is_not_written_into(words, run, tm
     folder.mkdir()
     mark = folder / results_folder.MARK
     mark.write_text('{"study": "ehl gears", "gearlube_version": "0.0.1"}')
-    code, said = run(*words, "--out", "results")
+    code, said = run(*words, *NEEDED.get(words, ()), "--out", "results")
     assert code == 2
     assert "holds results of `gearlube ehl gears`" in said
     mark.write_text(json.dumps({"study": " ".join(words), "gearlube_version": "0.0.1"}))
-    code, said = run(*words, "--out", "results")
+    code, said = run(*words, *NEEDED.get(words, ()), "--out", "results")
     assert code == 2
     assert "holds results of gearlube 0.0.1" in said
-    code, _ = run(*words, "--out", "results", "--overwrite")
+    code, _ = run(*words, *NEEDED.get(words, ()), "--out", "results", "--overwrite")
     assert code == REACHED
-    code, _ = run(*words, "--out", "results")  # now it is ours
+    code, _ = run(*words, *NEEDED.get(words, ()), "--out", "results")  # now it is ours
     assert code == REACHED
 
 

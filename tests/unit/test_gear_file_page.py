@@ -5,17 +5,19 @@ from pathlib import Path
 
 import pytest
 
-from docs import axle_file, ehl_case_file, gear_file, helical_gear_file
+from docs import axle_file, blank_file, ehl_case_file, gear_file, helical_gear_file
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes
 
 FOLDER = Path(__file__).parents[2] / "docs"
 PAGES = {
     gear_file: (HypoidGearFile,),
+    blank_file: (BlankFile,),
     helical_gear_file: (HelicalGearFile,),
     ehl_case_file: (LineCase, PointCase, HypoidCase),
     axle_file: (AxleFile,),
@@ -28,7 +30,7 @@ def stored(script):
 
 @pytest.mark.parametrize("script", PAGES)
 def test_page_is_up_to_date(script):
-    """If not: python -m docs.gear_file, or .helical_gear_file, .axle_file, .ehl_case_file."""
+    """If not: python -m docs.gear_file, or another of the scripts above."""
     assert script.page() == stored(script)
 
 

@@ -198,6 +198,6 @@ def test_a_file_that_is_no_fmu_is_refused_with_the_cure(tmp_path):
 
 
 def test_a_scheduler_that_does_not_answer_is_named(fmu, tmp_path, monkeypatch):
-    monkeypatch.setattr("gearlube.studies.sweep.cluster._CONNECT_TIMEOUT", 0.5)
+    monkeypatch.setattr("gearlube_core.storage.dask_pool._CONNECT_TIMEOUT", 0.5)
     with pytest.raises(GearLubeError, match=r"No Dask scheduler answered at tcp://127\.0\.0\.1:9"):
         sweep(fmu, tmp_path / "out", stand_in.small_point, scheduler="tcp://127.0.0.1:9")

@@ -134,7 +134,8 @@ def _efficiency(total: Array, pinion_power: Array) -> Array:
 
 def _attributes(settings: LossMapSettings, losses: AxleLosses) -> dict[str, object]:
     axle = settings.axle
-    left = left_ranges(axle.ranges, float(np.bitwise_or.reduce(losses.exceeded.astype(int), None)))
+    exceeded = losses.exceeded[losses.status == 0].astype(int)
+    left = left_ranges(axle.ranges, float(np.bitwise_or.reduce(exceeded, None)))
     return {
         "ratio": axle.mesh.ratio,
         "mesh": axle.mesh.name,

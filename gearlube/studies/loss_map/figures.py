@@ -17,7 +17,9 @@ _LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
 
 def save_loss_map_figures(dataset: xr.Dataset, folder: Path) -> None:
-    """Write all figures as PNG."""
+    """Write all figures as PNG; none of a map without a point."""
+    if not np.isfinite(dataset["loss_torque"].values).any():
+        return
     folder.mkdir(parents=True, exist_ok=True)
     figures = {"losses": loss_split(dataset)}
     if min(dataset.sizes["speed"], dataset.sizes["torque"]) > 1:

@@ -10,7 +10,7 @@ from drivetrain.steady_temperature import steady_temperatures
 from gearlube.studies.loss_map.datasets import loss_map_dataset, with_steady_temperature
 from gearlube.studies.loss_map.exports import write_exports
 from gearlube.studies.loss_map.figures import save_loss_map_figures
-from gearlube.studies.loss_map.sampling import spread_of
+from gearlube.studies.loss_map.sampling import check_draws, spread_of
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
 from gearlube_core.progress import Progress, no_progress, part_of
@@ -45,7 +45,8 @@ def run_loss_map(
     Raises
     ------
     ParameterError
-        Torque, speed or temperature is out of range; nothing has been computed then.
+        Torque, speed or temperature is out of range, or a draw of the uncertain data is; nothing
+        has been computed then.
 
     Examples
     --------
@@ -59,6 +60,7 @@ def run_loss_map(
     >>> found["loss_torque"].sel(torque=50.0).values.round(2)  # N.m
     array([[2.34]])
     """
+    check_draws(settings)
     torques, speeds, temperatures = settings.grid
     losses = axle_losses(
         settings.axle,

@@ -10,6 +10,7 @@ from gearlube.studies.loss_map.settings import LossMapSettings, Uncertain
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
 
 _ANGLES = 8  # within 4e-4 of 256, far below any spread
@@ -40,25 +41,53 @@ def spread_of(settings: LossMapSettings, progress: Progress = no_progress) -> Sp
 
     Each draw holds for the whole map: a wrong viscosity is wrong everywhere.
     """
-    uncertain = settings.uncertain
-    rng = np.random.default_rng(settings.seed)
-    normals = rng.standard_normal((settings.draws, len(uncertain)))
-    # factors of laws scale what the unchanged axle loses; one input at its ends comes first
-    ends = np.concatenate([np.eye(len(uncertain)) * _STEP, np.eye(len(uncertain)) * -_STEP])
-    rows = np.concatenate([ends, normals])
+    rows, count = _rows(settings), len(settings.uncertain)
     usual = _power(settings, settings.axle)
     totals = np.empty((len(rows), *settings.shape))
     for k, row in enumerate(rows):
         progress(k / len(rows), f"error bars, {k + 1} of {len(rows)}")
-        axle, scale = settings.axle, np.ones(len(LOSS_SOURCES))
-        for one, normal in zip(uncertain, row, strict=True):
-            axle = _changed(one, axle, float(normal), scale)
+        axle, scale = _drawn(settings, row)
         power = usual if axle is settings.axle else _power(settings, axle)
         totals[k] = power @ scale
-    count = len(uncertain)
     swing = 0.5 * np.abs(totals[:count] - totals[count : 2 * count])
     low, high = np.percentile(totals[2 * count :], _BOUNDS, axis=0)
     return Spread(low=low, high=high, swing=swing)
+
+
+def check_draws(settings: LossMapSettings) -> None:
+    """Raise ParameterError where a draw leaves the limits of an input; nothing is computed."""
+    if settings.draws:
+        for row in _rows(settings):
+            _drawn(settings, row)
+
+
+def _rows(settings: LossMapSettings) -> Array:
+    """Return standard normals of every input, (2 inputs + draws, inputs).
+
+    One input alone at its upper end, then at its lower, for each; then the draws.
+    """
+    count = len(settings.uncertain)
+    rng = np.random.default_rng(settings.seed)
+    normals = rng.standard_normal((settings.draws, count))
+    return np.concatenate([np.eye(count) * _STEP, np.eye(count) * -_STEP, normals])
+
+
+def _drawn(settings: LossMapSettings, row: Array) -> tuple[HypoidAxleParameters, Array]:
+    """Return the axle with its inputs at these normals, and factors of its losses.
+
+    A law that is known to a factor scales what the axle loses.
+    """
+    axle, scale = settings.axle, np.ones(len(LOSS_SOURCES))
+    for one, normal in zip(settings.uncertain, row, strict=True):
+        try:
+            axle = _changed(one, axle, float(normal), scale)
+        except ParameterError as error:
+            raise ParameterError(
+                f"The error bars draw the {one.words} at {one.multiplier(float(normal)):.3g} times "
+                f"its value, and must stay within its limits: {error} Take a value farther from "
+                "its limit, or --draws 0 (draws = 0) for no error bars."
+            ) from error
+    return axle, scale
 
 
 def _power(settings: LossMapSettings, axle: HypoidAxleParameters) -> Array:

@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
-from concurrent.futures import Executor
-from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
-from distributed import Client, Worker, WorkerPlugin, get_worker
+from distributed import Worker, get_worker
 
 from gearlube.studies.sweep.point import Place, PointFunction
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube.studies.sweep.unpack import unpack
-from gearlube_core.errors import GearLubeError, ParameterError
-
-RETRIES = 3  # times a point is tried again after its worker has died
-_CONNECT_TIMEOUT = 20.0  # s
+from gearlube_core.errors import ParameterError
+from gearlube_core.storage.dask_pool import NamedPlugin
 
 
-class FmuOnWorker(WorkerPlugin):
+class FmuOnWorker(NamedPlugin):
     """Carries an FMU as bytes to every worker, also to those that join later.
 
     It is written and unzipped once into the worker's own folder, which the worker removes.
@@ -55,39 +49,3 @@ def run_on_worker(
     """Run `point` with the FMU that the plugin of that name brought to this worker."""
     carrier: Any = get_worker().plugins[plugin]
     return point(carrier.directory, *place, settings)
-
-
-@dataclass(frozen=True, slots=True)
-class DaskPool:
-    """Workers of the cluster at `scheduler`; they must have gearlube installed."""
-
-    scheduler: str
-    plugin: FmuOnWorker
-
-    @contextmanager
-    def open(self, tasks: int) -> Iterator[Executor]:
-        """Bring the FMU to the workers and give an executor.
-
-        Raises
-        ------
-        GearLubeError
-            No scheduler answers at the address.
-        """
-        try:
-            client = Client(self.scheduler, timeout=_CONNECT_TIMEOUT, set_as_default=False)
-        except (OSError, ValueError) as error:
-            raise GearLubeError(
-                f"No Dask scheduler answered at {self.scheduler} within {_CONNECT_TIMEOUT:g} s: "
-                f"{error}. Start one with `dask scheduler` and workers with "
-                "`dask worker ADDRESS --nthreads 1`."
-            ) from error
-        try:
-            client.register_plugin(self.plugin, name=self.plugin.name)
-            executor = client.get_executor(retries=RETRIES, pure=False)
-            try:
-                yield executor
-            finally:
-                executor.shutdown(wait=False)
-                client.unregister_worker_plugin(self.plugin.name)
-        finally:
-            client.close()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import re
 import shlex
 import sys
 from pathlib import Path
@@ -135,7 +134,7 @@ def sweep(
         SPEED_RANGE,
         quick_sweep_settings,
     )
-    from gearlube_core.checks import check_option, check_within
+    from gearlube_core.checks import check_address, check_option, check_within
     from gearlube_core.errors import ParameterError
     from gearlube_core.oil.lubricant import Lubricant
 
@@ -158,11 +157,8 @@ def sweep(
         if oil is not None:
             check_option("--oil", oil, OILS)
         car_axle = chosen_axle(fmu, mesh_table, axle)
-        if scheduler is not None and not re.fullmatch(r"[a-z]+://[^\s/]+", scheduler):
-            raise ParameterError(
-                f"--scheduler must be an address such as tcp://host:8786, got {scheduler!r}. "
-                "Take the one that the Dask scheduler prints when it starts."
-            )
+        if scheduler is not None:
+            check_address(scheduler)
         changes = {
             "oil": oil,
             "roughness_rms": None if roughness_um is None else roughness_um * 1e-6,

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
+from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.driveline.parameters import DrivelineParameters
 from gearlube.studies.sweep.axle_in_fmu import car_axle_of
 from gearlube.studies.sweep.axle_loss import LOSS_CHANNELS, measured_loss
 from gearlube.studies.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from gearlube.studies.sweep.curves import mesh_cycle, roller_zone, spectra, waves
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.operating_point import operation
+from gearlube.studies.sweep.python_axle import PythonAxle
 from gearlube.studies.sweep.quantities import described
 from gearlube.studies.sweep.range_variables import range_variables
 from gearlube.studies.sweep.recording import Recording, record
@@ -65,14 +69,61 @@ def _simulate(
     directory: Path, speed_kmh: float, preload: float, settings: SweepSettings
 ) -> Recording:
     parameters = {**settings.fmu_parameters, "bearing.preload": preload}
-    driveline = car_axle_of(directory).driveline
+
+    @contextmanager
+    def started(channels: Sequence[str], pinion_speed: float) -> Iterator[FmuAxle]:
+        with FmuAxle(directory, channels) as axle:
+            axle.set_parameters({**parameters, "pinion.speed_start": pinion_speed})
+            yield axle
+
+    return _recorded(started, car_axle_of(directory).driveline, speed_kmh, settings)
+
+
+def march(car_axle: CarAxle, speed_kmh: float, settings: SweepSettings) -> xr.Dataset:
+    """Simulate one point of an axle as it is, without an FMU.
+
+    Parameters
+    ----------
+    car_axle : CarAxle
+        Axle and car; the settings' options of the axle, roughness and backlash do not count.
+    speed_kmh : float
+        Vehicle speed [km/h].
+    settings : SweepSettings
+        Oil temperature, driver and timing.
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `run_point`.
+
+    Raises
+    ------
+    GearLubeError
+        The axle or its driver refused.
+    """
+    axle = car_axle.axle
+
+    @contextmanager
+    def started(channels: Sequence[str], pinion_speed: float) -> Iterator[PythonAxle]:
+        yield PythonAxle(axle, channels, pinion_speed)
+
+    recording = _recorded(started, car_axle.driveline, speed_kmh, settings)
+    preload = float(axle.bearings[0].preload_force())
+    return _summary(recording, speed_kmh, preload, axle.backlash)
+
+
+def _recorded(
+    started: Callable[[Sequence[str], float], AbstractContextManager[FmuAxle | PythonAxle]],
+    driveline: DrivelineParameters,
+    speed_kmh: float,
+    settings: SweepSettings,
+) -> Recording:
+    """Measure what the axle loses, then record it; `started` gives an axle at a speed."""
     held = operation(replace(settings, driver="hold"), speed_kmh, driveline)
-    with FmuAxle(directory, LOSS_CHANNELS) as axle:
-        axle.set_parameters({**parameters, "pinion.speed_start": held.pinion_speed})
+    with started(LOSS_CHANNELS, held.pinion_speed) as axle:
         loss = measured_loss(axle, held.driver, settings)
     where = operation(settings, speed_kmh, driveline, loss)
-    with FmuAxle(directory, CHANNELS) as axle:
-        axle.set_parameters({**parameters, "pinion.speed_start": where.pinion_speed})
+    with started(CHANNELS, where.pinion_speed) as axle:
         recording = record(axle, where.driver, settings, CHANNELS)
         return replace(recording, warnings=tuple(axle.warnings))
 
@@ -81,13 +132,17 @@ def summarise(
     recording: Recording, speed_kmh: float, preload: float, settings: SweepSettings
 ) -> xr.Dataset:
     """Turn a recording into the dataset of its point."""
+    return _summary(recording, speed_kmh, preload, settings.backlash)
+
+
+def _summary(recording: Recording, speed_kmh: float, preload: float, backlash: float) -> xr.Dataset:
     window = angle_window(
         recording.time,
         recording["pinion.angle"],
         revolutions=recording.revolutions,
         samples_per_revolution=recording.teeth * recording.steps_per_mesh_period,
     )
-    numbers = scalars(recording, window, backlash=settings.backlash)
+    numbers = scalars(recording, window, backlash=backlash)
     dataset = xr.Dataset(
         {
             "status": FINISHED,

@@ -227,7 +227,8 @@ def _workers(
 ) -> tuple[Callable[[Place], xr.Dataset], Pool]:
     """Return the function that computes a point, and the workers that run it."""
     if scheduler is not None:
-        from gearlube.studies.sweep.cluster import DaskPool, FmuOnWorker, run_on_worker
+        from gearlube.studies.sweep.cluster import FmuOnWorker, run_on_worker
+        from gearlube_core.storage.dask_pool import DaskPool
 
         plugin = FmuOnWorker.of_file(fmu)
         return partial(run_on_worker, plugin.name, model.point, settings), DaskPool(

@@ -115,8 +115,12 @@ def edge_misfits(file: HypoidGearFile) -> list[Misfit]:
     depth = file.blank().working_depth
     found = []
     for role, member in (("pinion", file.pinion), ("gear", file.gear)):
-        radius = member.cutter.blade_edge_radius_mm
-        if radius is not None:
+        radii: dict[str, float | None] = {"blade": member.cutter.blade_edge_radius_mm}
+        radii["convex_flank"] = member.cutter.convex_flank_edge_radius_mm
+        radii["concave_flank"] = member.cutter.concave_flank_edge_radius_mm
+        for blade, radius in radii.items():
+            if radius is None:
+                continue
             found.append(
                 Misfit(
                     what=f"The crowning by the {role}'s blade edge radius, at tip and root,",
@@ -124,7 +128,7 @@ def edge_misfits(file: HypoidGearFile) -> list[Misfit]:
                     limit=EDGE_LIMIT,
                     refused=math.inf,
                     unit="mm",
-                    fields=(f"{role}.cutter.blade_edge_radius_mm",),
+                    fields=(f"{role}.cutter.{blade}_edge_radius_mm",),
                 )
             )
     return found

@@ -28,6 +28,7 @@ Curve = Literal["convex", "concave"]
 
 _X, _Y, _Z = np.eye(3)
 _TURN = np.linspace(-math.pi, math.pi, 361)  # tried for a root: a degree of rotation each
+_WIDER = 1e-9  # rad
 
 
 class ReferenceCut(NamedTuple):
@@ -157,7 +158,7 @@ def _blade(member: Gear | Pinion, curve: Curve) -> dict[str, float]:
     else:
         sign = -1.0
         angle = cutter.concave_flank_blade_angle_deg + cutter.concave_flank_angle_correction_deg
-    radius = cutter.blade_edge_radius_mm
+    radius = cutter.edge_radius_mm(curve)
     bend = 0.0 if radius is None else -sign / (2.0 * radius * MILLIMETRE)
     return {
         "radius": cutter.point_radius_mm * MILLIMETRE,
@@ -188,9 +189,11 @@ def _from_cutter(motion: CuttingMotion, point: Array, ph: float | Array) -> tupl
 
 def _roots(function: Callable[[float], float], values: Array) -> list[float]:
     """Return the roots of a function of an angle whose `values` are known on the grid `_TURN`."""
+    crossed = (values[1:] * values[:-1] < 0.0) | (values[:-1] == 0.0)
     return [
-        float(brentq(function, _TURN[i], _TURN[i + 1], xtol=1e-14))
-        for i in np.flatnonzero(values[1:] * values[:-1] < 0.0)
+        # a root on a node of the grid lies inside the widened interval
+        float(brentq(function, _TURN[i] - _WIDER, _TURN[i + 1] + _WIDER, xtol=1e-14))
+        for i in np.flatnonzero(crossed)
     ]
 
 

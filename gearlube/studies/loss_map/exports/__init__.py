@@ -22,20 +22,32 @@ from gearlube_core.storage.atomic_file import write_text
 logger = logging.getLogger("gearlube")
 
 
+_OF_A_TEMPERATURE = {
+    "vecto_{}.vtlm": vtlm_text,
+    "gem_{}.csv": gem_text,
+    "lossy_gear_{}.mo": lossy_gear_text,
+}
+
+
 def write_exports(dataset: xr.Dataset, folder: Path) -> None:
-    """Write map.csv, map.mat, and for each temperature the files of VECTO, GEM and Modelica."""
+    """Write map.csv, map.mat, and for each temperature the files of VECTO, GEM and Modelica.
+
+    A file that has too few points is left out with a warning; those of an earlier map are removed.
+    """
+    for pattern in _OF_A_TEMPERATURE:
+        for old in folder.glob(pattern.format("*degC")):
+            old.unlink()
     head, rows = table_rows(dataset)
     write_text(csv_text(head, rows), folder / "map.csv")
     write_mat(dataset, folder / "map.mat")
     for temperature in dataset["temperature"].values:
         one = dataset.sel(temperature=temperature)
         name = f"{temperature:g}degC"
-        try:
-            write_text(vtlm_text(one), folder / f"vecto_{name}.vtlm")
-        except ParameterError as reason:
-            logger.warning("No vecto_%s.vtlm: %s", name, reason)
-        write_text(gem_text(one), folder / f"gem_{name}.csv")
-        write_text(lossy_gear_text(one), folder / f"lossy_gear_{name}.mo")
+        for pattern, text_of in _OF_A_TEMPERATURE.items():
+            try:
+                write_text(text_of(one), folder / pattern.format(name))
+            except ParameterError as reason:
+                logger.warning("No %s: %s", pattern.format(name), reason)
 
 
 def write_regulation_map(

@@ -6,12 +6,21 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube_core.errors import ParameterError
 
 HEAD = ("wheel_speed_rpm", "output_torque_n_m", "power_loss_kw")
 
 
 def gem_text(dataset: xr.Dataset) -> str:
-    """Return speed of the wheels, torque of both wheels and power loss, as GEM rounds them."""
+    """Return speed of the wheels, torque of both wheels and power loss, as GEM rounds them.
+
+    Points that failed are left out.
+
+    Raises
+    ------
+    ParameterError
+        No point is left.
+    """
     ratio = float(dataset.attrs["ratio"])
     rows = []
     for speed in dataset["speed"].values:
@@ -26,4 +35,8 @@ def gem_text(dataset: xr.Dataset) -> str:
                         f"{1e-3 * lost:.4f}",
                     )
                 )
+    if not rows:
+        raise ParameterError(
+            "A table for GEM must have a point, got none that was computed. See map.csv."
+        )
     return csv_text(HEAD, rows)

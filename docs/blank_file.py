@@ -1,0 +1,136 @@
+"""Rewrite docs/blank_file.md: python -m docs.blank_file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from docs.field_tables import field_tables
+from gearlube_core.hypoid_design.blank_file import BlankFile
+
+PAGE = Path(__file__).with_suffix(".md")
+SECTIONS = {
+    "": "The file",
+    "pair": "[pair]",
+    "cutter": "[cutter]",
+    "depth": "[depth]: may be left out",
+    "contact": "[contact]: may be left out",
+}
+
+HEAD = """# The blank file
+
+The tables are written by `python -m docs.blank_file` from the data model
+(`gearlube_core/hypoid_design/blank_file.py`), the text with them; not edited by hand.
+
+The few numbers from which a hypoid or bevel pair is designed: teeth, offset, size, spiral angle and
+cutter. From them follow pitch cones, faces, heights and thicknesses by ISO 23509. One blank ships,
+`hypoid_13_42` (`gearlube_core/hypoid_design/data/hypoid_13_42.toml`).
+
+Teeth are equally deep from toe to heel, as in [gear files](gear_file.md): pitch, face and root cone
+of a member are parallel. Axes stand at 90 degrees. One hand only: the pair of the other hand is the
+mirror image.
+
+## The four methods
+
+| Method | For | Needs | Cones |
+|---|---|---|---|
+| 0 | bevel gears, no offset | outer diameter, spiral of the gear | that meet in one apex |
+| 1 | hypoid gears | outer diameter, spiral of the pinion | whose limit curvature the tooth has |
+| 2 | hypoid gears | mean diameter, spiral of the gear | apexes and cutter centre on a line |
+| 3 | hypoid gears | outer diameter, spiral of the gear | that meet the cutter condition |
+
+Diameters are those of the gear. The other spiral angle follows: a pair of touching cones leaves one
+free. Method 1 puts the calculation point where its first guess of the pitch angle says, which is
+not the middle of the face; the other methods take the middle.
+"""
+
+TAIL = """
+## What comes out
+
+```python
+from gearlube_core.hypoid_design.blank_file import BlankFile
+from gearlube_core.hypoid_design.blank_limits import check_blank
+from gearlube_core.hypoid_design.designed_blank import DesignedBlank
+
+designed = DesignedBlank.from_file(BlankFile.from_toml("my_blank.toml"))
+print(*check_blank(designed), sep="\\n")
+for note in (*designed.file.inputs(), *designed.results()):
+    print(note.field, note.value_text, note.unit, note.origin, note.why)
+```
+
+Every number carries its origin: `given` in the file, `assumed` because the file is silent, or
+`inferred`, which follows from the others.
+
+- **Heights**: working depth k_d m_mn, gear addendum c_ham of it, clearance k_c of it. Without
+  `gear_addendum_factor` the gear gets 0.21 + 0.29 (z_1/z_2)^2. The shipped pair has 0.25, and this
+  gives 0.248.
+- **Face of the pinion**: so wide that it covers the gear's. Method 1 extends both ends by the turn
+  of the root plane, method 2 multiplies by 1 + tan^2 of the offset angle, method 3 adds 3 m_mn tan
+  of it and rounds up to whole millimetres.
+- **Thickness**: teeth and slots are equally wide at the middle of the working depth, because a gear
+  file has one point radius for the blades of both flanks. There is no backlash in it.
+- **Blade angles**: the effective pressure angle plus the limit pressure angle on the gear's drive
+  flank, less it on the coast flank. Both flanks then roll alike.
+
+## Machine settings
+
+```python
+from gearlube_core.hypoid_design.design import design_pair
+
+design = design_pair(BlankFile.from_toml("my_blank.toml"))
+design.file  # a gear file, as `gearlube contact` takes it
+design.measured["drive"]  # what the contact analysis finds of what was asked
+```
+
+1. **Gear**: form-cut (Formate). Its cutter stands where the blade passes the calculation point at
+   the spiral angle of the blank, the reference plane at the middle of the working depth.
+2. **Image**: the pinion starts as what the gear itself would cut, the cradle turning as the gear
+   does in the mesh. Such flanks are conjugate: without crowning and without transmission error.
+3. **Wanted gap**: a parabola along every line of contact, 6.35 um at the ends of the ellipse, and
+   along the path a parabolic transmission error. Error, ellipse and path direction are the three
+   numbers of the second-order gap at the mean contact.
+4. **Fit**: eleven settings of the pinion's machine and cutter and the edge radius of its blades,
+   one for each flank, by least squares over both flanks, the coast side with 0.3 of the weight. The
+   cutter's reference plane stays in the middle of the working depth, the backlash at zero.
+5. **Judgement**: the unloaded contact analysis of the finished gear file. What it finds too much or
+   too little is taken off the targets, and the fit goes on; three rounds in all.
+
+Generated gears, duplex pinions and modified roll are not here.
+
+## Against printed samples
+
+ISO 23509:2016, annex F, hypoid samples F.3 (method 1), F.4 (2) and F.5 (3), in
+`tests/literature/test_designed_blanks.py`. The standard stops its iterations early; here the
+conditions are solved to rounding. The difference is the standard's own tolerance: cone distances
+of F.4 by 0.18 mm, all else of F.3 and F.5 within 0.02 mm. F.3 is tapered in the standard; its cones
+and faces are compared, not its depths.
+
+## Blanks that cannot exist
+
+| Check | Refused | Warning |
+|---|---|---|
+| Offset, spiral angle, cutter radius: cones that meet the method's condition | none found | |
+| Spiral angle that the offset leaves to the gear | 0 or less | |
+| Blade angle: pressure angle with the limit pressure angle | outside 5 to 40 deg | |
+| Cutter over the gear's face | does not reach; spiral above 65 deg | spiral of the other hand |
+| Face width over outer cone distance | above 0.45 | above 0.35 |
+| Calculation point | not on the face | |
+| Blade groups and teeth | a common factor | |
+| Topland at mid-face | none (pointed) | below 0.2 normal modules |
+| Undercut at mid-face by the mate's tip | any | |
+
+Topland and undercut are those of the virtual spur gear in the normal section, an estimate to choose
+a blank by. `gearlube_core/hypoid_geometry/flank/tooth_form.py` examines the teeth as cut.
+
+ISO 23509 has more that is not here: tapered depth (standard, duplex, tilted root line), shaft
+angles other than 90 degrees, thickness factors and backlash, and the pinion's offset angle in
+the root plane, for which that in the axial plane stands.
+"""
+
+
+def page() -> str:
+    """Return docs/blank_file.md."""
+    return HEAD + "\n## Fields\n" + field_tables(BlankFile, SECTIONS) + TAIL
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

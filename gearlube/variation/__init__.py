@@ -1,0 +1,1 @@
+"""Variation of any parameter in any study: grids, samples, scatter; results in chunks."""

@@ -1,0 +1,158 @@
+"""The command `gearlube vary`."""
+
+from __future__ import annotations
+
+import logging
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.options import JobsOption, OverwriteOption
+from gearlube.cli.results_folder import results_folder
+
+if TYPE_CHECKING:
+    from gearlube.variation.point_study import PointStudy
+
+logger = logging.getLogger("gearlube")
+
+
+class VaryCommand(MultiValueCommand):
+    """A command whose option `--vary` takes several texts KEY=VALUES."""
+
+    multi_value = frozenset({"--vary", "--limit"})
+    value = re.compile(r"^[^=\s-][^=\s]*=")
+
+
+def vary(
+    study: Annotated[str, typer.Argument(help="map, sweep, cycle or bearing.", metavar="STUDY")],
+    file: Annotated[
+        str | None,
+        typer.Argument(
+            help="Axle file (TOML) or the name of a shipped one; for bearing a bearing file. "
+            "Default: the shipped one.",
+            metavar="FILE",
+        ),
+    ] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--vary",
+            help="Any parameter: KEY=first:last:step or KEY=a,b,c, all combined; KEY=low:high is "
+            "sampled by --design. --keys lists them.",
+            metavar="KEY=VALUES...",
+        ),
+    ] = None,
+    design: Annotated[
+        str | None,
+        typer.Option(
+            help="lhs:200, sobol:256 or random:200 samples. Default with --scatter: lhs:1000.",
+            metavar="METHOD:COUNT",
+        ),
+    ] = None,
+    scatter: Annotated[
+        bool,
+        typer.Option("--scatter", help="Sample the [tolerances] of the axle file as well."),
+    ] = False,
+    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    limit: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Tell the share of points above: QUANTITY=VALUE in its unit.",
+            metavar="QUANTITY=VALUE...",
+        ),
+    ] = None,
+    jobs: JobsOption = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(help="Address of a running Dask scheduler instead of local processes."),
+    ] = None,
+    block: Annotated[
+        int | None,
+        typer.Option(
+            help="Points that are computed and kept together. Default: some seconds of work.",
+            metavar="N",
+        ),
+    ] = None,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="sweep: short records, for a first look.")
+    ] = False,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_vary"),
+    overwrite: OverwriteOption = False,
+    keys: Annotated[
+        bool, typer.Option("--keys", help="List what can be varied and what is computed; stop.")
+    ] = False,
+) -> None:
+    """Vary any parameter of an axle or bearing in a study: a grid, or samples.
+
+    Writes results.zarr, points.csv, summary.csv, sensitivity.csv and figures. Finished blocks of
+    points are kept: run the same command again to go on after a stop.
+    """
+    from gearlube.cli.console import console
+    from gearlube.cli.progress_report import progress_on
+    from gearlube.variation.design import Design
+    from gearlube.variation.figures import save_variation_figures
+    from gearlube.variation.run import MOST_BLOCK, MOST_JOBS, run_variation
+    from gearlube.variation.studies import point_study, prepared
+    from gearlube.variation.summary import write_summary
+    from gearlube.variation.vary_option import (
+        limits_from,
+        sampling_from,
+        varied_from,
+    )
+    from gearlube_core.checks import check_address, check_within
+
+    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        chosen = point_study(study, file, quick=quick)
+        if keys:
+            typer.echo(_listed(chosen), nl=False)
+            return
+        given = varied_from(vary or [], chosen.keys)
+        limits = limits_from(limit or [], [one.name for one in chosen.quantities])
+        if jobs is not None:
+            check_within("--jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all.")
+        if block is not None:
+            check_within("--block", block, 1, MOST_BLOCK, "", "Leave it out for the usual.")
+        if scheduler is not None:
+            check_address(scheduler)
+        plan = Design(axes=given.axes, spreads=given.spreads, sampling=sampling_from(design, seed))
+        chosen = prepared(chosen, plan)
+        logger.info("%d points: %s.", plan.size, ", ".join(plan.keys))
+        with results_folder(out, f"vary {study}", overwrite=overwrite):
+            with progress_on(console, "points", plan.size) as progress:
+                done = run_variation(
+                    chosen,
+                    plan,
+                    out=out,
+                    jobs=jobs,
+                    scheduler=scheduler,
+                    block=block,
+                    overwrite=overwrite,
+                    progress=progress,
+                )
+            results, summary = write_summary(out, limits)
+            save_variation_figures(results, summary, out / "figures")
+        for name in limits:
+            share = summary["share_above"].sel(limited=name)
+            logger.info(
+                "%s is above %g at %.4g %% of the points.",
+                name, limits[name], 100.0 * float(share.mean()),
+            )  # fmt: skip
+        logger.info("%d points computed in %.1f s.", done.computed, done.seconds)
+        logger.info("Results: %s, %s, %s", done.store.path, out / "summary.csv", out / "figures")
+        failures = int(summary["failed"].sum())
+        exit_if_failed(f"{failures} points failed; points.csv says why." if failures else "")
+
+
+def _listed(study: PointStudy) -> str:
+    """Return what can be varied and what is computed, one a line."""
+    lines = ["Parameters (--vary):"]
+    for key in study.keys.values():
+        usual = "" if key.usual is None else f"; usually {key.usual}"
+        lines.append(f"  {key.name:44} {key.unit or '-':10} {key.kind}; {key.meaning}{usual}")
+    lines.append("Quantities:")
+    lines += [f"  {one.name:44} {one.unit or '-':10} {one.meaning}" for one in study.quantities]
+    return "\n".join(lines) + "\n"

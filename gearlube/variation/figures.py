@@ -1,0 +1,142 @@
+"""Figures of a variation: histograms and what they follow, or lines over an axis."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.style import HATCHES, MARKERS, SERIES, house_style, new_figure
+from gearlube.variation.store import gridded
+from gearlube.variation.summary import cells, inputs_of, varies
+
+_MOST_SERIES = len(SERIES)
+_MOST_BARS = 12  # inputs of a chart of ranks
+_BINS = 30
+
+
+def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Path) -> list[Path]:
+    """Write the figures that the design allows; return their paths."""
+    made = {}
+    if summary.sizes["input"]:
+        made["histograms.png"] = histogram_figure(results, summary)
+        if np.isfinite(summary["rank_correlation"].values).any():
+            made["sensitivity.png"] = rank_figure(results, summary)
+    if line_axis(summary):
+        made["lines.png"] = line_figure(results, summary)
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = []
+    for name, figure in made.items():
+        figure.savefig(folder / name)
+        paths.append(folder / name)
+    return paths
+
+
+def _about(results: xr.Dataset, name: str) -> str:
+    attributes = results[name].attrs
+    unit = attributes["units"]
+    return f"{attributes['long_name']}{f' [{unit}]' if unit not in ('', '1') else ''}"
+
+
+def _words(values: dict[str, Any]) -> str:
+    return ", ".join(
+        f"{name} {value:g}" if isinstance(value, float | np.floating) else f"{name} {value}"
+        for name, value in values.items()
+    )
+
+
+def _panels(results: xr.Dataset, count: int) -> tuple[Any, list[Any]]:
+    figure = new_figure(4.4 * min(count, 2), 3.3 * -(-count // 2))
+    axes = figure.subplots(-(-count // 2), min(count, 2), squeeze=False).ravel()
+    for empty in axes[count:]:
+        empty.set_visible(False)
+    figure.suptitle(results.attrs["title"], fontsize=10)
+    return figure, list(axes[:count])
+
+
+def _shown(results: xr.Dataset) -> list[str]:
+    return [str(name) for name in results.attrs["shown"]]
+
+
+def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
+    """Return histograms of the shown quantities, up to six combinations of the axes in each."""
+    over = gridded(results)[_shown(results)].load()
+    with house_style():
+        figure, panels = _panels(results, len(_shown(results)))
+        some = list(cells(summary))[:_MOST_SERIES]
+        for name, ax in zip(_shown(results), panels, strict=True):
+            for i, (values, _) in enumerate(some):
+                column = over[name].sel(values).values
+                column = column[np.isfinite(column)]
+                if column.size and varies(column):
+                    ax.hist(
+                        column,
+                        bins=min(_BINS, max(5, column.size // 10)),
+                        histtype="step" if i else "stepfilled",
+                        alpha=1.0 if i else 0.45,
+                        color=SERIES[i],
+                        label=_words(values) or None,
+                    )
+                    for end in np.percentile(column, [2.5, 97.5]):
+                        ax.axvline(end, color=SERIES[i], linestyle=":", linewidth=1.1)
+            ax.set_xlabel(_about(results, name))
+            ax.set_ylabel("points")
+        if panels[0].get_legend_handles_labels()[1]:
+            panels[0].legend()
+    return figure
+
+
+def rank_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
+    """Return bars of the rank correlation of each shown quantity with the sampled inputs.
+
+    The mean over the combinations of the axes is drawn.
+    """
+    axes = list(summary["failed"].dims)
+    ranks = summary["rank_correlation"].mean(axes)
+    strength = np.nan_to_num(np.abs(ranks.sel(quantity=_shown(results)).values)).max(axis=0)
+    chosen = np.argsort(strength)[::-1][:_MOST_BARS][::-1]
+    with house_style():
+        figure, panels = _panels(results, len(_shown(results)))
+        for name, ax in zip(_shown(results), panels, strict=True):
+            bars = ranks.sel(quantity=name).values[chosen]
+            ax.barh(np.arange(chosen.size), bars, color=SERIES[0], hatch=HATCHES[0])
+            ax.set_yticks(np.arange(chosen.size), list(summary["input"].values[chosen]))
+            ax.set_xlim(-1.0, 1.0)
+            ax.set_xlabel("rank correlation [-]")
+            ax.set_title(results[name].attrs["long_name"])
+    return figure
+
+
+def line_axis(summary: xr.Dataset) -> str:
+    """Return the longest axis with numbers, "" where there is none of two values or more."""
+    axes = [
+        str(axis)
+        for axis in summary["failed"].dims
+        if summary[axis].dtype.kind == "f" and summary.sizes[axis] > 1
+    ]
+    return max(axes, key=lambda axis: summary.sizes[axis], default="")
+
+
+def line_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
+    """Return the shown quantities over the longest axis; with samples the median and 95 %."""
+    along = line_axis(summary)
+    unit = {one["key"]: one["unit"] for one in inputs_of(results)}[along]
+    first = summary.isel({along: 0})
+    with house_style():
+        figure, panels = _panels(results, len(_shown(results)))
+        for name, ax in zip(_shown(results), panels, strict=True):
+            chosen = summary["statistics"].sel(quantity=name)
+            for i, (values, _) in enumerate(list(cells(first))[:_MOST_SERIES]):
+                one = chosen.sel(values)
+                x, middle = summary[along].values, one.sel(statistic="p50").values
+                ax.plot(x, middle, marker=MARKERS[i], color=SERIES[i], label=_words(values) or None)
+                if summary.sizes["input"]:
+                    low, high = (one.sel(statistic=p).values for p in ("p2.5", "p97.5"))
+                    ax.fill_between(x, low, high, color=SERIES[i], alpha=0.2, linewidth=0)
+            ax.set_xlabel(f"{along}{f' [{unit}]' if unit else ''}")
+            ax.set_ylabel(_about(results, name))
+        if panels[0].get_legend_handles_labels()[1]:
+            panels[0].legend()
+    return figure

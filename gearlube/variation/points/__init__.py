@@ -1,0 +1,1 @@
+"""What each study computes at one point of a variation."""

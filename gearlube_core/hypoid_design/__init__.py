@@ -1,0 +1,1 @@
+"""Design of hypoid pairs: from blank data to machine settings."""

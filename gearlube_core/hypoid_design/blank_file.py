@@ -1,0 +1,138 @@
+"""The blank file: the few numbers from which a hypoid or bevel pair is designed."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+from pydantic import Field, model_validator
+
+from gearlube_core.hypoid_design.blank_sections import (
+    BlankCutter,
+    BlankDepth,
+    BlankPair,
+    WantedContact,
+)
+from gearlube_core.input_file.field_notes import field_notes
+from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.input_file.input_note import InputNote
+
+Text = Annotated[str, Field(min_length=1)]
+Method = Annotated[int, Field(ge=0, le=3)]
+
+# what each method of the standard starts from
+_NEEDS = {
+    0: ("outer_pitch_diameter_mm", "gear_spiral_angle_deg"),
+    1: ("outer_pitch_diameter_mm", "pinion_spiral_angle_deg"),
+    2: ("mean_pitch_diameter_mm", "gear_spiral_angle_deg"),
+    3: ("outer_pitch_diameter_mm", "gear_spiral_angle_deg"),
+}
+_CHOICES = tuple(dict.fromkeys(name for names in _NEEDS.values() for name in names))
+_USUAL = "usual for spiral bevel and hypoid gears"
+
+
+class BlankFile(InputFile):
+    """Teeth, offset, size, spiral angle and cutter of a pair that is to be designed.
+
+    References
+    ----------
+    [iso_23509 6] (methods 0 to 3), [iso_23509 annex C] (depth factors).
+
+    Examples
+    --------
+    >>> BlankFile.named("hypoid_13_42").design_method
+    1
+    """
+
+    package: ClassVar[str] = "gearlube_core.hypoid_design"
+    title: ClassVar[str] = "blank file"
+
+    name: Text = Field(description="What reports and the designed gear file call the pair")
+    method: Method | None = Field(
+        None,
+        description="Method of ISO 23509 for the pitch cones; absent: the one that the given "
+        "diameter and spiral angle belong to",
+    )
+    pair: BlankPair
+    cutter: BlankCutter
+    depth: BlankDepth = BlankDepth()
+    contact: WantedContact = WantedContact()
+
+    @model_validator(mode="after")
+    def _check_relations(self) -> BlankFile:
+        """Check relations between fields."""
+        pair, method = self.pair, self.design_method
+        if pair.gear_teeth < pair.pinion_teeth:
+            raise ValueError(
+                f"pair.gear_teeth must be at least pair.pinion_teeth, {pair.pinion_teeth}, got "
+                f"{pair.gear_teeth}. Swap them"
+            )
+        if (method == 0) != (pair.offset_mm == 0.0):
+            raise ValueError(
+                "method 0 is for bevel gears, pair.offset_mm = 0, and methods 1 to 3 for hypoid "
+                f"gears, got method {method} and pair.offset_mm {pair.offset_mm:g} mm. Leave "
+                "method out, or change the offset"
+            )
+        given = [name for name in _CHOICES if getattr(pair, name) is not None]
+        if sorted(given) != sorted(_NEEDS[method]):
+            raise ValueError(
+                f"method {method} needs {_listed(_NEEDS[method])} and no other diameter or spiral "
+                f"angle, got {_listed(given) or 'none of them'}. What is left follows from the "
+                "cones"
+            )
+        length = self.contact.ellipse_length_mm
+        if length is not None and not length <= 2.0 * pair.face_width_mm:
+            raise ValueError(
+                "contact.ellipse_length_mm must be at most twice pair.face_width_mm, "
+                f"{2.0 * pair.face_width_mm:g} mm, got {length:g} mm"
+            )
+        size = pair.outer_pitch_diameter_mm or pair.mean_pitch_diameter_mm or 0.0
+        if not 2.0 * pair.offset_mm < size:
+            raise ValueError(
+                f"pair.offset_mm must be below half the gear's diameter, {0.5 * size:g} mm, got "
+                f"{pair.offset_mm:g} mm"
+            )
+        return self
+
+    @property
+    def design_method(self) -> int:
+        """Method of the standard, 0 to 3: as given, else from the fields that are given."""
+        if self.method is not None:
+            return self.method
+        if self.pair.offset_mm == 0.0:
+            return 0
+        if self.pair.mean_pitch_diameter_mm is not None:
+            return 2
+        return 1 if self.pair.pinion_spiral_angle_deg is not None else 3
+
+    @property
+    def gear_addendum_factor(self) -> float:
+        """c_ham [-]: as given, else chosen."""
+        given = self.depth.gear_addendum_factor
+        ratio = self.pair.pinion_teeth / self.pair.gear_teeth
+        return 0.21 + 0.29 * ratio**2 if given is None else given
+
+    def inputs(self) -> list[InputNote]:
+        """Return every number of the file: given, or chosen because the file is silent."""
+        chosen = {
+            "method": (self.design_method, "the diameter and the spiral angle belong to it"),
+            "depth.gear_addendum_factor": (
+                self.gear_addendum_factor,
+                "0.21 + 0.29 (pinion teeth / gear teeth)^2",
+            ),
+        }
+        found = []
+        for name, note in field_notes(BlankFile).items():
+            *sections, key = name.split(".")
+            place = getattr(self, sections[0]) if sections else self
+            value = getattr(place, key)
+            if key in place.model_fields_set and value is not None:
+                found.append(InputNote(name, value, note.unit, "given", ""))
+            elif name in chosen:
+                found.append(InputNote(name, chosen[name][0], "", "assumed", chosen[name][1]))
+            elif value is not None:
+                found.append(InputNote(name, value, note.unit, "assumed", _USUAL))
+        return found
+
+
+def _listed(names: tuple[str, ...] | list[str]) -> str:
+    return " and ".join(f"pair.{name}" for name in names)

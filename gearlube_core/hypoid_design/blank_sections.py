@@ -1,0 +1,117 @@
+"""The sections of a blank file: every field's unit, meaning and range, stated once."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from gearlube_core.input_file.input_file import Section
+
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
+Offset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
+SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
+PressureAngle = Annotated[float, Field(ge=10.0, le=30.0, allow_inf_nan=False)]
+Depth = Annotated[float, Field(ge=1.0, le=3.0, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
+Error = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
+PathAngle = Annotated[float, Field(ge=1.0, le=179.0, allow_inf_nan=False)]
+Place = Annotated[float, Field(ge=0.2, le=0.8, allow_inf_nan=False)]
+EllipseLength = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False)]
+Clearance = Annotated[float, Field(gt=0.0, le=0.5, allow_inf_nan=False)]
+
+
+class BlankPair(Section):
+    """Teeth, offset and size; axes at 90 degrees."""
+
+    pinion_teeth: int = Field(ge=3, le=100, description="Number of teeth of the pinion")
+    gear_teeth: int = Field(ge=3, le=400, description="Number of teeth of the gear")
+    offset_mm: Offset = Field(description="Distance of the axes (pinion offset); 0: bevel gears")
+    face_width_mm: Length = Field(description="Face width of the gear along its pitch cone")
+    outer_pitch_diameter_mm: Length | None = Field(
+        default=None, description="Of the gear at the heel; methods 0, 1 and 3"
+    )
+    mean_pitch_diameter_mm: Length | None = Field(
+        default=None, description="Of the gear at mid-face; method 2"
+    )
+    pinion_spiral_angle_deg: SpiralAngle | None = Field(
+        default=None, description="Mean spiral angle of the pinion; method 1"
+    )
+    gear_spiral_angle_deg: SpiralAngle | None = Field(
+        default=None, description="Mean spiral angle of the gear; methods 0, 2 and 3"
+    )
+
+
+class BlankCutter(Section):
+    """The cutter head and the inclination of both flanks."""
+
+    radius_mm: Length = Field(description="Cutter radius")
+    blade_groups: int = Field(
+        ge=0,
+        le=50,
+        description="Blade groups of the cutter head (face hobbing). 0: single indexing (face "
+        "milling)",
+    )
+    drive_pressure_angle_deg: PressureAngle = Field(
+        default=20.0,
+        description="Effective pressure angle of the drive flanks, counted from the limit angle",
+    )
+    coast_pressure_angle_deg: PressureAngle = Field(
+        default=20.0,
+        description="Effective pressure angle of the coast flanks, counted from the limit angle",
+    )
+
+
+class BlankDepth(Section):
+    """Tooth depth in mean normal modules; the same from toe to heel."""
+
+    depth_factor: Depth = Field(
+        default=2.0, description="k_d: working depth over the mean normal module"
+    )
+    clearance_factor: Clearance = Field(
+        default=0.125, description="k_c: bottom clearance over the working depth"
+    )
+    gear_addendum_factor: Share | None = Field(
+        default=None,
+        description="c_ham: addendum of the gear over the working depth; absent: 0.21 + "
+        "0.29 (pinion teeth / gear teeth)^2",
+    )
+
+
+class WantedContact(Section):
+    """Contact without load that the pinion is cut for, on the gear flank."""
+
+    drive_error_urad: Error = Field(
+        default=50.0,
+        description="Transmission error of the drive flanks, peak to peak at the pinion",
+    )
+    coast_error_urad: Error = Field(
+        default=80.0,
+        description="Transmission error of the coast flanks, peak to peak at the pinion",
+    )
+    ellipse_length_mm: EllipseLength | None = Field(
+        default=None,
+        description="Length of the contact ellipse at a gap of 6.35 um, both sides; absent: a "
+        "third of the face width",
+    )
+    profile_position: Place | None = Field(
+        default=None,
+        description="Mean contact over the tooth height, 0 root, 1 tip; absent: the middle of the "
+        "working depth",
+    )
+    face_position: Place = Field(
+        default=0.5, description="Mean contact over the face, 0 toe, 1 heel"
+    )
+    drive_path_angle_deg: PathAngle | None = Field(
+        default=None,
+        description="Direction of the path of contact on the drive flank, from the root line "
+        "towards the heel, to the tip positive; absent: 44 deg from across the lines of contact",
+    )
+    coast_path_angle_deg: PathAngle | None = Field(
+        default=None,
+        description="The same on the coast flank",
+    )
+    curved_blades: bool = Field(
+        default=True,
+        description="Whether the pinion's blades may have hollow edges, each flank its own radius",
+    )

@@ -1,0 +1,212 @@
+"""From a blank file to machine settings: gear, pinion, and what the contact analysis says."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.refusal import check_pair
+from gearlube_core.hypoid_design.blank_file import BlankFile
+from gearlube_core.hypoid_design.blank_limits import check_blank
+from gearlube_core.hypoid_design.designed_blank import DesignedBlank
+from gearlube_core.hypoid_design.flank_target import FlankTarget, MeanContact
+from gearlube_core.hypoid_design.measured_contact import MeasuredContact, measured_contact
+from gearlube_core.hypoid_design.pinion_fit import SIDES, Fit, fit_pinion
+from gearlube_core.hypoid_design.start_settings import image_pair
+from gearlube_core.hypoid_geometry.flank.flank import Side
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.units import DEGREE, MILLIMETRE
+
+CHOSEN_TURN = math.tan(44.0 * DEGREE)  # of the path from across the lines of contact
+ROUNDS = 3  # fits, each with targets corrected by what the analysis found
+MICRORADIAN = 1e-6
+
+Measured = MeasuredContact | str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Design:
+    """A designed pair.
+
+    Parameters
+    ----------
+    designed : DesignedBlank
+    file : HypoidGearFile
+        As `gearlube contact` takes it.
+    targets : dict of str to FlankTarget
+        What was asked of both sides.
+    measured : dict of str to MeasuredContact or str
+        What the contact analysis finds; a sentence where a side has no parabolic error.
+    fit : Fit
+    warnings : tuple of str
+        About the blank.
+    """
+
+    designed: DesignedBlank
+    file: HypoidGearFile
+    targets: dict[Side, FlankTarget]
+    measured: dict[Side, Measured]
+    fit: Fit
+    warnings: tuple[str, ...]
+
+
+def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
+    """Return the machine settings of a pair whose contact comes nearest to what the file asks.
+
+    The gear is form-cut on the blank. The pinion starts as the gear's image, which is conjugate,
+    and its settings are fitted so that both flanks stand off as asked. The unloaded contact
+    analysis then judges; what it finds too much or too little is taken off the targets, and the
+    fit goes on from there.
+
+    Parameters
+    ----------
+    file : BlankFile
+    progress : callable, optional
+        Called with the share that is done [-] and a sentence on what runs.
+
+    Raises
+    ------
+    ParameterError
+        When the blank cannot exist, the contact lies outside of the mesh, or no settings were
+        found with which both flanks touch; the sentence says how near it came.
+    """
+    progress(0.0, "blank")
+    designed = DesignedBlank.from_file(file)
+    warnings = check_blank(designed)
+    start = image_pair(designed)
+    targets = wanted_targets(designed, start)
+    asked, first = targets, None
+    best: tuple[float, Fit, dict[Side, Measured]] | None = None
+    for number in range(ROUNDS):
+        progress((number + 0.1) / ROUNDS, f"pinion settings, round {number + 1} of {ROUNDS}")
+        fit = fit_pinion(start, asked, curved_blades=file.contact.curved_blades, first=first)
+        progress((number + 0.7) / ROUNDS, "unloaded contact")
+        measured = {side: measured_contact(fit.file, side) for side in SIDES}
+        far = sum(_far(targets[side], measured[side], designed) for side in SIDES)
+        if best is None or far < best[0]:
+            best = far, fit, measured
+        asked = {side: corrected(targets[side], asked[side], measured[side]) for side in SIDES}
+        first = fit.moves
+    _, fit, measured = best  # type: ignore[misc]
+    found = named_file(designed, fit.file)
+    progress(1.0, "checks")
+    _check(found, fit)
+    return Design(
+        designed=designed,
+        file=found,
+        targets=targets,
+        measured=measured,
+        fit=fit,
+        warnings=tuple(warnings),
+    )
+
+
+def wanted_targets(designed: DesignedBlank, start: HypoidGearFile) -> dict[Side, FlankTarget]:
+    """Return what the blank file asks of both sides, with what it leaves open chosen."""
+    wanted, blank = designed.file.contact, designed.blank
+    length = wanted.ellipse_length_mm
+    middle = (blank.root_clearance + 0.5 * blank.working_depth) / blank.whole_depth
+    s = middle if wanted.profile_position is None else wanted.profile_position
+    targets: dict[Side, FlankTarget] = {}
+    for side, error, angle in (
+        ("drive", wanted.drive_error_urad, wanted.drive_path_angle_deg),
+        ("coast", wanted.coast_error_urad, wanted.coast_path_angle_deg),
+    ):
+        mean = MeanContact.at(FlankPair.from_file(start, side), s, wanted.face_position)  # type: ignore[arg-type]
+        targets[side] = FlankTarget(  # type: ignore[index]
+            s=s,
+            t=wanted.face_position,
+            error=error * MICRORADIAN,
+            length=designed.gear_face.total / 3.0 if length is None else length * MILLIMETRE,
+            path_angle=mean.path_angle(CHOSEN_TURN) if angle is None else angle * DEGREE,
+        )
+    return targets
+
+
+def corrected(wanted: FlankTarget, asked: FlankTarget, found: Measured) -> FlankTarget:
+    """Return the target to ask for next: moved by what the contact missed of the wanted one."""
+    if isinstance(found, str):
+        # no extreme on the teeth: a larger error brings it there
+        return replace(asked, error=1.3 * asked.error)
+    turned = _between(wanted.path_angle, found.path_angle)
+    return replace(
+        asked,
+        s=_held(asked.s + wanted.s - found.s, wanted.s),
+        t=_held(asked.t + wanted.t - found.t, wanted.t),
+        error=asked.error * float(np.clip(wanted.error / found.error, 0.5, 2.0)),
+        path_angle=asked.path_angle + float(np.clip(turned, -0.15, 0.15)),
+    )
+
+
+def _held(value: float, near: float) -> float:
+    return min(max(value, near - 0.12), near + 0.12)
+
+
+def _between(wanted: float, found: float) -> float:
+    """Return the turn [rad] from one direction of a line to another, -pi/2 to pi/2."""
+    return (wanted - found + 0.5 * math.pi) % math.pi - 0.5 * math.pi
+
+
+def misses(target: FlankTarget, found: MeasuredContact, designed: DesignedBlank) -> Array:
+    """Return what the contact missed: error [-], path direction [rad], centre [m], length [-]."""
+    depth, width = designed.blank.whole_depth, designed.gear_face.total
+    centre = math.hypot((found.s - target.s) * depth, (found.t - target.t) * width)
+    return np.array(
+        [
+            found.error / target.error - 1.0,
+            _between(found.path_angle, target.path_angle),
+            centre,
+            found.length / target.length - 1.0,
+        ]
+    )
+
+
+def _far(target: FlankTarget, found: Measured, designed: DesignedBlank) -> float:
+    if isinstance(found, str):
+        return 100.0
+    sizes = np.array([0.1, 2.0 * DEGREE, 0.5 * MILLIMETRE, 0.3])
+    return float(np.sum((misses(target, found, designed) / sizes) ** 2))
+
+
+def named_file(designed: DesignedBlank, file: HypoidGearFile) -> HypoidGearFile:
+    """Return the gear file with the origin of every number: the blank implied, the rest chosen."""
+    data = file.model_dump(exclude_none=True)
+    implied, chosen = [], []
+    for role in ("pinion", "gear"):
+        for key, value in data[role].items():
+            if isinstance(value, dict):
+                chosen += [f"{role}.{key}.{name}" for name in value]
+            elif key != "teeth":
+                implied.append(f"{role}.{key}")
+    given = {"pinion.cutter.blade_groups", "gear.cutter.blade_groups"}
+    data["inferred"] = ["pair.clearance_mm", *implied]
+    data["completed"] = [name for name in chosen if name not in given]
+    rounded: dict[str, Any] = _rounded(data)
+    return HypoidGearFile.from_data(rounded, f"The design of {designed.file.name}")
+
+
+def _rounded(value: Any) -> Any:
+    """Return numbers as a file shows them: a tenth of a nanometre, a millionth of a degree."""
+    if isinstance(value, dict):
+        return {key: _rounded(one) for key, one in value.items()}
+    return round(value, 7) if isinstance(value, float) else value
+
+
+def _check(found: HypoidGearFile, fit: Fit) -> None:
+    try:
+        check_pair(found)
+    except ParameterError as reason:
+        near = ", ".join(f"{side} {1e6 * fit.rms[side]:.1f} um" for side in SIDES)
+        raise ParameterError(
+            f"No machine settings were found with which both flanks touch as asked; the gaps came "
+            f"within {near} (rms) of the wanted ones. {reason} Ask for a larger "
+            "contact.drive_error_urad or coast_error_urad, a path nearer to that across the lines "
+            "of contact (drive_path_angle_deg, coast_path_angle_deg), or allow curved_blades."
+        ) from None

@@ -1,0 +1,82 @@
+"""Designed pairs, judged by the contact analysis of their gear files."""
+
+import math
+import tomllib
+
+import pytest
+
+from gearlube.output.toml_text import toml_text
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
+from gearlube_core.hypoid_design.blank_file import BlankFile
+from gearlube_core.hypoid_design.design import design_pair, misses
+from gearlube_core.hypoid_design.measured_contact import measured_contact
+from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+
+SAMPLE = BlankFile.named("hypoid_13_42")
+SIDES = ("drive", "coast")
+# transmission error [-], path direction [rad], centre [m] that a design may miss
+NEAR = {"drive": (0.10, math.radians(2.0), 0.5e-3), "coast": (0.15, math.radians(2.0), 0.5e-3)}
+BEVEL = {  # teeth and size of the bevel sample F.2 of ISO 23509
+    "pair.pinion_teeth": 14,
+    "pair.gear_teeth": 39,
+    "pair.offset_mm": 0.0,
+    "pair.face_width_mm": 25.4,
+    "pair.outer_pitch_diameter_mm": 176.893,
+    "pair.pinion_spiral_angle_deg": None,
+    "pair.gear_spiral_angle_deg": 35.0,
+    "cutter.radius_mm": 114.3,
+}
+
+
+@pytest.fixture(scope="module")
+def design():
+    return design_pair(SAMPLE)
+
+
+def check_near(design):
+    for side in SIDES:
+        found = measured_contact(design.file, side)
+        for missed, limit in zip(
+            misses(design.targets[side], found, design.designed), NEAR[side], strict=False
+        ):
+            assert abs(missed) < limit, side
+
+
+def test_the_contact_analysis_finds_what_was_asked(design):
+    check_near(design)
+
+
+def test_the_gear_file_is_taken_as_it_is(design):
+    text = toml_text(design.file.model_dump(exclude_none=True))
+    file = HypoidGearFile.from_data(tomllib.loads(text), "the design")
+    assert file == design.file
+    check_pair(file)
+    assert pair_warnings(file) == []
+
+
+def test_both_members_have_sound_teeth_without_undercut(design):
+    for role in ("pinion", "gear"):
+        said = " ".join(tooth_form(design.file, role).report())
+        assert "undercut" not in said
+        assert "pointed" not in said
+        assert "slot closes" not in said
+
+
+def test_every_number_of_the_gear_file_says_that_it_was_not_given(design):
+    file = design.file
+    assert file.origin("pinion.machine.tilt_angle_deg") == "completed"
+    assert file.origin("gear.pitch_angle_deg") == "inferred"
+    assert file.origin("gear.teeth") == "table"
+
+
+def test_a_path_along_the_lines_of_contact_is_refused_with_the_direction_to_take():
+    with pytest.raises(ParameterError, match="away from the lines of contact"):
+        design_pair(SAMPLE.varied({"contact.drive_path_angle_deg": 156.0}))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("changes", [BEVEL, {"cutter.blade_groups": 5}])
+def test_bevel_and_face_hobbed_pairs_have_the_contact_that_was_asked(changes):
+    check_near(design_pair(SAMPLE.varied(changes)))
