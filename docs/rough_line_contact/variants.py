@@ -2,8 +2,7 @@
 
 python -m docs.rough_line_contact.variants [FOLDER [NAME ...]]: hours of one processor. Each march
 is kept in a folder of its own, by default below build/rough_line_contact; a stopped one goes on, a
-finished one is
-only read. Writes variants.csv from all that are finished.
+finished one is only read. Writes variants.csv from all that are finished.
 """
 
 from __future__ import annotations
