@@ -87,6 +87,11 @@ for note in paper.assumed:
 - Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
   Immersion matters most; oil that is thrown off lowers it, and the laws differ by a
   factor of three. A seal's torque is free of speed, `wheel_torque_n_m` that of both wheels' seals.
+- `[tolerances]` says how fields scatter from part to part, each by its dotted name:
+  `gear_set.backlash_um = { plus_minus = 30.0 }`, or `plus_minus_percent`, or
+  `standard_deviation`. Without `distribution = "uniform"` it is normal with three standard
+  deviations to the tolerance; parts beyond are sorted out.
+  [`gearlube vary --scatter`](vary.md#scatter-from-part-to-part) samples them.
 - All wrong fields of a file are named at once, each with the value, its limits and unit, and, if
   another unit would bring the number within them, that unit. Nothing is compiled before.
 

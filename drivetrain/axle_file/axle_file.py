@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from drivetrain.axle_file.axle_sections import GearSet, Member, ModelOptions, Steel
 from drivetrain.axle_file.bearing_section import BearingSection
@@ -30,8 +30,10 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
@@ -113,6 +115,15 @@ class AxleFile(InputFile):
     gearbox: GearboxSection = GearboxSection()
     engine: EngineSection = EngineSection()
     driveline: DrivelineSection = DrivelineSection()
+    tolerances: Tolerances = Field(
+        default={}, description="How fields scatter from part to part, by their dotted names"
+    )
+
+    @model_validator(mode="after")
+    def _check_tolerances(self) -> AxleFile:
+        if self.tolerances:
+            check_tolerances(self.tolerances, field_notes(type(self)))
+        return self
 
     @property
     def own_table(self) -> str:

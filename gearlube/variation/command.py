@@ -48,8 +48,15 @@ def vary(
     ] = None,
     design: Annotated[
         str | None,
-        typer.Option(help="lhs:200, sobol:256 or random:200 samples.", metavar="METHOD:COUNT"),
+        typer.Option(
+            help="lhs:200, sobol:256 or random:200 samples. Default with --scatter: lhs:1000.",
+            metavar="METHOD:COUNT",
+        ),
     ] = None,
+    scatter: Annotated[
+        bool,
+        typer.Option("--scatter", help="Sample the [tolerances] of the axle file as well."),
+    ] = False,
     seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
     limit: Annotated[
         list[str] | None,
@@ -91,7 +98,11 @@ def vary(
     from gearlube.variation.run import MOST_BLOCK, MOST_JOBS, run_variation
     from gearlube.variation.studies import point_study, prepared
     from gearlube.variation.summary import write_summary
-    from gearlube.variation.vary_option import limits_from, sampling_from, varied_from
+    from gearlube.variation.vary_option import (
+        limits_from,
+        sampling_from,
+        varied_from,
+    )
     from gearlube_core.checks import check_address, check_within
 
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):

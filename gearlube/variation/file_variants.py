@@ -112,7 +112,10 @@ class AxleVariants:
         """Return the file with the fields of a point that are its own."""
         keys = axle_keys()
         own = {name: one for name, one in point.items() if _origin(keys, name) == "file"}
-        return self.file.varied(own) if own else self.file
+        if not own:
+            return self.file
+        # one part has no tolerances; they need not be checked again for each
+        return self.file.model_copy(update={"tolerances": {}}).varied(own)
 
     def car_axle(self, point: Point) -> CarAxle:
         """Return axle and car at a point; keys that are not of the axle are left out."""

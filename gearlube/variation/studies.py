@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from gearlube.variation.design import Design
+from gearlube.variation.design import Design, Spread
 from gearlube.variation.file_variants import AxleVariants, files_named
 from gearlube.variation.point_study import PointStudy
 from gearlube_core.checks import check_option
@@ -50,6 +50,20 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
     from gearlube.variation.points.losses import LossPoint
 
     return LossPoint(axle=axle)
+
+
+def scatter(study: PointStudy) -> tuple[Spread, ...]:
+    """Return the spreads of the tolerances in a study's axle file; see `scatter_of`."""
+    from gearlube.variation.points.bearing import BearingPoint
+    from gearlube.variation.scatter import scatter_of
+
+    axle = getattr(study, "axle", None)
+    if isinstance(study, BearingPoint) or axle is None:
+        raise ParameterError(
+            "--scatter is for axle files, got it with a bearing file, which has no tolerances. "
+            "Give the ranges by --vary KEY=low:high."
+        )
+    return scatter_of(axle)
 
 
 def prepared(study: PointStudy, design: Design) -> PointStudy:

@@ -14,6 +14,7 @@ from gearlube_core.errors import ParameterError
 
 _EXAMPLE = "--vary pinion.bearing.preload_n=2000:6000:1000 oil.temperature=40,80"
 MOST_VALUES = 100_000
+SCATTER_DESIGN = "lhs:1000"  # unless another is given
 
 
 class Varied(NamedTuple):

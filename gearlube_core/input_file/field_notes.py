@@ -167,7 +167,9 @@ def field_unit(key: str) -> tuple[str, str]:
 def _kind(value: Any) -> str:
     kind = _KINDS[value["type"]]
     entries = value.get("items", value.get("additionalProperties"))
-    return f"{kind} of {_KINDS[entries['type']]}s" if isinstance(entries, dict) else kind
+    if not isinstance(entries, dict):
+        return kind
+    return f"{kind} of {_KINDS[entries.get('type', 'object')]}s"
 
 
 def _limits(value: Any) -> str:

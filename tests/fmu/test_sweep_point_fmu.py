@@ -9,7 +9,7 @@ from drivetrain.axle_file.axle_file import read_axle
 from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
-from gearlube.studies.sweep.point import run_point
+from gearlube.studies.sweep.point import march, run_point
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import ParameterError, StepError
 
@@ -141,3 +141,14 @@ def test_printed_equations_lose_contact_where_the_consistent_ones_keep_it(axle_f
     consistent = run_point(axle_folder, 100.0, 2500.0, SweepSettings(**settings))
     assert int(printed["separation"]) >= 1
     assert int(consistent["separation"]) == 0
+
+
+def test_the_march_without_an_fmu_gives_the_same_point(point, request):
+    driver = request.node.callspec.params["point"]
+    settings = SweepSettings(driver=driver, **SHORT)
+    found = march(read_axle("mohammadpour_2015"), 60.0, settings)
+    # the same kernels with the same inputs; another compilation may round differently
+    for name in ("dte_pp", "dte_mean", "mesh_force_max", "power_in", "bearing_force_pp", "loss"):
+        assert found[name].values == pytest.approx(point[name].values, rel=1e-6), name
+    assert found["dte_spectrum"].values == pytest.approx(point["dte_spectrum"].values, abs=1e-15)
+    assert float(found["preload"]) == 2500.0

@@ -74,7 +74,18 @@ NUMBERS = ("nan", "inf", "-inf", "-1e308", "1e308", "-1", "0", "1,5", "1e999", "
 TEXTS = ("", "text", "no such thing", "a\nb", "no_file.toml", "../..", "1:2:3:4", "5:1", "\u20ac")
 WRONG = (*NUMBERS, *TEXTS)
 # these only ask, or name things that are not input
-HARMLESS = {"help", "out", "quick", "example", "overwrite", "export", "newtonian", "no_march"}
+HARMLESS = {
+    "help",
+    "out",
+    "quick",
+    "example",
+    "overwrite",
+    "export",
+    "newtonian",
+    "no_march",
+    "scatter",
+    "keys",
+}
 
 
 @pytest.fixture(autouse=True)

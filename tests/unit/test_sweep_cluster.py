@@ -1,12 +1,7 @@
 """The same sweep on a real Dask cluster of two worker processes, one of which is killed."""
 
-import os
 import signal
-import subprocess
-import sys
 import threading
-import time
-from pathlib import Path
 
 import pytest
 import xarray as xr
@@ -14,63 +9,14 @@ import xarray as xr
 from gearlube.studies.sweep.run import SweepModel, run_sweep
 from gearlube.studies.sweep.settings import SweepSettings
 from tests.helpers import sweep_stand_in as stand_in
-
-DEADLINE = 60.0  # s, for anything that has to come up
-
-
-def start(*arguments):
-    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent)}
-    return subprocess.Popen(
-        [sys.executable, "-m", "distributed.cli." + arguments[0], *arguments[1:]],
-        env=environment,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-
-
-def wait_for(condition, what):
-    limit = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < limit, f"waited {DEADLINE} s for {what}"
-        time.sleep(0.05)
+from tests.helpers.dask_cluster import dask_cluster
 
 
 @pytest.fixture
 def cluster(tmp_path):
     """Scheduler address and the worker processes by name."""
-    from distributed import Client
-
-    address_file = tmp_path / "scheduler.json"
-    processes = [
-        start(
-            "dask_scheduler",
-            *("--host", "127.0.0.1", "--port", "0", "--no-dashboard"),
-            *("--scheduler-file", str(address_file)),
-        )
-    ]
-    workers = {}
-    try:
-        wait_for(lambda: address_file.exists() and address_file.stat().st_size > 0, "scheduler")
-        for name in ("first", "second"):
-            workers[name] = start(
-                "dask_worker",
-                *("--scheduler-file", str(address_file), "--host", "127.0.0.1"),
-                *("--nthreads", "1", "--no-nanny", "--no-dashboard", "--name", name),
-                *("--local-directory", str(tmp_path / name)),
-            )
-            processes.append(workers[name])
-        with Client(scheduler_file=str(address_file), set_as_default=False) as client:
-            client.wait_for_workers(2, timeout=DEADLINE)
-            address = client.scheduler.address
-        yield address, workers
-    finally:
-        for process in reversed(processes):
-            process.terminate()
-        for process in processes:
-            try:
-                process.wait(timeout=10.0)
-            except subprocess.TimeoutExpired:
-                process.kill()
+    with dask_cluster(tmp_path) as found:
+        yield found
 
 
 def model_of(point):

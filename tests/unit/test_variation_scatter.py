@@ -1,0 +1,98 @@
+"""Tolerances of an axle file as distributions of its fields."""
+
+import math
+
+import numpy as np
+import pytest
+
+from drivetrain.axle_file.axle_file import AxleFile
+from gearlube.variation.design import Design, Sampling
+from gearlube.variation.file_variants import AxleVariants
+from gearlube.variation.points.losses import LossPoint
+from gearlube.variation.scatter import scatter_of
+from gearlube.variation.studies import point_study, scatter
+from gearlube_core.errors import ParameterError
+
+FILE = """
+name = "scattering"
+[gear_set]
+mesh_table = "mohammadpour_2015"
+backlash_um = 120.0
+[tolerances]
+gear_set.backlash_um = { plus_minus = 30 }
+"gear_set.roughness_rms_um" = { plus_minus_percent = 20.0, distribution = "uniform" }
+[tolerances.pinion.bearing]
+preload_n = { standard_deviation = 100.0 }
+"""
+
+
+@pytest.fixture
+def variants(tmp_path):
+    path = tmp_path / "axle.toml"
+    path.write_text(FILE)
+    return AxleVariants.read(str(path))
+
+
+def test_fields_scatter_about_their_values_or_defaults(variants):
+    found = {one.key: one for one in scatter_of(variants)}
+    backlash = found["gear_set.backlash_um"]
+    assert (backlash.low, backlash.high, backlash.mean) == (90.0, 150.0, 120.0)
+    assert backlash.deviation == pytest.approx(10.0)  # three to the tolerance
+    roughness = found["gear_set.roughness_rms_um"]  # 0.5 um is the default
+    assert (roughness.low, roughness.high) == pytest.approx((0.4, 0.6))
+    assert roughness.mean is None
+    preload = found["pinion.bearing.preload_n"]  # 2500 N is the default
+    assert (preload.low, preload.mean, preload.deviation) == (-math.inf, 2500.0, 100.0)
+
+
+def test_the_loss_of_a_bearing_follows_its_preload_as_its_law_says(variants):
+    """Drag by preload is f1 F d (Palmgren): linear, so deviations scale alike."""
+    study = LossPoint(axle=variants)
+    preload = next(one for one in scatter_of(variants) if "preload" in one.key)
+    design = Design(spreads=(preload,), sampling=Sampling("lhs", 12))
+    column = [one.name for one in study.quantities].index("loss_bearing_torque")
+    losses = np.array([study.compute(design.point(i))[column] for i in range(12)])
+    ends = [study.compute({"pinion.bearing.preload_n": p})[column] for p in (2400.0, 2600.0)]
+    slope = (ends[1] - ends[0]) / 200.0
+    # samples lie within 250 N of the middle; that far the law bends by less than 1 % of the slope
+    assert losses.std() == pytest.approx(slope * design.column(preload.key).std(), rel=0.01)
+
+
+def test_a_part_of_the_scatter_is_an_axle_without_tolerances(variants):
+    varied = variants.varied({"gear_set.backlash_um": 100.0})
+    assert varied.gear_set.backlash_um == 100.0
+    assert varied.tolerances == {}
+
+
+@pytest.mark.parametrize(
+    ("tolerances", "said"),
+    [
+        ({"gear_set.backlash": {"plus_minus": 1.0}}, "is it gear_set.backlash_um"),
+        ({"gear_set.radii": {"plus_minus": 1.0}}, "fields that are numbers"),
+        ({"gear_set.backlash_um": 30.0}, "must be a table such as { plus_minus"),
+        ({"gear_set.backlash_um": {}}, "one of plus_minus, .*got none"),
+        ({"gear_set.backlash_um": {"plus_minus": -1.0}}, "greater than 0, got -1"),
+        (
+            {"gear_set.backlash_um": {"plus_minus": 1.0, "standard_deviation": 1.0}},
+            "got plus_minus, standard_deviation",
+        ),
+        (
+            {"gear_set.backlash_um": {"standard_deviation": 1.0, "distribution": "uniform"}},
+            r"1\.732 standard deviations",
+        ),
+    ],
+)
+def test_a_wrong_tolerance_is_refused(tolerances, said):
+    with pytest.raises(ParameterError, match=said):
+        AxleFile.named("mohammadpour_2015").varied({"tolerances": tolerances})
+
+
+def test_scatter_without_tolerances_or_values_is_refused():
+    with pytest.raises(ParameterError, match="needs \\[tolerances\\] in the axle file"):
+        scatter(point_study("map"))
+    with pytest.raises(ParameterError, match="is for axle files"):
+        scatter(point_study("bearing"))
+    tolerances = {"housing.immersion_mm": {"plus_minus": 1.0}}
+    file = AxleFile.named("mohammadpour_2015").varied({"tolerances": tolerances})
+    with pytest.raises(ParameterError, match="needs a value to scatter about"):
+        scatter_of(AxleVariants(file=file))
