@@ -73,10 +73,25 @@ Every number carries its origin: `given` in the file, `assumed` because the file
 
 ## Machine settings
 
+```
+gearlube design my_blank.toml --out my_design     # some ten seconds
+gearlube contact my_design/my_blank.toml          # under load; the file as it is
+gearlube design --example > my_blank.toml         # a blank file to start from
+```
+
+The first command writes the gear file (named after `name`), `report.md`, `design.nc` and
+`figures/`: contact patterns with ease-off, transmission error, widths of the teeth. The report
+says of the contact what was asked and found, of the teeth topland, slot, undercut and how wide
+blade points may be, and of every number whether it was given, chosen or follows. What was not met
+stands there with how near it came and what to relax. If both flanks do not even touch, nothing is
+written.
+
+In Python:
+
 ```python
 from gearlube_core.hypoid_design.design import design_pair
 
-design = design_pair(BlankFile.from_toml("my_blank.toml"))
+design = design_pair(designed.file)
 design.file  # a gear file, as `gearlube contact` takes it
 design.measured["drive"]  # what the contact analysis finds of what was asked
 ```
@@ -95,6 +110,14 @@ design.measured["drive"]  # what the contact analysis finds of what was asked
    too little is taken off the targets, and the fit goes on; three rounds in all.
 
 Generated gears, duplex pinions and modified roll are not here.
+
+**What was found on the samples** (`tests/analytical/test_designed_pair.py`): hypoid 13/42 with
+offset 15, the bevel pair 14/39 and the face-hobbed 13/42 meet 50 and 80 urad within 1 %, path
+directions within 1 deg and the mean contact within 0.2 mm. This takes the **edge radii of both
+blades**: with `curved_blades = false` the coast flanks keep no extreme of the error on the teeth.
+
+Limits for a remark in the report: transmission error 10 % on drive and 15 % on coast flanks, path
+direction 2 deg, mean contact 0.5 mm, ellipse length 25 %.
 
 ## Against printed samples
 

@@ -103,6 +103,10 @@ from gearlube_core.ehl.statistics.rough_film import FilmFriction as FilmFriction
 from gearlube_core.ehl.statistics.rough_film import RoughFilmStatistics as RoughFilmStatistics
 from gearlube_core.ehl.statistics.rough_film import statistics_of_run as statistics_of_run
 
+# -- Study: design of a hypoid pair
+from gearlube_core.hypoid_design.blank_file import BlankFile as BlankFile
+from gearlube.studies.design.run import run_design as run_design
+
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact

@@ -54,6 +54,11 @@ COMMANDS = (
         command_class="VaryCommand",
     ),
     LazyCommand(
+        name="design",
+        target="gearlube.studies.design.command:design",
+        summary="Design a hypoid or bevel pair: from a blank to machine settings.",
+    ),
+    LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",

@@ -140,6 +140,16 @@ class BearingSection(ModelSection):
                 f"diameter, got {mm * made.bore_diameter:.4g} and "
                 f"{mm * made.outside_diameter:.4g} mm; give all three of one bearing"
             )
+        elif not (
+            made.bore_diameter < made.inner_race_diameter
+            and made.outer_race_diameter < made.outside_diameter
+        ):
+            problems.append(
+                f"the rings must have room: races of {mm * made.inner_race_diameter:.4g} and "
+                f"{mm * made.outer_race_diameter:.4g} mm must lie between bore and outside "
+                f"diameter, got {mm * made.bore_diameter:.4g} and "
+                f"{mm * made.outside_diameter:.4g} mm; check roller and pitch diameter"
+            )
         return problems
 
     @property

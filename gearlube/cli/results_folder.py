@@ -19,6 +19,7 @@ _RESULTS = frozenset(
         "summary.csv",
         "report.html",
         "contact.nc",
+        "design.nc",
         "resonance.nc",
         "cycle.nc",
         "line.nc",

@@ -29,8 +29,9 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 PATH_POSITIONS = 161  # of the unloaded path of contact, over four pitches
 ERROR_POSITIONS = 64  # of the unloaded transmission error, over one
-_EASE_GRID = (21, 41)
+EASE_GRID = (21, 41)
 _REACH = 2.0  # pitches to either side of the reference points
+PATH_PHASES = np.linspace(-_REACH, _REACH, PATH_POSITIONS)
 
 _PAIR_DIMS = ("side", "phase", "torque", "pair")
 _STATE_DIMS = ("side", "phase", "torque")
@@ -108,9 +109,9 @@ def contact_dataset(
         "map_s": (np.arange(MAP_SHAPE[0]) + 0.5) / MAP_SHAPE[0],
         "map_t": (np.arange(MAP_SHAPE[1]) + 0.5) / MAP_SHAPE[1],
         "fine_phase": np.arange(ERROR_POSITIONS) / ERROR_POSITIONS,
-        "path_phase": np.linspace(-_REACH, _REACH, PATH_POSITIONS),
-        "ease_s": np.linspace(0.0, 1.0, _EASE_GRID[0]),
-        "ease_t": np.linspace(0.0, 1.0, _EASE_GRID[1]),
+        "path_phase": PATH_PHASES,
+        "ease_s": np.linspace(0.0, 1.0, EASE_GRID[0]),
+        "ease_t": np.linspace(0.0, 1.0, EASE_GRID[1]),
     }
     return xr.Dataset(
         data,
@@ -127,7 +128,7 @@ def contact_dataset(
 
 
 def _side(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, Array]:
-    unloaded = _unloaded(pair)
+    unloaded = unloaded_contact(pair) | {"error": _mesh_error(pair)}
     torque = np.array(settings.torques)
     force = np.linalg.norm(cycle["force"], axis=-1)
     R_p = torque / force
@@ -162,16 +163,18 @@ def _side(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, 
     return result
 
 
-def _unloaded(pair: FlankPair) -> dict[str, Array]:
-    path_phases = np.linspace(-_REACH, _REACH, PATH_POSITIONS)
-    path = contact_path(pair, path_phases * pair.gear_pitch)
+def unloaded_contact(pair: FlankPair) -> dict[str, Array]:
+    """Return path of contact, its errors, ease-off and closest approach of a side without load.
+
+    The names, units and grids are those of `contact_dataset`.
+    """
+    path = contact_path(pair, PATH_PHASES * pair.gear_pitch)
     inside = path.inside
-    ease = ease_off(pair, s_count=_EASE_GRID[0], t_count=_EASE_GRID[1])
+    ease = ease_off(pair, s_count=EASE_GRID[0], t_count=EASE_GRID[1])
     return {
         "path_s": np.where(inside, path.gear_s, np.nan),
         "path_t": np.where(inside, path.gear_t, np.nan),
         "path_error": np.where(inside, path.transmission_error, np.nan),
-        "error": _mesh_error(pair),
         "ease_off": ease.normal_gap(),
         "closest": contact_pattern(ease).closest,
         "path_contact_ratio": np.array(contact_ratio(pair).path),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import string
 from typing import Annotated, ClassVar
 
 from pydantic import Field, model_validator
@@ -27,7 +28,9 @@ _NEEDS = {
     3: ("outer_pitch_diameter_mm", "gear_spiral_angle_deg"),
 }
 _CHOICES = tuple(dict.fromkeys(name for names in _NEEDS.values() for name in names))
+_NAME = frozenset(string.ascii_letters + string.digits + "_+-. ")
 _USUAL = "usual for spiral bevel and hypoid gears"
+_OWN = "this package's choice"
 
 
 class BlankFile(InputFile):
@@ -61,6 +64,11 @@ class BlankFile(InputFile):
     def _check_relations(self) -> BlankFile:
         """Check relations between fields."""
         pair, method = self.pair, self.design_method
+        if not set(self.name) <= _NAME or self.name.startswith((".", " ")):
+            raise ValueError(
+                "name must be letters, digits, blanks and _ + - . because files are named after "
+                f"it, and begin with no dot or blank, got {self.name!r}"
+            )
         if pair.gear_teeth < pair.pinion_teeth:
             raise ValueError(
                 f"pair.gear_teeth must be at least pair.pinion_teeth, {pair.pinion_teeth}, got "
@@ -130,7 +138,8 @@ class BlankFile(InputFile):
             elif name in chosen:
                 found.append(InputNote(name, chosen[name][0], "", "assumed", chosen[name][1]))
             elif value is not None:
-                found.append(InputNote(name, value, note.unit, "assumed", _USUAL))
+                usual = _OWN if name.startswith("contact.") else _USUAL
+                found.append(InputNote(name, value, note.unit, "assumed", usual))
         return found
 
 

@@ -21,6 +21,7 @@ REACHED = 77  # exit code of a run that would begin to compute
 # where computing begins: what is wrong has to be said before
 SOLVERS = (
     "gearlube.studies.contact.run.analyse_contact",
+    "gearlube.studies.design.run.design_pair",
     "gearlube.studies.resonance.run.study_resonance",
     "gearlube.studies.helical.run._solved",
     "gearlube.studies.films.run_steady.solve_line",
@@ -44,6 +45,7 @@ COMMANDS = (
     ("sweep",),
     ("build-fmu",),
     ("contact",),
+    ("design",),
     ("bearing",),
     ("map",),
     ("cycle",),

@@ -343,6 +343,39 @@ def test_a_mesh_table_lies_beside_the_file_and_gives_the_final_drive(tmp_path, m
         ({"pinion.bearing.pitch_diameter_mm": 0.0627}, ["Is it in m? 0.0627 m is 62.7 mm"]),
         ({"pinion.bearing.pitch_diameter_mm": -60.0}, ["5 to 1000 mm, got -60.0"]),
         ({"pinion.bearing.pitch_diameter_mm": 200.0}, ["between bore and outside diameter"]),
+        (
+            # pitch diameter 71.85 mm, the mean; less 12.7 mm cos 15 deg: inside the bore
+            {"pinion.bearing.bore_diameter_mm": 60.0},
+            ["the rings must have room: races of 59.58 and 84.12 mm", "got 60 and 83.7 mm"],
+        ),
+        (
+            {
+                "gear.bearing.inner_race_diameter_mm": 50.0,
+                "gear.bearing.outer_race_diameter_mm": 85.0,
+            },
+            ["gear.bearing: the rings must have room", "85 mm", "got 40 and 83.7 mm"],
+        ),
+        (
+            {
+                "gear.bearing.inner_race_diameter_mm": 75.0,
+                "gear.bearing.outer_race_diameter_mm": 50.0,
+            },
+            ["The roller must fit between the races"],
+        ),
+        ({"pinion.bearing.contact_angle_deg": -15.0}, ["5 to 45 deg, got -15"]),
+        ({"gear_set.backlash_um": -10.0}, ["0 to 2000 um, got -10"]),
+        ({"pinion.bearing.preload_n": -5.0}, ["0 to 100000 N, got -5"]),
+        ({"gear.bearing.interference_um": -5.0}, ["0 to 100 um, got -5"]),
+        (
+            {"housing.ring_diameter_mm": 165.0, "housing.immersion_mm": 200.0},
+            ["immersion_mm must be at most ring_diameter_mm, 165 mm, got 200 mm"],
+        ),
+        ({"housing.immersion_mm": -2.0}, ["0 to 3000 mm, got -2"]),
+        ({"seals.pinion_torque_n_m": -1.0}, ["0 to 100 N.m, got -1"]),
+        ({"oil.density_kg_m3": 0.87}, ["Is it in g/cm3? 0.87 g/cm3 is 870 kg/m3"]),
+        ({"oil.density_kg_m3": -870.0}, ["500 to 2000 kg/m3, got -870"]),
+        ({"oil.viscosity_40_degc_mm2_s": 100.0}, ["come together"]),
+        ({"oil.walther_a": 7.4, "oil.walther_b": -2.8}, ["0.3 to 10, got -2.8"]),
         ({"gear.bearing.contact_angle_deg": 0.26}, ["0.26 rad is 14.8969 deg"]),
         ({"gear.bearing.contact_angle_deg": 60.0}, ["5 to 45 deg, got 60.0"]),
         ({"gear_set.backlash_um": 150000.0}, ["Is it in nm? 150000 nm is 150 um"]),

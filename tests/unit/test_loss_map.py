@@ -259,12 +259,25 @@ def test_settings_that_make_no_map_are_refused(changed, words):
         gl.LossMapSettings(axle=AXLE, **changed)
 
 
-def test_the_command_refuses_what_the_mesh_table_does_not_cover(tmp_path, caplog):
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--torques", "5000"], "--torques must be within -600 to 600 N.m, got 5000"),
+        (["--torques", "-700"], "--torques must be within -600 to 600 N.m, got -700"),
+        (["--speeds", "60000"], "--speeds must be within 1 to 47000 rpm, got 60000"),
+        (["--speeds", "0"], "--speeds must be within 1 to 47000 rpm, got 0"),
+        (["--temperatures", "313.15"], "--temperatures must be within -60 to 250 degC, got 313.15"),
+        (["--temperatures", "180"], "temperature"),
+        (["--speeds", "200:100:20"], "--speeds"),
+        (["--draws", "-1"], "draws"),
+    ],
+)
+def test_the_command_refuses_what_tables_and_oil_do_not_cover(tmp_path, caplog, words, said):
     out = tmp_path / "out"
-    arguments = ["map", "--torques", "5000", "--out", str(out)]
+    arguments = ["map", *words, "--out", str(out)]
     ended = CliRunner().invoke(command_line(COMMANDS), arguments)
     assert ended.exit_code == 2
-    assert "--torques must be within -600 to 600 N.m, got 5000" in caplog.text
+    assert said in caplog.text
     assert not out.exists()
 
 

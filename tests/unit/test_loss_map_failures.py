@@ -146,7 +146,13 @@ def test_a_grid_or_a_cycle_that_needs_every_point_says_which_failed(axle):
         )
 
 
-def test_a_draw_beyond_the_limits_is_refused_before_anything_is_computed(tmp_path, caplog):
+def test_a_draw_beyond_the_limits_is_refused_before_anything_is_computed(
+    tmp_path, caplog, monkeypatch
+):
+    def computed(*_args, **_options):
+        raise AssertionError("computed")
+
+    monkeypatch.setattr("gearlube.studies.loss_map.run.axle_losses", computed)
     path, out = tmp_path / "edge.toml", tmp_path / "out"
     path.write_text(LOCKING.replace("roughness_rms_um = 8", "roughness_rms_um = 19"))
     assert mapped(path, out, "--draws", "2").exit_code == 2

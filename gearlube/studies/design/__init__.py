@@ -1,0 +1,1 @@
+"""Study: design of a hypoid or bevel pair from its blank."""

@@ -1,0 +1,69 @@
+"""The command `gearlube design`."""
+
+from __future__ import annotations
+
+import logging
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.options import ExampleOption, OverwriteOption
+from gearlube.cli.progress_report import progress_on
+from gearlube.cli.results_folder import results_folder
+
+if TYPE_CHECKING:  # the study is loaded when the command runs
+    from gearlube.studies.design.summary import AskedAndFound
+
+logger = logging.getLogger("gearlube")
+console = Console(stderr=True)
+
+
+def design(
+    blank: Annotated[
+        str, typer.Argument(help="Blank file (TOML) or a shipped one.", metavar="BLANK")
+    ] = "hypoid_13_42",
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_design"),
+    overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
+) -> None:
+    """Design a hypoid or bevel pair: from blank data and a wanted contact to machine settings.
+
+    Writes the gear file (`gearlube contact` takes it), report.md, design.nc and figures. Takes
+    seconds.
+    """
+    from gearlube.studies.design import run
+    from gearlube.studies.design.summary import asked_and_found, design_warnings
+    from gearlube_core.hypoid_design.blank_file import BlankFile
+
+    began = time.monotonic()
+    with exit_on_error():
+        if example:
+            typer.echo(BlankFile.shipped_text("hypoid_13_42"), nl=False)
+            return
+        file = BlankFile.given(blank)
+        with (
+            results_folder(out, "design", overwrite=overwrite),
+            progress_on(console, "design") as progress,
+        ):
+            results = run.run_design(file, folder=out, progress=progress)
+        console.print(_table(file.name, asked_and_found(results.design)))
+        for sentence in design_warnings(results.design, results.forms):
+            logger.warning("%s", sentence)
+        gear = out / f"{results.design.file.name}.toml"
+        logger.info("Designed in %.1f s.", time.monotonic() - began)
+        logger.info("Results: %s, %s, %s", gear, out / "report.md", out / "figures")
+        logger.info("Next: gearlube contact %s", gear)
+
+
+def _table(name: str, rows: list[AskedAndFound]) -> Table:
+    table = Table(title=f"{name}: contact without load")
+    for heading in ("flanks", "", "asked", "found"):
+        table.add_column(heading)
+    for row in rows:
+        table.add_row(*row)
+    return table

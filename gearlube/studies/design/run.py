@@ -1,0 +1,87 @@
+"""Design a pair: from a blank file to a gear file, a report and a dataset."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.output.toml_text import toml_text
+from gearlube.studies.design.dataset import design_dataset
+from gearlube.studies.design.figures import save_design_figures
+from gearlube.studies.design.summary import report
+from gearlube_core.hypoid_design.blank_file import BlankFile
+from gearlube_core.hypoid_design.design import Design, design_pair
+from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm, tooth_form
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import write_dataset, write_text
+
+_SHARE = 0.7  # of the time for the settings
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DesignResults:
+    """Results of a design.
+
+    Parameters
+    ----------
+    design : Design
+    forms : dict of str to ToothForm
+        Of "pinion" and "gear".
+    dataset : xarray.Dataset
+        Unloaded contact and widths of the teeth, see `design_dataset`.
+    """
+
+    design: Design
+    forms: dict[str, ToothForm]
+    dataset: xr.Dataset
+
+
+def run_design(
+    file: BlankFile, *, folder: Path | None = None, progress: Progress = no_progress
+) -> DesignResults:
+    """Return the pair that a blank file asks for, with its unloaded contact.
+
+    Parameters
+    ----------
+    file : BlankFile
+    folder : Path, optional
+        Gets the results as `write_design` writes them, once all is found.
+    progress : callable, optional
+        Called with the share that is done [-] and a sentence on what runs.
+
+    Raises
+    ------
+    ParameterError
+        The blank cannot exist, or no settings were found with which the flanks touch as asked.
+
+    Examples
+    --------
+    >>> found = run_design(BlankFile.named("hypoid_13_42"))  # doctest: +SKIP
+    >>> found.design.file.pinion.machine.tilt_angle_deg  # doctest: +SKIP
+    """
+    design = design_pair(file, lambda share, sentence: progress(_SHARE * share, sentence))
+    progress(_SHARE, "teeth")
+    forms = {
+        "pinion": tooth_form(design.file, "pinion"),
+        "gear": tooth_form(design.file, "gear"),
+    }
+    progress(_SHARE + 0.05, "ease-off and contact pattern")
+    results = DesignResults(design=design, forms=forms, dataset=design_dataset(design, forms))
+    if folder is not None:
+        progress(0.95, "figures")
+        write_design(results, folder)
+    return results
+
+
+def write_design(results: DesignResults, folder: Path) -> Path:
+    """Write gear file, report.md, design.nc and figures/; return the gear file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file = results.design.file
+    path = folder / f"{file.name}.toml"
+    write_text(toml_text(file.model_dump(exclude_none=True)), path)
+    write_text(report(results.design, results.forms), folder / "report.md")
+    write_dataset(results.dataset, folder / "design.nc")
+    save_design_figures(results.dataset, folder / "figures")
+    return path

@@ -1,0 +1,192 @@
+"""Report of a design: what was asked and found, the teeth, what was given and what was chosen."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.refusal import pair_warnings
+from gearlube_core.hypoid_design.design import Design, misses
+from gearlube_core.hypoid_design.flank_target import MeanContact
+from gearlube_core.hypoid_design.pinion_fit import SIDES
+from gearlube_core.hypoid_geometry.flank.flank import Side
+from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
+from gearlube_core.input_file.input_note import InputNote
+from gearlube_core.units import DEGREE, MILLIMETRE
+
+# what a design may miss before the report says so
+ERROR_LIMIT: dict[Side, float] = {"drive": 0.10, "coast": 0.15}
+PATH_LIMIT = 2.0 * DEGREE
+CENTRE_LIMIT = 0.5 * MILLIMETRE
+LENGTH_LIMIT = 0.25
+_MICRO = 1e-6
+_PATH = "44 deg from across the lines of contact"
+
+
+class AskedAndFound(NamedTuple):
+    """One number of the contact of one side, as a table shows it."""
+
+    side: str
+    what: str
+    asked: str
+    found: str
+
+
+def asked_and_found(design: Design) -> list[AskedAndFound]:
+    """Return the numbers of the unloaded contact on both sides; none of a side without."""
+    rows = []
+    for side in SIDES:
+        target, found = design.targets[side], design.measured[side]
+        if isinstance(found, str):
+            continue
+        _, _, centre, _ = misses(target, found, design.designed)
+        for what, asked, value in (
+            ("transmission error [urad]", target.error / _MICRO, found.error / _MICRO),
+            ("path direction [deg]", target.path_angle / DEGREE, found.path_angle / DEGREE),
+            ("ellipse length [mm]", target.length / MILLIMETRE, found.length / MILLIMETRE),
+        ):
+            rows.append(AskedAndFound(side, what, f"{asked:.1f}", f"{value:.1f}"))
+        places = [f"s {one.s:.3f}, t {one.t:.3f}" for one in (target, found)]
+        off = f"{places[1]} ({centre / MILLIMETRE:.2f} mm off)"
+        rows.append(AskedAndFound(side, "mean contact", places[0], off))
+        rows.append(
+            AskedAndFound(side, "contact ratio of the path", "", f"{found.contact_ratio:.2f}")
+        )
+    return rows
+
+
+def unmet_targets(design: Design) -> list[str]:
+    """Return how near a design came to each target that it missed, and what to relax."""
+    said = []
+    for side in SIDES:
+        target, found = design.targets[side], design.measured[side]
+        pair = FlankPair.from_file(design.file, side)
+        across = MeanContact.at(pair, target.s, target.t).path_angle(0.0) / DEGREE
+        cure = (
+            f"Relax: a larger contact.{side}_error_urad, a longer contact.ellipse_length_mm, or "
+            f"contact.{side}_path_angle_deg nearer to {across:.0f} deg, across the lines of "
+            "contact."
+        )
+        if not design.designed.file.contact.curved_blades:
+            cure += " Or allow contact.curved_blades."
+        if isinstance(found, str):
+            gap = design.fit.rms[side] / _MICRO
+            said.append(
+                f"The {side} flanks have no parabolic transmission error; their gap came within "
+                f"{gap:.1f} um (rms) of the wanted one. {found} {cure}"
+            )
+            continue
+        error, turned, centre, length = misses(target, found, design.designed)
+        if abs(error) > ERROR_LIMIT[side]:
+            said.append(
+                f"The transmission error of the {side} flanks came to {found.error / _MICRO:.0f} "
+                f"urad, asked {target.error / _MICRO:.0f} urad. {cure}"
+            )
+        if abs(turned) > PATH_LIMIT:
+            said.append(
+                f"The path of contact of the {side} flanks came to "
+                f"{found.path_angle / DEGREE:.1f} deg, asked {target.path_angle / DEGREE:.1f} deg. "
+                f"{cure}"
+            )
+        if centre > CENTRE_LIMIT:
+            said.append(
+                f"The mean contact of the {side} flanks came within {centre / MILLIMETRE:.2f} mm "
+                f"of the place asked for. {cure}"
+            )
+        if abs(length) > LENGTH_LIMIT:
+            said.append(
+                f"The contact ellipse of the {side} flanks came to "
+                f"{found.length / MILLIMETRE:.1f} mm, asked {target.length / MILLIMETRE:.1f} mm. "
+                f"{cure}"
+            )
+    return said
+
+
+def design_warnings(design: Design, forms: dict[str, ToothForm]) -> list[str]:
+    """Return what speaks against a design, one sentence each."""
+    teeth = [line for form in forms.values() for line in form.report()]
+    return [*design.warnings, *unmet_targets(design), *pair_warnings(design.file), *teeth]
+
+
+def report(design: Design, forms: dict[str, ToothForm]) -> str:
+    """Return the report as Markdown."""
+    parts = [
+        f"# {design.file.name}: designed pair\n",
+        f"Blank by ISO 23509, method {design.designed.file.design_method}, uniform depth. Gear "
+        "form-cut, pinion generated with cutter tilt. Contact without load, as the contact "
+        "analysis finds it from the gear file.\n",
+        "## Contact: asked and found\n",
+        _table(("Side", "What", "Asked", "Found"), asked_and_found(design)),
+        "Path directions on the gear flank, from the root line towards the heel, to the tip "
+        "positive. s: root 0 to tip 1; t: toe 0 to heel 1.\n",
+        "## Teeth\n",
+        _table(("Member", "What", "Value"), _teeth(forms)),
+    ]
+    warnings = design_warnings(design, forms)
+    parts += ["## Warnings\n", "".join(f"- {one}\n" for one in warnings) or "None.\n"]
+    designed = design.designed
+    parts += [
+        "## Given and chosen\n",
+        _table(("Field", "Value", "Unit", "Origin"), map(_origin, _inputs(design))),
+        "## Blank\n",
+        _table(("What", "Value", "Unit", "Origin"), map(_origin, designed.results())),
+        "## Settings\n",
+        _table(("Field", "Value", "Origin"), _settings(design)),
+    ]
+    return "\n".join(parts)
+
+
+def _inputs(design: Design) -> list[InputNote]:
+    """Return the numbers of the blank file, and those of the contact that it leaves open."""
+    notes = design.designed.file.inputs()
+    named = {note.field for note in notes}
+    drive, coast = design.targets["drive"], design.targets["coast"]
+    for key, value, unit, why in (
+        ("ellipse_length_mm", drive.length / MILLIMETRE, "mm", "a third of the face width"),
+        ("profile_position", drive.s, "", "the middle of the working depth"),
+        ("drive_path_angle_deg", drive.path_angle / DEGREE, "deg", _PATH),
+        ("coast_path_angle_deg", coast.path_angle / DEGREE, "deg", _PATH),
+    ):
+        if f"contact.{key}" not in named:
+            notes.append(InputNote(f"contact.{key}", value, unit, "assumed", why))
+    return notes
+
+
+def _teeth(forms: dict[str, ToothForm]) -> list[tuple[str, str, str]]:
+    rows = []
+    for role, form in forms.items():
+        for what, width in (("topland", form.topland), ("slot at the root", form.slot)):
+            ends = f"{width[0] / MILLIMETRE:.2f} / {width[-1] / MILLIMETRE:.2f}"
+            rows.append((role, f"{what}, toe / heel [mm]", ends))
+        rows.append((role, "blade points at most [mm]", f"{form.slot.min() / MILLIMETRE:.2f}"))
+        for side, limit in (("drive", form.drive), ("coast", form.coast)):
+            lowest = float(limit.s[limit.undercut].max()) if limit.undercut.any() else math.nan
+            cut = "none" if math.isnan(lowest) else f"below s = {lowest:.2f}"
+            rows.append((role, f"undercut of the {side} flank", cut))
+        rows.append((role, "reach of the mate's tip, s", f"{form.active:.2f}"))
+    return rows
+
+
+def _origin(note: InputNote) -> tuple[str, str, str, str]:
+    words = {"given": "given", "inferred": "follows", "assumed": "chosen"}[note.origin]
+    why = f": {note.why}" if note.why and note.origin == "assumed" else ""
+    return note.field, note.value_text, note.unit, words + why
+
+
+def _settings(design: Design) -> list[tuple[str, str, str]]:
+    origins = {"table": "given", "inferred": "follows", "completed": "chosen"}
+    rows = []
+    data = design.file.model_dump(exclude_none=True)
+    for role in ("gear", "pinion"):
+        for section in ("cutter", "machine"):
+            for key, value in data[role][section].items():
+                field = f"{role}.{section}.{key}"
+                rows.append((field, f"{value:.6g}", origins[design.file.origin(field)]))
+    return rows
+
+
+def _table(head: tuple[str, ...], rows: object) -> str:
+    lines = [f"| {' | '.join(head)} |", f"|{'---|' * len(head)}"]
+    lines += [f"| {' | '.join(str(one) for one in row)} |" for row in rows]  # type: ignore[attr-defined]
+    return "\n".join(lines) + "\n"
