@@ -122,7 +122,7 @@ def vary(
             check_address(scheduler)
         spreads = given.spreads
         if scatter:
-            typed = {one.key for one in (*given.axes, *spreads)}
+            typed = {axis.key for axis in given.axes} | {one.key for one in spreads}
             of_file = scatter_of_study(chosen)
             spreads = (*spreads, *(one for one in of_file if one.key not in typed))
             design = SCATTER_DESIGN if design is None else design
