@@ -16,7 +16,7 @@ from gearlube.variation.summary import cells, inputs_of, varies
 _MOST_SERIES = len(SERIES)
 _MOST_BARS = 12  # inputs of a chart of ranks
 _BINS = 30
-_LETTERS = 42  # in a line of a label
+_LETTERS, _TITLE_LETTERS = 42, 28  # in a line of a label, of the title of a narrow panel
 
 
 def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Path) -> list[Path]:
@@ -113,7 +113,7 @@ def rank_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
             ax.set_yticks(np.arange(chosen.size), list(summary["input"].values[chosen]))
             ax.set_xlim(-1.0, 1.0)
             ax.set_xlabel("rank correlation [-]")
-            ax.set_title(fill(results[name].attrs["long_name"], _LETTERS), fontsize=9)
+            ax.set_title(fill(results[name].attrs["long_name"], _TITLE_LETTERS), fontsize=9)
     return figure
 
 
