@@ -22,9 +22,6 @@ from gearlube.variation.file_variants import AxleVariants
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
 from gearlube.variation.points.losses import LossPoint
-from gearlube.variation.run import run_variation
-from gearlube.variation.store import open_variation
-from gearlube.variation.summary import write_summary
 
 _LOGGER = logging.getLogger("bench_variation")
 NUMBERS = 60
@@ -73,6 +70,11 @@ def megabytes() -> float:
 
 def main(points: int, seconds: float, jobs: int) -> None:
     """Run, run again, summarise; tell what this process took."""
+    # here, so that the processes, which read this module, do not load them
+    from gearlube.variation.run import run_variation
+    from gearlube.variation.store import open_variation
+    from gearlube.variation.summary import write_summary
+
     study = WaitingStudy(
         losses=LossPoint(axle=AxleVariants.read("mohammadpour_2015")), seconds=seconds
     )

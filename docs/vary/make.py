@@ -1,10 +1,12 @@
-"""Draw the figures of docs/vary.md: python -m docs.vary.make.
+"""Draw the figures of docs/vary.md: python -m docs.vary.make [FOLDER].
 
 A van's axle with the tolerances of scattering_van.toml at 60 km/h: 128 short marches, some minutes.
+The results are kept in FOLDER, where a run that was stopped goes on.
 """
 
 from __future__ import annotations
 
+import sys
 import tempfile
 from pathlib import Path
 
@@ -20,15 +22,14 @@ HERE = Path(__file__).resolve().parent
 IMAGES = HERE.parent / "images"
 
 
-def main() -> None:
+def main(folder: Path) -> None:
     """Run the scatter, draw it, and keep its numbers beside this script."""
     study = point_study("sweep", str(HERE / "scattering_van.toml"), quick=True)
     design = Design(spreads=scatter(study), sampling=Sampling("sobol", 128))
-    with tempfile.TemporaryDirectory() as folder:
-        run_variation(study, design, out=folder)
-        results, summary = write_summary(Path(folder))
-        histogram_figure(results, summary).savefig(IMAGES / "vary_scatter.png", dpi=110)
-        rank_figure(results, summary).savefig(IMAGES / "vary_ranks.png", dpi=110)
+    run_variation(study, design, out=folder)
+    results, summary = write_summary(folder)
+    histogram_figure(results, summary).savefig(IMAGES / "vary_scatter.png", dpi=110)
+    rank_figure(results, summary).savefig(IMAGES / "vary_ranks.png", dpi=110)
     statistics = summary["statistics"].sel(quantity=list(study.shown))
     rows = [
         [name, *(f"{number:.4g}" for number in statistics.sel(quantity=name).values)]
@@ -39,4 +40,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    with tempfile.TemporaryDirectory() as nowhere:
+        main(Path(sys.argv[1] if len(sys.argv) > 1 else nowhere))

@@ -153,6 +153,8 @@ class AxleFile(InputFile):
         mesh: MeshTable | None = None,
         asperities: GreenwoodTrippFit | None = None,
         oil: DescribedOil | None = None,
+        *,
+        notes: bool = True,
     ) -> CarAxle:
         """Return the parameters of axle and car.
 
@@ -164,6 +166,8 @@ class AxleFile(InputFile):
             Fit to the file's `asperity_table`; by default read where it names one.
         oil : DescribedOil, optional
             Of the file's `oil.file`; by default read where it names one.
+        notes : bool
+            Whether the result has the notes on its inputs, a third of the work.
 
         Raises
         ------
@@ -181,7 +185,7 @@ class AxleFile(InputFile):
             source=self.source or "",
             axle=axle,
             driveline=driveline,
-            inputs=tuple(self._notes(axle, driveline, asperities, oil)),
+            inputs=tuple(self._notes(axle, driveline, asperities, oil)) if notes else (),
         )
 
     def _bearings(self) -> tuple[TaperedRollerBearing, TaperedRollerBearing | None]:

@@ -97,8 +97,10 @@ def vary(
     from gearlube.variation.figures import save_variation_figures
     from gearlube.variation.run import MOST_BLOCK, MOST_JOBS, run_variation
     from gearlube.variation.studies import point_study, prepared
+    from gearlube.variation.studies import scatter as scatter_of_study
     from gearlube.variation.summary import write_summary
     from gearlube.variation.vary_option import (
+        SCATTER_DESIGN,
         limits_from,
         sampling_from,
         varied_from,
@@ -118,7 +120,13 @@ def vary(
             check_within("--block", block, 1, MOST_BLOCK, "", "Leave it out for the usual.")
         if scheduler is not None:
             check_address(scheduler)
-        plan = Design(axes=given.axes, spreads=given.spreads, sampling=sampling_from(design, seed))
+        spreads = given.spreads
+        if scatter:
+            typed = {axis.key for axis in given.axes} | {one.key for one in spreads}
+            of_file = scatter_of_study(chosen)
+            spreads = (*spreads, *(one for one in of_file if one.key not in typed))
+            design = SCATTER_DESIGN if design is None else design
+        plan = Design(axes=given.axes, spreads=spreads, sampling=sampling_from(design, seed))
         chosen = prepared(chosen, plan)
         logger.info("%d points: %s.", plan.size, ", ".join(plan.keys))
         with results_folder(out, f"vary {study}", overwrite=overwrite):

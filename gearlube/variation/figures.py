@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from gearlube.variation.summary import cells, inputs_of, varies
 _MOST_SERIES = len(SERIES)
 _MOST_BARS = 12  # inputs of a chart of ranks
 _BINS = 30
+_LETTERS, _TITLE_LETTERS = 42, 28  # in a line of a label, of the title of a narrow panel
 
 
 def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Path) -> list[Path]:
@@ -34,10 +36,16 @@ def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Pat
     return paths
 
 
+def _scale(results: xr.Dataset, name: str) -> tuple[float, str]:
+    """Return the factor and unit in which a quantity is drawn."""
+    unit = str(results[name].attrs["units"])
+    return (1e6, "um") if unit == "m" else (1.0, unit)
+
+
 def _about(results: xr.Dataset, name: str) -> str:
-    attributes = results[name].attrs
-    unit = attributes["units"]
-    return f"{attributes['long_name']}{f' [{unit}]' if unit not in ('', '1') else ''}"
+    unit = _scale(results, name)[1]
+    words = str(results[name].attrs["long_name"])
+    return fill(f"{words}{f' [{unit}]' if unit not in ('', '1') else ''}", _LETTERS)
 
 
 def _words(values: dict[str, Any]) -> str:
@@ -52,7 +60,7 @@ def _panels(results: xr.Dataset, count: int) -> tuple[Any, list[Any]]:
     axes = figure.subplots(-(-count // 2), min(count, 2), squeeze=False).ravel()
     for empty in axes[count:]:
         empty.set_visible(False)
-    figure.suptitle(results.attrs["title"], fontsize=10)
+    figure.suptitle(results.attrs["title"].partition(",")[0], fontsize=10)
     return figure, list(axes[:count])
 
 
@@ -69,7 +77,7 @@ def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
         for name, ax in zip(_shown(results), panels, strict=True):
             for i, (values, _) in enumerate(some):
                 column = over[name].sel(values).values
-                column = column[np.isfinite(column)]
+                column = _scale(results, name)[0] * column[np.isfinite(column)]
                 if column.size and varies(column):
                     ax.hist(
                         column,
@@ -105,7 +113,7 @@ def rank_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
             ax.set_yticks(np.arange(chosen.size), list(summary["input"].values[chosen]))
             ax.set_xlim(-1.0, 1.0)
             ax.set_xlabel("rank correlation [-]")
-            ax.set_title(results[name].attrs["long_name"])
+            ax.set_title(fill(results[name].attrs["long_name"], _TITLE_LETTERS), fontsize=9)
     return figure
 
 
@@ -127,7 +135,7 @@ def line_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
     with house_style():
         figure, panels = _panels(results, len(_shown(results)))
         for name, ax in zip(_shown(results), panels, strict=True):
-            chosen = summary["statistics"].sel(quantity=name)
+            chosen = _scale(results, name)[0] * summary["statistics"].sel(quantity=name)
             for i, (values, _) in enumerate(list(cells(first))[:_MOST_SERIES]):
                 one = chosen.sel(values)
                 x, middle = summary[along].values, one.sel(statistic="p50").values

@@ -117,7 +117,7 @@ class AxleVariants:
         # one part has no tolerances; they need not be checked again for each
         return self.file.model_copy(update={"tolerances": {}}).varied(own)
 
-    def car_axle(self, point: Point) -> CarAxle:
+    def car_axle(self, point: Point, *, notes: bool = False) -> CarAxle:
         """Return axle and car at a point; keys that are not of the axle are left out."""
         file = self.varied(point)
         asperities, oil = file.gear_set.asperity_table, file.oil.file
@@ -126,6 +126,7 @@ class AxleVariants:
             self.meshes.get(file.gear_set.mesh_table) or file.mesh(folder),
             self.asperities.get(asperities or "") or file.asperities(folder),
             self.oils.get(oil or "") or file.described_oil(folder),
+            notes=notes,
         )
         arguments = _fmu_arguments()
         given = {

@@ -36,7 +36,7 @@ def scatter_of(axle: AxleVariants) -> tuple[Spread, ...]:
             f"--scatter needs [tolerances] in the axle file, got none in {axle.file.name}. Write "
             "for instance gear_set.backlash_um = { plus_minus = 30.0 } there."
         )
-    values = {note.field: note.value for note in axle.car_axle({}).inputs}
+    values = {note.field: note.value for note in axle.car_axle({}, notes=True).inputs}
     spreads = []
     for name, tolerance in tolerances.items():
         value = values.get(name)

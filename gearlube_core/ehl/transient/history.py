@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import shift
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.point.start.nested import zero_border
@@ -45,9 +46,23 @@ class FilmHistory:
         state = self.state
         if self.rise is None:
             return state.pressure, state.approach
-        pressure = np.where(
-            state.pressure > 0.0,
-            np.maximum(state.pressure + self.rise[0], 0.5 * state.pressure),
-            0.0,
-        )
-        return zero_border(pressure), state.approach + self.rise[1]
+        return self._open(state.pressure + self.rise[0]), state.approach + self.rise[1]
+
+    def carried(self, smooth: Array, nodes: float) -> Array:
+        """Return the pressure if what differs from a smooth one moves along.
+
+        Parameters
+        ----------
+        smooth : ndarray, shape (ny, nx)
+            Pressure without roughness [-].
+        nodes
+            Way of the oil along x in the time step, in nodes.
+        """
+        pressure = self.state.pressure
+        moved = shift(pressure - smooth, (0.0, nodes), order=3, mode="nearest")
+        return self._open(smooth + moved)
+
+    def _open(self, predicted: Array) -> Array:
+        """Return a pressure that keeps its front: closed nodes would open one by one again."""
+        pressure = self.state.pressure
+        return zero_border(np.where(pressure > 0.0, np.maximum(predicted, 0.5 * pressure), 0.0))

@@ -13,7 +13,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.ehl.point.cavitation import refuse_rupture
 from gearlube_core.ehl.point.newton.hierarchy import Hierarchy
-from gearlube_core.ehl.point.newton.newton import NewtonRecord
+from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.point.newton.preconditioner import MultigridCycle
 from gearlube_core.ehl.point.settings import PointSolverSettings
 from gearlube_core.ehl.point.terms.linearisation import Linearisation
@@ -21,6 +21,7 @@ from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.time_error import TimeError
 from gearlube_core.ehl.transient.history import FilmHistory
 from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.lift import lifted
 from gearlube_core.ehl.transient.newton import LaggedPreconditioner, step_newton
 from gearlube_core.ehl.transient.problem import MovingFilm, set_conditions
 from gearlube_core.ehl.transient.record import MarchRecord
@@ -116,6 +117,7 @@ class FilmMarch:
             self._past = FilmHistory(
                 state, state.mass, state.mass, level.terms.storage.inflow(state), None
             )
+            self._start_pressure = state.pressure
             self._time_error = TimeError(scheme, film.x, state.mass[None])
             count, krylov = len(work.residuals), work.krylov
         else:
@@ -205,6 +207,7 @@ class FilmMarch:
             positions=self._level.grid.positions,
             pressure=past.state.pressure,
             approach=past.state.approach,
+            start_pressure=self._start_pressure,
             masses=self._time_error.masses,
             mass_error=self._time_error.error,
             inflow=past.inflow,
@@ -240,7 +243,7 @@ class FilmMarch:
                 "the record must belong to this march, got nodes at other places along x. "
                 "Start anew, or take the grading that it was made with."
             )
-        self.steps = record.steps
+        self.steps, self._start_pressure = record.steps, record.start_pressure
         set_conditions(self.film, self._grids, self.time)
         state = level.state(record.pressure, record.approach)
         state.residual = np.zeros(level.shape)  # it was solved with storage
@@ -264,9 +267,14 @@ class FilmMarch:
     def _predicted(self) -> FilmState:
         past, level = self._past, self._level
         trial = level.state(*past.predicted())
-        if float(trial.film.min()) > 0.5 * float(past.state.film.min()):
+        if float(trial.film.min()) <= 0.5 * float(past.state.film.min()):
+            trial = level.state(past.state.pressure, past.state.approach)
+        if self.film.solids is None or self.film.long or level.grid.graded:
             return trial
-        return level.state(past.state.pressure, past.state.approach)
+        # roughness moves with the oil, more or less
+        nodes = float(np.mean(level.terms.entrainment.rows)) * self._unit / level.grid.dx
+        moved = level.state(past.carried(self._start_pressure, nodes), past.state.approach)
+        return min(trial, moved, key=lambda one: flow_residual(level, one))
 
     def _divided(self, parts: int) -> FilmState | None:
         """Return the state after shorter steps of backward Euler; None if one of them fails."""
@@ -293,7 +301,8 @@ class FilmMarch:
             # touching solids are meant to be close
             least = min(least, _PRESSED * self.film.solids.thickness / self._level.scales.film)
         if lowest < least:
-            begin = self._level.state(begin.pressure, begin.approach + least - lowest)
+            raised = begin.approach + least - lowest
+            begin = lifted(self._level, begin, least) or self._level.state(begin.pressure, raised)
         return step_newton(
             self._lagged,
             begin,

@@ -17,6 +17,7 @@ from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
 from gearlube_core.ehl.transient.front import advance_front
 from gearlube_core.ehl.transient.level import MovingLevel
+from gearlube_core.ehl.transient.lift import lifted
 from gearlube_core.ehl.transient.rows import Inverse
 
 _THINNEST = 0.2  # of the film before a step
@@ -139,7 +140,8 @@ def step_newton(
     Notes
     -----
     As the steady iteration: active set, negative pressure cut, steps shortened where the film
-    would collapse or the residual grow. Storage makes a fictitious squeeze term superfluous.
+    would collapse or the residual grow. A film that collapses at few nodes is lifted there.
+    Storage makes a fictitious squeeze term superfluous.
     Linear solutions are as exact as the step before suggests that the film is linear
     ([eisenstat_walker_1996]), with deflection in single precision.
     """
@@ -178,6 +180,8 @@ def step_newton(
                 np.maximum(state.pressure + length * pressure, 0.0),
                 state.approach + length * approach,
             )
+            if float(trial.film.min()) <= thinnest:
+                trial = lifted(level, trial, _THINNEST * state.film) or trial
             trial_size = flow_residual(level, trial)
             # a change of load unbalances flow before it balances it
             allowed = _GROWTH * (size + abs(state.load_error))

@@ -21,6 +21,7 @@ class MarchRecord:
     positions: Array  # of the nodes along x over the unit of lengths, shape (nx,)
     pressure: Array
     approach: float
+    start_pressure: Array
     masses: Array  # rho h now and at up to two times before, newest first, shape (n, ny, nx)
     mass_error: Array  # of rho h by the time steps so far
     inflow: Array
