@@ -105,7 +105,8 @@ class WantedContact(Section):
     drive_path_angle_deg: PathAngle | None = Field(
         default=None,
         description="Direction of the path of contact on the drive flank, from the root line "
-        "towards the heel, to the tip positive; absent: 44 deg from across the lines of contact",
+        "towards the heel, to the tip positive; absent: 44 deg from across the lines of contact, "
+        "or 30 or 15 where that fails",
     )
     coast_path_angle_deg: PathAngle | None = Field(
         default=None,

@@ -24,8 +24,11 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.units import DEGREE, MILLIMETRE
 
-CHOSEN_TURN = math.tan(44.0 * DEGREE)  # of the path from across the lines of contact
-ROUNDS = 3  # fits, each with targets corrected by what the analysis found
+# of a path that the file leaves open, from across the lines of contact: the next where one fails
+CHOSEN_TURNS = tuple(math.tan(angle * DEGREE) for angle in (44.0, 30.0, 15.0))
+ROUNDS = 6  # fits, each with targets corrected by what the analysis found
+_NEAR = 0.1  # sum of squares of what a side misses, in parts of what a design may miss
+_FAILED = 1.0
 MICRORADIAN = 1e-6
 
 Measured = MeasuredContact | str
@@ -81,35 +84,105 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
     designed = DesignedBlank.from_file(file)
     warnings = check_blank(designed)
     start = image_pair(designed)
-    targets = wanted_targets(designed, start)
-    asked, first = targets, None
-    best: tuple[float, Fit, dict[Side, Measured]] | None = None
-    for number in range(ROUNDS):
-        progress((number + 0.1) / ROUNDS, f"pinion settings, round {number + 1} of {ROUNDS}")
-        fit = fit_pinion(start, asked, curved_blades=file.contact.curved_blades, first=first)
-        progress((number + 0.7) / ROUNDS, "unloaded contact")
-        measured = {side: measured_contact(fit.file, side) for side in SIDES}
-        far = sum(_far(targets[side], measured[side], designed) for side in SIDES)
-        if best is None or far < best[0]:
-            best = far, fit, measured
-        asked = {side: corrected(targets[side], asked[side], measured[side]) for side in SIDES}
-        first = fit.moves
-    _, fit, measured = best  # type: ignore[misc]
-    found = named_file(designed, fit.file)
+    free = {
+        "drive": file.contact.drive_path_angle_deg is None,
+        "coast": file.contact.coast_path_angle_deg is None,
+    }
+    turns: dict[Side, int] = dict.fromkeys(SIDES, 0)
+    attempts: list[Attempt] = []
+    for number in range(len(CHOSEN_TURNS)):
+        targets = wanted_targets(designed, start, turns)
+        share = number / len(CHOSEN_TURNS)
+
+        def report(part: float, sentence: str, share: float = share) -> None:
+            progress(share + part / len(CHOSEN_TURNS), sentence)
+
+        attempt = nearest_fit(designed, start, targets, report)
+        attempts.append(attempt)
+        failed = [side for side in SIDES if attempt.far[side] > _FAILED and free[side]]
+        if not failed:
+            break
+        for side in failed:
+            turns[side] += 1
+    best = min(attempts, key=_missed)
+    found = named_file(designed, best.fit.file)
     progress(1.0, "checks")
-    _check(found, fit)
+    _check(found, best.fit)
     return Design(
         designed=designed,
         file=found,
-        targets=targets,
-        measured=measured,
-        fit=fit,
+        targets=best.targets,
+        measured=best.measured,
+        fit=best.fit,
         warnings=tuple(warnings),
     )
 
 
-def wanted_targets(designed: DesignedBlank, start: HypoidGearFile) -> dict[Side, FlankTarget]:
-    """Return what the blank file asks of both sides, with what it leaves open chosen."""
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """What came nearest to one choice of targets.
+
+    Parameters
+    ----------
+    targets : dict of str to FlankTarget
+    fit : Fit
+    measured : dict of str to MeasuredContact or str
+    far : dict of str to float
+        What each side misses, squares in parts of what a design may miss [-]; 100 without a
+        parabolic error.
+    """
+
+    targets: dict[Side, FlankTarget]
+    fit: Fit
+    measured: dict[Side, Measured]
+    far: dict[Side, float]
+
+
+def nearest_fit(
+    designed: DesignedBlank,
+    start: HypoidGearFile,
+    targets: dict[Side, FlankTarget],
+    progress: Progress = no_progress,
+) -> Attempt:
+    """Return the best of several fits, each with targets corrected by what the last one missed.
+
+    Parameters
+    ----------
+    designed : DesignedBlank
+    start : HypoidGearFile
+        From `image_pair`.
+    targets : dict of str to FlankTarget
+        Of both sides; each may have its own place and ellipse.
+    progress : callable, optional
+    """
+    asked, first = targets, None
+    curved = designed.file.contact.curved_blades
+    rounds: list[Attempt] = []
+    for number in range(ROUNDS):
+        progress((number + 0.1) / ROUNDS, f"pinion settings, round {number + 1}")
+        fit = fit_pinion(start, asked, curved_blades=curved, first=first)
+        progress((number + 0.7) / ROUNDS, "unloaded contact")
+        measured = {side: measured_contact(fit.file, side) for side in SIDES}
+        far = {side: _far(targets[side], measured[side], designed) for side in SIDES}
+        rounds.append(Attempt(targets, fit, measured, far))
+        if max(far.values()) < _NEAR:
+            break
+        asked = {side: corrected(targets[side], asked[side], measured[side]) for side in SIDES}
+        first = fit.moves
+    return min(rounds, key=_missed)
+
+
+def _missed(attempt: Attempt) -> float:
+    return sum(attempt.far.values())
+
+
+def wanted_targets(
+    designed: DesignedBlank, start: HypoidGearFile, turns: dict[Side, int]
+) -> dict[Side, FlankTarget]:
+    """Return what the blank file asks of both sides, with what it leaves open chosen.
+
+    `turns` says which of `CHOSEN_TURNS` a side gets whose path is left open.
+    """
     wanted, blank = designed.file.contact, designed.blank
     length = wanted.ellipse_length_mm
     middle = (blank.root_clearance + 0.5 * blank.working_depth) / blank.whole_depth
@@ -125,7 +198,9 @@ def wanted_targets(designed: DesignedBlank, start: HypoidGearFile) -> dict[Side,
             t=wanted.face_position,
             error=error * MICRORADIAN,
             length=designed.gear_face.total / 3.0 if length is None else length * MILLIMETRE,
-            path_angle=mean.path_angle(CHOSEN_TURN) if angle is None else angle * DEGREE,
+            path_angle=mean.path_angle(CHOSEN_TURNS[turns[side]])  # type: ignore[index]
+            if angle is None
+            else angle * DEGREE,
         )
     return targets
 
@@ -171,8 +246,8 @@ def misses(target: FlankTarget, found: MeasuredContact, designed: DesignedBlank)
 def _far(target: FlankTarget, found: Measured, designed: DesignedBlank) -> float:
     if isinstance(found, str):
         return 100.0
-    sizes = np.array([0.1, 2.0 * DEGREE, 0.5 * MILLIMETRE, 0.3])
-    return float(np.sum((misses(target, found, designed) / sizes) ** 2))
+    sizes = np.array([0.1, 2.0 * DEGREE, 0.5 * MILLIMETRE])
+    return float(np.sum((misses(target, found, designed)[:3] / sizes) ** 2))
 
 
 def named_file(designed: DesignedBlank, file: HypoidGearFile) -> HypoidGearFile:

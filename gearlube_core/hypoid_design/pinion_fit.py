@@ -34,7 +34,7 @@ _PLANE = 0.02e-3  # m, a reference plane so far off counts as a micrometre of ga
 _BACKLASH = 0.1  # of a micrometre of gap
 _RIDGE = 0.01  # um per unit of a move
 _MEAN, _PATH = 10.0, 10.0  # weights of the neighbourhood of the design point and of the path
-_WEIGHTS: dict[Side, float] = {"drive": 1.0, "coast": 0.3}
+_WEIGHTS: dict[Side, float] = {"drive": 1.0, "coast": 0.3}  # of the whole flank
 _STEP = 0.01  # of a unit, for differences
 _LOST = 1e3  # um, where the pinion has no flank
 _MEAN_REACH = (0.12, 0.10)  # of s and t
@@ -127,6 +127,7 @@ def places_and_weights(
     pair: FlankPair, target: FlankTarget, mean: MeanContact
 ) -> tuple[Array, Array, Array]:
     """Return s, t and weights [-]: design point, its neighbourhood, wanted path, whole flank."""
+    whole = _WEIGHTS[pair.side]
     a, b = _MEAN_REACH
     near = [(i * a, j * b) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]
     places = np.array([(0.0, 0.0), *near]) + np.array([target.s, target.t])
@@ -134,7 +135,7 @@ def places_and_weights(
     along = np.stack(path_places(pair, target, mean, angles), axis=1)
     s, t = np.meshgrid(np.linspace(0.2, 0.95, 7), np.linspace(0.05, 0.95, 9), indexing="ij")
     grid = np.stack([s.ravel(), t.ravel()], axis=1)
-    groups = ((places, _MEAN), (along, _PATH), (grid, 1.0))
+    groups = ((places, _MEAN), (along, _PATH), (grid, whole))
     weights = [np.full(len(one), weight / np.sqrt(len(one))) for one, weight in groups]
     s, t = np.concatenate([one for one, _ in groups]).T
     return s, t, np.concatenate(weights)
@@ -150,7 +151,7 @@ def side_problem(file: HypoidGearFile, target: FlankTarget, side: Side) -> SideP
     sound = np.isfinite(wanted)
     flank = ConjugateFlank(*(getattr(flank, name)[sound] for name in ConjugateFlank.__slots__))
     gap = PinionGap.from_pair(pair, flank)
-    return SideProblem(pair, gap, wanted[sound], _WEIGHTS[side] * weight[sound])
+    return SideProblem(pair, gap, wanted[sound], weight[sound])
 
 
 def fit_pinion(

@@ -21,7 +21,7 @@ PATH_LIMIT = 2.0 * DEGREE
 CENTRE_LIMIT = 0.5 * MILLIMETRE
 LENGTH_LIMIT = 0.25
 _MICRO = 1e-6
-_PATH = "44 deg from across the lines of contact"
+_PATH = "44 deg from across the lines of contact; 30 or 15 where that fails"
 
 
 class AskedAndFound(NamedTuple):
