@@ -15,7 +15,8 @@ BOUNDED = [name for name, note in NOTES.items() if note.limits]
 
 
 def limits_of(name):
-    low, high = re.search(r"(-?[\d.]+) to (-?[\d.]+)", NOTES[name].limits).groups()
+    number = r"(-?[\d.]+(?:e[+-]?\d+)?)"
+    low, high = re.search(f"{number} to {number}", NOTES[name].limits).groups()
     return float(low), float(high)
 
 

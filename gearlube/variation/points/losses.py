@@ -41,8 +41,8 @@ class LossPoint:
     Examples
     --------
     >>> study = LossPoint(axle=AxleVariants.read("mohammadpour_2015"))
-    >>> round(study.compute({"pinion.bearing.preload_n": 4000.0})[1], 2)  # N.m
-    2.16
+    >>> round(study.compute({"pinion.bearing.preload_n": 4000.0})[1], 2)  # N.m, both shafts
+    2.31
     """
 
     axle: AxleVariants
