@@ -52,7 +52,7 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
         from gearlube.variation.points.helical import HelicalPoint
         from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
-        return HelicalPoint(file=HelicalGearFile.given(file), quick=quick)
+        return HelicalPoint(file=HelicalGearFile.given(file), quick=quick).prepared({})
     if name == "contact":
         from gearlube.variation.points.contact import ContactPoint
         from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -81,7 +81,7 @@ def scatter(study: PointStudy) -> tuple[Spread, ...]:
         return scatter_of(study.axle)
     raise ParameterError(
         f"--scatter is for axle files, got it with {study.name}, whose file has no tolerances. "
-        "Give the ranges by --vary KEY=low:high."
+        "Give them by --vary KEY=value+-width."
     )
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
-from gearlube.variation.design import Point, Value
+from gearlube.variation.design import Point
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
 from gearlube.variation.points.of_file import FilePoint
@@ -59,9 +59,10 @@ class BearingPoint(FilePoint[BearingFile]):
     quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
     unused: ClassVar[tuple[str, ...]] = ("operation.",)  # the operands stand for them
 
-    def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> Self:
-        """Return the study with all oils read: that of the file, and those of the axes."""
-        return FilePoint.prepared(self, texts).with_oils([self.file.oil])
+    @property
+    def usual_oils(self) -> tuple[str, ...]:
+        """The oil of the file."""
+        return (self.file.oil,)
 
     def check(self, point: Point) -> None:
         """Raise ParameterError where bearing or condition are out of range."""

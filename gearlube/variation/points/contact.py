@@ -63,7 +63,7 @@ _CARRIES = 1e-3  # share of the torque above which a pair counts as in contact
 
 @dataclass(frozen=True, kw_only=True)
 class ContactPoint(FilePoint[HypoidGearFile]):
-    """The study of tooth contact at one point; quick: coarse teeth, eight positions."""
+    """The study of tooth contact at one point; quick: eight positions."""
 
     name: ClassVar[str] = "contact"
     block: ClassVar[int] = 4

@@ -58,9 +58,15 @@ class FilePoint(Generic[File]):
         oils = {name: content_hash(name) for name in self.oils}
         return json.dumps([self.file.model_dump(mode="json"), oils, self.quick], sort_keys=True)
 
+    @property
+    def usual_oils(self) -> tuple[str, ...]:
+        """Oils where `oil` is not varied."""
+        usual = self.operands["oil"].usual if "oil" in self.operands else None
+        return (usual,) if isinstance(usual, str) else ()
+
     def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> Self:
-        """Return the study with all oils read that the values of the axes name."""
-        return self.with_oils(str(one) for one in texts.get("oil", ()))
+        """Return the study with all oils read that the values of the axes name, or the usual."""
+        return self.with_oils(str(one) for one in texts.get("oil", self.usual_oils))
 
     def with_oils(self, names: Iterable[str]) -> Self:
         """Return the study with these oils read as well, by name or file."""
