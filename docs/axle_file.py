@@ -108,7 +108,8 @@ _TAIL = """
 and drag torque; an option on the command line goes before the file. Without `--preload` it runs the
 preload that the file gives, else 2500 and 6000 N. `--preload` sets the bearings of the pinion's
 shaft; those of the gear's follow unless the file gives them a preload of their own. The oil
-temperature is that of `--oil-temperature`, 95 degC. If the road asks for more than 1.5 times the
+temperature is that of `--oil-temperature`, 95 degC; with `--steady-temperature` each point has its
+own, see [drive_cycle.md](drive_cycle.md). If the road asks for more than 1.5 times the
 torque of the mesh table, the sweep refuses before it builds anything; beyond the table it warns.
 
 ## The FMU
