@@ -82,8 +82,8 @@ for note in paper.assumed:
   constants: oil that flattens roughness before it touches is not in it. See
   [loss_map.md](loss_map.md#mixed-friction-of-the-flanks).
 - Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
-- `bearing_torque_loss` of `[model]` other than palmgren sums the raceways under the load of each
-  roller, at least once in 12 integrator steps. A communication step of 0.1 ms then takes 1.4 to 2
+- `bearing_torque_loss` of `[model]` other than palmgren takes the forces of each bearing or the load
+  of each roller, at least once in 12 integrator steps. A communication step of 0.1 ms then takes 1.4 to 2
   times as long.
 - `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
   fields of `[oil]`.

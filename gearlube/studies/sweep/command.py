@@ -108,7 +108,8 @@ def sweep(
         str | None,
         typer.Option(
             help="Drag torque of the bearings: palmgren, none, zhou_hoeprich_1991, "
-            "biboulet_houpert_2010 or aihara_1987. Default: that of the axle."
+            "biboulet_houpert_2010, aihara_1987, palmgren_loaded or skf_2013. Default: that of the "
+            "axle."
         ),
     ] = None,
     driver: Annotated[
