@@ -78,6 +78,9 @@ for note in paper.assumed:
   h/sigma 0.5 and 3. `gearlube axle show` tells the fit and by what factor it misses the table, up
   to 2.6 for Gaussian surfaces. Left out, `roughness_rms_um` is that of the table; given, it scales
   the film ratio alone.
+- An `asperity_table` of surfaces pressed dry puts far more load on asperities than the usual
+  constants: oil that flattens roughness before it touches is not in it. See
+  [loss_map.md](loss_map.md#mixed-friction-of-the-flanks).
 - Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
 - `bearing_torque_loss` of `[model]` other than palmgren sums the raceways under the load of each
   roller, at least once in 12 integrator steps. A communication step of 0.1 ms then takes 1.4 to 2
@@ -105,7 +108,8 @@ _TAIL = """
 and drag torque; an option on the command line goes before the file. Without `--preload` it runs the
 preload that the file gives, else 2500 and 6000 N. `--preload` sets the bearings of the pinion's
 shaft; those of the gear's follow unless the file gives them a preload of their own. The oil
-temperature is that of `--oil-temperature`, 95 degC. If the road asks for more than 1.5 times the
+temperature is that of `--oil-temperature`, 95 degC; with `--steady-temperature` each point has its
+own, see [drive_cycle.md](drive_cycle.md). If the road asks for more than 1.5 times the
 torque of the mesh table, the sweep refuses before it builds anything; beyond the table it warns.
 
 ## The FMU

@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
+from gearlube_core.dynamics.hypoid_axle.parameters import Friction
 
 Text = Annotated[str, Field(min_length=1)]
 Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False)]
@@ -107,8 +108,10 @@ class ModelOptions(ModelSection):
     equations: Literal["consistent", "as_printed"] | None = Field(
         default=None, description="Of motion: with corrected misprints, or as printed"
     )
-    friction: Literal["consistent", "as_printed", "off", "printed_traction_circular"] | None = (
-        Field(default=None, description="Of the flanks")
+    friction: Friction | None = Field(
+        default=None,
+        description="Of the flanks; zhou_hoeprich_1991: as consistent, but asperities carry a "
+        "share of the load that goes to 1 without a film",
     )
     flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
         default=None, description="Rolling loss of the flanks"

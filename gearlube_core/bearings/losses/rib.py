@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube_core.bearings.losses.zhou_hoeprich_1991 import asperity_share
+from gearlube_core.contact.asperity_share import asperity_share
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.film.chittenden_1985 import central_film_thickness
 from gearlube_core.film.groups import inlet_heating_number

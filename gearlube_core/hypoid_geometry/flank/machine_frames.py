@@ -209,9 +209,13 @@ def _from_cutter(motion: CuttingMotion, point: Array, ph: float | Array) -> tupl
     The cradle is turned by `ph`, of shape (...).
     """
     origin, axis = np.array(motion.cradle_point), np.array(motion.cutter_axis)
-    turn = Rotation.from_rotvec(np.multiply.outer(-np.asarray(ph), np.array(motion.cradle_axis)))
-    shift = np.multiply.outer(motion.lead * np.asarray(ph), np.array(motion.cradle_axis))
-    offset = turn.apply(point - shift - origin) + origin - np.array(motion.cutter_centre)
+    cradle, arm = np.array(motion.cradle_axis), point - origin
+    turned = (
+        np.multiply.outer(np.cos(ph), arm - (arm @ cradle) * cradle)
+        - np.multiply.outer(np.sin(ph), np.cross(cradle, arm))
+        + np.multiply.outer(arm @ cradle - motion.lead * np.asarray(ph), cradle)
+    )
+    offset = turned + origin - np.array(motion.cutter_centre)
     height = offset @ axis
     return height, offset - np.multiply.outer(height, axis)
 
