@@ -82,9 +82,9 @@ for note in paper.assumed:
   constants: oil that flattens roughness before it touches is not in it. See
   [loss_map.md](loss_map.md#mixed-friction-of-the-flanks).
 - Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
-- `bearing_torque_loss` of `[model]` other than palmgren takes the forces of each bearing or the load
-  of each roller, at least once in 12 integrator steps. A communication step of 0.1 ms then takes 1.4 to 2
-  times as long.
+- `bearing_torque_loss` of `[model]` other than palmgren takes the forces of each bearing or the
+  load of each roller, anew at least once in 12 integrator steps. With the sums over rollers a
+  communication step of 0.1 ms takes 1.4 to 2 times as long.
 - `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
   fields of `[oil]`.
 - Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
