@@ -82,9 +82,9 @@ for note in paper.assumed:
   constants: oil that flattens roughness before it touches is not in it. See
   [loss_map.md](loss_map.md#mixed-friction-of-the-flanks).
 - Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
-- `bearing_torque_loss` of `[model]` other than palmgren sums the raceways under the load of each
-  roller, at least once in 12 integrator steps. A communication step of 0.1 ms then takes 1.4 to 2
-  times as long.
+- `bearing_torque_loss` of `[model]` other than palmgren takes the forces of each bearing or the
+  load of each roller, anew at least once in 12 integrator steps. With the sums over rollers a
+  communication step of 0.1 ms takes 1.4 to 2 times as long.
 - `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
   fields of `[oil]`.
 - Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
@@ -108,7 +108,8 @@ _TAIL = """
 and drag torque; an option on the command line goes before the file. Without `--preload` it runs the
 preload that the file gives, else 2500 and 6000 N. `--preload` sets the bearings of the pinion's
 shaft; those of the gear's follow unless the file gives them a preload of their own. The oil
-temperature is that of `--oil-temperature`, 95 degC. If the road asks for more than 1.5 times the
+temperature is that of `--oil-temperature`, 95 degC; with `--steady-temperature` each point has its
+own, see [drive_cycle.md](drive_cycle.md). If the road asks for more than 1.5 times the
 torque of the mesh table, the sweep refuses before it builds anything; beyond the table it warns.
 
 ## The FMU

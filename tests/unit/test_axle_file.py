@@ -137,6 +137,7 @@ BEARING = {
     "film": ("steady", "film", "steady"),
     "f0": (3.0, "f0", 3.0),
     "f1": (7e-4, "f1", 7e-4),
+    "series": ("303", "series", "303"),
 }
 for _role, _place in (("pinion", "bearing"), ("gear", "gear_bearing")):
     for _key, (_value, _name, _si) in BEARING.items():
