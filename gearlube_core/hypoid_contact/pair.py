@@ -21,6 +21,7 @@ from gearlube_core.hypoid_contact.placement import (
     place_point,
     turned,
 )
+from gearlube_core.hypoid_geometry.flank.correction import NO_CORRECTION
 from gearlube_core.hypoid_geometry.flank.cutting_motion import cut_state
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Side
 from gearlube_core.hypoid_geometry.flank.machine_frames import reference_point
@@ -67,6 +68,16 @@ class FlankPair:
     def misaligned(self, misalignment: Misalignment) -> FlankPair:
         """Return the same flanks, displaced; the zero of the angles stays."""
         return replace(self, misalignment=misalignment)
+
+    def as_cut(self) -> FlankPair:
+        """Return the same pair without the corrections of its flanks."""
+        plain = replace(self.pinion, correction=NO_CORRECTION)
+        return replace(self, pinion=plain, gear=replace(self.gear, correction=NO_CORRECTION))
+
+    @property
+    def is_corrected(self) -> bool:
+        """Whether material is taken off either flank as it is cut."""
+        return not (self.pinion.correction.is_none and self.gear.correction.is_none)
 
     @property
     def side(self) -> Side:

@@ -266,7 +266,8 @@ def cut_strip(
         & (pinion_surface.regularity > 0.0)
         & (cosine > 0.5)
     )
-    gap = np.where(there, (on_pinion[..., 3] - on_gear[..., 3]) * cosine, np.inf)
+    removed = gear.removal(gear_surface.r) + pinion.removal(pinion_surface.r)
+    gap = np.where(there, (on_pinion[..., 3] - on_gear[..., 3]) * cosine + removed, np.inf)
     arm = closing_arm(pair, point, normal)
     return Strip(
         frame,
