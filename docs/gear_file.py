@@ -27,7 +27,7 @@ SECTIONS = {
     "pinion": "[pinion] and [gear]: the blank",
     "pinion.cutter": "[pinion.cutter] and [gear.cutter]",
     "pinion.machine": "[pinion.machine]: generated, with cutter tilt",
-    "gear.machine": "[gear.machine]: form-cut (Formate)",
+    "gear.machine": "[gear.machine]: form-cut (Formate), or generated with a ratio of roll",
     "pinion.drive_flank": "[pinion.drive_flank], [pinion.coast_flank], [gear.drive_flank] and "
     "[gear.coast_flank]: reliefs and crowns",
 }
@@ -46,8 +46,8 @@ transmission error, load sharing and the mesh table of the axle.
 *The shipped pair as its machine settings cut it, 13 to 36 teeth, offset 24 mm, face-hobbed. Right:
 the teeth in mesh, seen from the toe.*
 
-Uniform depth, axes at right angles; gear form-cut, pinion generated with cutter tilt; face-hobbed
-or, with no blade groups, face-milled. Frame, hands and the driving side:
+Uniform depth, axes at right angles; gear form-cut or generated, pinion generated with cutter tilt;
+face-hobbed or, with no blade groups, face-milled. Frame, hands and the driving side:
 [conventions](conventions.md#frame-of-the-hypoid-pair).
 
 ## Signs
@@ -63,6 +63,10 @@ of signs misses by 0.23 mm or more (`tests/literature/test_flank_surface_karagia
   by 11.6 deg of pressure angle.
 - **Apexes** count positive beyond the crossing point of the axes. The gear's
   `machine_center_to_back_mm` is the same kind of length, for the reference plane.
+- **Modified roll and helical motion**: counted from the basic cradle position, where the mean point
+  is cut. A machine root angle of the pinion above 10 deg makes its cradle a crown gear: the mean
+  point is then cut where the pinion's cone touches the plane across the cradle axis.
+- **Generated gear**: without tilt. Its cradle axis meets the gear axis in the machine centre.
 - **Cradle axis**: the gear axis of the assembled pair, if nothing is crowned. The cutter axis
   leans by the tilt angle i from it, to the azimuth q - j - 90 deg (q basic cradle, j basic swivel
   angle). The pinion axis lies a sliding base from the cutter centre's plane, on the side of the

@@ -45,6 +45,7 @@ class BearingSection(ModelSection):
         "f1": "Palmgren 1959",
         "preload_n": "the lower of the two of Mohammadpour et al. 2015",
         "film": "default of the model",
+        "series": "default of the model",
     }
 
     bore_diameter_mm: Diameter | None = Field(default=None, description="Of the inner ring")
@@ -92,6 +93,9 @@ class BearingSection(ModelSection):
         default=None, description="Viscous factor of Palmgren's drag torque"
     )
     f1: LoadFactor | None = Field(default=None, description="Load factor of the drag torque")
+    series: Literal["302", "303", "313", "320X", "322", "other"] | None = Field(
+        default=None, description="Of the catalogue, for the drag by skf_2013"
+    )
 
     @model_validator(mode="after")
     def _check_bearing(self) -> BearingSection:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
+from gearlube_core.bearings.losses.skf_2013 import OTHER_SERIES, SERIES, SERIES_NAMES
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.parameters import (
     FILM_FLOOR_APPROACH,
@@ -70,6 +71,8 @@ class TaperedRollerBearing:
     interference : float or None
         Approach of every roller at rest, negative for a clearance [m]. Not with `preload`: the
         two describe the same approach.
+    series : str
+        Of the catalogue, for the drag by `skf_2013`: one of `SERIES_NAMES`.
 
     Examples
     --------
@@ -96,10 +99,12 @@ class TaperedRollerBearing:
     f1: float
     preload: float | None = None
     interference: float | None = None
+    series: str = "other"
 
     def __post_init__(self) -> None:
         check_option("approach", self.approach, get_args(Approach))
         check_option("film", self.film, get_args(Film))
+        check_option("series", self.series, SERIES_NAMES)
         for name in ("roller_diameter", "roller_length", "bore_diameter", "inner_race_diameter"):
             check_within(name, getattr(self, name), 1e-3, 2.0, "m", "12.7 mm is 0.0127 m.")
         room = self.inner_race_diameter + self.roller_diameter
@@ -238,6 +243,7 @@ class TaperedRollerBearing:
 
     def parameters(self) -> TaperedRollerParameters:
         """Return the floats for the kernels."""
+        R1, S1 = SERIES.get(self.series, OTHER_SERIES)
         sin_contact, cos_contact, axial_factor = contact_angle_terms(float(self.contact_angle))
         return TaperedRollerParameters(
             kn=float(self.stiffness_constant),
@@ -254,6 +260,9 @@ class TaperedRollerBearing:
             film_speed_radius=self.entraining_radius,
             squeeze=1.0 if self.film == "squeeze" else 0.0,
             mean_diameter=0.5 * (self.bore_diameter + self.outside_diameter),
+            ring_section=float(self.outside_diameter - self.bore_diameter),
+            skf_rolling=R1,
+            skf_sliding=S1,
             f0=float(self.f0),
             f1=float(self.f1),
             axial_factor=axial_factor,

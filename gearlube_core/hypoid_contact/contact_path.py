@@ -114,7 +114,7 @@ def contact_path(pair: FlankPair, gear_angles: Array) -> ContactPath:
             np.empty((UNKNOWNS, UNKNOWNS + 1)),
         )
         found[way] = part
-    return _path(pair, gear_angles, found)
+    return path_at(pair, gear_angles, found)
 
 
 def contact_migration(path: ContactPath) -> Array:
@@ -129,7 +129,17 @@ def contact_migration(path: ContactPath) -> Array:
     return np.asarray((after.r - before.r) / (after.pinion_angle - before.pinion_angle)[:, None])
 
 
-def _path(pair: FlankPair, gear_angles: Array, found: Array) -> ContactPath:
+def path_at(pair: FlankPair, gear_angles: Array, found: Array) -> ContactPath:
+    """Return the path through known contacts.
+
+    Parameters
+    ----------
+    pair : FlankPair
+    gear_angles : ndarray of shape (N,)
+        [rad]
+    found : ndarray of shape (N, 7)
+        Unknowns of `find_contact` there; NaN without contact.
+    """
     gear, pinion = found[:, :3], found[:, 3:6]
     surface = placed_sample(pair.pinion, pair.pinion_base, found[:, 6], pinion)
     return ContactPath(
@@ -160,7 +170,7 @@ def _searched_path(pair: FlankPair, gear_angles: Array) -> ContactPath:
     gear[edge] = np.nan
     unknowns = np.column_stack([gear, pinion, pair.pinion_turn(angle)])
     unknowns[edge] = np.nan
-    return _path(pair, gear_angles, unknowns)
+    return path_at(pair, gear_angles, unknowns)
 
 
 def _facing(pair: FlankPair) -> float:
@@ -186,7 +196,7 @@ def _first_contact(pair: FlankPair) -> tuple[float, Array]:
             x,
             np.empty((UNKNOWNS, UNKNOWNS + 1)),
         )
-        if status == TOUCHING and _path(pair, np.array([angle]), x[None]).inside[0]:
+        if status == TOUCHING and path_at(pair, np.array([angle]), x[None]).inside[0]:
             return angle, x
     where = (
         "no point of the gear flank is reached by the pinion flank"

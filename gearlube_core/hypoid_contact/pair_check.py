@@ -144,7 +144,7 @@ def unloaded_refusal(file: HypoidGearFile, misalignment: Misalignment = ALIGNED)
     """
     for side in SIDES:
         try:
-            contact_path(FlankPair.from_file(file, side, misalignment).as_cut(), np.zeros(1))
+            contact_path(FlankPair.from_file(file, side, misalignment).uncorrected(), np.zeros(1))
         except ParameterError as reason:
             return str(reason)
     return None
@@ -158,7 +158,7 @@ def unloaded_warnings(file: HypoidGearFile) -> list[str]:
     found = []
     for side in SIDES:
         try:
-            error = unloaded_error(FlankPair.from_file(file, side).as_cut(), _ERROR_POSITIONS)
+            error = unloaded_error(FlankPair.from_file(file, side).uncorrected(), _ERROR_POSITIONS)
         except ParameterError as reason:
             field = f"pinion.cutter.{CURVES['pinion', side]}_flank_angle_correction_deg"
             found.append(f"{reason} {field} moves the extreme most.")

@@ -19,6 +19,8 @@ ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False)]
 SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
 Slant = Annotated[float, Field(ge=-90.0, le=90.0, allow_inf_nan=False)]
 TiltAngle = Annotated[float, Field(ge=0.0, le=80.0, allow_inf_nan=False)]
+ModifiedRoll = Annotated[float, Field(ge=-1.0, le=1.0, allow_inf_nan=False)]
+HelicalMotion = Annotated[float, Field(ge=-50.0, le=50.0, allow_inf_nan=False)]
 RollRatio = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
 PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
 Clearance = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
@@ -94,8 +96,8 @@ class Cutter(Section):
         return self.blade_edge_radius_mm if own is None else own
 
 
-class FormateMachine(Section):
-    """Machine settings of a form-cut (not generated) gear."""
+class GearMachine(Section):
+    """Machine settings of a gear, form-cut or generated without tilt."""
 
     machine_root_angle_deg: ConeAngle = Field(
         description="From the gear axis to the reference plane of the cutter"
@@ -111,6 +113,17 @@ class FormateMachine(Section):
     vertical_setting_mm: Millimetres = Field(
         description="Cutter centre from the machine centre, parallel to the offset and positive "
         "on the side of the pinion axis"
+    )
+    ratio_of_roll: RollRatio | None = Field(
+        None,
+        description="Rotation of the gear per rotation of the cradle, about the cutter's direction "
+        "through the machine centre; absent: form-cut (Formate)",
+    )
+    sliding_base_mm: Millimetres = Field(
+        0.0,
+        description="From the machine centre to the reference plane, along the cutter axis, "
+        "positive away from the blade tips; the centre then is where the cradle axis meets the "
+        "gear axis",
     )
 
 
@@ -147,6 +160,17 @@ class GeneratorMachine(Section):
         description="i: angle between the cutter axis and the cradle axis"
     )
     ratio_of_roll: RollRatio = Field(description="Rotation of the work per rotation of the cradle")
+    modified_roll_2c: ModifiedRoll = Field(
+        0.0,
+        description="2C [1/rad]: at the cradle angle f from its basic position the work has turned "
+        "by the ratio of roll times f - 2C f^2/2 - 6D f^3/6",
+    )
+    modified_roll_6d: ModifiedRoll = Field(
+        0.0, description="6D [1/rad^2]: the next coefficient of modified roll"
+    )
+    helical_motion_mm_per_rad: HelicalMotion = Field(
+        0.0, description="Growth of the sliding base per cradle angle (helical motion)"
+    )
 
 
 class FlankRelief(Section):
@@ -240,7 +264,7 @@ class Pinion(Member):
 class Gear(Member):
     """Blank, cutter and machine of the gear."""
 
-    machine: FormateMachine
+    machine: GearMachine
 
 
 class Pair(Section):

@@ -3,6 +3,7 @@
 import pytest
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.flank.correction import EdgeRelief
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
@@ -66,3 +67,10 @@ def test_a_wrong_relief_is_refused_with_value_limit_and_cure(fields, parts):
         with_fields(**fields)
     for part in parts:
         assert part in str(caught.value), str(caught.value)
+
+
+def test_derivatives_of_the_unloaded_contact_are_refused_for_corrected_flanks():
+    pair = FlankPair.from_file(with_fields(twist_um=5.0), "coast")
+    with pytest.raises(ParameterError, match=r"corrected coast flanks\. Take `pair\.uncorrected"):
+        pair.check_uncorrected()
+    pair.uncorrected().check_uncorrected()

@@ -9,7 +9,12 @@ from scipy.optimize import brentq
 
 from gearlube_core.bearings.losses.physical_loss import LossParameters
 from gearlube_core.bearings.losses.rib import RibParameters
-from gearlube_core.bearings.losses.skf_2013 import OTHER_SERIES, SERIES, SkfBearing
+from gearlube_core.bearings.losses.skf_2013 import (
+    OTHER_SERIES,
+    SERIES,
+    SERIES_NAMES,
+    SkfBearing,
+)
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.bearings.roller_contact import N_LINE
@@ -22,7 +27,6 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.film.chittenden_1985 import film_geometry
 
 APEX_TOLERANCE = 0.05  # of the roller radius: angles and diameters are printed to about 1 %
-SERIES_NAMES = (*SERIES, "other")
 _DEG = math.pi / 180.0
 
 

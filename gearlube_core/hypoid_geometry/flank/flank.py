@@ -148,13 +148,23 @@ class Flank:
         ParameterError
             When the cutter does not reach the tooth; the message says what would.
         """
+        flank = cls.as_cut(file, role, side)
+        flank._start_grid  # noqa: B018  fails here, with its cure, rather than at first use
+        return flank
+
+    @classmethod
+    def as_cut(cls, file: HypoidGearFile, role: Role, side: Side) -> Flank:
+        """Return a flank as `from_file` does, without a look whether it fills the tooth.
+
+        Three times as quick; good where cutting parameters are known.
+        """
         check_option("role", role, ("pinion", "gear"))
         check_option("side", side, ("drive", "coast"))
         curve = CURVES[role, side]
         cut = (pinion_cut if role == "pinion" else gear_cut)(file, curve)
         start = np.array([0.0, cut.cutter_angle, cut.cradle_angle])
         region = tooth_region(file.blank(), role)
-        flank = cls(
+        return cls(
             motion=cut.motion,
             outward=_outward(cut.motion, start, curve),
             start=start,
@@ -164,8 +174,6 @@ class Flank:
             teeth=(file.pinion if role == "pinion" else file.gear).teeth,
             correction=file.correction(role, side),
         )
-        flank._start_grid  # noqa: B018  fails here, with its cure, rather than at first use
-        return flank
 
     @property
     def axis(self) -> Array:

@@ -39,7 +39,7 @@ def contact_motion(gear: str, torque: float, phase: Array) -> Array:
     force of loaded ones stays close to it.
     """
     file, side = HypoidGearFile.given(gear), "drive" if torque > 0.0 else "coast"
-    pair = FlankPair.from_file(file, side).as_cut()  # type: ignore[arg-type]
+    pair = FlankPair.from_file(file, side).uncorrected()  # type: ignore[arg-type]
     places = np.linspace(phase.min(), phase.max(), _POSITIONS)
     path = contact_path(pair, places * pair.gear_pitch)
     k, motion = path_kinematics(path), contact_migration(path)
