@@ -147,6 +147,8 @@ GROUPS = {"oil.viscosity_40_degc_mm2_s", "oil.viscosity_100_degc_mm2_s", "oil.wa
 GROUPS |= {"oil.walther_b", "engine.orders", "engine.order_amplitudes", "engine.order_phases_deg"}
 GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gear")
            for side in ("inner", "outer")}  # fmt: skip
+GROUPS |= {f"{role}.frusta_{one}_mm" for role in ("pinion", "gear")
+           for one in ("lengths", "first_diameters", "last_diameters", "bores")}  # fmt: skip
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
 WORDS |= {"seals.material", "tolerances"}
 NOT_PACKED = {"oil.heat_capacity_j_kg_k"}  # the axle's films take no heat away with the oil
