@@ -12,6 +12,7 @@ from gearlube_core.hypoid_design.blank_sections import (
     BlankDepth,
     BlankMachine,
     BlankPair,
+    BlankRelief,
     WantedContact,
 )
 from gearlube_core.input_file.field_notes import field_notes
@@ -61,6 +62,7 @@ class BlankFile(InputFile):
     depth: BlankDepth = BlankDepth()
     contact: WantedContact = WantedContact()
     machine: BlankMachine = BlankMachine()
+    relief: BlankRelief = BlankRelief()
 
     @model_validator(mode="after")
     def _check_relations(self) -> BlankFile:
@@ -140,7 +142,7 @@ class BlankFile(InputFile):
             elif name in chosen:
                 found.append(InputNote(name, chosen[name][0], "", "assumed", chosen[name][1]))
             elif value is not None:
-                usual = _OWN if name.startswith(("contact.", "machine.")) else _USUAL
+                usual = _OWN if name.startswith(("contact.", "machine.", "relief.")) else _USUAL
                 found.append(InputNote(name, value, note.unit, "assumed", usual))
         return found
 

@@ -18,6 +18,7 @@ Error = Annotated[float, Field(ge=5.0, le=1000.0, allow_inf_nan=False)]
 PathAngle = Annotated[float, Field(ge=1.0, le=179.0, allow_inf_nan=False)]
 Place = Annotated[float, Field(ge=0.2, le=0.8, allow_inf_nan=False)]
 EllipseLength = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False)]
+Removal = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
 Clearance = Annotated[float, Field(gt=0.0, le=0.5, allow_inf_nan=False)]
 
 
@@ -111,6 +112,23 @@ class WantedContact(Section):
     coast_path_angle_deg: PathAngle | None = Field(
         default=None,
         description="The same on the coast flank",
+    )
+
+
+class BlankRelief(Section):
+    """Relief of the designed flanks; sharp edges would carry from small torques on."""
+
+    tip_relief_um: Removal = Field(
+        default=20.0, description="Taken off at the tips of pinion and gear, both flanks; 0: none"
+    )
+    tip_relief_share: Share = Field(
+        default=0.25, description="Of the tooth height, over which tip relief falls to nothing"
+    )
+    end_relief_um: Removal = Field(
+        default=30.0, description="Taken off at toe and heel of the pinion, both flanks; 0: none"
+    )
+    end_relief_share: Share = Field(
+        default=0.15, description="Of the pinion's face, over which either end relief falls"
     )
 
 

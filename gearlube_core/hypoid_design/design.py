@@ -19,7 +19,7 @@ from gearlube_core.hypoid_design.flank_target import FlankTarget, MeanContact
 from gearlube_core.hypoid_design.measured_contact import MeasuredContact, measured_contact
 from gearlube_core.hypoid_design.pinion_fit import SIDES, Fit, fit_pinion
 from gearlube_core.hypoid_design.start_settings import start_pair
-from gearlube_core.hypoid_geometry.flank.flank import Side
+from gearlube_core.hypoid_geometry.flank.flank import Role, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.units import DEGREE, MILLIMETRE
@@ -253,6 +253,8 @@ def _far(target: FlankTarget, found: Measured, designed: DesignedBlank) -> float
 def named_file(designed: DesignedBlank, file: HypoidGearFile) -> HypoidGearFile:
     """Return the gear file with the origin of every number: the blank implied, the rest chosen."""
     data = file.model_dump(exclude_defaults=True)
+    for role in ("pinion", "gear"):
+        data[role] |= {f"{side}_flank": one for side in SIDES if (one := relief(designed, role))}
     implied, chosen = [], []
     for role in ("pinion", "gear"):
         for key, value in data[role].items():
@@ -265,6 +267,21 @@ def named_file(designed: DesignedBlank, file: HypoidGearFile) -> HypoidGearFile:
     data["completed"] = [name for name in chosen if name not in given]
     rounded: dict[str, Any] = _rounded(data)
     return HypoidGearFile.from_data(rounded, f"The design of {designed.file.name}")
+
+
+def relief(designed: DesignedBlank, role: Role) -> dict[str, float]:
+    """Return the relief of either flank of a member as a gear file has it; empty without."""
+    asked, blank = designed.file.relief, designed.blank
+    found: dict[str, float] = {}
+    if asked.tip_relief_um and asked.tip_relief_share:
+        found["tip_relief_um"] = asked.tip_relief_um
+        found["tip_relief_depth_mm"] = asked.tip_relief_share * blank.whole_depth / MILLIMETRE
+    if role == "pinion" and asked.end_relief_um and asked.end_relief_share:
+        length = asked.end_relief_share * blank.pinion.face_width / MILLIMETRE
+        for end in ("toe", "heel"):
+            found[f"{end}_relief_um"] = asked.end_relief_um
+            found[f"{end}_relief_length_mm"] = length
+    return found
 
 
 def _rounded(value: Any) -> Any:

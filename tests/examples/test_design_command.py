@@ -1,6 +1,7 @@
 """The command `gearlube design`: what it writes, says and refuses."""
 
 import logging
+import tomllib
 
 import numpy as np
 import pytest
@@ -31,9 +32,19 @@ def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path):
     blank.write_text(printed.stdout.replace("hypoid_13_42", "mine"))
     assert run(blank, "--out", out).exit_code == 0
     names = {path.name for path in out.iterdir()}
-    assert names == {"mine.toml", "report.md", "design.nc", "figures", "gearlube_results.json"}
+    written = {"mine.toml", "axle.toml", "report.md", "design.nc", "gearlube_results.json"}
+    assert names == written | {"figures"}
     assert {path.stem for path in (out / "figures").iterdir()} == set(DESIGN_CATALOGUE)
-    check_pair(HypoidGearFile.from_toml(out / "mine.toml"))
+    gear = HypoidGearFile.from_toml(out / "mine.toml")
+    check_pair(gear)
+    # a quarter of the tooth height, and 15 % of the pinion's face, as the page of fields says
+    depth = 1e3 * gear.blank().whole_depth
+    for flank in (gear.pinion.drive_flank, gear.gear.coast_flank):
+        assert flank.tip_relief_depth_mm == pytest.approx(0.25 * depth, abs=1e-6)
+    heel = gear.pinion.coast_flank.heel_relief_length_mm
+    assert heel == pytest.approx(0.15 * gear.pinion.face_width_mm, abs=1e-6)
+    axle = tomllib.loads((out / "axle.toml").read_text())
+    assert axle["gear_set"]["mesh_table"] == "contact/mine.nc"
     report = (out / "report.md").read_text()
     for part in ("asked and found", "undercut", "blade points", "chosen: a third of the face"):
         assert part in report

@@ -32,8 +32,8 @@ def design(
 ) -> None:
     """Design a hypoid or bevel pair: from blank data and a wanted contact to machine settings.
 
-    Writes the gear file (`gearlube contact` takes it), report.md, design.nc and figures. Takes
-    seconds.
+    Writes the gear file (`gearlube contact` takes it), an axle file to complete, report.md,
+    design.nc and figures. Takes seconds.
     """
     from gearlube.studies.design import run
     from gearlube.studies.design.summary import asked_and_found, design_warnings
@@ -56,7 +56,8 @@ def design(
         gear = out / f"{results.design.file.name}.toml"
         logger.info("Designed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s, %s, %s", gear, out / "report.md", out / "figures")
-        logger.info("Next: gearlube contact %s", gear)
+        logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
+        logger.info("Then: gearlube map %s, once you have completed it", out / "axle.toml")
 
 
 def _table(name: str, rows: list[AskedAndFound]) -> Table:

@@ -75,12 +75,27 @@ def run_design(
     return results
 
 
+def axle_stub(name: str) -> str:
+    """Return an axle file of the pair, as TOML, for the user to complete."""
+    return f"""# The axle of this pair, to complete: bearings, oil, car. What is not here is
+# assumed: `gearlube axle show axle.toml` lists it. `gearlube sweep --example`
+# prints every field.
+
+name = "{name}"
+source = "gears designed by gearlube"
+
+[gear_set]
+mesh_table = "contact/{name}.nc"      # gearlube contact {name}.toml --out contact
+"""
+
+
 def write_design(results: DesignResults, folder: Path) -> Path:
-    """Write gear file, report.md, design.nc and figures/; return the gear file."""
+    """Write gear file, axle.toml, report.md, design.nc and figures/; return the gear file."""
     folder.mkdir(parents=True, exist_ok=True)
     file = results.design.file
     path = folder / f"{file.name}.toml"
     write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
+    write_text(axle_stub(file.name), folder / "axle.toml")
     write_text(report(results.design, results.forms), folder / "report.md")
     write_dataset(results.dataset, folder / "design.nc")
     save_design_figures(results.dataset, folder / "figures")
