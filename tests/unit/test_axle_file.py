@@ -138,6 +138,8 @@ BEARING = {
     "f0": (3.0, "f0", 3.0),
     "f1": (7e-4, "f1", 7e-4),
     "series": ("303", "series", "303"),
+    "rib_height_mm": (2.5, "rib_height", 0.0025),
+    "rib_boundary_friction": (0.1, "rib_boundary_friction", 0.1),
 }
 for _role, _place in (("pinion", "bearing"), ("gear", "gear_bearing")):
     for _key, (_value, _name, _si) in BEARING.items():
