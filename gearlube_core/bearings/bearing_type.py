@@ -88,7 +88,7 @@ class ShaftBearings(Protocol):
         """
 
     def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
-        """Return the torque of both bearings, raceways by a law of `losses.laws.ROLLING_LAWS` [N m].
+        """Return the torque of both bearings by a law of `losses.laws.ROLLING_LAWS` [N m].
 
         With the sign of the speed, under the present load of each roller; 0 for a bearing without
         rollers.
