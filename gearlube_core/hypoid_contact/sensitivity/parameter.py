@@ -15,10 +15,10 @@ from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 MISALIGNMENT = "misalignment"
-Unit = Literal["mm", "deg", "1", "m", "rad"]
+Unit = Literal["mm", "um", "deg", "1", "m", "rad"]
 
 # differences are taken over twice the step: cutting it or doubling it changes derivatives by 1e-7
-_STEPS: dict[Unit, float] = {"mm": 1e-3, "deg": 1e-3, "1": 1e-5, "m": 1e-6, "rad": 1e-5}
+_STEPS: dict[Unit, float] = {"mm": 1e-3, "um": 0.1, "deg": 1e-3, "1": 1e-5, "m": 1e-6, "rad": 1e-5}
 _EDGE_STEP = 2e-4  # of the radius of a blade edge
 _ROLES: tuple[Role, Role] = ("pinion", "gear")
 
@@ -33,7 +33,7 @@ class Parameter:
         Dotted field of the gear file, e.g. "pinion.machine.radial_setting_mm", or
         "misalignment." and a field of `Misalignment`.
     unit : str
-        Of the number: "mm", "deg" or "1" in the gear file, "m" or "rad" of a misalignment.
+        Of the number: "mm", "um", "deg" or "1" in the gear file, "m" or "rad" of a misalignment.
     value : float
         [unit].
     step : float
@@ -81,14 +81,15 @@ class Parameter:
                 f"{name} must be a length, an angle or a ratio, got {value!r}: there is no "
                 "derivative by counts and words."
             )
-        unit = "mm" if name.endswith("_mm") else "deg" if name.endswith("_deg") else "1"
+        endings: tuple[Unit, ...] = ("mm", "um", "deg")
+        unit = next((one for one in endings if name.endswith(f"_{one}")), "1")
         step = _EDGE_STEP * value if name.endswith("edge_radius_mm") else _STEPS[unit]
         return cls(name, unit, value, step)
 
     @property
     def scale(self) -> float:
         """SI units in one unit of the parameter: m, rad or 1 [-]."""
-        return {"mm": MILLIMETRE, "deg": DEGREE}.get(self.unit, 1.0)
+        return {"mm": MILLIMETRE, "um": 1e-3 * MILLIMETRE, "deg": DEGREE}.get(self.unit, 1.0)
 
     @property
     def moves(self) -> tuple[Role, ...]:
