@@ -1,8 +1,8 @@
 """Cost of many points to the process that runs them: `python -m benchmarks.bench_variation`.
 
-    python -m benchmarks.bench_variation [POINTS] [SECONDS] [JOBS]
+    python -m benchmarks.bench_variation [POINTS] [SECONDS] [JOBS] [map|helical|contact]
 
-Each point is checked as one of `gearlube vary map` is, but then waits SECONDS in place of
+Each point is checked as one of `gearlube vary STUDY` is, but then waits SECONDS in place of
 computing, so that what is measured is the cost of the bookkeeping alone. Each has 60 numbers.
 """
 
@@ -13,30 +13,41 @@ import resource
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gearlube.variation.design import Design, Point, Sampling, Spread
-from gearlube.variation.file_variants import AxleVariants
+from gearlube.variation.design import Design, Point, Sampling, Spread, Value
 from gearlube.variation.keys import Keys
-from gearlube.variation.point_study import Quantity
-from gearlube.variation.points.losses import LossPoint
+from gearlube.variation.point_study import PointStudy, Quantity
+from gearlube.variation.studies import point_study
 
 _LOGGER = logging.getLogger("bench_variation")
 NUMBERS = 60
-SPREADS = (
-    Spread(key="pinion.bearing.preload_n", low=2000.0, high=3000.0, mean=2500.0, deviation=167.0),
-    Spread(key="gear_set.backlash_um", low=120.0, high=180.0),
-    Spread(key="gear_set.roughness_rms_um", low=0.4, high=0.6, mean=0.5, deviation=0.03),
-)
+SPREADS = {
+    "map": (
+        Spread(key="pinion.bearing.preload_n", low=2e3, high=3e3, mean=2500.0, deviation=167.0),
+        Spread(key="gear_set.backlash_um", low=120.0, high=180.0),
+        Spread(key="gear_set.roughness_rms_um", low=0.4, high=0.6, mean=0.5, deviation=0.03),
+    ),
+    "helical": (
+        Spread(key="operation.pinion_torque_n_m", low=100.0, high=300.0),
+        Spread(key="pinion.flank.lead_slope_um", low=-10.0, high=10.0),
+        Spread(key="oil.temperature_degc", low=40.0, high=90.0),
+    ),
+    "contact": (
+        Spread(key="misalignment.pinion_offset_um", low=-50.0, high=50.0),
+        Spread(key="misalignment.pinion_axial_um", low=-50.0, high=50.0),
+        Spread(key="pinion.machine.tilt_angle_deg", low=31.7, high=31.77),
+    ),
+}
 
 
 @dataclass(frozen=True, kw_only=True)
 class WaitingStudy:
-    """Checks of a loss point, and a wait in the place of its computation."""
+    """Checks of a point of another study, and a wait in the place of its computation."""
 
-    losses: LossPoint
+    other: PointStudy
     seconds: float
     name: str = "wait"
     subject: str = "nothing"
@@ -45,7 +56,7 @@ class WaitingStudy:
 
     @property
     def keys(self) -> Keys:
-        return self.losses.keys
+        return self.other.keys
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
@@ -53,10 +64,13 @@ class WaitingStudy:
 
     @property
     def identity(self) -> str:
-        return self.losses.identity
+        return self.other.identity
+
+    def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> WaitingStudy:
+        return self
 
     def check(self, point: Point) -> None:
-        self.losses.check(point)
+        self.other.check(point)
 
     def compute(self, point: Point) -> Sequence[float]:
         time.sleep(self.seconds)
@@ -68,17 +82,15 @@ def megabytes() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
 
 
-def main(points: int, seconds: float, jobs: int) -> None:
+def main(points: int, seconds: float, jobs: int, name: str) -> None:
     """Run, run again, summarise; tell what this process took."""
     # here, so that the processes, which read this module, do not load them
     from gearlube.variation.run import run_variation
     from gearlube.variation.store import open_variation
     from gearlube.variation.summary import write_summary
 
-    study = WaitingStudy(
-        losses=LossPoint(axle=AxleVariants.read("mohammadpour_2015")), seconds=seconds
-    )
-    design = Design(spreads=SPREADS, sampling=Sampling("random", points))
+    study = WaitingStudy(other=point_study(name), seconds=seconds)
+    design = Design(spreads=SPREADS[name], sampling=Sampling("random", points))
     seen: list[float] = []
 
     def progress(share: float, sentence: str) -> None:
@@ -120,5 +132,5 @@ def main(points: int, seconds: float, jobs: int) -> None:
 
 if __name__ == "__main__":
     logging.basicConfig(level=logging.INFO, format="%(message)s")
-    given = [*sys.argv[1:], *("10000", "0.1", "2")[len(sys.argv) - 1 :]]
-    main(int(given[0]), float(given[1]), int(given[2]))
+    given = [*sys.argv[1:], *("10000", "0.1", "2", "map")[len(sys.argv) - 1 :]]
+    main(int(given[0]), float(given[1]), int(given[2]), given[3])

@@ -27,7 +27,9 @@ SECTIONS = {
     "pinion": "[pinion] and [gear]: the blank",
     "pinion.cutter": "[pinion.cutter] and [gear.cutter]",
     "pinion.machine": "[pinion.machine]: generated, with cutter tilt",
-    "gear.machine": "[gear.machine]: form-cut (Formate)",
+    "gear.machine": "[gear.machine]: form-cut (Formate), or generated with a ratio of roll",
+    "pinion.drive_flank": "[pinion.drive_flank], [pinion.coast_flank], [gear.drive_flank] and "
+    "[gear.coast_flank]: reliefs and crowns",
 }
 
 HEAD = """# The gear file
@@ -44,8 +46,8 @@ transmission error, load sharing and the mesh table of the axle.
 *The shipped pair as its machine settings cut it, 13 to 36 teeth, offset 24 mm, face-hobbed. Right:
 the teeth in mesh, seen from the toe.*
 
-Uniform depth, axes at right angles; gear form-cut, pinion generated with cutter tilt; face-hobbed
-or, with no blade groups, face-milled. Frame, hands and the driving side:
+Uniform depth, axes at right angles; gear form-cut or generated, pinion generated with cutter tilt;
+face-hobbed or, with no blade groups, face-milled. Frame, hands and the driving side:
 [conventions](conventions.md#frame-of-the-hypoid-pair).
 
 ## Signs
@@ -61,6 +63,10 @@ of signs misses by 0.23 mm or more (`tests/literature/test_flank_surface_karagia
   by 11.6 deg of pressure angle.
 - **Apexes** count positive beyond the crossing point of the axes. The gear's
   `machine_center_to_back_mm` is the same kind of length, for the reference plane.
+- **Modified roll and helical motion**: counted from the basic cradle position, where the mean point
+  is cut. A machine root angle of the pinion above 10 deg makes its cradle a crown gear: the mean
+  point is then cut where the pinion's cone touches the plane across the cradle axis.
+- **Generated gear**: without tilt. Its cradle axis meets the gear axis in the machine centre.
 - **Cradle axis**: the gear axis of the assembled pair, if nothing is crowned. The cutter axis
   leans by the tilt angle i from it, to the azimuth q - j - 90 deg (q basic cradle, j basic swivel
   angle). The pinion axis lies a sliding base from the cutter centre's plane, on the side of the
@@ -68,6 +74,11 @@ of signs misses by 0.23 mm or more (`tests/literature/test_flank_surface_karagia
 - **`blade_edge_radius_mm`**: a hollow blade, which crowns the tooth along its profile; without it
   the edge is straight. The blades of either flank may have their own radius,
   `convex_flank_edge_radius_mm` and `concave_flank_edge_radius_mm`.
+- **Reliefs** take material off the flank that the cutter left, along its normal: the amount at the
+  edge times (1 - d/extent)^2 at the distance d from it, nothing beyond the extent. Distances from
+  tip and root are tooth heights, those from toe and heel lie along the pitch cone. An edge radius r
+  is a relief of r/2 over r: where it begins it has the curvature 1/r. Crowns are parabolas over the
+  whole flank, zero in its middle; reliefs and crowns of a flank add up.
 - Root fillets are not described: below the flanks the tooth ends on the root cone.
 
 ## Where a number is from
@@ -116,6 +127,27 @@ TAIL = """
 
 5. Take it elsewhere: `write_flank_csv` (points, normals, curvatures), and `write_solid` with
    `tooth_solid` or `gear_solid` for STL and GLB (`gearlube_core/hypoid_geometry/flank/export.py`).
+   These are the flanks as cut: reliefs and crowns are left out.
+
+## Relieve the edges
+
+Sharp teeth press into each other from some 50 N.m of the shipped pair on, and that pressure has no
+finite value ([tooth contact](tooth_contact.md#edges-and-relief)). Add for instance
+
+```toml
+[pinion.drive_flank]
+tip_relief_um = 20.0
+tip_relief_depth_mm = 1.9     # a quarter of the tooth's height
+toe_relief_um = 30.0
+toe_relief_length_mm = 5.0
+heel_relief_um = 30.0
+heel_relief_length_mm = 5.0
+```
+
+and the same for the gear. Contact analysis, mesh table and what is made of it (transmission error,
+stiffness, radii of curvature, films, losses) are those of the relieved flanks. Whether the flanks
+meet at all is checked on the flanks as cut. `gearlube vary contact my_gear.toml --vary
+pinion.drive_flank.tip_relief_um=10:40:5` compares amounts.
 
 ## What is checked
 

@@ -1,4 +1,4 @@
-"""The sections of the axle file on gear set, members, steel and model."""
+"""The sections of the axle file on gear set, steel and model."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
+from gearlube_core.dynamics.hypoid_axle.parameters import Friction
 
 Text = Annotated[str, Field(min_length=1)]
 Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False)]
@@ -17,8 +17,6 @@ Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
 LossFactor = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Hysteresis = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Floor = Annotated[float, Field(ge=1.0, le=1e4, allow_inf_nan=False)]
-Mass = Annotated[float, Field(ge=0.05, le=2000.0, allow_inf_nan=False)]
-Inertia = Annotated[float, Field(ge=1e-6, le=500.0, allow_inf_nan=False)]
 Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False)]
 Poisson = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Density = Annotated[float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False)]
@@ -79,16 +77,6 @@ class GearSet(ModelSection):
         return self
 
 
-class Member(ModelSection):
-    """Pinion or gear with all that turns and moves with it."""
-
-    mass_kg: Mass | None = Field(default=None, description="Of all that moves with the member")
-    inertia_kg_m2: Inertia | None = Field(
-        default=None, description="Of all that turns with the member, about its axis"
-    )
-    bearing: BearingSection | None = None
-
-
 class Steel(ModelSection):
     """The solid of flanks, rollers and races."""
 
@@ -107,16 +95,19 @@ class ModelOptions(ModelSection):
     equations: Literal["consistent", "as_printed"] | None = Field(
         default=None, description="Of motion: with corrected misprints, or as printed"
     )
-    friction: Literal["consistent", "as_printed", "off", "printed_traction_circular"] | None = (
-        Field(default=None, description="Of the flanks")
+    friction: Friction | None = Field(
+        default=None,
+        description="Of the flanks; zhou_hoeprich_1991: as consistent, but asperities carry a "
+        "share of the load that goes to 1 without a film",
     )
     flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
         default=None, description="Rolling loss of the flanks"
     )
     bearing_torque_loss: TorqueLoss | None = Field(
         default=None,
-        description="Drag torque of the bearings; all but palmgren: of the raceways alone, under "
-        "the load of each roller",
+        description="Drag torque of the bearings; palmgren: under the preload; palmgren_loaded, "
+        "skf_2013: under the forces of each bearing; others: of raceways, ribs and oil, under the "
+        "load of each roller",
     )
     bearing_approach: Literal["full", "as_printed"] | None = Field(
         default=None, description="Roller approach under shaft displacement: full, or halved"

@@ -28,12 +28,14 @@ class VaryCommand(MultiValueCommand):
 
 
 def vary(
-    study: Annotated[str, typer.Argument(help="map, sweep, cycle or bearing.", metavar="STUDY")],
+    study: Annotated[
+        str, typer.Argument(help="map, sweep, cycle, bearing, helical or contact.", metavar="STUDY")
+    ],
     file: Annotated[
         str | None,
         typer.Argument(
-            help="Axle file (TOML) or the name of a shipped one; for bearing a bearing file. "
-            "Default: the shipped one.",
+            help="Axle file (TOML) or the name of a shipped one; for bearing, helical and contact "
+            "a bearing or gear file. Default: the shipped one.",
             metavar="FILE",
         ),
     ] = None,
@@ -42,7 +44,7 @@ def vary(
         typer.Option(
             "--vary",
             help="Any parameter: KEY=first:last:step or KEY=a,b,c, all combined; KEY=low:high is "
-            "sampled by --design. --keys lists them.",
+            "sampled by --design, KEY=value+-width likewise, normal. --keys lists them.",
             metavar="KEY=VALUES...",
         ),
     ] = None,
@@ -78,7 +80,7 @@ def vary(
         ),
     ] = None,
     quick: Annotated[
-        bool, typer.Option("--quick", help="sweep: short records, for a first look.")
+        bool, typer.Option("--quick", help="sweep, helical, contact: coarse, for a first look.")
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_vary"),
     overwrite: OverwriteOption = False,
@@ -86,7 +88,7 @@ def vary(
         bool, typer.Option("--keys", help="List what can be varied and what is computed; stop.")
     ] = False,
 ) -> None:
-    """Vary any parameter of an axle or bearing in a study: a grid, or samples.
+    """Vary any parameter of an axle, bearing or gear pair in a study: a grid, or samples.
 
     Writes results.zarr, points.csv, summary.csv, sensitivity.csv and figures. Finished blocks of
     points are kept: run the same command again to go on after a stop.

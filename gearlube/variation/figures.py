@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.plotting.style import HATCHES, MARKERS, SERIES, house_style, new_figure
+from gearlube.variation.block import FINISHED
 from gearlube.variation.store import gridded
 from gearlube.variation.summary import cells, inputs_of, varies
 
@@ -20,20 +22,16 @@ _LETTERS, _TITLE_LETTERS = 42, 28  # in a line of a label, of the title of a nar
 
 
 def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Path) -> list[Path]:
-    """Write the figures that the design allows; return their paths."""
+    """Write the figures that the design and the finished points allow; return their paths."""
     made = {}
-    if summary.sizes["input"]:
-        made["histograms.png"] = histogram_figure(results, summary)
-        if np.isfinite(summary["rank_correlation"].values).any():
-            made["sensitivity.png"] = rank_figure(results, summary)
-    if line_axis(summary):
-        made["lines.png"] = line_figure(results, summary)
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = []
-    for name, figure in made.items():
-        figure.savefig(folder / name)
-        paths.append(folder / name)
-    return paths
+    if (results["status"] == FINISHED).any():
+        if summary.sizes["input"]:
+            made["histograms"] = histogram_figure(results, summary)
+            if np.isfinite(summary["rank_correlation"].values).any():
+                made["sensitivity"] = rank_figure(results, summary)
+        if line_axis(summary):
+            made["lines"] = line_figure(results, summary)
+    return save_figure_folder(made, folder)
 
 
 def _scale(results: xr.Dataset, name: str) -> tuple[float, str]:

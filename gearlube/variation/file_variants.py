@@ -105,8 +105,8 @@ class AxleVariants:
     def identity(self) -> str:
         """Content of the file and of all that it names, as text."""
         named = {**self.meshes, **self.asperities, **self.oils}
-        digests = {text: _digest(self.folder / text) for text in named}
-        return json.dumps([self.file.model_dump(mode="json"), digests], sort_keys=True)
+        hashes = {text: content_hash(self.folder / text) for text in named}
+        return json.dumps([self.file.model_dump(mode="json"), hashes], sort_keys=True)
 
     def varied(self, point: Point) -> AxleFile:
         """Return the file with the fields of a point that are its own."""
@@ -142,8 +142,9 @@ def _origin(keys: Keys, name: str) -> str:
     return "" if key is None else key.origin
 
 
-def _digest(path: Path) -> str:
-    """Return a digest of a file; "" for what ships with the package, which its version fixes."""
+def content_hash(name: str | Path) -> str:
+    """Return a hash of a file; "" for what ships with the package, which its version fixes."""
+    path = Path(name)
     return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
 
 

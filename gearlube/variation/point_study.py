@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple, Protocol, Self
 
-from gearlube.variation.design import Point
+from gearlube.variation.design import Point, Value
 from gearlube.variation.keys import Keys
 
 
@@ -53,6 +53,10 @@ class PointStudy(Protocol):
     @property
     def identity(self) -> str:
         """Everything beside the design that decides the results, as text."""
+        ...
+
+    def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> Self:
+        """Return the study with all files read that points name, by the values of the axes."""
         ...
 
     def check(self, point: Point) -> None:

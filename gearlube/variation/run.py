@@ -151,20 +151,20 @@ def run_variation(
 
 def key_of(study: PointStudy, design: Design) -> str:
     """Return a hash of everything that decides the results of a variation."""
-    everything = [study.name, study.identity, asdict(design), code_digest()]
+    everything = [study.name, study.identity, asdict(design), code_hash()]
     return hashlib.sha256(json.dumps(everything, sort_keys=True).encode()).hexdigest()[:24]
 
 
 @cache
-def code_digest() -> str:
-    """Return version and digest of all code that computes points."""
-    digest = hashlib.sha256(__version__.encode())
+def code_hash() -> str:
+    """Return a hash of version and all code that computes points."""
+    found = hashlib.sha256(__version__.encode())
     for package in (gearlube_core, drivetrain, fmu_src, gearlube):
         for path in sorted(Path(str(package.__file__)).parent.rglob("*")):
             if path.suffix in (".py", ".toml", ".nc"):
-                digest.update(path.name.encode())
-                digest.update(path.read_bytes().replace(b"\r\n", b"\n"))
-    return digest.hexdigest()
+                found.update(path.name.encode())
+                found.update(path.read_bytes().replace(b"\r\n", b"\n"))
+    return found.hexdigest()
 
 
 def check_all(study: PointStudy, design: Design, progress: Progress = no_progress) -> None:

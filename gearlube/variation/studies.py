@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from gearlube.variation.design import Design, Spread
-from gearlube.variation.file_variants import AxleVariants, files_named
+from gearlube.variation.file_variants import AxleVariants
 from gearlube.variation.point_study import PointStudy
 from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
 
-STUDIES = ("map", "sweep", "cycle", "bearing")
-_AXLE, _BEARING = "mohammadpour_2015", "wingertszahn_2023"
+# each study's file, where none is given
+SHIPPED = {
+    "map": "mohammadpour_2015",
+    "sweep": "mohammadpour_2015",
+    "cycle": "mohammadpour_2015",
+    "bearing": "wingertszahn_2023",
+    "helical": "he_2007",
+    "contact": "mohammadpour_2015",
+}
+STUDIES = tuple(SHIPPED)
+_QUICK = ("sweep", "helical", "contact")
 
 
 def point_study(name: str, file: str | None = None, *, quick: bool = False) -> PointStudy:
@@ -19,11 +26,11 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
 
     Parameters
     ----------
-    name : {"map", "sweep", "cycle", "bearing"}
+    name : {"map", "sweep", "cycle", "bearing", "helical", "contact"}
     file : str, optional
-        Axle file or bearing file, or the name of a shipped one.
+        Axle, bearing or gear file, or the name of a shipped one.
     quick : bool
-        Short records of the sweep.
+        Short records of the sweep; coarse teeth and few positions of the gear pairs.
 
     Examples
     --------
@@ -31,14 +38,27 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
     Quantity(name='loss', unit='W', meaning='power lost in all')
     """
     check_option("STUDY", name, STUDIES)
-    if quick and name != "sweep":
-        raise ParameterError(f"--quick is for the sweep, got it with {name}. Leave it out.")
+    if quick and name not in _QUICK:
+        raise ParameterError(
+            f"--quick is for {', '.join(_QUICK)}, got it with {name}. Leave it out."
+        )
+    file = SHIPPED[name] if file is None else file
     if name == "bearing":
         from gearlube.variation.points.bearing import BearingPoint
         from gearlube_core.bearings.bearing_file import BearingFile
 
-        return BearingPoint(file=BearingFile.given(file or _BEARING)).with_oils(())
-    axle = AxleVariants.read(file or _AXLE)
+        return BearingPoint(file=BearingFile.given(file)).prepared({})
+    if name == "helical":
+        from gearlube.variation.points.helical import HelicalPoint
+        from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+
+        return HelicalPoint(file=HelicalGearFile.given(file), quick=quick).prepared({})
+    if name == "contact":
+        from gearlube.variation.points.contact import ContactPoint
+        from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+
+        return ContactPoint(file=HypoidGearFile.given(file), quick=quick)
+    axle = AxleVariants.read(file)
     if name == "sweep":
         from gearlube.variation.points.march import MarchPoint
 
@@ -54,16 +74,15 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
 
 def scatter(study: PointStudy) -> tuple[Spread, ...]:
     """Return the spreads of the tolerances in a study's axle file; see `scatter_of`."""
-    from gearlube.variation.points.bearing import BearingPoint
+    from gearlube.variation.points.of_axle import AxlePoint
     from gearlube.variation.scatter import scatter_of
 
-    axle = getattr(study, "axle", None)
-    if isinstance(study, BearingPoint) or axle is None:
-        raise ParameterError(
-            "--scatter is for axle files, got it with a bearing file, which has no tolerances. "
-            "Give the ranges by --vary KEY=low:high."
-        )
-    return scatter_of(axle)
+    if isinstance(study, AxlePoint):
+        return scatter_of(study.axle)
+    raise ParameterError(
+        f"--scatter is for axle files, got it with {study.name}, whose file has no tolerances. "
+        "Give them by --vary KEY=value+-width."
+    )
 
 
 def prepared(study: PointStudy, design: Design) -> PointStudy:
@@ -74,17 +93,4 @@ def prepared(study: PointStudy, design: Design) -> PointStudy:
     ParameterError, TableError
         A file is missing or wrong.
     """
-    from gearlube.variation.points.bearing import BearingPoint
-    from gearlube.variation.points.cycle import CYCLE, CyclePoint
-    from gearlube.variation.points.losses import LossPoint
-    from gearlube.variation.points.march import MarchPoint
-
-    texts = {axis.key: axis.values for axis in design.axes}
-    if isinstance(study, BearingPoint):
-        return study.with_oils(str(one) for one in texts.get("oil", ()))
-    if not isinstance(study, LossPoint | MarchPoint | CyclePoint):
-        return study
-    axle = study.axle.with_files(files_named(texts))
-    if isinstance(study, CyclePoint):
-        study = study.with_cycles(str(one) for one in texts.get(CYCLE.name, (CYCLE.usual,)))
-    return replace(study, axle=axle)
+    return study.prepared({axis.key: axis.values for axis in design.axes})

@@ -9,11 +9,14 @@ from typing import Any, NamedTuple
 from gearlube.cli.ranges import numbers_from
 from gearlube.variation.design import METHODS, Axis, Sampling, Spread
 from gearlube.variation.keys import Key, Keys, understood
-from gearlube_core.checks import check_finite, check_within
+from gearlube.variation.scatter import spread_about
+from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.tolerance import Tolerance
 
 _EXAMPLE = "--vary pinion.bearing.preload_n=2000:6000:1000 oil.temperature=40,80"
 MOST_VALUES = 100_000
+_SCATTERS = "+-"
 SCATTER_DESIGN = "lhs:1000"  # unless another is given
 
 
@@ -30,7 +33,8 @@ def varied_from(texts: Sequence[str], keys: Keys) -> Varied:
     Parameters
     ----------
     texts
-        KEY=first:last:step and KEY=a,b,c make axes, KEY=low:high a range to sample.
+        KEY=first:last:step and KEY=a,b,c make axes, KEY=low:high a range to sample, and
+        KEY=value+-width a normal distribution to sample, three standard deviations to the width.
     keys
         What can be varied.
 
@@ -52,19 +56,36 @@ def varied_from(texts: Sequence[str], keys: Keys) -> Varied:
         if not equals or not name.strip() or not given.strip():
             raise ParameterError(f"--vary must be KEY=VALUES, got {text!r}. Write {_EXAMPLE}.")
         key = understood(name.strip(), keys)
-        if key.kind != "text" and given.count(":") == 1 and "," not in given:
+        middle, scatters, width = given.replace("±", _SCATTERS).partition(_SCATTERS)
+        if key.kind != "text" and scatters:
+            spreads.append(_scatter(key, middle, width))
+        elif key.kind != "text" and given.count(":") == 1 and "," not in given:
             spreads.append(_range(key, given))
         else:
             axes.append(Axis(key.name, _values(key, given)))
     return Varied(tuple(axes), tuple(spreads))
 
 
-def _range(key: Key, text: str) -> Spread:
+def _check_sampled(key: Key, text: str) -> None:
     if key.kind != "number":
         raise ParameterError(
             f"{key.name} must be a {key.kind}, so it cannot be sampled between two values, got "
             f"{text!r}. Write first:last:step or single values."
         )
+
+
+def _scatter(key: Key, middle: str, width: str) -> Spread:
+    _check_sampled(key, f"{middle}{_SCATTERS}{width}")
+    given: Any = width
+    value = _number(key, middle)
+    reach = check_positive(f"the width of {key.name}", given, key.unit, "Write 0+-30.")
+    for end in (value - reach, value + reach):
+        check_within(key.name, end, key.low, key.high, key.unit, "The ends must be in range.")
+    return spread_about(key.name, value, Tolerance(plus_minus=reach))
+
+
+def _range(key: Key, text: str) -> Spread:
+    _check_sampled(key, text)
     low, high = (_number(key, part) for part in text.split(":"))
     return Spread(key=key.name, low=low, high=high)
 

@@ -79,8 +79,13 @@ class ShaftBearings(Protocol):
         (ROLLERS_MAX,). All 0 for a bearing without rollers.
         """
 
-    def shaft_drag(self, speed: float, axial_load: float, oil: LubricantState) -> float:
-        """Return the drag torque of one bearing with the sign of the speed [N m]."""
+    def shaft_drag(
+        self, speed: float, axial_load: float, radial_load: float, law: int, oil: LubricantState
+    ) -> float:
+        """Return the drag torque of one bearing with the sign of the speed [N m].
+
+        Under its loads [N], not negative; `law` is PALMGREN or SKF of `losses.laws`.
+        """
 
     def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
         """Return the torque of both bearings by a law of `losses.laws.ROLLING_LAWS` [N m].

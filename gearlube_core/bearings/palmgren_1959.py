@@ -19,11 +19,14 @@ SMOOTHING_SPEED = 1.0  # rad/s, below which the torque falls to zero; choice of 
 
 
 @kernel
-def drag_torque(speed: float, axial_load: float, nu: float, p: BearingParameters) -> float:
+def drag_torque(
+    speed: float, axial_load: float, radial_load: float, nu: float, p: BearingParameters
+) -> float:
     """Return the drag torque of one tapered roller bearing, with the sign of the speed.
 
     M = (M0 + M1) w/sqrt(w^2 + w0^2),  M0 = 1e-7 f0 (nu n)^(2/3) dm^3, at least 160e-7 f0 dm^3
-    [N mm, cSt, 1/min, mm],  M1 = f1 P1 dm,  P1 = 2 Y F_a,  Y = 0.4 cot(contact angle).
+    [N mm, cSt, 1/min, mm],  M1 = f1 P1 dm,  P1 = 2 Y F_a, at least F_r,  Y = 0.4 cot(contact
+    angle).
 
     Parameters
     ----------
@@ -31,6 +34,8 @@ def drag_torque(speed: float, axial_load: float, nu: float, p: BearingParameters
         Speed w of the shaft [rad/s].
     axial_load : float
         Axial load of the bearing, its preload included [N].
+    radial_load : float
+        F_r, not negative [N].
     nu : float
         Kinematic viscosity of the oil [m2/s].
     p : BearingParameters
@@ -43,7 +48,7 @@ def drag_torque(speed: float, axial_load: float, nu: float, p: BearingParameters
 
     Notes
     -----
-    P1 = 2 Y F_a holds while it exceeds the radial load. The constant branch of M0 is given below
+    The constant branch of M0 is given below
     nu n = 2000 cSt/min, where it lies 0.8 % above the other one; taking the larger of the two
     removes the jump. The factor in w, with w0 = 1 rad/s, makes the torque smooth through zero
     speed.
@@ -54,5 +59,6 @@ def drag_torque(speed: float, axial_load: float, nu: float, p: BearingParameters
     """
     viscous = max(_VISCOUS * math.pow(nu * abs(speed), 2.0 / 3.0), _VISCOUS_FLOOR)
     dm = p.mean_diameter
-    magnitude = p.f0 * viscous * dm * dm * dm + p.f1 * p.axial_factor * abs(axial_load) * dm
+    load = max(p.axial_factor * abs(axial_load), radial_load)
+    magnitude = p.f0 * viscous * dm * dm * dm + p.f1 * load * dm
     return magnitude * speed / math.sqrt(speed * speed + SMOOTHING_SPEED * SMOOTHING_SPEED)

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftMotion
+from gearlube_core.bearings.losses.laws import SKF
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.raceway_drag import raceway_drag
+from gearlube_core.bearings.rib_drag import rib_drag
 from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
 from gearlube_core.bearings.shaft_expansion import expand_shaft_bearings, expanded_shaft_forces
 from gearlube_core.bearings.shaft_forces import shaft_bearing_forces
+from gearlube_core.bearings.skf_drag import skf_drag
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -99,14 +102,22 @@ class TaperedRollerParameters(BearingParameters):
         return rollers[0], largest, smallest
 
     @kernel
-    def shaft_drag(self, speed: float, axial_load: float, oil: LubricantState) -> float:
+    def shaft_drag(
+        self, speed: float, axial_load: float, radial_load: float, law: int, oil: LubricantState
+    ) -> float:
         """Return the drag torque of one bearing [N m]."""
-        return drag_torque(speed, axial_load, oil.nu, self)
+        if law == SKF:
+            return skf_drag(speed, axial_load, radial_load, oil.nu, self)
+        return drag_torque(speed, axial_load, radial_load, oil.nu, self)
 
     @kernel
     def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
-        """Return the torque of the raceways of both bearings [N m]."""
-        return raceway_drag(motion, law, oil, self)
+        """Return the torque of raceways, ribs, hysteresis and oil of both bearings [N m]."""
+        ends = rib_drag(motion, oil, self)
+        beside = ends.rib + ends.hysteresis + ends.oil
+        if motion.speed < 0.0:
+            beside = -beside
+        return raceway_drag(motion, law, oil, self) + beside
 
     def without_loss(self) -> TaperedRollerParameters:
         """Return the bearings without hysteresis."""

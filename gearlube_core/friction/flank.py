@@ -31,6 +31,7 @@ def flank_friction(
     consistent:  f_v = mu (F - W_a),  f_b = tau_l0 A_a + gamma W_a,  0 <= W_a <= F
     as printed:  f_v = mu F, with E' in W_a, beta = 1 1/K in mu and the printed F_2, F_5/2
     printed traction:  as consistent, with beta = 1 1/K in mu
+    Zhou and Hoeprich's share:  as consistent, with W_a = F exp(-B Lambda^C)
 
     Parameters
     ----------
@@ -49,7 +50,7 @@ def flank_friction(
     solid
         Elastic and thermal data of the pair.
     form
-        CONSISTENT = 0, AS_PRINTED = 1 or PRINTED_TRACTION = 2.
+        CONSISTENT = 0, AS_PRINTED = 1, PRINTED_TRACTION = 2 or ZHOU_HOEPRICH_SHARE = 3.
 
     Returns
     -------
@@ -62,7 +63,9 @@ def flank_friction(
     The printed form counts the asperity load in both terms and drops asperities at a film ratio
     of 3, where its polynomials jump. In every form mu lies between zero and the isothermal Eyring
     value, W_a is at most F, and the boundary term carries tanh(|dU|/1 mm/s), so that friction
-    passes through zero with sliding speed; the paper states none of these.
+    passes through zero with sliding speed; the paper states none of these. Greenwood and Tripp's
+    law with the usual constants carries at most 32 MPa, some per cent of the load, also where there
+    is no film; the share of Zhou and Hoeprich carries all of the load there.
     Source: [mohammadpour_2015 (11)], and the parts for the terms and their misprints.
     """
     F = max(load, 0.0)

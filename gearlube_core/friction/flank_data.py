@@ -11,6 +11,7 @@ from gearlube_core.kernels.jit import kernel
 CONSISTENT = 0
 AS_PRINTED = 1
 PRINTED_TRACTION = 2  # traction as printed, everything else consistent
+ZHOU_HOEPRICH_SHARE = 3  # asperities carry a share of any load that the film ratio alone sets
 
 
 class ContactGeometry(NamedTuple):

@@ -12,6 +12,7 @@ from gearlube_core.friction.flank_data import (
     AS_PRINTED,
     CONSISTENT,
     PRINTED_TRACTION,
+    ZHOU_HOEPRICH_SHARE,
     ContactGeometry,
     FlankState,
 )
@@ -25,7 +26,7 @@ class MixedFlankFriction(NamedTuple):
 
     surface: SurfaceParameters
     solid: SolidParameters
-    form: float  # CONSISTENT, AS_PRINTED or PRINTED_TRACTION [-]
+    form: float  # CONSISTENT, AS_PRINTED, PRINTED_TRACTION or ZHOU_HOEPRICH_SHARE [-]
 
     @kernel
     def flank_state(
@@ -64,10 +65,19 @@ def printed_traction(surface: SurfaceParameters, solid: SolidParameters) -> Mixe
     return MixedFlankFriction(surface, solid, float(PRINTED_TRACTION))
 
 
+def zhou_hoeprich_share(surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:
+    """Return the law with asperities that carry exp(-B Lambda^C) of the load, all else consistent.
+
+    Source: [zhou_hoeprich_1991 (45)]
+    """
+    return MixedFlankFriction(surface, solid, float(ZHOU_HOEPRICH_SHARE))
+
+
 FLANK_LAWS: Mapping[str, FlankLawMaker] = {
     "consistent": consistent,
     "as_printed": as_printed,
     "printed_traction_circular": printed_traction,
+    "zhou_hoeprich_1991": zhou_hoeprich_share,
 }
 
 # the mean pressure that a law is given, by the law's name; "elliptical" for all others

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from gearlube_core.contact.asperity_share import RACE_B, RACE_C, asperity_share
 from gearlube_core.contact.greenwood_tripp_1971 import (
     SurfaceParameters,
     asperity_area_factor,
@@ -22,7 +23,7 @@ from gearlube_core.friction.evans_johnson_1986 import (
     surface_heating_number,
     viscous_friction_coefficient,
 )
-from gearlube_core.friction.flank_data import AS_PRINTED, CONSISTENT
+from gearlube_core.friction.flank_data import AS_PRINTED, PRINTED_TRACTION, ZHOU_HOEPRICH_SHARE
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -112,6 +113,7 @@ def mixed_friction(
     consistent:  f_v = mu (F - W_a),  f_b = tau_l0 A_a + gamma W_a,  0 <= W_a <= F
     as printed:  f_v = mu F, with E' in W_a, beta = 1 1/K in mu and the printed F_2, F_5/2
     printed traction:  as consistent, with beta = 1 1/K in mu
+    Zhou and Hoeprich's share:  as consistent, with W_a = F exp(-B Lambda^C)
 
     Parameters
     ----------
@@ -138,7 +140,7 @@ def mixed_friction(
     solid
         Elastic and thermal data of the pair.
     form
-        CONSISTENT = 0, AS_PRINTED = 1 or PRINTED_TRACTION = 2.
+        CONSISTENT = 0, AS_PRINTED = 1, PRINTED_TRACTION = 2 or ZHOU_HOEPRICH_SHARE = 3.
 
     Returns
     -------
@@ -150,14 +152,15 @@ def mixed_friction(
     Range: that of `plateau_stress_ratio` and `asperity_load`. See `flank_friction` for what the
     two forms share and where they part.
     Source: [mohammadpour_2015 (11)] [mohammadpour_2015 (12)] [mohammadpour_2015 (15)].
-    (12) prints the whole load, the consistent form takes off what asperities carry.
+    (12) prints the whole load, the other forms take off what asperities carry.
+    [zhou_hoeprich_1991 (45)] for the share; B and C are those of rollers on a race.
     """
     reduced_modulus = 2.0 * solid.contact_modulus
     effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity
     area = load / mean_pressure
     film_ratio = film_thickness / surface.sigma
     load_factor = asperity_load_factor(surface)
-    beta = lubricant.beta if form == CONSISTENT else 1.0
+    beta = 1.0 if form in (AS_PRINTED, PRINTED_TRACTION) else lubricant.beta
     if form == AS_PRINTED:
         W_a = load_factor * reduced_modulus * area * f_5_2_as_printed(film_ratio)
         A_a = asperity_area_factor(surface) * area * f_2_as_printed(film_ratio)
@@ -166,6 +169,8 @@ def mixed_friction(
     else:
         F_2, F_5_2 = asperity_integrals(film_ratio)
         W_a = load_factor * solid.contact_modulus * area * F_5_2
+        if form == ZHOU_HOEPRICH_SHARE:
+            W_a = load * asperity_share(film_ratio, RACE_B, RACE_C)
         A_a = asperity_area_factor(surface) * area * F_2
         W_a = min(W_a, load)
         F_viscous = load - W_a

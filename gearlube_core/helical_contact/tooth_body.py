@@ -149,10 +149,14 @@ def pair_stiffness(
     *,
     cache: Path | None = None,
     jobs: int | None = None,
+    keep: bool = True,
 ) -> PairStiffness:
-    """Return the elastic data of the drive flanks; members in parallel unless `jobs` is 1."""
+    """Return the elastic data of the drive flanks; members in parallel unless `jobs` is 1.
+
+    `keep`: whether new compliances go into the cache.
+    """
     teeth = {member: tooth_body(pair, member, settings) for member in MEMBERS}
-    flanks = members_compliance(teeth, settings, cache, jobs)
+    flanks = members_compliance(teeth, settings, cache, jobs, keep)
     pinion, gear = (flanks[member] for member in MEMBERS)
     modulus = contact_modulus(settings.solid, settings.solid)
     return PairStiffness(pinion=pinion[0], gear=gear[0], contact_modulus=modulus)

@@ -89,7 +89,7 @@ def contact_dataset(
     docs/conventions.md. Where a pair carries nothing its data are NaN.
     """
     sides = [
-        _side(FlankPair.from_file(file, side, settings.misalignment), cycle[side], settings)
+        side_contact(FlankPair.from_file(file, side, settings.misalignment), cycle[side], settings)
         for side in SIDES
     ]
     data = {
@@ -127,8 +127,9 @@ def contact_dataset(
     )
 
 
-def _side(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, Array]:
-    unloaded = unloaded_contact(pair) | {"error": _mesh_error(pair)}
+def side_contact(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dict[str, Array]:
+    """Return what `contact_dataset` keeps of one side, in its names, units and grids."""
+    unloaded = unloaded_contact(pair) | {"error": mesh_error(pair)}
     torque = np.array(settings.torques)
     force = np.linalg.norm(cycle["force"], axis=-1)
     R_p = torque / force
@@ -181,8 +182,8 @@ def unloaded_contact(pair: FlankPair) -> dict[str, Array]:
     }
 
 
-def _mesh_error(pair: FlankPair) -> Array:
-    """Return the error of the pair that touches first at each fine phase [rad]."""
+def mesh_error(pair: FlankPair) -> Array:
+    """Return the error of the pair that touches first at each fine phase [rad], unloaded."""
     phases = np.arange(ERROR_POSITIONS) / ERROR_POSITIONS
     shifts = np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1)
     angles = (phases[None, :] + shifts[:, None]) * pair.gear_pitch

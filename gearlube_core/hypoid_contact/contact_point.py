@@ -21,6 +21,15 @@ UNKNOWNS = 7  # u, th, ph of the gear, u, th, ph of the pinion, rotation of the 
 _ITERATIONS = 60
 _STEP_HEIGHT = 1e-3  # m, largest step of a blade height in one iteration
 _STEP_ANGLE = 0.1  # rad
+UNKNOWN_STEPS = (
+    _STEP_HEIGHT,
+    _STEP_ANGLE,
+    _STEP_ANGLE,
+    _STEP_HEIGHT,
+    _STEP_ANGLE,
+    _STEP_ANGLE,
+    _STEP_ANGLE,
+)  # units of the unknowns in the linearised equations
 _LENGTH = 1e-3  # m, brings positions to the size of the other equations
 _TOLERANCE = 1e-10  # of the largest steps
 
@@ -242,3 +251,35 @@ def trace_contact(
         here = turns[k]
         for i in range(UNKNOWNS):
             found[k, i] = x[i]
+
+
+@kernel
+def linearise_contacts(
+    gear: CuttingMotion,
+    pinion: CuttingMotion,
+    gear_base: Placement,
+    pinion_base: Placement,
+    turns: Array,
+    x: Array,
+    rows: Array,
+) -> None:
+    """Write the equations of tangency, linearised about states that need not be contacts.
+
+    Parameters
+    ----------
+    turns : ndarray of shape (N,)
+        Rotation of the gear about its work axis [rad].
+    x : ndarray of shape (N, 7)
+        As in `find_contact`.
+    rows : ndarray of shape (N, 7, 8)
+        On return the derivatives by the unknowns in units of `UNKNOWN_STEPS`, in the last column
+        the residuals with opposite sign. Each equation has a factor of its own.
+    """
+    for k in range(turns.size):
+        _put_equations(
+            cut_state(gear, x[k, 0], x[k, 1], x[k, 2]),
+            cut_state(pinion, x[k, 3], x[k, 4], x[k, 5]),
+            turned(gear_base, turns[k]),
+            turned(pinion_base, x[k, 6]),
+            rows[k],
+        )

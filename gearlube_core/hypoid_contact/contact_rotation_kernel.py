@@ -102,3 +102,31 @@ def find_contact_rotations(
                 ):
                     continue
                 _try_from(pinion, pinion_base, target, start, extra if before != k else 0.0, here)
+
+
+@kernel
+def rotations_to_points(
+    pinion: CuttingMotion,
+    pinion_base: Placement,
+    gear_base: Placement,
+    points: Array,
+    turns: Array,
+    found: Array,
+) -> None:
+    """Find the rotation at which the pinion flank passes through each gear point, from near by.
+
+    Parameters
+    ----------
+    points : ndarray of shape (N, 3)
+        Of the gear flank in its own frame [m].
+    turns : ndarray of shape (N,)
+        Rotation of the gear at each point [rad].
+    found : ndarray of shape (N, 4)
+        u [m], th, ph, rotation [rad] of the pinion: near on entry, the solution on return, NaN
+        where there is none.
+    """
+    for i in range(points.shape[0]):
+        own = Vector(points[i, 0], points[i, 1], points[i, 2])
+        target = place_point(turned(gear_base, turns[i]), own)
+        if intersect_rotation(pinion, pinion_base, target, found[i]) != HIT:
+            found[i, :] = math.nan

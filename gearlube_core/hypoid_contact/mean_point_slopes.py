@@ -11,9 +11,10 @@ from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.flank_intersection import HIT, intersect_rotation
 from gearlube_core.hypoid_contact.placement import ALIGNED, pinion_placement
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
-from gearlube_core.hypoid_geometry.flank.cutting_motion import cut_state, unit_normal
+from gearlube_core.hypoid_geometry.flank.cutting_motion import CutState, cut_state, unit_normal
 from gearlube_core.hypoid_geometry.flank.machine_check import turn_to
-from gearlube_core.hypoid_geometry.flank.machine_frames import ReferenceCut
+from gearlube_core.hypoid_geometry.flank.machine_frames import ReferenceCut, reference_point
+from gearlube_core.hypoid_geometry.flank.surface_point import CONVERGED, locate
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 
 _ITERATIONS = 12
@@ -47,8 +48,8 @@ def mean_point_slopes(
     ----------
     [litvin_fuentes_2004 ch. 6] (equation of meshing).
     """
-    state = cut_state(gear.motion, 0.0, gear.cutter_angle, gear.cradle_angle)
     axis = blank.gear_axis
+    state = _gear_state(gear, blank)
     start = turn_to(axis, np.array(state.r), blank, np.zeros(3))
     own = np.array([state.r, unit_normal(state), state.r_th])
     work, point = np.array(pinion.motion.work_axis), np.array(pinion.motion.work_point)
@@ -83,3 +84,18 @@ def mean_point_slopes(
             across = np.cross(n, lengthwise)
             return float((facing - n) @ lengthwise), float((facing - n) @ across)
     return math.nan, math.nan
+
+
+def _gear_state(gear: ReferenceCut, blank: HypoidBlank) -> CutState:
+    """Return the gear's flank at the mean point's radius and axial position.
+
+    A form-cut flank passes the blades' mean point, a generated one runs a little below it.
+    """
+    place = np.array([0.0, gear.cutter_angle, gear.cradle_angle])
+    if gear.motion.generated:
+        mean, axis = reference_point(blank), blank.gear_axis
+        axial = float(mean @ axis)
+        radius = float(np.linalg.norm(mean - axial * axis))
+        if locate(gear.motion, radius, axial, place) != CONVERGED:
+            place[:] = math.nan
+    return cut_state(gear.motion, *place)

@@ -255,6 +255,35 @@ def cut_strip(
     on_pinion = _facing_parameters(
         pinion.motion, pair.pinion_placed(pinion_angle), stacked, x, y, frame.pinion_start
     )
+    return facing_cells(pair, gear_angle, frame, cell, on_gear, on_pinion)
+
+
+def facing_cells(
+    pair: FlankPair,
+    gear_angle: float,
+    frame: StripFrame,
+    cell: tuple[float, float],
+    on_gear: Array,
+    on_pinion: Array,
+    *,
+    beyond: bool = False,
+) -> Strip:
+    """Return gaps and arms of cells whose points on both flanks are known.
+
+    Parameters
+    ----------
+    pair : FlankPair
+    gear_angle : float
+        [rad]
+    frame : StripFrame
+    cell : tuple of float
+        Sides of a cell in the tangent plane [m].
+    on_gear, on_pinion : ndarray of shape (..., 4)
+        u [m], th, ph [rad] of the points and their height over the tangent plane [m].
+    beyond : bool
+        Whether cells beyond the edges of either tooth have a gap too.
+    """
+    gear, pinion = pair.gear, pair.pinion
     gear_surface = gear.sample_parameters(on_gear[..., :3])
     pinion_surface = pinion.sample_parameters(on_pinion[..., :3])
     point, normal = pair.gear_in_place(gear_angle, gear_surface.r, gear_surface.normal)
@@ -266,7 +295,10 @@ def cut_strip(
         & (pinion_surface.regularity > 0.0)
         & (cosine > 0.5)
     )
-    gap = np.where(there, (on_pinion[..., 3] - on_gear[..., 3]) * cosine, np.inf)
+    if beyond:
+        there = np.isfinite(cosine) & np.isfinite(on_pinion[..., 3])
+    removed = gear.removal(gear_surface.r) + pinion.removal(pinion_surface.r)
+    gap = np.where(there, (on_pinion[..., 3] - on_gear[..., 3]) * cosine + removed, np.inf)
     arm = closing_arm(pair, point, normal)
     return Strip(
         frame,

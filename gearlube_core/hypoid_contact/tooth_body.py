@@ -79,15 +79,17 @@ def pair_stiffness(
     *,
     cache: Path | None = None,
     jobs: int | None = None,
+    keep: bool = True,
 ) -> dict[Side, PairStiffness]:
     """Return the elastic data of the drive and the coast flanks; members in parallel.
 
     The hats' profile positions are those of the whole flank, root 0 to tip 1.
+    `keep`: whether new compliances go into the cache.
     """
     roles: tuple[Role, Role] = ("pinion", "gear")
     bodies = {role: tooth_body(file, role, settings) for role in roles}
     flanks = members_compliance(
-        {role: geometry for role, (geometry, _) in bodies.items()}, settings, cache, jobs
+        {role: geometry for role, (geometry, _) in bodies.items()}, settings, cache, jobs, keep
     )
     pinion, gear = (_by_side(file, role, flanks[role], bodies[role][1]) for role in roles)
     modulus = contact_modulus(settings.solid, settings.solid)

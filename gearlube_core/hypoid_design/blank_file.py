@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 from gearlube_core.hypoid_design.blank_sections import (
     BlankCutter,
     BlankDepth,
+    BlankMachine,
     BlankPair,
     WantedContact,
 )
@@ -59,6 +60,7 @@ class BlankFile(InputFile):
     cutter: BlankCutter
     depth: BlankDepth = BlankDepth()
     contact: WantedContact = WantedContact()
+    machine: BlankMachine = BlankMachine()
 
     @model_validator(mode="after")
     def _check_relations(self) -> BlankFile:
@@ -138,7 +140,7 @@ class BlankFile(InputFile):
             elif name in chosen:
                 found.append(InputNote(name, chosen[name][0], "", "assumed", chosen[name][1]))
             elif value is not None:
-                usual = _OWN if name.startswith("contact.") else _USUAL
+                usual = _OWN if name.startswith(("contact.", "machine.")) else _USUAL
                 found.append(InputNote(name, value, note.unit, "assumed", usual))
         return found
 

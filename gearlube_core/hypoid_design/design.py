@@ -18,7 +18,7 @@ from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.hypoid_design.flank_target import FlankTarget, MeanContact
 from gearlube_core.hypoid_design.measured_contact import MeasuredContact, measured_contact
 from gearlube_core.hypoid_design.pinion_fit import SIDES, Fit, fit_pinion
-from gearlube_core.hypoid_design.start_settings import image_pair
+from gearlube_core.hypoid_design.start_settings import start_pair
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.progress import Progress, no_progress
@@ -63,7 +63,8 @@ class Design:
 def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
     """Return the machine settings of a pair whose contact comes nearest to what the file asks.
 
-    The gear is form-cut on the blank. The pinion starts as the gear's image, which is conjugate,
+    The gear is cut on the blank. The pinion starts as the image of a form-cut gear, which is
+    conjugate to it,
     and its settings are fitted so that both flanks stand off as asked. The unloaded contact
     analysis then judges; what it finds too much or too little is taken off the targets, and the
     fit goes on from there.
@@ -83,7 +84,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
     progress(0.0, "blank")
     designed = DesignedBlank.from_file(file)
     warnings = check_blank(designed)
-    start = image_pair(designed)
+    start = start_pair(designed)
     free = {
         "drive": file.contact.drive_path_angle_deg is None,
         "coast": file.contact.coast_path_angle_deg is None,
@@ -107,7 +108,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
     best = min(attempts, key=_missed)
     found = named_file(designed, best.fit.file)
     progress(1.0, "checks")
-    _check(found, best.fit)
+    _check(found, best.fit, file.machine.denied)
     return Design(
         designed=designed,
         file=found,
@@ -150,17 +151,16 @@ def nearest_fit(
     ----------
     designed : DesignedBlank
     start : HypoidGearFile
-        From `image_pair`.
+        From `start_pair`.
     targets : dict of str to FlankTarget
         Of both sides; each may have its own place and ellipse.
     progress : callable, optional
     """
     asked, first = targets, None
-    curved = designed.file.contact.curved_blades
     rounds: list[Attempt] = []
     for number in range(ROUNDS):
         progress((number + 0.1) / ROUNDS, f"pinion settings, round {number + 1}")
-        fit = fit_pinion(start, asked, curved_blades=curved, first=first)
+        fit = fit_pinion(start, asked, freedoms=designed.file.machine, first=first)
         progress((number + 0.7) / ROUNDS, "unloaded contact")
         measured = {side: measured_contact(fit.file, side) for side in SIDES}
         far = {side: _far(targets[side], measured[side], designed) for side in SIDES}
@@ -252,7 +252,7 @@ def _far(target: FlankTarget, found: Measured, designed: DesignedBlank) -> float
 
 def named_file(designed: DesignedBlank, file: HypoidGearFile) -> HypoidGearFile:
     """Return the gear file with the origin of every number: the blank implied, the rest chosen."""
-    data = file.model_dump(exclude_none=True)
+    data = file.model_dump(exclude_defaults=True)
     implied, chosen = [], []
     for role in ("pinion", "gear"):
         for key, value in data[role].items():
@@ -274,7 +274,7 @@ def _rounded(value: Any) -> Any:
     return round(value, 7) if isinstance(value, float) else value
 
 
-def _check(found: HypoidGearFile, fit: Fit) -> None:
+def _check(found: HypoidGearFile, fit: Fit, denied: str) -> None:
     try:
         check_pair(found)
     except ParameterError as reason:
@@ -282,6 +282,7 @@ def _check(found: HypoidGearFile, fit: Fit) -> None:
         raise ParameterError(
             f"No machine settings were found with which both flanks touch as asked; the gaps came "
             f"within {near} (rms) of the wanted ones. {reason} Ask for a larger "
-            "contact.drive_error_urad or coast_error_urad, a path nearer to that across the lines "
-            "of contact (drive_path_angle_deg, coast_path_angle_deg), or allow curved_blades."
+            "contact.drive_error_urad or coast_error_urad, or a path nearer to that across the "
+            "lines of contact (drive_path_angle_deg, coast_path_angle_deg)"
+            f"{f', or allow {denied}' if denied else ''}."
         ) from None

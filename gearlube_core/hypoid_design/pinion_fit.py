@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -12,6 +13,7 @@ from scipy.optimize import least_squares
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_design.blank_sections import BlankMachine
 from gearlube_core.hypoid_design.conjugate_flank import ConjugateFlank, PinionGap, conjugate_flank
 from gearlube_core.hypoid_design.flank_target import (
     FlankTarget,
@@ -49,14 +51,16 @@ class Setting(NamedTuple):
     unit: float
 
 
+TILT, SWIVEL = "pinion.machine.tilt_angle_deg", "pinion.machine.basic_swivel_angle_deg"
+# tilt and swivel move as a vector, the tilt along and across its first direction: tilt may be zero
 MACHINE = (
     Setting("pinion.machine.sliding_base_mm", 0.1),
     Setting("pinion.machine.blank_offset_mm", 0.1),
     Setting("pinion.machine.machine_root_angle_deg", 0.1),
     Setting("pinion.machine.machine_center_to_back_mm", 0.1),
     Setting("pinion.machine.radial_setting_mm", 0.1),
-    Setting("pinion.machine.basic_swivel_angle_deg", 0.1),
-    Setting("pinion.machine.tilt_angle_deg", 0.1),
+    Setting(TILT, 0.1),
+    Setting(SWIVEL, 0.1),
     Setting("pinion.machine.ratio_of_roll", 0.005),
     Setting("pinion.cutter.point_radius_mm", 0.1),
     Setting("pinion.cutter.concave_flank_blade_angle_deg", 0.1),
@@ -67,6 +71,11 @@ EDGES: tuple[Setting, ...] = tuple(
     Setting(f"pinion.cutter.{CURVES['pinion', side]}_flank_edge_radius_mm", 2e-4) for side in SIDES
 )
 _FIRST_EDGE = 2.0  # units: a radius of 2.5 m
+MODIFIED_ROLL = (
+    Setting("pinion.machine.modified_roll_2c", 0.005),
+    Setting("pinion.machine.modified_roll_6d", 0.02),
+)
+HELICAL_MOTION = (Setting("pinion.machine.helical_motion_mm_per_rad", 0.2),)
 
 
 @dataclass(frozen=True)
@@ -158,7 +167,7 @@ def fit_pinion(
     start: HypoidGearFile,
     targets: dict[Side, FlankTarget],
     *,
-    curved_blades: bool = True,
+    freedoms: BlankMachine,
     first: Array | None = None,
     progress: Callable[[float], None] = lambda misfit: None,
 ) -> Fit:
@@ -173,8 +182,8 @@ def fit_pinion(
         Its gear stays; its pinion is nearly conjugate.
     targets : dict of str to FlankTarget
         Of both sides.
-    curved_blades : bool
-        Whether the blades of each flank may get a hollow edge, each its own radius.
+    freedoms : BlankMachine
+        Which settings may move besides those that every machine has.
     first : ndarray, optional
         Moves to begin with.
     progress : callable
@@ -186,13 +195,22 @@ def fit_pinion(
         When a target asks for what the mesh does not have.
     """
     problems = {side: side_problem(start, targets[side], side) for side in SIDES}
-    values = np.array([start_value(start, one.field) for one in MACHINE])
-    units = np.array([one.unit for one in MACHINE])
+    machine = (
+        *MACHINE,
+        *(MODIFIED_ROLL if freedoms.modified_roll else ()),
+        *(HELICAL_MOTION if freedoms.helical_motion else ()),
+    )
+    values = np.array([start_value(start, one.field) for one in machine])
+    fields = [one.field for one in machine]
+    swivel = values[fields.index(SWIVEL)]
+    values[fields.index(SWIVEL)] = 0.0
+    units = np.array([one.unit for one in machine])
     count = [0]
 
     def file_at(x: Array) -> HypoidGearFile:
         moved = values + units * x[: units.size]
-        changes = {one.field: float(v) for one, v in zip(MACHINE, moved, strict=True)}
+        changes = {one.field: float(v) for one, v in zip(machine, moved, strict=True)}
+        changes |= _tilted(changes[TILT], changes[SWIVEL], swivel)
         for one, bend in zip(EDGES, x[units.size :], strict=False):
             changes[one.field] = 1.0 / max(one.unit * float(bend), 1.0 / _FLATTEST)
         return start.varied(changes)
@@ -223,7 +241,7 @@ def fit_pinion(
         steps = _STEP * np.eye(x.size)
         return np.stack([(residual(x + step) - at) / _STEP for step in steps], axis=1)
 
-    size = units.size + (len(EDGES) if curved_blades else 0)
+    size = units.size + (len(EDGES) if freedoms.curved_blades else 0)
     low = np.full(size, -np.inf)
     low[units.size :] = 0.0
     begin = np.where(np.isinf(low), 0.0, _FIRST_EDGE) if first is None else first
@@ -241,6 +259,15 @@ def fit_pinion(
     rms = {side: MICRON * float(np.sqrt(np.mean(found[side][0] ** 2))) for side in SIDES}
     backlash = sum(closing for _, closing in found.values())
     return Fit(file, solved.x, rms, backlash, count[0])
+
+
+def _tilted(along: float, across: float, swivel: float) -> dict[str, float]:
+    """Return tilt and swivel angle [deg] of a tilt with two components [deg] from a swivel angle.
+
+    The cutter axis leans to the azimuth q - j - 90 deg, so the swivel angle j counts backwards.
+    """
+    turn = math.degrees(math.atan2(across, along))
+    return {TILT: math.hypot(along, across), SWIVEL: swivel + turn}
 
 
 def start_value(file: HypoidGearFile, field: str) -> float:

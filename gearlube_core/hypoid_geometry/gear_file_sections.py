@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from gearlube_core.input_file.input_file import Section
 
@@ -19,11 +19,26 @@ ConeAngle = Annotated[float, Field(ge=1.0, le=89.0, allow_inf_nan=False)]
 SpiralAngle = Annotated[float, Field(ge=0.0, le=65.0, allow_inf_nan=False)]
 Slant = Annotated[float, Field(ge=-90.0, le=90.0, allow_inf_nan=False)]
 TiltAngle = Annotated[float, Field(ge=0.0, le=80.0, allow_inf_nan=False)]
+ModifiedRoll = Annotated[float, Field(ge=-1.0, le=1.0, allow_inf_nan=False)]
+HelicalMotion = Annotated[float, Field(ge=-50.0, le=50.0, allow_inf_nan=False)]
 RollRatio = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False)]
 PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
 Clearance = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
 BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False)]
 Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False)]
+Removal = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
+Crown = Annotated[float, Field(ge=-500.0, le=500.0, allow_inf_nan=False)]
+Extent = Annotated[float, Field(gt=0.0, le=200.0, allow_inf_nan=False)]
+Rounding = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False)]
+
+RELIEFS = (  # amount and extent of the relief of each edge
+    ("tip_relief_um", "tip_relief_depth_mm"),
+    ("root_relief_um", "root_relief_depth_mm"),
+    ("toe_relief_um", "toe_relief_length_mm"),
+    ("heel_relief_um", "heel_relief_length_mm"),
+)
+_LEAST_RELIEF, _MOST_RELIEF = 0.5, 500.0  # um
+_STEEPEST = 0.1  # amount over extent: the removal stays along the normal
 
 
 class Cutter(Section):
@@ -81,8 +96,8 @@ class Cutter(Section):
         return self.blade_edge_radius_mm if own is None else own
 
 
-class FormateMachine(Section):
-    """Machine settings of a form-cut (not generated) gear."""
+class GearMachine(Section):
+    """Machine settings of a gear, form-cut or generated without tilt."""
 
     machine_root_angle_deg: ConeAngle = Field(
         description="From the gear axis to the reference plane of the cutter"
@@ -98,6 +113,17 @@ class FormateMachine(Section):
     vertical_setting_mm: Millimetres = Field(
         description="Cutter centre from the machine centre, parallel to the offset and positive "
         "on the side of the pinion axis"
+    )
+    ratio_of_roll: RollRatio | None = Field(
+        None,
+        description="Rotation of the gear per rotation of the cradle, about the cutter's direction "
+        "through the machine centre; absent: form-cut (Formate)",
+    )
+    sliding_base_mm: Millimetres = Field(
+        0.0,
+        description="From the machine centre to the reference plane, along the cutter axis, "
+        "positive away from the blade tips; the centre then is where the cradle axis meets the "
+        "gear axis",
     )
 
 
@@ -134,6 +160,76 @@ class GeneratorMachine(Section):
         description="i: angle between the cutter axis and the cradle axis"
     )
     ratio_of_roll: RollRatio = Field(description="Rotation of the work per rotation of the cradle")
+    modified_roll_2c: ModifiedRoll = Field(
+        0.0,
+        description="2C [1/rad]: at the cradle angle f from its basic position the work has turned "
+        "by the ratio of roll times f - 2C f^2/2 - 6D f^3/6",
+    )
+    modified_roll_6d: ModifiedRoll = Field(
+        0.0, description="6D [1/rad^2]: the next coefficient of modified roll"
+    )
+    helical_motion_mm_per_rad: HelicalMotion = Field(
+        0.0, description="Growth of the sliding base per cradle angle (helical motion)"
+    )
+
+
+class FlankRelief(Section):
+    """Material taken off one flank as it is cut, along its normal."""
+
+    tip_relief_um: Removal = Field(0.0, description="At the tip edge; 0: none")
+    tip_relief_depth_mm: Extent | None = Field(
+        None, description="Tooth height from the tip over which it falls to nothing, a parabola"
+    )
+    root_relief_um: Removal = Field(0.0, description="At the root line; 0: none")
+    root_relief_depth_mm: Extent | None = Field(
+        None, description="Tooth height from the root line, likewise"
+    )
+    toe_relief_um: Removal = Field(0.0, description="At the toe; 0: none")
+    toe_relief_length_mm: Extent | None = Field(
+        None, description="Length from the toe along the pitch cone, likewise"
+    )
+    heel_relief_um: Removal = Field(0.0, description="At the heel; 0: none")
+    heel_relief_length_mm: Extent | None = Field(
+        None, description="Length from the heel along the pitch cone, likewise"
+    )
+    tip_edge_radius_mm: Rounding = Field(
+        0.0, description="Rounding of the tip edge; 0: sharp. Half of it is taken off at the edge"
+    )
+    end_edge_radius_mm: Rounding = Field(
+        0.0, description="Rounding of the edges at toe and heel, likewise"
+    )
+    profile_crown_um: Crown = Field(
+        0.0, description="Parabola over the tooth height: removed at tip and root"
+    )
+    lead_crown_um: Crown = Field(
+        0.0, description="Parabola over the face width: removed at toe and heel"
+    )
+    twist_um: Crown = Field(
+        0.0,
+        description="Removed at the tip of the heel and the root of the toe, left standing as much "
+        "at the other corners, none along the middle lines",
+    )
+
+    @model_validator(mode="after")
+    def _check_reliefs(self) -> FlankRelief:
+        for name in type(self).model_fields:
+            amount = abs(getattr(self, name) or 0.0)
+            if name.endswith("_um") and 0.0 < amount < _LEAST_RELIEF:
+                raise ValueError(
+                    f"{name} must be 0 or {_LEAST_RELIEF:g} to {_MOST_RELIEF:g} um, got {amount:g} "
+                    f"um. Is it in mm? {amount:g} mm is {1e3 * amount:g} um"
+                )
+        for name, extent in RELIEFS:
+            amount, reach = getattr(self, name), getattr(self, extent)
+            if amount > 0.0 and reach is None:
+                raise ValueError(f"{extent} is missing; it must be above 0 mm where {name} is")
+            if reach is not None and amount > _STEEPEST * 1e3 * reach:
+                raise ValueError(
+                    f"{name} must be at most {100.0 * _STEEPEST:g} % of {extent}, "
+                    f"{_STEEPEST * 1e3 * reach:g} um, got {amount:g} um. Make the relief longer; "
+                    "an edge radius makes a steep edge"
+                )
+        return self
 
 
 class Member(Section):
@@ -155,6 +251,8 @@ class Member(Section):
         description="Apex of the face cone, positive beyond the crossing point"
     )
     cutter: Cutter
+    drive_flank: FlankRelief | None = None
+    coast_flank: FlankRelief | None = None
 
 
 class Pinion(Member):
@@ -166,7 +264,7 @@ class Pinion(Member):
 class Gear(Member):
     """Blank, cutter and machine of the gear."""
 
-    machine: FormateMachine
+    machine: GearMachine
 
 
 class Pair(Section):

@@ -14,6 +14,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_m_s": "m/s",
     "_hz": "Hz",
     "_mm": "mm",
+    "_mm_per_rad": "mm/rad",
     "_um": "um",
     "_deg": "deg",
     "_degc": "degC",

@@ -67,6 +67,7 @@ def cached_tooth_compliance(
     solid: Solid,
     settings: CondensationSettings,
     folder: Path | str | None = None,
+    keep: bool = True,
 ) -> tuple[FlankCompliance, FlankCompliance]:
     """Return `tooth_compliance` of these arguments, read from the disk if stored there.
 
@@ -77,6 +78,8 @@ def cached_tooth_compliance(
     folder
         Where to keep results; without it the environment variable GEARLUBE_CACHE decides, or
         the user's cache folder.
+    keep
+        Whether to store what is computed.
 
     Notes
     -----
@@ -85,6 +88,8 @@ def cached_tooth_compliance(
     flanks = stored_tooth_compliance(geometry, solid, settings, folder)
     if flanks is None:
         flanks = tooth_compliance(geometry, solid, settings)
+        if not keep:
+            return flanks
         record = {
             f"{side}_{name}": getattr(flank, name)
             for side, flank in zip(SIDES, flanks, strict=True)

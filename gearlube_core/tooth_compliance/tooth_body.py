@@ -49,6 +49,7 @@ def members_compliance(
     settings: ToothBodySettings,
     cache: Path | None,
     jobs: int | None,
+    keep: bool = True,
 ) -> dict[_Member, tuple[FlankCompliance, FlankCompliance]]:
     """Return the compliance of the left and the right flank of each member's tooth.
 
@@ -63,6 +64,8 @@ def members_compliance(
     jobs
         1: in this process. Otherwise teeth that are not in the cache have a process each where
         there are several.
+    keep
+        Whether new compliances go into the cache.
     """
     solid, condensation = settings.solid, settings.condensation
     found = {}
@@ -73,7 +76,7 @@ def members_compliance(
     missing = [member for member in teeth if member not in found]
     processes = 1 if jobs == 1 else len(missing)
     with ProcessPool(jobs=processes).open(len(missing)) as executor:
-        arguments = [(teeth[member], solid, condensation, cache) for member in missing]
+        arguments = [(teeth[member], solid, condensation, cache, keep) for member in missing]
         if executor is None:
             computed = [cached_tooth_compliance(*values) for values in arguments]
         else:

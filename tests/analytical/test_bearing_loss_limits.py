@@ -16,7 +16,8 @@ from gearlube_core.bearings.losses.aihara_1987 import (
 from gearlube_core.bearings.losses.geometry import Rib
 from gearlube_core.bearings.losses.goksem_hargreaves_1978 import goksem_hargreaves_force
 from gearlube_core.bearings.losses.ring_loads import roller_loads_between_rings
-from gearlube_core.bearings.losses.zhou_hoeprich_1991 import asperity_share, zhou_hoeprich_force
+from gearlube_core.bearings.losses.zhou_hoeprich_1991 import zhou_hoeprich_force
+from gearlube_core.contact.asperity_share import asperity_share
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.film.biboulet_houpert_2010 import (

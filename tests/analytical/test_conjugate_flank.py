@@ -13,7 +13,7 @@ from gearlube_core.hypoid_design.conjugate_flank import PinionGap, conjugate_fla
 from gearlube_core.hypoid_design.designed_blank import DesignedBlank
 from gearlube_core.hypoid_design.flank_target import MeanContact
 from gearlube_core.hypoid_design.measured_contact import measured_contact
-from gearlube_core.hypoid_design.start_settings import image_pair
+from gearlube_core.hypoid_design.start_settings import image_pair, start_pair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 SIDES = ("drive", "coast")
@@ -58,6 +58,15 @@ def test_the_image_of_a_form_cut_gear_is_conjugate_to_it(changes, micrometres, s
     flank, found = gap(image(changes), side)
     closed = found - found.mean() / flank.arm.mean() * flank.arm
     assert 1e6 * np.abs(closed).max() < micrometres
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_bevel_gears_generated_by_one_crown_gear_are_conjugate(side):
+    """Each is conjugate to the crown gear, in the same line at the same time."""
+    blank = SAMPLE.varied(BEVEL | {"machine.gear": "generated"})
+    flank, found = gap(start_pair(DesignedBlank.from_file(blank)), side)
+    closed = found - found.mean() / flank.arm.mean() * flank.arm
+    assert 1e6 * np.abs(closed).max() < 1e-4
 
 
 @pytest.mark.parametrize("side", SIDES)

@@ -76,7 +76,28 @@ def test_a_path_along_the_lines_of_contact_is_refused_with_the_direction_to_take
         design_pair(SAMPLE.varied({"contact.drive_path_angle_deg": 156.0}))
 
 
+GENERATED = {"machine.gear": "generated"}
+DUPLEX = {
+    "machine.curved_blades": False,
+    "machine.modified_roll": True,
+    "machine.helical_motion": True,
+}
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("changes", [BEVEL, {"cutter.blade_groups": 5}])
-def test_bevel_and_face_hobbed_pairs_have_the_contact_that_was_asked(changes):
-    check_near(design_pair(SAMPLE.varied(changes)))
+@pytest.mark.parametrize(
+    "changes",
+    [
+        BEVEL,
+        {"cutter.blade_groups": 5},
+        GENERATED,
+        BEVEL | GENERATED,
+        GENERATED | {"cutter.blade_groups": 5},
+        DUPLEX,
+        GENERATED | DUPLEX,
+    ],
+)
+def test_other_processes_have_the_contact_that_was_asked(changes):
+    design = design_pair(SAMPLE.varied(changes))
+    check_near(design)
+    check_pair(design.file)

@@ -6,7 +6,11 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import ellipe, erfc
 
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.greenwood_tripp_1971 import (
+    SurfaceParameters,
+    asperity_area,
+    asperity_load,
+)
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
 from gearlube_core.dynamics.packed_mesh import PRESSURE, R_E
@@ -15,6 +19,7 @@ from gearlube_core.friction.flank_data import (
     AS_PRINTED,
     CONSISTENT,
     PRINTED_TRACTION,
+    ZHOU_HOEPRICH_SHARE,
     FlankState,
     contact_geometry,
 )
@@ -150,7 +155,40 @@ def test_friction_is_even_in_the_direction_of_sliding_and_rolling() -> None:
     assert flank(LOAD, ROLLING, -SLIDING) == flank(LOAD, ROLLING, SLIDING)
 
 
-@pytest.mark.parametrize("form", [CONSISTENT, AS_PRINTED, PRINTED_TRACTION])
+def test_film_and_asperities_of_the_share_carry_the_load_once_between_them() -> None:
+    """f_v = mu F (1 - s), f_b = gamma F s + tau A_a, s = exp(-2.32 Lambda^0.97)."""
+    plain = flank(LOAD, ROLLING, SLIDING)
+    state = flank(LOAD, ROLLING, SLIDING, ZHOU_HOEPRICH_SHARE)
+    area = LOAD / state.mean_pressure
+    of_law = asperity_load(plain.film_ratio, area, E_STAR, SURFACE)
+    junctions = OIL.tau_l0 * asperity_area(plain.film_ratio, area, SURFACE)
+    mu = plain.viscous_friction / (LOAD - of_law)  # of the same film
+    share = math.exp(-2.32 * plain.film_ratio**0.97)
+    assert 0.05 < share < 0.5  # mixed
+    assert state.viscous_friction == pytest.approx(mu * LOAD * (1.0 - share), rel=1e-12)
+    expected = OIL.gamma * LOAD * share + junctions
+    assert state.boundary_friction == pytest.approx(expected, rel=1e-8)  # asperity integrals
+
+
+def test_without_a_film_asperities_carry_all_load_by_the_share_and_little_by_the_usual_law() -> (
+    None
+):
+    creep, slip = 1e-7, 10.0 * BOUNDARY_SPEED
+    state = flank(LOAD, creep, slip, ZHOU_HOEPRICH_SHARE)
+    assert state.film_ratio < 1e-4  # the share is 1 to 2.32 (1e-4)^0.97 = 3e-4
+    assert state.boundary_friction >= OIL.gamma * LOAD * (1.0 - 3e-4)
+    assert state.viscous_friction < 1e-3 * state.boundary_friction
+    usual = flank(LOAD, creep, slip)
+    # (16 sqrt 2/15) pi 0.055^2 0.001^0.5 115.4 GPa 0.617 = 32 MPa, the integral at 0
+    assert usual.boundary_friction < OIL.gamma * 33e6 * LOAD / usual.mean_pressure + 0.02 * LOAD
+    fast = flank(LOAD, 300.0, SLIDING, ZHOU_HOEPRICH_SHARE)
+    assert fast.film_ratio > 10.0  # asperities carry 1e-9
+    assert fast.viscous_friction == pytest.approx(
+        flank(LOAD, 300.0, SLIDING).viscous_friction, rel=1e-8
+    )
+
+
+@pytest.mark.parametrize("form", [CONSISTENT, AS_PRINTED, PRINTED_TRACTION, ZHOU_HOEPRICH_SHARE])
 def test_an_unloaded_flank_has_no_friction(form: int) -> None:
     for load in (0.0, -100.0):
         state = flank(load, ROLLING, SLIDING, form)

@@ -82,3 +82,25 @@ def test_more_torque_loses_more_and_the_slope_falls_with_speed(power):
     assert np.all(np.diff(slope) < 0.0)  # thicker films, faster sliding: less traction
     # friction of 0.02 to 0.06 and sliding of a third of the pitch speed: 1 to 4 %
     assert np.all((slope > 0.01) & (slope < 0.04))
+
+
+def test_hot_oil_raises_the_flank_loss_only_where_asperities_can_carry_the_load():
+    """Slow flanks have no film in hot oil; fast ones lose least in between."""
+    flanks = {}
+    for law in ("consistent", "zhou_hoeprich_1991"):
+        found = axle_losses(
+            replace(gl.mohammadpour_2015_axle(), friction=law),
+            torques=np.array([300.0]),
+            speeds=np.array([3.0, 200.0]),
+            temperatures=np.array([40.0, 60.0, 120.0]) + 273.15,
+            angles=8,
+            extremes=False,
+        ).power
+        flanks[law] = part(found, "friction_viscous", "friction_boundary")[..., 0]
+    slow, fast = flanks["zhou_hoeprich_1991"].T
+    assert slow[0] < slow[1] < slow[2]
+    assert fast[1] < fast[0] < fast[2]
+    # asperities that carry at most 32 MPa leave the film its load: colder oil always loses more
+    assert np.all(np.diff(flanks["consistent"], axis=0) < 0.0)
+    # without a film the flanks rub at the boundary coefficient: 0.17 of the load
+    assert slow[2] / flanks["consistent"][2, 0] > 3.0

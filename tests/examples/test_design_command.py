@@ -65,7 +65,7 @@ def test_what_cannot_be_designed_is_refused_and_nothing_is_left(tmp_path, caplog
 
 @pytest.mark.slow
 def test_without_curved_blades_the_report_says_how_near_it_came_and_what_to_relax():
-    file = BlankFile.named("hypoid_13_42").varied({"contact.curved_blades": False})
+    file = BlankFile.named("hypoid_13_42").varied({"machine.curved_blades": False})
     said = " ".join(unmet_targets(design_pair(file)))
     assert "coast flanks" in said
-    assert "Or allow contact.curved_blades" in said
+    assert "Or allow machine.curved_blades" in said

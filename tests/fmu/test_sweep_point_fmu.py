@@ -92,6 +92,37 @@ def test_higher_preload_raises_every_bearing_mode_by_the_power_of_one_twentieth(
     assert modes[1] / modes[0] == pytest.approx((6000.0 / 2500.0) ** 0.05, rel=5e-3)
 
 
+def test_the_oil_of_a_steady_point_is_as_warm_as_the_air_lets_it_be(axle_folder):
+    short = {"settling_time": 0.05, "record_time": 0.05, "cage_turns": 0.3}
+    settings = SweepSettings(
+        driver="hold",
+        oil_state="steady",
+        air_temperature=283.15,
+        bearing_torque_loss="none",
+        **short,
+    )
+    point = run_point(axle_folder, 60.0, 6000.0, settings)
+    assert int(point["status"]) == 1, str(point["message"].values)
+    # 7 W/K at rest and 18 W/K at 100 km/h, between them with speed^0.8 as along a plate
+    conductance = 7.0 + 11.0 * 0.6**0.8
+    heat = conductance * (float(point["oil_temperature"]) - 283.15)
+    # the march swings about the mean that the balance takes: within 1 %, and it lasts 0.05 s
+    assert float(point["loss"].sum()) == pytest.approx(heat, rel=0.01)
+    assert heat > 100.0  # W
+
+
+def test_steady_oil_beyond_its_data_is_a_failed_point_that_says_so(axle_folder):
+    settings = SweepSettings(
+        driver="hold", oil_state="steady", conductance_at_rest=0.1, conductance_at_100_kmh=0.1,
+        **SHORT,
+    )  # fmt: skip
+    point = run_point(axle_folder, 60.0, 2500.0, settings)
+    assert int(point["status"]) == 0
+    said = str(point["message"].values)
+    assert "must come to rest below 423.15 K" in said
+    assert "a larger conductance" in said
+
+
 def test_point_outside_the_range_of_the_fmu_is_a_row_with_its_message(axle_folder):
     point = run_point(axle_folder, 60.0, -100.0, SweepSettings(driver="hold", **SHORT))
     assert int(point["status"]) == 0

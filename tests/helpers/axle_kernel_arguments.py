@@ -159,7 +159,7 @@ def all_cases():
         ),
         *(
             (bearing_drag.bearing_drag, (state, state_of_oil, p._replace(drag=law)))
-            for law in (0.0, 1.0, 2.0, 3.0, 4.0)
+            for law in (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
         ),
         (
             integrate.inputs_with_drag,

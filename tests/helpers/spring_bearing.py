@@ -51,7 +51,7 @@ class SpringBearings(NamedTuple):
         return 0.0, 0.0, 0.0
 
     @kernel
-    def shaft_drag(self, speed, axial_load, oil):
+    def shaft_drag(self, speed, axial_load, radial_load, law, oil):
         return 0.0
 
     @kernel

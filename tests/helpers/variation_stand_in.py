@@ -43,6 +43,9 @@ class AreaStudy:
     def identity(self):
         return f"{self.fails_at}"
 
+    def prepared(self, texts):
+        return self
+
     def check(self, point):
         check_within("length_mm", point.get("length_mm", 2.0), 0.0, 100.0, "mm", "Make it shorter.")
 

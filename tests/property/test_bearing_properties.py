@@ -76,15 +76,15 @@ def test_energy_is_convex_in_the_displacement(a1, a2, a3, b1, b2, b3, th):
 
 @given(speed, st.floats(0.0, 2e4), st.floats(1e-6, 1e-3))
 def test_drag_opposes_rotation_and_grows_with_load(w, load, nu):
-    drag = drag_torque(w, load, nu, TIGHT)
+    drag = drag_torque(w, load, 0.0, nu, TIGHT)
     assert drag * w >= 0.0
-    assert drag_torque(-w, load, nu, TIGHT) == -drag
-    assert abs(drag_torque(w, load + 100.0, nu, TIGHT)) >= abs(drag)
+    assert drag_torque(-w, load, 0.0, nu, TIGHT) == -drag
+    assert abs(drag_torque(w, load + 100.0, 0.0, nu, TIGHT)) >= abs(drag)
 
 
 def test_drag_passes_zero_speed_smoothly():
     w = np.linspace(-1e-3, 1e-3, 21)
-    drag = np.array([drag_torque(a, 2500.0, 19e-6, TIGHT) for a in w])
+    drag = np.array([drag_torque(a, 2500.0, 0.0, 19e-6, TIGHT) for a in w])
     slope = np.diff(drag) / np.diff(w)
     assert drag[10] == 0.0
     # w/sqrt(1 + w^2) is straight to w^2

@@ -64,11 +64,12 @@ def test_a_parameter_out_of_range_says_what_limit_and_cure(change, message):
         ("equations", "consistent, as_printed"),
         ("radii", "consistent, paper, mean"),
         ("mesh_damping", "hysteretic, modal"),
-        ("friction", "consistent, as_printed, off, printed_traction_circular"),
+        ("friction", "consistent, as_printed, off, printed_traction_circular, zhou_hoeprich_1991"),
         ("bearing_approach", "full, as_printed"),
         (
             "bearing_torque_loss",
-            "none, palmgren, zhou_hoeprich_1991, biboulet_houpert_2010, aihara_1987",
+            "none, palmgren, zhou_hoeprich_1991, biboulet_houpert_2010, aihara_1987, "
+            "palmgren_loaded, skf_2013",
         ),
     ],
 )

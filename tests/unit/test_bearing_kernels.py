@@ -53,7 +53,7 @@ CASES = [
     (shaft_energy.roller_energy, (8.0, 0.7, 1.3)),
     (shaft_energy.bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P, 1.0)),
     (shaft_energy.shaft_bearing_energy, (*MOTION[:3], 0.3, 145.0, *OIL, P)),
-    (palmgren_1959.drag_torque, (150.0, 2500.0, 19e-6, P)),
+    (palmgren_1959.drag_torque, (150.0, 2500.0, 0.0, 19e-6, P)),
 ]
 
 
@@ -130,6 +130,8 @@ def test_drag_follows_the_printed_units():
     M1 = 4e-4 * 2 * 0.4 / math.tan(math.radians(15)) * 2500.0 * 61.85
     # the smoothing factor is 1 - 2e-5 at 150 rad/s
     expected = 1e-3 * (M0 + M1) / math.sqrt(1 + 1 / speed**2)
-    assert palmgren_1959.drag_torque(speed, 2500.0, 19e-6, P) == pytest.approx(expected, rel=1e-12)
+    assert palmgren_1959.drag_torque(speed, 2500.0, 0.0, 19e-6, P) == pytest.approx(
+        expected, rel=1e-12
+    )
     slow = 1e-3 * (160e-7 * 6 * 61.85**3 + M1) / math.sqrt(1 + 1 / 25)
-    assert palmgren_1959.drag_torque(5.0, 2500.0, 19e-6, P) == pytest.approx(slow, rel=1e-12)
+    assert palmgren_1959.drag_torque(5.0, 2500.0, 0.0, 19e-6, P) == pytest.approx(slow, rel=1e-12)

@@ -22,6 +22,7 @@ from gearlube_core.bearings.losses import (
 )
 from gearlube_core.bearings.losses.geometry import Rib
 from gearlube_core.bearings.losses.loss import LossModel
+from gearlube_core.contact import asperity_share
 from gearlube_core.errors import ParameterError
 from gearlube_core.film import biboulet_houpert_2010, groups, zhu_cheng_1989
 from gearlube_core.oil.lubricant import Lubricant
@@ -36,7 +37,7 @@ CASES = [
     (biboulet_houpert_2010.biboulet_houpert_force, CONTACT),
     (biboulet_houpert_2010.biboulet_houpert_starvation, (1e-5, 1e-6)),
     (zhou_hoeprich_1991.zhou_hoeprich_force, CONTACT),
-    (zhou_hoeprich_1991.asperity_share, (0.5, 1.9, 0.99)),
+    (asperity_share.asperity_share, (0.5, 1.9, 0.99)),
     (goksem_hargreaves_1978.goksem_hargreaves_force, CONTACT),
     (aihara_1987.aihara_force, CONTACT),
     (aihara_1987.aihara_heating, (0.5,)),

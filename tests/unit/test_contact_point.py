@@ -11,6 +11,7 @@ from gearlube_core.hypoid_contact.contact_point import (
     TOUCHING,
     UNKNOWNS,
     find_contact,
+    linearise_contacts,
     solve_in_place,
 )
 from gearlube_core.hypoid_contact.ease_off import ease_off
@@ -62,6 +63,17 @@ def test_contact_search_gives_the_same_compiled_and_not(side):
     assert find_contact.py_func(*arguments, facing, y, rows) == TOUCHING
     # contraction of products and sums differs; Newton's last step is below 1e-10 of 0.1 rad
     np.testing.assert_allclose(x, y, rtol=0.0, atol=1e-12)
+
+
+def test_linearised_equations_are_the_same_compiled_and_not():
+    pair = shipped_pair("drive")
+    _, _, x = start_of_search("drive")
+    motions = pair.gear.motion, pair.pinion.motion, pair.gear_base, pair.pinion_base
+    found = np.empty((2, 1, UNKNOWNS, UNKNOWNS + 1))
+    for k, run in enumerate((linearise_contacts, linearise_contacts.py_func)):
+        run(*motions, np.array([pair.gear_turn(0.0)]), x[None], found[k])
+    # contraction of products and sums differs, in entries of order one
+    np.testing.assert_allclose(found[0], found[1], rtol=1e-9, atol=1e-12)
 
 
 def test_surfaces_whose_bodies_overlap_are_apart():

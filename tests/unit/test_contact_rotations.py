@@ -119,3 +119,17 @@ def test_centre_that_is_missed_is_looked_for_from_the_start_at_the_next_angle(mo
     assert found == pytest.approx(expected(3, without), nan_ok=True)
     assert flank.calls.count((2, *CENTRE)) == 1
     assert flank.calls.count((0, *CENTRE)) == 1
+
+
+def test_rotations_from_near_by_start_from_their_own_values(monkeypatch):
+    turns = np.zeros(1)
+    flank = Flank(turns, {(0, 1, 1)})
+    interpret(monkeypatch, contact_rotation_kernel, placement, vectors)
+    monkeypatch.setattr(contact_rotation_kernel, "intersect_rotation", flank)
+    places = [(0, 1), (1, 1), (3, 4)]
+    found = np.array([truth(0, *at) + 0.2 for at in places])
+    points = np.array([POINTS[at] for at in places])
+    contact_rotation_kernel.rotations_to_points("pinion", PINION, GEAR, points, np.zeros(3), found)
+    whole = np.array([truth(0, *at) for at in places])
+    whole[1] = math.nan  # where there is no flank
+    np.testing.assert_array_equal(found, whole)

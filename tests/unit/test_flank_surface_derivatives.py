@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from gearlube_core.hypoid_geometry.flank.cutting_motion import cut_state
 from gearlube_core.hypoid_geometry.flank.flank import Flank
@@ -11,12 +12,69 @@ from gearlube_core.hypoid_geometry.flank.surface_point import CONVERGED, locate,
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 FILE = HypoidGearFile.named("mohammadpour_2015")
-MEMBERS = [(role, side) for role in ("pinion", "gear") for side in ("drive", "coast")]
+BENT = FILE.varied(
+    {
+        "pinion.machine.modified_roll_2c": 0.08,
+        "pinion.machine.modified_roll_6d": -0.3,
+        "pinion.machine.helical_motion_mm_per_rad": 6.0,
+        # rolls on its pitch cone
+        "gear.machine.ratio_of_roll": 1.0 / math.sin(math.radians(FILE.gear.pitch_angle_deg)),
+    }
+)
+MEMBERS = [
+    (name, role, side)
+    for name in ("shipped", "bent")
+    for role in ("pinion", "gear")
+    for side in ("drive", "coast")
+]
 
 
 @pytest.fixture(scope="module", params=MEMBERS, ids="-".join)
 def flank(request):
-    return Flank.from_file(FILE, *request.param)
+    name, role, side = request.param
+    return Flank.from_file({"shipped": FILE, "bent": BENT}[name], role, side)
+
+
+@pytest.mark.parametrize("angle", [-0.2, 0.3])
+def test_modified_roll_turns_the_work_less_and_helical_motion_shifts_the_cutter(angle):
+    """The point of the plain motion, shifted and turned by hand."""
+    plain, bent = (Flank.from_file(file, "pinion", "drive").motion for file in (FILE, BENT))
+    bent = bent._replace(cos_offset=plain.cos_offset, sin_offset=plain.sin_offset)
+    here = np.array(cut_state(plain, 1e-3, 0.1, angle).r)
+    ratio, axis = plain.roll_ratio, np.array(plain.work_axis)
+    index = FILE.pinion.cutter.blade_groups / FILE.pinion.teeth
+    # the work stands at -(index 0.1 + ratio angle): from its axes to the machine's, and back
+    to_machine = Rotation.from_rotvec(-(index * 0.1 + ratio * angle) * axis)
+    shifted = to_machine.apply(here - plain.work_point) + 6e-3 * angle * np.array(plain.cradle_axis)
+    less = 0.08 * angle**2 / 2.0 - 0.3 * angle**3 / 6.0
+    back = Rotation.from_rotvec((index * 0.1 + ratio * (angle - less)) * axis)
+    expected = back.apply(shifted) + plain.work_point
+    np.testing.assert_allclose(cut_state(bent, 1e-3, 0.1, angle).r, expected, atol=1e-14)
+
+
+def test_a_generated_gear_is_convex_along_its_profile_as_its_virtual_spur_gear():
+    """On the pitch cone rho = r / cos(d) sin(a) / cos^2(b); a form-cut flank is straight there.
+
+    Involute of the virtual gear: mean radius r, pitch angle d, spiral angle b, blade angle a.
+    """
+    straight = {"gear.cutter.blade_edge_radius_mm": None, "gear.cutter.blade_offset_angle_deg": 0.0}
+    single = {"gear.cutter.blade_groups": 0, "pinion.cutter.blade_groups": 0}
+    file = BENT.varied(straight | single)
+    cutter, member = file.gear.cutter, file.blank().gear
+    virtual = member.mean_cone_distance * math.tan(member.pitch_angle)
+    for side, angle in (
+        ("drive", cutter.convex_flank_blade_angle_deg),
+        ("coast", cutter.concave_flank_blade_angle_deg),
+    ):
+        flank = Flank.from_file(file, "gear", side)
+        pitch = flank.region.root_depth / (flank.region.root_depth + flank.region.addendum)
+        here = flank.sample(np.array(pitch), np.array(0.5))
+        radius = virtual * math.sin(math.radians(angle)) / math.cos(member.spiral_angle) ** 2
+        # the cutter's curvature along the tooth adds a tenth, as both are hollow or not
+        assert -here.curvature[0, 0] * radius == pytest.approx(1.0, abs=0.15)
+        formed = Flank.from_file(file.varied({"gear.machine.ratio_of_roll": None}), "gear", side)
+        flat = formed.sample(np.array(pitch), np.array(0.5)).curvature[0, 0]
+        assert flat == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", ["u", "th", "ph"])
@@ -75,8 +133,9 @@ def test_a_plane_through_three_neighbours_touches_the_flank(flank):
     back = flank.sample(s - h, t - h).r - here.r
     x = np.array([near[0] @ here.tangent_1[0], near[0] @ here.tangent_2[0]])
     sag = 0.5 * float((near[0] + back[0]) @ here.normal[0])
-    # r = ... + n (x K x) / 2; 4th order terms are (h x face width)^2 / R^2 = 1e-4 of it
-    assert sag == pytest.approx(0.5 * x @ here.curvature[0] @ x, rel=2e-3)
+    # r = ... + n (x K x) / 2; 4th order terms are (h x face width)^2 / R^2 = 1e-4 of it, ten times
+    # as much on a pinion cut with strongly modified roll
+    assert sag == pytest.approx(0.5 * x @ here.curvature[0] @ x, rel=4e-3)
 
 
 def test_located_point_stands_at_the_radius_and_height_asked_for(flank):

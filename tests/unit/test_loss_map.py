@@ -118,6 +118,8 @@ def drag_of(law, **options):
         ("zhou_hoeprich_1991", 2.0),
         ("biboulet_houpert_2010", 3.0),
         ("aihara_1987", 2.0),
+        ("palmgren_loaded", 2.0),
+        ("skf_2013", 2.5),
     ],
 )
 def test_bearing_drag_is_as_uncertain_as_the_law_of_a_single_bearing(law, factor):

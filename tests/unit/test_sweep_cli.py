@@ -88,6 +88,18 @@ def test_options_reach_the_settings_in_si_units(calls):
     assert call["jobs"] == 2
 
 
+def test_a_steady_temperature_reaches_the_settings_with_its_air(calls):
+    words = ("--steady-temperature", "--air-temperature", "7", "--conductance-at-100", "25")
+    assert run("sweep", *words).exit_code == 0
+    (call,) = calls
+    settings = call["settings"]
+    assert settings.oil_state == "steady"
+    assert settings.air_temperature == pytest.approx(280.15)
+    assert (settings.conductance_at_rest, settings.conductance_at_100_kmh) == (7.0, 25.0)
+    assert run("sweep").exit_code == 0
+    assert calls[1]["settings"].oil_state == "given"
+
+
 def test_quick_run_is_short(calls):
     assert run("sweep", "--quick").exit_code == 0
     (call,) = calls
@@ -109,6 +121,16 @@ def test_quick_run_is_short(calls):
             ["0 to 150 degC", "got 400 degC", "The data of"],
         ),
         (["--roughness-um", "500"], ["got 0.0005 m", "0.5 um"]),
+        (["--air-temperature", "5"], ["--air-temperature needs --steady-temperature"]),
+        (
+            ["--steady-temperature", "--oil-temperature", "60"],
+            ["--oil-temperature must not be given with --steady-temperature", "60 degC"],
+        ),
+        (
+            ["--steady-temperature", "--air-temperature", "200"],
+            ["--air-temperature", "0 to 150 degC", "got 200 degC"],
+        ),
+        (["--steady-temperature", "--conductance-at-rest", "-1"], ["conductance_at_rest", "W/K"]),
     ],
 )
 def test_bad_argument_is_explained_with_what_got_limit_and_cure(calls, caplog, arguments, parts):

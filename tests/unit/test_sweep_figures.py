@@ -89,9 +89,22 @@ def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_pa
     assert "href=" not in html
     assert "mohammadpour_2015" in html
     assert "1.2.3" in html
+    assert "<td>95.0</td>" in html  # oil of a point [degC]
     assert "refused the step &lt;at&gt; t = 0.1 s" in html
     assert html.count("single-sided") + html.count("<td>none</td>") >= 5
     assert len(list((tmp_path / "figures").glob("*.png"))) == len(CATALOGUE)
+
+
+def test_report_of_steady_oil_names_the_air_and_no_temperature_of_all_points():
+    point = failed_point(20.0, 2500.0, "out of range")
+    dataset = merge([2500.0], [20.0], {(20.0, 2500.0): point}).assign_attrs(title="Speed sweep")
+    kelvin = {"setting_oil_temperature": 368.15, "setting_air_temperature": 283.15}
+    steady = report_html(dataset.assign_attrs(setting_oil_state="steady", **kelvin))
+    assert "283.15 K (10.0 °C)" in steady
+    assert "368.15" not in steady
+    given = report_html(dataset.assign_attrs(setting_oil_state="given", **kelvin))
+    assert "368.15 K (95.0 °C)" in given
+    assert "283.15" not in given
 
 
 def test_report_of_a_sweep_in_which_everything_failed_names_the_failures():

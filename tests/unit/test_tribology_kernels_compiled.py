@@ -79,7 +79,12 @@ CASES: list[tuple[Any, tuple[Any, ...]]] = [
     (flank_data.contact_geometry, (0.011, 0.6, 0.4, 1.15e11)),
     (mixed_friction.contact_temperature_rise, (1e8, 4e-7, 1.7e-6, 4.6e-7, 0.14, 46.0)),
 ]
-for _form in (flank_data.CONSISTENT, flank_data.AS_PRINTED, flank_data.PRINTED_TRACTION):
+for _form in (
+    flank_data.CONSISTENT,
+    flank_data.AS_PRINTED,
+    flank_data.PRINTED_TRACTION,
+    flank_data.ZHOU_HOEPRICH_SHARE,
+):
     for _operation in (
         (1000.0, 3.0, 2.0),
         (1000.0, -3.0, -1e-4),

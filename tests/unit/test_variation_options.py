@@ -33,6 +33,13 @@ def test_the_usual_words_give_axes_and_ranges():
     assert found.spreads == (Spread(key="gear_set.backlash_um", low=100.0, high=200.0),)
 
 
+@pytest.mark.parametrize("text", ["gear_set.backlash=150+-30", "gear_set.backlash=150±30"])
+def test_a_width_is_three_standard_deviations(text):
+    (found,) = varied_from([text], KEYS).spreads
+    assert (found.low, found.mean, found.high) == (120.0, 150.0, 180.0)
+    assert found.deviation == pytest.approx(10.0)
+
+
 def test_several_variations_follow_one_flag():
     typed = ["map", "--vary", "a.b=1", "c=2,3", "--out", "x=y", "--vary", "d=4", "axle.toml"]
     assert repeat_flags(typed, VaryCommand.multi_value, VaryCommand.value) == [
@@ -56,6 +63,10 @@ def test_several_variations_follow_one_flag():
         ("oil.temperature=nan:80", "finite"),
         ("pinion.bearing.rollers=12.5", "whole number"),
         ("pinion.bearing.rollers=12:14", "cannot be sampled"),
+        ("pinion.bearing.rollers=12+-1", "cannot be sampled"),
+        ("oil.temperature=240+-30", "ends must be in range"),
+        ("oil.temperature=60+-0", "above 0"),
+        ("oil.temperature=60+-warm", "must be a number"),
         ("gear_set.radii=paper,,mean", "commas"),
         ("gearbox.ratios=1,2", "must name a parameter"),
     ],

@@ -24,9 +24,9 @@ SAMPLES = Design(
 
 
 @pytest.fixture(autouse=True)
-def quick_digest(monkeypatch):
-    """The digest of all code takes a tenth of a second; none of these tests is about it."""
-    monkeypatch.setattr(run, "code_digest", lambda: "code")
+def quick_hash(monkeypatch):
+    """The hash of all code takes a tenth of a second; none of these tests is about it."""
+    monkeypatch.setattr(run, "code_hash", lambda: "code")
 
 
 def varied(out, study=None, design=GRID, **options):

@@ -80,7 +80,7 @@ def write_design(results: DesignResults, folder: Path) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     file = results.design.file
     path = folder / f"{file.name}.toml"
-    write_text(toml_text(file.model_dump(exclude_none=True)), path)
+    write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
     write_text(report(results.design, results.forms), folder / "report.md")
     write_dataset(results.dataset, folder / "design.nc")
     save_design_figures(results.dataset, folder / "figures")

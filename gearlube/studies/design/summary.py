@@ -68,8 +68,9 @@ def unmet_targets(design: Design) -> list[str]:
             f"contact.{side}_path_angle_deg nearer to {across:.0f} deg, across the lines of "
             "contact."
         )
-        if not design.designed.file.contact.curved_blades:
-            cure += " Or allow contact.curved_blades."
+        denied = design.designed.file.machine.denied
+        if denied:
+            cure += f" Or allow {denied}."
         if isinstance(found, str):
             gap = design.fit.rms[side] / _MICRO
             said.append(
@@ -114,8 +115,8 @@ def report(design: Design, forms: dict[str, ToothForm]) -> str:
     parts = [
         f"# {design.file.name}: designed pair\n",
         f"Blank by ISO 23509, method {design.designed.file.design_method}, uniform depth. Gear "
-        "form-cut, pinion generated with cutter tilt. Contact without load, as the contact "
-        "analysis finds it from the gear file.\n",
+        f"{design.designed.file.machine.gear}, pinion generated with cutter tilt. Contact without "
+        "load, as the contact analysis finds it from the gear file.\n",
         "## Contact: asked and found\n",
         _table(("Side", "What", "Asked", "Found"), asked_and_found(design)),
         "Path directions on the gear flank, from the root line towards the heel, to the tip "
@@ -177,7 +178,7 @@ def _origin(note: InputNote) -> tuple[str, str, str, str]:
 def _settings(design: Design) -> list[tuple[str, str, str]]:
     origins = {"table": "given", "inferred": "follows", "completed": "chosen"}
     rows = []
-    data = design.file.model_dump(exclude_none=True)
+    data = design.file.model_dump(exclude_defaults=True)
     for role in ("gear", "pinion"):
         for section in ("cutter", "machine"):
             for key, value in data[role][section].items():

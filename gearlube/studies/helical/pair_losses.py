@@ -132,7 +132,7 @@ def losses_dataset(
     fine, coarse = line_points(pair, *_FINE), line_points(pair, *_COARSE)
     shape = temperatures.size, torques.size, speeds.size
     loss = np.empty((*shape, len(PARTS_OF_LOSS)))
-    film, heat = np.empty(shape), np.empty(shape)
+    film, thinnest, heat = np.empty(shape), np.empty(shape), np.empty(shape)
     low, high = np.empty(shape), np.empty(shape)
     uncertain = uncertain_of(settings.film().oil)
     normals = np.random.default_rng(settings.seed).standard_normal((settings.draws, len(uncertain)))
@@ -145,6 +145,7 @@ def losses_dataset(
                 point = float(torque), float(speed)
                 cycle, loss[i, j, k] = _losses(fine, loads[0], *point, base)
                 film[i, j, k] = cycle.film_ratio[cycle.line_load > 0.0].min()
+                thinnest[i, j, k] = cycle.smallest_film.thickness
                 heat[i, j, k] = cycle.temperature_rise[cycle.line_load > 0.0].max()
                 if settings.draws:
                     rough = _losses(coarse, loads[1], *point, base)[1].sum()
@@ -166,6 +167,7 @@ def losses_dataset(
             "efficiency of the mesh",
         ),
         "film_ratio": (GRID, film, "1", "least central film over roughness"),
+        "film_min": (GRID, thinnest, "m", "smallest film thickness"),
         "temperature_rise": (GRID, heat, "K", "largest mean rise of the film over the oil"),
     }
     if settings.draws:

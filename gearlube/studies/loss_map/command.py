@@ -10,6 +10,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gearlube.cli.cooling_options import (
+    AirTemperatureOption,
+    ConductanceAt100Option,
+    ConductanceAtRestOption,
+    given_cooling,
+)
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import ExampleOption, OverwriteOption
@@ -20,6 +26,7 @@ if TYPE_CHECKING:
 
     from drivetrain.driveline.parameters import DrivelineParameters
     from drivetrain.steady_temperature import Cooling
+    from drivetrain.sump_heat import SumpHeat
     from gearlube_core.arrays import Array
 
 logger = logging.getLogger("gearlube")
@@ -81,18 +88,9 @@ def loss_map(
             "the car, and the loss there.",
         ),
     ] = False,
-    air_temperature: Annotated[
-        float | None,
-        typer.Option(help="Of the air, for the steady temperature [degC]. Default: 23."),
-    ] = None,
-    conductance_at_rest: Annotated[
-        float | None,
-        typer.Option(help="Housing to air at rest [W/K]; default 7, assumed, 4.5 to 10."),
-    ] = None,
-    conductance_at_100: Annotated[
-        float | None,
-        typer.Option(help="Ditto at 100 km/h [W/K]; default 18, assumed, 9 to 30."),
-    ] = None,
+    air_temperature: AirTemperatureOption = None,
+    conductance_at_rest: ConductanceAtRestOption = None,
+    conductance_at_100: ConductanceAt100Option = None,
     regulation_grid: Annotated[
         bool,
         typer.Option(
@@ -146,10 +144,9 @@ def loss_map(
             calibrated_bearings=calibrated_bearings,
             cooling=_cooling(
                 described.driveline,
-                steady_temperature,
-                air_temperature,
-                conductance_at_rest,
-                conductance_at_100,
+                given_cooling(
+                    steady_temperature, air_temperature, conductance_at_rest, conductance_at_100
+                ),
             ),
         )
         with (
@@ -190,39 +187,14 @@ def remarks(dataset: xr.Dataset) -> list[str]:
 
 
 def _cooling(
-    driveline: DrivelineParameters,
-    wanted: bool,
-    air: float | None,
-    at_rest: float | None,
-    at_100: float | None,
+    driveline: DrivelineParameters, given: tuple[float, SumpHeat] | None
 ) -> Cooling | None:
     """Return the cooling that the options give; None if no steady temperature is wanted."""
     from drivetrain.steady_temperature import Cooling
-    from drivetrain.sump_heat import SumpHeat
-    from gearlube_core.errors import ParameterError
-    from gearlube_core.units import celsius_to_kelvin
 
-    given = {
-        "--air-temperature": air,
-        "--conductance-at-rest": at_rest,
-        "--conductance-at-100": at_100,
-    }
-    if not wanted:
-        idle = [name for name, value in given.items() if value is not None]
-        if idle:
-            raise ParameterError(
-                f"{idle[0]} needs --steady-temperature, got it alone. Add that option, or remove "
-                "this one."
-            )
+    if given is None:
         return None
-    usual = SumpHeat()
-    heat = SumpHeat(
-        conductance_at_rest=usual.conductance_at_rest if at_rest is None else at_rest,
-        conductance_at_100_kmh=usual.conductance_at_100_kmh if at_100 is None else at_100,
-    )
-    if air is None:
-        return Cooling(driveline=driveline, heat=heat)
-    return Cooling(driveline=driveline, heat=heat, air_temperature=celsius_to_kelvin(air))
+    return Cooling(driveline=driveline, air_temperature=given[0], heat=given[1])
 
 
 def _grid(

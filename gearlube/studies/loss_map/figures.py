@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.plotting.loss_words import SOURCE_WORDS
 from gearlube.plotting.style import GREY, SERIES, YELLOW, house_style, new_figure
 
@@ -17,17 +18,15 @@ _LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
 
 def save_loss_map_figures(dataset: xr.Dataset, folder: Path) -> None:
-    """Write all figures as PNG; none of a map without a point."""
-    if not np.isfinite(dataset["loss_torque"].values).any():
-        return
-    folder.mkdir(parents=True, exist_ok=True)
-    figures = {"losses": loss_split(dataset)}
-    if min(dataset.sizes["speed"], dataset.sizes["torque"]) > 1:
-        figures["loss_torque"] = loss_contours(dataset)
-    if "swing" in dataset:
-        figures["sensitivity"] = sensitivity(dataset)
-    for name, figure in figures.items():
-        figure.savefig(folder / f"{name}.png", dpi=150)
+    """Write all figures as PNG; of a map without a point there are none, nor old ones."""
+    figures = {}
+    if np.isfinite(dataset["loss_torque"].values).any():
+        figures["losses"] = loss_split(dataset)
+        if min(dataset.sizes["speed"], dataset.sizes["torque"]) > 1:
+            figures["loss_torque"] = loss_contours(dataset)
+        if "swing" in dataset:
+            figures["sensitivity"] = sensitivity(dataset)
+    save_figure_folder(figures, folder)
 
 
 def not_modelled(dataset: xr.Dataset) -> str:

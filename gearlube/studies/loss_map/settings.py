@@ -147,10 +147,10 @@ def uncertain_of(
     3.0
     """
     oil, law = axle.oil, axle.bearing_torque_loss
-    if calibrated_bearings and law != "palmgren":
+    if calibrated_bearings and law not in ("palmgren", "palmgren_loaded"):
         raise ParameterError(
-            "Calibrated bearings must have the law palmgren, whose f0 and f1 hold the measured "
-            f"torque, got {law}. Leave the calibration out, or take palmgren."
+            "Calibrated bearings must have the law palmgren or palmgren_loaded, whose f0 and f1 "
+            f"hold the measured torque, got {law}. Leave the calibration out, or take palmgren."
         )
     of_oil = f"of {oil.name}".replace(";", ",")
     own = {"alpha": (oil.alpha_factor, of_oil), "eyring_stress": (oil.eyring_stress_factor, of_oil)}

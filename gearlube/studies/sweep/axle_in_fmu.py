@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle, read_axle
 from drivetrain.axle_file.field_units import attribute_of
-from fmu_src.axle_arguments import start_arguments
+from fmu_src.axle_arguments import axle_parameters, start_arguments
 from fmu_src.hypoid_axle import AXLE_FILE, PAPER, car_axle_in, check_one_table
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
@@ -86,6 +87,13 @@ def settings_of(axle: HypoidAxleParameters, **changes: Any) -> SweepSettings:
     return SweepSettings(**(of_axle | changes))
 
 
+def car_axle_at(car_axle: CarAxle, settings: SweepSettings, preload: float) -> CarAxle:
+    """Return axle and car with the settings of a sweep and a bearing preload [N]."""
+    arguments = {name: getattr(settings, name) for name in FMU_PARAMETERS}
+    axle = axle_parameters(arguments | {"bearing_preload": preload}, car_axle.axle)
+    return replace(car_axle, axle=axle)
+
+
 def check_operation(
     car_axle: CarAxle, settings: SweepSettings, speeds_kmh: Sequence[float]
 ) -> None:
@@ -98,7 +106,8 @@ def check_operation(
     """
     road, axle = car_axle.driveline.road_load, car_axle.axle
     if settings.oil == start_arguments(axle)["oil"]:
-        axle.oil.check_temperature(settings.oil_temperature, "oil_temperature")
+        name, temperature = settings.lowest_oil_temperature
+        axle.oil.check_temperature(temperature, name)
     limits, (low, high) = torque_limits(axle), axle.torque_range
     for speed in speeds_kmh:
         torque = road.pinion_torque(kmh_to_ms(speed))

@@ -11,12 +11,17 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.cooling_options import (
+    AirTemperatureOption,
+    ConductanceAt100Option,
+    ConductanceAtRestOption,
+    given_cooling,
+)
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import (
     ExampleOption,
     JobsOption,
-    OilTemperatureOption,
     OverwriteOption,
 )
 from gearlube.cli.results_folder import results_folder
@@ -58,7 +63,20 @@ def sweep(
             metavar="FORCE...",
         ),
     ] = None,
-    oil_temperature: OilTemperatureOption = 95.0,
+    oil_temperature: Annotated[
+        float | None,
+        typer.Option(help="Oil temperature [degC]. Default: 95.", metavar="DEGC"),
+    ] = None,
+    steady_temperature: Annotated[
+        bool,
+        typer.Option(
+            "--steady-temperature",
+            help="Run each point at the oil temperature where the air takes what the axle loses.",
+        ),
+    ] = False,
+    air_temperature: AirTemperatureOption = None,
+    conductance_at_rest: ConductanceAtRestOption = None,
+    conductance_at_100: ConductanceAt100Option = None,
     oil: Annotated[
         str | None,
         typer.Option(
@@ -81,15 +99,17 @@ def sweep(
     friction: Annotated[
         str | None,
         typer.Option(
-            help="Flank friction: consistent, as_printed, off, or printed_traction_circular "
-            "(the reading that gives the paper's efficiency). Default: that of the axle."
+            help="Flank friction: consistent, as_printed, off, printed_traction_circular "
+            "(the reading that gives the paper's efficiency) or zhou_hoeprich_1991 (asperities "
+            "carry all load without a film). Default: that of the axle."
         ),
     ] = None,
     bearing_torque_loss: Annotated[
         str | None,
         typer.Option(
             help="Drag torque of the bearings: palmgren, none, zhou_hoeprich_1991, "
-            "biboulet_houpert_2010 or aihara_1987. Default: that of the axle."
+            "biboulet_houpert_2010, aihara_1987, palmgren_loaded or skf_2013. Default: that of the "
+            "axle."
         ),
     ] = None,
     driver: Annotated[
@@ -132,11 +152,13 @@ def sweep(
         OILS,
         PRELOAD_RANGE,
         SPEED_RANGE,
+        STEADY,
         quick_sweep_settings,
     )
     from gearlube_core.checks import check_address, check_option, check_within
     from gearlube_core.errors import ParameterError
     from gearlube_core.oil.lubricant import Lubricant
+    from gearlube_core.units import kelvin_to_celsius
 
     with (
         exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."),
@@ -156,21 +178,38 @@ def sweep(
             mesh_table, oil = None, None
         if oil is not None:
             check_option("--oil", oil, OILS)
+        cooling = given_cooling(
+            steady_temperature, air_temperature, conductance_at_rest, conductance_at_100
+        )
+        if cooling is not None and oil_temperature is not None:
+            raise ParameterError(
+                "--oil-temperature must not be given with --steady-temperature, which finds it, "
+                f"got {oil_temperature:g} degC. Leave one of them out."
+            )
         car_axle = chosen_axle(fmu, mesh_table, axle)
         if scheduler is not None:
             check_address(scheduler)
-        changes = {
+        changes: dict[str, str | float | None] = {
             "oil": oil,
             "roughness_rms": None if roughness_um is None else roughness_um * 1e-6,
             "equations": equations,
             "friction": friction,
             "bearing_torque_loss": bearing_torque_loss,
         }
+        of_axle = car_axle.axle.oil if oil is None else Lubricant.named(oil)
+        if cooling is None:
+            degc = 95.0 if oil_temperature is None else oil_temperature
+            changes["oil_temperature"] = oil_kelvin(degc, of_axle)
+        else:
+            air, heat = cooling
+            changes |= {
+                "oil_state": STEADY,
+                "air_temperature": oil_kelvin(kelvin_to_celsius(air), of_axle, "--air-temperature"),
+                "conductance_at_rest": heat.conductance_at_rest,
+                "conductance_at_100_kmh": heat.conductance_at_100_kmh,
+            }
         settings = settings_of(
             car_axle.axle,
-            oil_temperature=oil_kelvin(
-                oil_temperature, car_axle.axle.oil if oil is None else Lubricant.named(oil)
-            ),
             driver=driver,
             **{name: value for name, value in changes.items() if value is not None},
         )

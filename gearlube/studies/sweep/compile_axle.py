@@ -24,7 +24,7 @@ def compile_axle(fmu: Path, settings: SweepSettings) -> None:
         axle.set_parameters(settings.fmu_parameters)
         axle.set_parameters({"pinion.speed_start": where.pinion_speed})
         torques = where.driver.initial_torques()
-        axle.initialise(*torques, settings.oil_temperature)
+        axle.initialise(*torques, settings.lowest_oil_temperature[1])
         for _ in range(2):
             axle.step(settings.communication_step, *torques)
             axle.read()

@@ -11,7 +11,9 @@ import xarray as xr
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.modes import driveline_modes
-from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
+from gearlube.studies.sweep.axle_in_fmu import car_axle_at
+from gearlube.studies.sweep.oil_at_rest import oil_at_rest
+from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import GearLubeError
 from gearlube_core.units import kmh_to_ms
 
@@ -59,22 +61,22 @@ def _modes(
     preload: float, speed_kmh: float, settings: SweepSettings, car_axle: CarAxle
 ) -> dict[str, float]:
     # Imported here because it compiles kernels when the machine has none yet.
-    from fmu_src.axle_arguments import axle_parameters
     from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes
 
     speed = kmh_to_ms(speed_kmh)
-    arguments = {name: getattr(settings, name) for name in FMU_PARAMETERS}
     road = car_axle.driveline.road_load
     torque = road.pinion_torque(speed)
     try:
-        axle = HypoidAxle(axle_parameters(arguments | {"bearing_preload": preload}, car_axle.axle))
+        car = car_axle_at(car_axle, settings, preload)
+        oil_temperature = oil_at_rest(car, speed_kmh, settings).oil_temperature
+        axle = HypoidAxle(car.axle)
         axle.initialise(
             pinion_speed=road.pinion_speed(speed),
             pinion_torque=torque,
             wheel_torque=road.ring_gear_torque(speed),
-            oil_temperature=settings.oil_temperature,
+            oil_temperature=oil_temperature,
         )
-        found = modes(axle, settings.oil_temperature, torque)
+        found = modes(axle, oil_temperature, torque)
     except GearLubeError as error:
         logger.warning("No natural frequencies at %g N: %s", preload, error)
         return {}

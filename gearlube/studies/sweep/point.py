@@ -12,18 +12,19 @@ import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.driveline.parameters import DrivelineParameters
-from gearlube.studies.sweep.axle_in_fmu import car_axle_of
+from gearlube.studies.sweep.axle_in_fmu import car_axle_at, car_axle_of
 from gearlube.studies.sweep.axle_loss import LOSS_CHANNELS, measured_loss
 from gearlube.studies.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from gearlube.studies.sweep.curves import mesh_cycle, roller_zone, spectra, waves
 from gearlube.studies.sweep.fmu_axle import FmuAxle
+from gearlube.studies.sweep.oil_at_rest import oil_at_rest
 from gearlube.studies.sweep.operating_point import operation
 from gearlube.studies.sweep.python_axle import PythonAxle
 from gearlube.studies.sweep.quantities import described
 from gearlube.studies.sweep.range_variables import range_variables
 from gearlube.studies.sweep.recording import Recording, record
 from gearlube.studies.sweep.scalars import scalars
-from gearlube.studies.sweep.settings import SweepSettings
+from gearlube.studies.sweep.settings import STEADY, SweepSettings
 from gearlube.studies.sweep.unpack import unpacked
 from gearlube_core.errors import GearLubeError
 from gearlube_core.spectra import angle_window
@@ -69,6 +70,9 @@ def _simulate(
     directory: Path, speed_kmh: float, preload: float, settings: SweepSettings
 ) -> Recording:
     parameters = {**settings.fmu_parameters, "bearing.preload": preload}
+    car = car_axle_of(directory)
+    if settings.oil_state == STEADY:
+        settings = oil_at_rest(car_axle_at(car, settings, preload), speed_kmh, settings)
 
     @contextmanager
     def started(channels: Sequence[str], pinion_speed: float) -> Iterator[FmuAxle]:
@@ -76,7 +80,7 @@ def _simulate(
             axle.set_parameters({**parameters, "pinion.speed_start": pinion_speed})
             yield axle
 
-    return _recorded(started, car_axle_of(directory).driveline, speed_kmh, settings)
+    return _recorded(started, car.driveline, speed_kmh, settings)
 
 
 def march(car_axle: CarAxle, speed_kmh: float, settings: SweepSettings) -> xr.Dataset:
@@ -102,6 +106,7 @@ def march(car_axle: CarAxle, speed_kmh: float, settings: SweepSettings) -> xr.Da
         The axle or its driver refused.
     """
     axle = car_axle.axle
+    settings = oil_at_rest(car_axle, speed_kmh, settings)
 
     @contextmanager
     def started(channels: Sequence[str], pinion_speed: float) -> Iterator[PythonAxle]:

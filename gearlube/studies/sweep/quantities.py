@@ -30,6 +30,7 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "wheel_cage_frequency": ("Hz", "mean rotation frequency of the wheel bearing cage"),
     "record_revolutions": ("1", "pinion revolutions analysed"),
     "communication_step": ("s", "communication step, mesh period over an integer"),
+    "oil_temperature": ("K", "temperature of the oil"),
     "dte_min": ("m", "smallest dynamic transmission error"),
     "dte_max": ("m", "largest dynamic transmission error"),
     "dte_mean": ("m", "mean dynamic transmission error"),

@@ -60,6 +60,8 @@ class Recording:
         Mean of the vehicle speeds at the start and at the end of the record [m/s].
     warnings : tuple of str
         What the axle warned of since its start.
+    oil_temperature : float
+        That of the whole run [K].
     """
 
     time: Array
@@ -72,6 +74,7 @@ class Recording:
     revolutions: int
     vehicle_speed: float
     warnings: tuple[str, ...] = ()
+    oil_temperature: float = math.nan
 
     def __getitem__(self, channel: str) -> Array:
         """Return the samples of one channel, shape (n,)."""
@@ -157,6 +160,7 @@ def record(
         teeth=teeth,
         revolutions=revolutions,
         vehicle_speed=0.5 * (vehicle_speed + driver.vehicle_speed),
+        oil_temperature=settings.oil_temperature,
     )
 
 

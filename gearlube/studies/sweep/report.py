@@ -18,18 +18,33 @@ import xarray as xr
 from gearlube.studies.sweep.figures import CATALOGUE, Entry
 from gearlube.studies.sweep.point import FINISHED
 from gearlube.studies.sweep.quantities import SEPARATION_MEANINGS
+from gearlube.studies.sweep.settings import STEADY
 from gearlube_core.units import kelvin_to_celsius
 
 logger = logging.getLogger(__name__)
 
 _PACKAGES = ("numpy", "scipy", "numba", "casadi", "fmpy", "xarray", "matplotlib")
 _DPI = 130
+_COOLING = (
+    "setting_air_temperature",
+    "setting_conductance_at_rest",
+    "setting_conductance_at_100_kmh",
+)
 
 # Columns of the table: heading, unit, value of a point.
 _COLUMNS = (
     ("preload", "N", lambda p: f"{float(p['preload']):g}"),
     ("speed", "km/h", lambda p: f"{float(p['speed_kmh']):g}"),
     ("f<sub>m</sub>", "Hz", lambda p: f"{float(p['mesh_frequency']):.1f}"),
+    (
+        "oil",
+        "°C",
+        lambda p: (
+            f"{kelvin_to_celsius(float(p['oil_temperature'])):.1f}"
+            if "oil_temperature" in p
+            else ""
+        ),
+    ),
     ("T pinion", "N m", lambda p: f"{float(p['pinion_torque']):.1f}"),
     ("T wheel", "N m", lambda p: f"{float(p['wheel_torque']):.1f}"),
     ("DTE min", "µm", lambda p: f"{1e6 * float(p['dte_min']):.2f}"),
@@ -145,12 +160,16 @@ def _run(dataset: xr.Dataset, points: int, finished: int) -> list[tuple[str, str
 
 def _settings(dataset: xr.Dataset) -> list[tuple[str, str]]:
     lines = []
+    steady = dataset.attrs.get("setting_oil_state") == STEADY
+    unused = ("setting_oil_temperature",) if steady else _COOLING
     for name, value in dataset.attrs.items():
-        if not name.startswith("setting_"):
+        if not name.startswith("setting_") or name in unused:
             continue
         text = f"{value:g}" if isinstance(value, float | np.floating) else str(value)
-        if name == "setting_oil_temperature":
+        if name.endswith("_temperature"):
             text = f"{value:.2f} K ({kelvin_to_celsius(value):.1f} °C)"
+        if name.startswith("setting_conductance"):
+            text += " W/K"
         lines.append((name.removeprefix("setting_").replace("_", " "), text))
     return lines
 

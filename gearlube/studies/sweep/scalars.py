@@ -62,6 +62,7 @@ def _operation(recording: Recording, window: AngleWindow) -> Variables:
         "wheel_cage_frequency": _slope(recording, "bearing[3].cage.angle") * per_turn,
         "record_revolutions": window.revolutions,
         "communication_step": recording.step,
+        "oil_temperature": recording.oil_temperature,
     }
 
 

@@ -7,6 +7,7 @@ import json
 from dataclasses import asdict, dataclass, fields
 
 from drivetrain.driveline.model import COMMUNICATION_STEP
+from drivetrain.sump_heat import SumpHeat
 from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.variables import HYPOID_AXLE
 from gearlube_core.checks import check_option, check_positive, check_within
@@ -14,6 +15,7 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import celsius_to_kelvin
 
 DRIVERS = ("vehicle", "hold")
+GIVEN, STEADY = "given", "steady"
 
 # FMI parameter name of every field that is passed on to the FMU.
 FMU_PARAMETERS = {
@@ -45,7 +47,12 @@ class SweepSettings:
     Parameters
     ----------
     oil_temperature : float
-        Temperature of the oil at the flank inlet [K].
+        Temperature of the oil at the flank inlet [K]; not used where `oil_state` is "steady".
+    oil_state : str
+        "given"; "steady": each point runs at the oil temperature where the air takes what the axle
+        loses, see `drivetrain.steady_temperature`.
+    air_temperature, conductance_at_rest, conductance_at_100_kmh : float
+        Of that balance [K], [W/K], [W/K].
     driver : str
         "vehicle": the axle is coupled to the driveline and the road; "hold": road load and a slow
         speed hold act on it directly.
@@ -75,6 +82,10 @@ class SweepSettings:
     """
 
     oil_temperature: float = celsius_to_kelvin(95.0)
+    oil_state: str = GIVEN
+    air_temperature: float = celsius_to_kelvin(23.0)
+    conductance_at_rest: float = 7.0
+    conductance_at_100_kmh: float = 18.0
     driver: str = "vehicle"
     oil: str = "mohammadpour_2015"
     roughness_rms: float = 0.5e-6
@@ -96,6 +107,11 @@ class SweepSettings:
 
     def __post_init__(self) -> None:
         check_option("driver", self.driver, DRIVERS)
+        check_option("oil_state", self.oil_state, (GIVEN, STEADY))
+        SumpHeat(
+            conductance_at_rest=self.conductance_at_rest,
+            conductance_at_100_kmh=self.conductance_at_100_kmh,
+        )
         check_within("roughness_rms", self.roughness_rms, 1e-9, 1e-5, "m", "0.5 um is 0.5e-6 m.")
         check_within("backlash", self.backlash, 1e-9, 2e-3, "m", "150 um is 150e-6 m.")
         for name, variable in _FMU_VARIABLES.items():
@@ -106,9 +122,10 @@ class SweepSettings:
                 check_option(name, value, variable.literals)
             else:
                 check_within(name, value, *variable.range, variable.unit)
-        check_positive("oil_temperature", self.oil_temperature, "K")
+        name, temperature = self.lowest_oil_temperature
+        check_positive(name, temperature, "K")
         if self.oil != CUSTOM_OIL:
-            Lubricant.named(self.oil).check_temperature(self.oil_temperature, "oil_temperature")
+            Lubricant.named(self.oil).check_temperature(temperature, name)
         check_within(
             "communication_step",
             self.communication_step,
@@ -120,6 +137,12 @@ class SweepSettings:
         check_within("settling_time", self.settling_time, 0.0, 60.0, "s")
         check_within("record_time", self.record_time, 0.02, 60.0, "s")
         check_positive("cage_turns", self.cage_turns)
+
+    @property
+    def lowest_oil_temperature(self) -> tuple[str, float]:
+        """Name of the setting that says how cold the oil can be at a point, and its value [K]."""
+        name = "air_temperature" if self.oil_state == STEADY else "oil_temperature"
+        return name, getattr(self, name)
 
     def as_dict(self) -> dict[str, str | float | int]:
         """Return all settings by name."""

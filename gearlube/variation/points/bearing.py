@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
 
 from gearlube.variation.design import Point
-from gearlube.variation.keys import Keys, file_keys
+from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
+from gearlube.variation.points.of_file import FilePoint
 from gearlube.variation.points.operands import operand, value
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.loss import (
@@ -20,9 +19,6 @@ from gearlube_core.bearings.losses.loss import (
     bearing_loss,
     check_condition,
 )
-from gearlube_core.input_file.field_notes import field_notes
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 SPEED = operand("shaft.speed_rpm", "rpm", "Of the shaft", 2000.0, 0.0, 1e6)
@@ -43,18 +39,11 @@ _QUANTITIES = (
     Quantity("film_ratio", "1", "smallest film ratio of the raceways, flooded"),
     Quantity("rib_film_ratio", "1", "smallest film ratio at the rib"),
 )
-_FROM_OPERANDS = "operation."  # section of the file that the operands stand for
 
 
 @dataclass(frozen=True, kw_only=True)
-class BearingPoint:
+class BearingPoint(FilePoint[BearingFile]):
     """The study of bearing friction at one point.
-
-    Parameters
-    ----------
-    file : BearingFile
-    oils : mapping of str to Lubricant
-        By the name or file in the field `oil`.
 
     Examples
     --------
@@ -63,56 +52,33 @@ class BearingPoint:
     2.35
     """
 
-    file: BearingFile
-    oils: Mapping[str, Lubricant] = field(default_factory=dict)
-    name: str = "bearing"
-    block: int = 200
-    shown: tuple[str, ...] = ("torque", "film_ratio")
-
-    def with_oils(self, names: Iterable[str]) -> BearingPoint:
-        """Return the study with these oils read, by name or file."""
-        wanted = {self.file.oil, *names}
-        return BearingPoint(file=self.file, oils={one: read_oil(one).lubricant for one in wanted})
+    name: ClassVar[str] = "bearing"
+    block: ClassVar[int] = 200
+    shown: ClassVar[tuple[str, ...]] = ("torque", "film_ratio")
+    operands: ClassVar[Keys] = _OPERANDS
+    quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
+    unused: ClassVar[tuple[str, ...]] = ("operation.",)  # the operands stand for them
 
     @property
-    def subject(self) -> str:
-        """Name of what is varied."""
-        return self.file.name
-
-    @property
-    def keys(self) -> Keys:
-        """Fields of the bearing file, and the operands in the place of its conditions."""
-        fields = file_keys(field_notes(BearingFile))
-        own = {n: one for n, one in fields.items() if not n.startswith(_FROM_OPERANDS)}
-        return {**own, **_OPERANDS}
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """What `compute` returns."""
-        return _QUANTITIES
-
-    @property
-    def identity(self) -> str:
-        """Bearing file and content of oil files."""
-        files = sorted(name for name in self.oils if Path(name).is_file())
-        digests = [hashlib.sha256(Path(name).read_bytes()).hexdigest() for name in files]
-        return json.dumps([self.file.model_dump(mode="json"), digests], sort_keys=True)
+    def usual_oils(self) -> tuple[str, ...]:
+        """The oil of the file."""
+        return (self.file.oil,)
 
     def check(self, point: Point) -> None:
         """Raise ParameterError where bearing or condition are out of range."""
-        file = self._file(point)
+        file = self.varied(point)
         speed, axial, radial, temperature = _condition(point)
         check_condition(
-            file.geometry(), self._oil(file), _model(point), speed, axial, radial, temperature
+            file.geometry(), self.oil(file.oil), _model(point), speed, axial, radial, temperature
         )
 
     def compute(self, point: Point) -> Sequence[float]:
         """Return torque, power and parts of the torque; a part that the law lacks is NaN."""
-        file = self._file(point)
+        file = self.varied(point)
         speed, axial, radial, temperature = _condition(point)
         found = bearing_loss(
             file.geometry(),
-            self._oil(file),
+            self.oil(file.oil),
             _model(point),
             speed=speed,
             axial_load=axial,
@@ -122,14 +88,6 @@ class BearingPoint:
         parts = [found.parts.get(part, float("nan")) for part in PARTS]
         ratios = found.film_ratio, found.rib_film_ratio
         return (found.torque, found.power, *parts, found.factor, *ratios)
-
-    def _file(self, point: Point) -> BearingFile:
-        own = {name: one for name, one in point.items() if name not in _OPERANDS}
-        return self.file.varied(own) if own else self.file
-
-    def _oil(self, file: BearingFile) -> Lubricant:
-        held = self.oils.get(file.oil)
-        return read_oil(file.oil).lubricant if held is None else held
 
 
 def _condition(point: Point) -> tuple[float, float, float, float]:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import hashlib
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Self
 
 from drivetrain.sump_heat import SumpHeat
 from gearlube.studies.drive_cycle.demand import demand_of
 from gearlube.studies.drive_cycle.run import run_cycle
 from gearlube.studies.drive_cycle.settings import COAST_TORQUE, DriveCycleSettings
 from gearlube.studies.drive_cycle.traces import DriveCycle
-from gearlube.variation.design import Point
-from gearlube.variation.file_variants import AxleVariants, axle_keys
+from gearlube.variation.design import Point, Value
+from gearlube.variation.file_variants import content_hash
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
+from gearlube.variation.points.of_axle import AxlePoint
 from gearlube.variation.points.operands import operand, value
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.units import celsius_to_kelvin
@@ -47,48 +47,33 @@ _QUANTITIES = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class CyclePoint:
+class CyclePoint(AxlePoint):
     """The study of drive cycles at one point.
 
     Parameters
     ----------
-    axle : AxleVariants
     cycles : mapping of str to DriveCycle
         By the name or file of the operand `cycle`.
     """
 
-    axle: AxleVariants
+    name: ClassVar[str] = "cycle"
+    block: ClassVar[int] = 5
+    shown: ClassVar[tuple[str, ...]] = ("energy_lost", "efficiency", "oil_temperature_end")
+    operands: ClassVar[Keys] = _OPERANDS
+    quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
+
     cycles: Mapping[str, DriveCycle] = field(default_factory=dict)
-    name: str = "cycle"
-    block: int = 5
-    shown: tuple[str, ...] = ("energy_lost", "efficiency", "oil_temperature_end")
 
-    def with_cycles(self, names: Iterable[str]) -> CyclePoint:
-        """Return the study with these cycles read."""
+    def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> Self:
+        """Return the study with all files and cycles read that the values of the axes name."""
+        names = map(str, texts.get(CYCLE.name, (str(CYCLE.usual),)))
         cycles = {name: DriveCycle.given(name) for name in names}
-        return CyclePoint(axle=self.axle, cycles=cycles)
-
-    @property
-    def subject(self) -> str:
-        """Name of what is varied."""
-        return self.axle.file.name
-
-    @property
-    def keys(self) -> Keys:
-        """Fields of the axle file, parameters of the FMU, and the operands."""
-        return {**axle_keys(), **_OPERANDS}
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """What `compute` returns."""
-        return _QUANTITIES
+        return replace(AxlePoint.prepared(self, texts), cycles=cycles)
 
     @property
     def identity(self) -> str:
         """Axle file, its tables, and the content of trace files."""
-        files = sorted(name for name in self.cycles if Path(name).is_file())
-        digests = [hashlib.sha256(Path(name).read_bytes()).hexdigest() for name in files]
-        return f"{self.axle.identity} traces {digests}"
+        return f"{self.axle.identity} traces {[content_hash(one) for one in sorted(self.cycles)]}"
 
     def check(self, point: Point) -> None:
         """Raise ParameterError where axle, car, cycle or temperatures are wrong."""

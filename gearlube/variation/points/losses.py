@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from gearlube.variation.design import Point
-from gearlube.variation.file_variants import AxleVariants, axle_keys
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
+from gearlube.variation.points.of_axle import AxlePoint
 from gearlube.variation.points.operands import operand, value
 from gearlube_core.checks import check_within
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, axle_losses
@@ -35,40 +36,22 @@ _QUANTITIES = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class LossPoint:
+class LossPoint(AxlePoint):
     """The loss map's study at one point.
 
     Examples
     --------
+    >>> from gearlube.variation.file_variants import AxleVariants
     >>> study = LossPoint(axle=AxleVariants.read("mohammadpour_2015"))
     >>> round(study.compute({"pinion.bearing.preload_n": 4000.0})[1], 2)  # N.m, both shafts
     2.31
     """
 
-    axle: AxleVariants
-    name: str = "map"
-    block: int = 100
-    shown: tuple[str, ...] = ("loss", "efficiency", "film_ratio")
-
-    @property
-    def subject(self) -> str:
-        """Name of what is varied."""
-        return self.axle.file.name
-
-    @property
-    def keys(self) -> Keys:
-        """Fields of the axle file, parameters of the FMU, and the operands."""
-        return {**axle_keys(), **_OPERANDS}
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """What `compute` returns."""
-        return _QUANTITIES
-
-    @property
-    def identity(self) -> str:
-        """Axle file and its tables."""
-        return self.axle.identity
+    name: ClassVar[str] = "map"
+    block: ClassVar[int] = 100
+    shown: ClassVar[tuple[str, ...]] = ("loss", "efficiency", "film_ratio")
+    operands: ClassVar[Keys] = _OPERANDS
+    quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
 
     def check(self, point: Point) -> None:
         """Raise ParameterError where axle, torque or temperature are out of range."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
@@ -14,9 +15,9 @@ from gearlube.studies.sweep.point import march
 from gearlube.studies.sweep.quantities import QUANTITIES
 from gearlube.studies.sweep.settings import SPEED_RANGE, SweepSettings, quick_sweep_settings
 from gearlube.variation.design import Point
-from gearlube.variation.file_variants import AxleVariants, axle_keys
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
+from gearlube.variation.points.of_axle import AxlePoint
 from gearlube.variation.points.operands import operand, value
 from gearlube_core.checks import check_option
 from gearlube_core.units import celsius_to_kelvin
@@ -59,40 +60,23 @@ def _quantities() -> tuple[Quantity, ...]:
     return (*whine, Quantity("loss", "W", "power lost in all"), *losses, *scalars, *forces)
 
 
-_QUANTITIES = _quantities()
-
-
 @dataclass(frozen=True, kw_only=True)
-class MarchPoint:
+class MarchPoint(AxlePoint):
     """The speed sweep's study at one point, run by the model in this process.
 
     Parameters
     ----------
-    axle : AxleVariants
     quick : bool
         Short records, for a first look.
     """
 
-    axle: AxleVariants
+    name: ClassVar[str] = "sweep"
+    block: ClassVar[int] = 5
+    shown: ClassVar[tuple[str, ...]] = ("dte_mesh_1", "bearing_force_mesh_1", "loss", "dte_pp")
+    operands: ClassVar[Keys] = _OPERANDS
+    quantities: ClassVar[tuple[Quantity, ...]] = _quantities()
+
     quick: bool = False
-    name: str = "sweep"
-    block: int = 5
-    shown: tuple[str, ...] = ("dte_mesh_1", "bearing_force_mesh_1", "loss", "dte_pp")
-
-    @property
-    def subject(self) -> str:
-        """Name of what is varied."""
-        return self.axle.file.name
-
-    @property
-    def keys(self) -> Keys:
-        """Fields of the axle file, parameters of the FMU, and the operands."""
-        return {**axle_keys(), **_OPERANDS}
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """What `compute` returns."""
-        return _QUANTITIES
 
     @property
     def identity(self) -> str:

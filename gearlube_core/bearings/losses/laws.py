@@ -18,6 +18,7 @@ ROLLING_LAWS = {
 }
 MATERIAL_LIMIT_WORDS = "M 0.2 to 200, L 4 to 16"  # range of biboulet_houpert_2010
 CATALOGUE_LAWS = ("palmgren", "skf", "timken")
+PALMGREN, SKF = 0, 1  # of them, for kernels
 LAWS = (*ROLLING_LAWS, *CATALOGUE_LAWS)
 
 NO_HEATING, AIHARA_HEATING, ZHU_CHENG_HEATING = 0, 1, 2

@@ -146,8 +146,8 @@ def bearing_loss(
     if model.law == "palmgren":
         p = geometry.dry_rollers()
         # the load part vanishes without load, at the same speed
-        whole = drag_torque(speed, F_a, state.nu, p)
-        viscous = drag_torque(speed, 0.0, state.nu, p)
+        whole = drag_torque(speed, F_a, 0.0, state.nu, p)
+        viscous = drag_torque(speed, 0.0, 0.0, state.nu, p)
         parts = {"viscous": rows * viscous, "load": rows * (whole - viscous)}
         return _sum(parts, speed, factor, (nan, nan, nan, 0.0))
     if model.law == "timken":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlube_core.bearings.losses.zhou_hoeprich_1991 import asperity_share
+from gearlube_core.contact.asperity_share import asperity_share
 from gearlube_core.contact.elliptical_hertz import hertz_ellipse
 from gearlube_core.film.chittenden_1985 import central_film_thickness
 from gearlube_core.film.groups import inlet_heating_number
@@ -18,6 +18,13 @@ from gearlube_core.oil.roelands_1966 import (
     ROELANDS_PRESSURE,
     roelands_viscosity,
 )
+
+# where a file does not say
+RIB_HEIGHT = 0.15  # of the contact above the race, over the roller diameter; assumed
+RIB_END_RADIUS = 0.9  # of the sphere of the roller end, over its distance from the apex
+RIB_ROUGHNESS = 0.24e-6  # composite rms, [wingertszahn_2023] [m]
+RIB_SHARE_B, RIB_SHARE_C = 1.90, 0.99  # likewise
+RIB_BOUNDARY_FRICTION = 0.12
 
 
 class RibParameters(NamedTuple):

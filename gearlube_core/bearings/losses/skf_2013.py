@@ -16,6 +16,7 @@ SERIES = {
     "322": (2.27e-6, 0.018),
 }
 OTHER_SERIES = (2.31e-6, 0.019)
+SERIES_NAMES = (*SERIES, "other")
 R2, S2 = 10.9, 2.0  # likewise
 BOUNDARY_FRICTION = 0.12  # mu_bl; another edition has 0.15
 FULL_FILM_FRICTION = 0.002  # of a full film between tapered rollers and rib

@@ -44,7 +44,9 @@ Equations = Literal["consistent", "as_printed"]
 Radii = Literal["consistent", "paper", "mean"]
 MeshStiffness = Literal["tangent", "secant"]
 MeshDamping = Literal["hysteretic", "modal"]
-Friction = Literal["consistent", "as_printed", "off", "printed_traction_circular"]
+Friction = Literal[
+    "consistent", "as_printed", "off", "printed_traction_circular", "zhou_hoeprich_1991"
+]
 Approach = Literal["full", "as_printed"]
 
 NO_MODAL_LOSS = (
@@ -89,16 +91,20 @@ class HypoidAxleParameters(AxleScalars):
         [mohammadpour_2015 (4)], or c = modal_loss_factor sqrt(k0 m_eq), k0 at REFERENCE_TORQUE.
     modal_loss_factor : float
         Twice the damping ratio of the mesh mode [-].
-    friction : {"consistent", "as_printed", "off", "printed_traction_circular"} or callable
-        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`. The last name
-        reads the paper so that its efficiency comes out: (13) without beta, as printed, at the mean
-        pressure of a circle, `circular_pressure_coefficient`; asperities are consistent.
+    friction : {"consistent", "as_printed", "off", "printed_traction_circular", \
+        "zhou_hoeprich_1991"} or callable
+        Name in `flank_laws.FLANK_LAWS`, "off", or a maker of a law, see `flank_law`.
+        "printed_traction_circular" reads the paper so that its efficiency comes out: (13) without
+        beta, as printed, at the mean pressure of a circle, `circular_pressure_coefficient`;
+        asperities are consistent. "zhou_hoeprich_1991": asperities carry exp(-B Lambda^C) of the
+        load, all of it where there is no film.
     rolling : {"none", "biboulet_houpert_2010"}
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
-        "aihara_1987"}
-        Palmgren's law under the preload, or the raceways by a law of rolling under the load of each
-        roller, without rib and oil drag.
+        "aihara_1987", "palmgren_loaded", "skf_2013"}
+        Palmgren's law under the preload; the raceways by a law of rolling, with ribs, hysteresis
+        and oil drag, under the load of each roller; or a law of the catalogues under the forces of
+        either bearing.
     churning : {"none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
         Law of the gear's churning, see `churning_torque`.
     ring_diameter, ring_width : float

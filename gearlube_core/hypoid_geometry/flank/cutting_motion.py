@@ -29,7 +29,9 @@ class CuttingMotion(NamedTuple):
     The edge at height u [m] above the reference plane, towards the blade tip, stands at the radius
     r_c + e(u) with e = slope u + bend u^2, along the direction turned by the blade offset angle
     from the cutter radius. At cutter angle th [rad] and cradle angle ph [rad] the work piece has
-    turned by psi = -index_ratio th - roll_ratio ph about its axis.
+    turned by psi = -index_ratio th - roll_ratio (ph - c2 ph^2 / 2 - c3 ph^3 / 6) about its axis,
+    with the coefficients of modified roll c2, c3, and the cutter has moved by lead ph along the
+    cradle axis (helical motion).
     """
 
     radius: float  # r_c [m], cutter radius at the reference plane
@@ -47,6 +49,9 @@ class CuttingMotion(NamedTuple):
     index_ratio: float  # blade groups / teeth; 0 for single indexing (face milling)
     roll_ratio: float  # ratio of roll; unused without generation
     generated: float  # 1: the cradle rolls; 0: form cut (Formate), ph = 0
+    roll_second: float = 0.0  # c2 [1/rad], modified roll
+    roll_third: float = 0.0  # c3 [1/rad^2]
+    lead: float = 0.0  # helical motion [m/rad]
 
 
 class CutState(NamedTuple):
@@ -68,6 +73,21 @@ class CutState(NamedTuple):
     meshing_u: float
     meshing_th: float
     meshing_ph: float
+
+
+@kernel
+def work_angle(motion: CuttingMotion, th: float, ph: float) -> float:
+    """Return the work's rotation psi [rad] at cutter angle `th`, cradle angle `ph` [rad]."""
+    bent = ph * (1.0 - ph * (motion.roll_second / 2.0 + ph * motion.roll_third / 6.0))
+    return -motion.index_ratio * th - motion.generated * motion.roll_ratio * bent
+
+
+@kernel
+def _roll_rates(motion: CuttingMotion, ph: float) -> tuple[float, float]:
+    """Return the ratio of roll [-] at cradle angle `ph` [rad] and its change [1/rad]."""
+    roll = motion.generated * motion.roll_ratio
+    rate = 1.0 - ph * (motion.roll_second + 0.5 * ph * motion.roll_third)
+    return roll * rate, -roll * (motion.roll_second + ph * motion.roll_third)
 
 
 @kernel
@@ -109,16 +129,20 @@ def cut_state(motion: CuttingMotion, u: float, th: float, ph: float) -> CutState
     q_th = rotate(q_th, cradle, cos_ph, sin_ph)
     q_thth = rotate(q_thth, cradle, cos_ph, sin_ph)
     q_uth = rotate(q_uth, cradle, cos_ph, sin_ph)
+    # a shift along the cradle axis: the cradle turns the blade alike
+    q = combine(1.0, q, motion.generated * motion.lead * ph, cradle)
     w = subtract(add(q, motion.cradle_point), motion.work_point)
 
     # in axes that turn with the work piece, d/dk = partial d/dk + rate_k axis x
     axis = motion.work_axis
     index = motion.index_ratio
-    roll = motion.generated * motion.roll_ratio
+    roll, roll_change = _roll_rates(motion, ph)
     by_cradle = motion.generated
     r_u = q_u
     r_th = combine(1.0, q_th, index, cross(axis, w))
     swing = cross(cradle, q)
+    along = motion.generated * motion.lead
+    swing = combine(1.0, swing, along, cradle)
     r_ph = combine(by_cradle, swing, roll, cross(axis, w))
     r_uu = q_uu
     r_uth = combine(1.0, q_uth, index, cross(axis, q_u))
@@ -136,6 +160,7 @@ def cut_state(motion: CuttingMotion, u: float, th: float, ph: float) -> CutState
         roll,
         cross(axis, r_ph),
     )
+    r_phph = combine(1.0, r_phph, roll_change, cross(axis, w))
 
     normal = cross(r_u, r_th)
     normal_u = add(cross(r_uu, r_th), cross(r_u, r_uth))
@@ -149,7 +174,7 @@ def cut_state(motion: CuttingMotion, u: float, th: float, ph: float) -> CutState
     else:
         meshing, meshing_u, meshing_th, meshing_ph = ph, 0.0, 0.0, 1.0
 
-    psi = -index * th - roll * ph
+    psi = work_angle(motion, th, ph)
     c = math.cos(psi)
     s = -math.sin(psi)
     return CutState(
@@ -176,7 +201,7 @@ def blade_offset_angle(motion: CuttingMotion, th: float, ph: float) -> float:
     on the slope of nothing: the point at u = 0 is the same for every offset angle.
     """
     state = cut_state(motion, 0.0, th, ph)
-    psi = -motion.index_ratio * th - motion.generated * motion.roll_ratio * ph
+    psi = work_angle(motion, th, ph)
     velocity = rotate(state.r_th, motion.work_axis, math.cos(psi), math.sin(psi))
     velocity = rotate(velocity, motion.cradle_axis, math.cos(ph), -math.sin(ph))
     side = cross(motion.cutter_axis, motion.cutter_zero)

@@ -43,6 +43,7 @@ GEAR_FIELDS = (
     "gear.machine.machine_center_to_back_mm",
     "gear.machine.horizontal_setting_mm",
     "gear.machine.vertical_setting_mm",
+    "gear.machine.ratio_of_roll",
 )
 PINION_FIELDS = (
     *(f"pinion.cutter.{name}" for name in _CUTTER),
@@ -146,11 +147,12 @@ def roll_misfits(file: HypoidGearFile) -> list[Misfit]:
     """Return the checks of the numbers that need no geometry: ratio of roll and blade groups.
 
     The ratio of roll is checked where the cradle stands in for the gear: machine root angle below
-    2 deg.
+    2 deg, the same ratio over the whole cut.
     """
     machine, pinion, gear = file.pinion.machine, file.pinion, file.gear
     found = []
-    if abs(machine.machine_root_angle_deg) <= IMAGE_ROOT_ANGLE:
+    constant = machine.modified_roll_2c == machine.modified_roll_6d == 0.0
+    if abs(machine.machine_root_angle_deg) <= IMAGE_ROOT_ANGLE and constant:
         found.append(
             _grave(
                 "The difference of the ratio of roll from the teeth ratio gear / pinion",
@@ -158,6 +160,17 @@ def roll_misfits(file: HypoidGearFile) -> list[Misfit]:
                 ROLL_LIMIT,
                 "%",
                 ("pinion.machine.ratio_of_roll", *_TEETH),
+            )
+        )
+    rolls = gear.machine.ratio_of_roll
+    if rolls is not None:
+        found.append(
+            _grave(
+                "The difference of the gear's ratio of roll from that of its pitch cone",
+                rolls * math.sin(gear.pitch_angle_deg * DEGREE) - 1.0,
+                ROLL_LIMIT,
+                "%",
+                ("gear.machine.ratio_of_roll", "gear.pitch_angle_deg"),
             )
         )
     groups = pinion.cutter.blade_groups

@@ -29,6 +29,8 @@ Curve = Literal["convex", "concave"]
 _X, _Y, _Z = np.eye(3)
 _TURN = np.linspace(-math.pi, math.pi, 361)  # tried for a root: a degree of rotation each
 _WIDER = 1e-9  # rad
+# machine root angle beyond which a cradle stands in for a crown gear, not for the mate
+CROWN_ROOT_ANGLE = 10.0 * DEGREE
 
 
 class ReferenceCut(NamedTuple):
@@ -46,10 +48,11 @@ def reference_point(blank: HypoidBlank) -> Array:
 
 
 def gear_cut(file: HypoidGearFile, curve: Curve) -> ReferenceCut:
-    """Return the motion that cuts the gear's `curve` flank, form-cut.
+    """Return the motion that cuts the gear's `curve` flank, form-cut or generated.
 
     The cutter axis is normal to the root cone's generator in the plane of the gear axis; its
-    reference plane has its apex `machine_center_to_back` before the crossing point.
+    reference plane has its apex `machine_center_to_back` before the crossing point. With a ratio
+    of roll the cradle turns about the line through this apex along the cutter axis.
     """
     gear = file.gear
     machine = gear.machine
@@ -60,19 +63,22 @@ def gear_cut(file: HypoidGearFile, curve: Curve) -> ReferenceCut:
         -machine.machine_center_to_back_mm * _Z
         + machine.horizontal_setting_mm * along
         + machine.vertical_setting_mm * _Y
+        - machine.sliding_base_mm * inward
     ) * MILLIMETRE
+    rolls = machine.ratio_of_roll is not None
+    apex = -machine.machine_center_to_back_mm * MILLIMETRE * _Z
     motion = CuttingMotion(
         **_blade(gear, curve),
         cutter_centre=_vector(centre),
         cutter_axis=_vector(inward),
         cutter_zero=_vector(along),
-        cradle_point=_vector(np.zeros(3)),
-        cradle_axis=_vector(_Z),
+        cradle_point=_vector(apex if rolls else np.zeros(3)),
+        cradle_axis=_vector(-inward if rolls else _Z),
         work_point=_vector(np.zeros(3)),
         work_axis=_vector(_Z),
         index_ratio=gear.cutter.blade_groups / gear.teeth,
-        roll_ratio=0.0,
-        generated=0.0,
+        roll_ratio=machine.ratio_of_roll or 0.0,
+        generated=1.0 if rolls else 0.0,
     )
     angle = _gear_cutter_angle(motion, file.blank())
     return ReferenceCut(_with_offset(motion, gear.cutter, angle, 0.0), angle, 0.0)
@@ -120,14 +126,36 @@ def pinion_cut(file: HypoidGearFile, curve: Curve) -> ReferenceCut:
         index_ratio=pinion.cutter.blade_groups / pinion.teeth,
         roll_ratio=machine.ratio_of_roll,
         generated=1.0,
+        roll_second=machine.modified_roll_2c,
+        roll_third=machine.modified_roll_6d,
+        lead=machine.helical_motion_mm_per_rad * MILLIMETRE,
     )
-    cradle_angle = _pinion_cradle_angle(motion, reference_point(file.blank()))
-    _, radial = _from_cutter(motion, reference_point(file.blank()), cradle_angle)
+    point = _cut_point(motion, file.blank())
+    cradle_angle = _pinion_cradle_angle(motion, point)
+    _, radial = _from_cutter(motion, point, cradle_angle)
     side = np.cross(motion.cutter_axis, motion.cutter_zero)
     angle = math.atan2(radial @ side, radial @ np.array(motion.cutter_zero))
     return ReferenceCut(
         _with_offset(motion, pinion.cutter, angle, cradle_angle), angle, cradle_angle
     )
+
+
+def _cut_point(motion: CuttingMotion, blank: HypoidBlank) -> Array:
+    """Return where the mean reference point is cut [m], (3,): the pinion turned to the cutter.
+
+    A cradle that stands in for the gear cuts it where the gear will touch it. A cradle that stands
+    in for a crown gear, its axis across the pitch plane, cuts it where the pinion's cone touches
+    that plane: on the side that the cradle axis points to.
+    """
+    point = reference_point(blank)
+    axis, cradle = np.array(motion.work_axis), np.array(motion.cradle_axis)
+    along = float(cradle @ axis)
+    if abs(along) < math.sin(CROWN_ROOT_ANGLE):
+        return point
+    own = point - np.array(motion.work_point)
+    axial = float(own @ axis)
+    up = (cradle - along * axis) / math.sqrt(1.0 - along**2)
+    return np.asarray(motion.work_point + axial * axis + np.linalg.norm(own - axial * axis) * up)
 
 
 def other_flank(cut: ReferenceCut, member: Gear | Pinion, curve: Curve) -> ReferenceCut:
@@ -142,7 +170,7 @@ def other_flank(cut: ReferenceCut, member: Gear | Pinion, curve: Curve) -> Refer
 
 def reference_plane_distance(cut: ReferenceCut, blank: HypoidBlank) -> float:
     """Return the height [m] of the mean reference point over the cutter's reference plane."""
-    return float(_from_cutter(cut.motion, reference_point(blank), cut.cradle_angle)[0])
+    return float(_from_cutter(cut.motion, _cut_point(cut.motion, blank), cut.cradle_angle)[0])
 
 
 def _vector(a: Array) -> Vector:
@@ -181,8 +209,13 @@ def _from_cutter(motion: CuttingMotion, point: Array, ph: float | Array) -> tupl
     The cradle is turned by `ph`, of shape (...).
     """
     origin, axis = np.array(motion.cradle_point), np.array(motion.cutter_axis)
-    turn = Rotation.from_rotvec(np.multiply.outer(-np.asarray(ph), np.array(motion.cradle_axis)))
-    offset = turn.apply(point - origin) + origin - np.array(motion.cutter_centre)
+    cradle, arm = np.array(motion.cradle_axis), point - origin
+    turned = (
+        np.multiply.outer(np.cos(ph), arm - (arm @ cradle) * cradle)
+        - np.multiply.outer(np.sin(ph), np.cross(cradle, arm))
+        + np.multiply.outer(arm @ cradle - motion.lead * np.asarray(ph), cradle)
+    )
+    offset = turned + origin - np.array(motion.cutter_centre)
     height = offset @ axis
     return height, offset - np.multiply.outer(height, axis)
 

@@ -1,0 +1,1 @@
+"""Derivatives of tooth contact by machine settings and misalignments."""

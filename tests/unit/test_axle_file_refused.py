@@ -1,0 +1,113 @@
+"""Axle files that are wrong: what is said of each."""
+
+import math
+
+import pytest
+
+from drivetrain.axle_file.axle_file import AxleFile
+from gearlube_core.errors import ParameterError
+from tests.helpers.axle_files import car_axle
+
+
+def refusal(changes):
+    with pytest.raises(ParameterError) as error:
+        car_axle(changes)
+    return str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "parts"),
+    [
+        (
+            {"pinion.bearing.rollers": 20},
+            # 20 rollers have 62.7 mm sin(pi/20) each; 62.7 sin(pi/15) is 13.04, of 16 it is 12.2
+            ["pinion.bearing: the rollers overlap: 20", "9.808 mm", "12.7 mm", "at most 15 fit"],
+        ),
+        ({"pinion.bearing.pitch_diameter_mm": 0.0627}, ["Is it in m? 0.0627 m is 62.7 mm"]),
+        ({"pinion.bearing.pitch_diameter_mm": -60.0}, ["5 to 1000 mm, got -60.0"]),
+        ({"pinion.bearing.pitch_diameter_mm": 200.0}, ["between bore and outside diameter"]),
+        (
+            # pitch diameter 71.85 mm, the mean; less 12.7 mm cos 15 deg: inside the bore
+            {"pinion.bearing.bore_diameter_mm": 60.0},
+            ["the rings must have room: races of 59.58 and 84.12 mm", "got 60 and 83.7 mm"],
+        ),
+        (
+            {
+                "gear.bearing.inner_race_diameter_mm": 50.0,
+                "gear.bearing.outer_race_diameter_mm": 85.0,
+            },
+            ["gear.bearing: the rings must have room", "85 mm", "got 40 and 83.7 mm"],
+        ),
+        (
+            {
+                "gear.bearing.inner_race_diameter_mm": 75.0,
+                "gear.bearing.outer_race_diameter_mm": 50.0,
+            },
+            ["The roller must fit between the races"],
+        ),
+        ({"pinion.bearing.contact_angle_deg": -15.0}, ["5 to 45 deg, got -15"]),
+        ({"gear_set.backlash_um": -10.0}, ["0 to 2000 um, got -10"]),
+        ({"pinion.bearing.preload_n": -5.0}, ["0 to 100000 N, got -5"]),
+        ({"gear.bearing.interference_um": -5.0}, ["0 to 100 um, got -5"]),
+        (
+            {"housing.ring_diameter_mm": 165.0, "housing.immersion_mm": 200.0},
+            ["immersion_mm must be at most ring_diameter_mm, 165 mm, got 200 mm"],
+        ),
+        ({"housing.immersion_mm": -2.0}, ["0 to 3000 mm, got -2"]),
+        ({"seals.pinion_torque_n_m": -1.0}, ["0 to 100 N.m, got -1"]),
+        ({"oil.density_kg_m3": 0.87}, ["Is it in g/cm3? 0.87 g/cm3 is 870 kg/m3"]),
+        ({"oil.density_kg_m3": -870.0}, ["500 to 2000 kg/m3, got -870"]),
+        ({"oil.viscosity_40_degc_mm2_s": 100.0}, ["come together"]),
+        ({"oil.walther_a": 7.4, "oil.walther_b": -2.8}, ["0.3 to 10, got -2.8"]),
+        ({"gear.bearing.contact_angle_deg": 0.26}, ["0.26 rad is 14.8969 deg"]),
+        ({"gear.bearing.contact_angle_deg": 60.0}, ["5 to 45 deg, got 60.0"]),
+        ({"gear_set.backlash_um": 150000.0}, ["Is it in nm? 150000 nm is 150 um"]),
+        ({"vehicle.mass_kg": 1.3}, ["100 to 100000 kg, got 1.3", "1.3 t is 1300 kg"]),
+        ({"gear.inertia_kg_m2": 58100.0}, ["58100 kg.mm2 is 0.0581 kg.m2"]),
+        ({"gearbox.ratios": [3.0, 3.5]}, ["gearbox: ratios must fall", "First gear comes first"]),
+        ({"gearbox.ratios": []}, ["gearbox.ratios"]),
+        ({"oil.name": "sae90"}, ["jamali_2015, karagiannis_2012, mohammadpour_2015", "'sae90'"]),
+        ({"oil.walther_a": 7.0}, ["walther_a and walther_b come together"]),
+        (
+            {"oil.viscosity_40_degc_mm2_s": 15.0, "oil.viscosity_100_degc_mm2_s": 100.0},
+            ["Viscosity must fall with temperature"],
+        ),
+        (
+            {"pinion.bearing.preload_n": 2000.0, "pinion.bearing.interference_um": 5.0},
+            ["2000 N and 5 um; give one of them"],
+        ),
+        ({"pinion.bearing.inner_race_diameter_mm": 50.0}, ["come in pairs"]),
+        ({"tyre.size": "big"}, ["195/65R16", "'big'"]),
+        ({"tyre.size": "195/65R16", "tyre.rolling_radius_mm": 320.0}, ["say the same; give one"]),
+        ({"engine.orders": [2]}, ["the same number of entries, got 1, 0 and 0"]),
+        ({"engine.idle_speed_rpm": 7000.0}, ["highest_speed_rpm must be within 7000"]),
+        ({"vehicle.drag_area_m2": 0.7, "vehicle.frontal_area_m2": 2.2}, ["give one"]),
+        ({"gear_set.mesh_damping": "modal", "gear_set.modal_loss_factor": 0.0}, ["above 0"]),
+        ({"pinion.mas_kg": 12.0}, ["is it pinion.mass_kg?"]),
+        ({"pinion.bearing.roller_lenght_mm": 12.0}, ["is it pinion.bearing.roller_length_mm?"]),
+    ],
+)
+def test_what_no_axle_has_is_refused_with_value_limit_and_cure(changes, parts):
+    said = refusal(changes)
+    for part in parts:
+        assert part in said, said
+
+
+def test_all_wrong_fields_are_named_at_once():
+    said = refusal(
+        {
+            "pinion.bearing.rollers": 20,
+            "gear.mass_kg": -1.0,
+            "oil.name": "water",
+            "gearbox.ratios": [1.0, 2.0],
+            "vehicle.mass_kg": math.nan,
+        }
+    )
+    assert said.startswith("my.toml has 5 wrong field(s).")
+    for part in ("overlap", "gear.mass_kg", "'water'", "must fall", "got nan"):
+        assert part in said
+
+
+def test_a_file_without_gear_set_says_what_it_needs():
+    with pytest.raises(ParameterError, match=r"gear_set is missing: a section with gear_set\.mesh"):
+        AxleFile.from_data({"name": "x"}, "my.toml")
