@@ -28,6 +28,8 @@ SECTIONS = {
     "pinion.cutter": "[pinion.cutter] and [gear.cutter]",
     "pinion.machine": "[pinion.machine]: generated, with cutter tilt",
     "gear.machine": "[gear.machine]: form-cut (Formate), or generated with a ratio of roll",
+    "pinion.drive_flank": "[pinion.drive_flank], [pinion.coast_flank], [gear.drive_flank] and "
+    "[gear.coast_flank]: reliefs and crowns",
 }
 
 HEAD = """# The gear file
@@ -72,6 +74,11 @@ of signs misses by 0.23 mm or more (`tests/literature/test_flank_surface_karagia
 - **`blade_edge_radius_mm`**: a hollow blade, which crowns the tooth along its profile; without it
   the edge is straight. The blades of either flank may have their own radius,
   `convex_flank_edge_radius_mm` and `concave_flank_edge_radius_mm`.
+- **Reliefs** take material off the flank that the cutter left, along its normal: the amount at the
+  edge times (1 - d/extent)^2 at the distance d from it, nothing beyond the extent. Distances from
+  tip and root are tooth heights, those from toe and heel lie along the pitch cone. An edge radius r
+  is a relief of r/2 over r: where it begins it has the curvature 1/r. Crowns are parabolas over the
+  whole flank, zero in its middle; reliefs and crowns of a flank add up.
 - Root fillets are not described: below the flanks the tooth ends on the root cone.
 
 ## Where a number is from
@@ -120,6 +127,27 @@ TAIL = """
 
 5. Take it elsewhere: `write_flank_csv` (points, normals, curvatures), and `write_solid` with
    `tooth_solid` or `gear_solid` for STL and GLB (`gearlube_core/hypoid_geometry/flank/export.py`).
+   These are the flanks as cut: reliefs and crowns are left out.
+
+## Relieve the edges
+
+Sharp teeth press into each other from some 50 N.m of the shipped pair on, and that pressure has no
+finite value ([tooth contact](tooth_contact.md#edges-and-relief)). Add for instance
+
+```toml
+[pinion.drive_flank]
+tip_relief_um = 20.0
+tip_relief_depth_mm = 1.9     # a quarter of the tooth's height
+toe_relief_um = 30.0
+toe_relief_length_mm = 5.0
+heel_relief_um = 30.0
+heel_relief_length_mm = 5.0
+```
+
+and the same for the gear. Contact analysis, mesh table and what is made of it (transmission error,
+stiffness, radii of curvature, films, losses) are those of the relieved flanks. Whether the flanks
+meet at all is checked on the flanks as cut. `gearlube vary contact my_gear.toml --vary
+pinion.drive_flank.tip_relief_um=10:40:5` compares amounts.
 
 ## What is checked
 

@@ -1,8 +1,9 @@
 """Rewrite docs/tooth_contact.md and its pictures: python -m docs.tooth_contact.make [workdir].
 
 Analyses the shipped gear pair, its variants and refinements, and runs the axle with each variant's
-mesh table: about half an hour on two cores. What is finished is kept in the folder given as
-argument, by default build/tooth_contact; run again to go on after a stop.
+mesh table: about half an hour on two cores. Edges and relief are from
+`python -m docs.tooth_contact.relief`, which comes first. What is finished is kept in the folder
+given as argument, by default build/tooth_contact; run again to go on after a stop.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from docs.tooth_contact.pages import (
     variant_table,
 )
 from docs.tooth_contact.refinement import refinements
+from docs.tooth_contact.relief import relief_table
 from docs.tooth_contact.study import analysed, axle_sweep
 from docs.tooth_contact.variants import variants
 from gearlube.studies.contact.figures import save_contact_figures
@@ -59,6 +61,8 @@ def main() -> None:
     page += (TEXTS / "load.md").read_text(encoding="utf-8")
     page += torque_table(shipped)
     page += (TEXTS / "edges.md").read_text(encoding="utf-8")
+    page += relief_table()
+    page += (TEXTS / "relief.md").read_text(encoding="utf-8")
     page += variant_table(rows)
     page += (TEXTS / "open.md").read_text(encoding="utf-8")
     page += axle_table(rows)

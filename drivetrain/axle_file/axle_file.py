@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.axle_sections import GearSet, Member, ModelOptions, Steel
+from drivetrain.axle_file.axle_sections import GearSet, ModelOptions, Steel
 from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.car_sections import (
     DrivelineSection,
@@ -19,7 +19,7 @@ from drivetrain.axle_file.car_sections import (
     VehicleSection,
 )
 from drivetrain.axle_file.drag_sections import Housing, Seals
-from drivetrain.axle_file.field_units import field_value, unit_of
+from drivetrain.axle_file.member_section import Member
 from drivetrain.axle_file.oil_section import OilSection
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import FinalDrive, RoadLoad
@@ -32,7 +32,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
-from gearlube_core.input_file.input_note import InputNote, Origin
+from gearlube_core.input_file.input_note import InputNote
 from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
@@ -212,17 +212,11 @@ class AxleFile(InputFile):
                 xi_beta_sigma=fit.surface.xi_beta_sigma,
                 sigma_over_beta=fit.surface.sigma_over_beta,
             )
-        members = {
-            f"{role}_{name}": value
-            for role, member in (("pinion", self.pinion), ("gear", self.gear))
-            for name, value in (
-                (member.attribute(key), member.si(key))
-                for key in ("mass_kg", "inertia_kg_m2")
-                if member.has(key)
-            )
-        }
         bearing, gear_bearing = self._bearings()
-        given = self.gear_set.changes(base) | self.model.changes(base) | members
+        density = float(bearing.solid.density)
+        given = self.gear_set.changes(base) | self.model.changes(base)
+        given |= self.pinion.member_changes("pinion", density)
+        given |= self.gear.member_changes("gear", density)
         given |= self.housing.housing_changes(base) | self.seals.seal_changes()
         return replace(
             base,
@@ -256,7 +250,7 @@ class AxleFile(InputFile):
         if fit is not None:
             notes += _fit_notes(fit)
         for role, member in (("pinion", self.pinion), ("gear", self.gear)):
-            notes += _member_notes(role, member, axle)
+            notes += member.member_notes(role, axle, float(axle.solid.density), _PAPER)
             section, prefix = member.bearing, f"{role}.bearing."
             if role == "gear" and section is None:
                 notes.append(InputNote("gear.bearing", "", "", "assumed", _AS_PINION))
@@ -292,18 +286,6 @@ def _fit_notes(fit: GreenwoodTrippFit) -> list[InputNote]:
         )
         for name in ("xi_beta_sigma", "sigma_over_beta")
     ]
-
-
-def _member_notes(role: str, member: Member, axle: HypoidAxleParameters) -> list[InputNote]:
-    notes = []
-    for key in ("mass_kg", "inertia_kg_m2"):
-        given = member.has(key)
-        value = field_value(key, getattr(axle, f"{role}_{member.attribute(key)}"))
-        origin: Origin = "given" if given else "assumed"
-        notes.append(
-            InputNote(f"{role}.{key}", value, unit_of(key), origin, "" if given else _PAPER)
-        )
-    return notes
 
 
 def read_axle(path: str | Path) -> CarAxle:

@@ -1,4 +1,4 @@
-"""The sections of the axle file on gear set, members, steel and model."""
+"""The sections of the axle file on gear set, steel and model."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.bearing_section import BearingSection
 from drivetrain.axle_file.model_section import ModelSection
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.parameters import Friction
@@ -18,8 +17,6 @@ Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
 LossFactor = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
 Hysteresis = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Floor = Annotated[float, Field(ge=1.0, le=1e4, allow_inf_nan=False)]
-Mass = Annotated[float, Field(ge=0.05, le=2000.0, allow_inf_nan=False)]
-Inertia = Annotated[float, Field(ge=1e-6, le=500.0, allow_inf_nan=False)]
 Modulus = Annotated[float, Field(ge=1.0, le=2000.0, allow_inf_nan=False)]
 Poisson = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Density = Annotated[float, Field(ge=1000.0, le=30000.0, allow_inf_nan=False)]
@@ -80,16 +77,6 @@ class GearSet(ModelSection):
         return self
 
 
-class Member(ModelSection):
-    """Pinion or gear with all that turns and moves with it."""
-
-    mass_kg: Mass | None = Field(default=None, description="Of all that moves with the member")
-    inertia_kg_m2: Inertia | None = Field(
-        default=None, description="Of all that turns with the member, about its axis"
-    )
-    bearing: BearingSection | None = None
-
-
 class Steel(ModelSection):
     """The solid of flanks, rollers and races."""
 
@@ -119,8 +106,8 @@ class ModelOptions(ModelSection):
     bearing_torque_loss: TorqueLoss | None = Field(
         default=None,
         description="Drag torque of the bearings; palmgren: under the preload; palmgren_loaded, "
-        "skf_2013: under the forces of each bearing; others: of the raceways alone, under the load "
-        "of each roller",
+        "skf_2013: under the forces of each bearing; others: of raceways, ribs and oil, under the "
+        "load of each roller",
     )
     bearing_approach: Literal["full", "as_printed"] | None = Field(
         default=None, description="Roller approach under shaft displacement: full, or halved"

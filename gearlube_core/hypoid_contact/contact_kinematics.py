@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -127,6 +127,8 @@ def contact_kinematics(
     1/R = eigenvalues of -(K_p + K_g),  v_p = j_p x r,  v_g = (z_p / z_g) j_g x r
 
     with both shape operators for outward normals and velocities projected on the tangent plane.
+    Corrections of the flanks add the second derivatives of their removal to the curvature; the
+    normals and arms stay those of the flanks as cut.
 
     Parameters
     ----------
@@ -159,6 +161,13 @@ def contact_kinematics(
     velocity_g = _tangential(arm_g, normal) / pair.ratio
     entrainment = 0.5 * (velocity_p + velocity_g)
     curvature = -(shape_operator(pinion) + shape_operator(gear))
+    if pair.is_corrected:
+        for flank, placed, own in (
+            (pair.pinion, pinion, pinion_parameters),
+            (pair.gear, gear, gear_parameters),
+        ):
+            bend = flank.removal_bend(flank.sample_parameters(own))
+            curvature += shape_operator(replace(placed, curvature=bend))
     project = np.eye(3) - normal[:, :, None] * normal[:, None, :]
     curvature = project @ curvature @ project
     R_x, R_y, minor = _principal(curvature, normal, entrainment)

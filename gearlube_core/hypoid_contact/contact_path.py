@@ -18,9 +18,11 @@ from gearlube_core.hypoid_contact.contact_point import (
 from gearlube_core.hypoid_contact.first_contact_point import FirstContactPoint, first_contact_point
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_sample, tooth_position
+from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
 
 _LONGEST_STEP = 0.125  # of a pitch, between solutions that start from one another
 _DIFFERENCE = 1e-3  # of a pitch: errors of both difference and rounding below 1e-8 m
+_AT_EDGE = 1e-3  # of tooth height or face width: a search ends so far from an edge at most
 _TRIED = (0.0, -0.25, 0.25, -0.5, 0.5)  # gear angles [pitches] tried for a first contact
 
 
@@ -79,11 +81,18 @@ def contact_path(pair: FlankPair, gear_angles: Array) -> ContactPath:
         When the flanks touch in no point of both teeth near the middle of the mesh: they meet at
         an edge. The message says where, and what would bring the contact back.
 
+    Notes
+    -----
+    Of corrected flanks the points are found by `searched_transmission_error`, without equations of
+    tangency; where they meet at an edge of a tooth there is no contact in this sense.
+
     References
     ----------
     [litvin_fuentes_2004 ch. 9.4].
     """
     gear_angles = np.asarray(gear_angles, float)
+    if pair.is_corrected:
+        return _searched_path(pair, gear_angles)
     start_angle, start = _first_contact(pair)
     found = np.full((gear_angles.size, UNKNOWNS), np.nan)
     order = np.argsort(gear_angles, kind="stable")
@@ -145,6 +154,23 @@ def path_at(pair: FlankPair, gear_angles: Array, found: Array) -> ContactPath:
         *tooth_position(pair.pinion, pair.pinion.sample_parameters(pinion).r),
         surface.regularity,
     )
+
+
+def _searched_path(pair: FlankPair, gear_angles: Array) -> ContactPath:
+    """Return the path of corrected flanks: what touches first, away from the edges."""
+    found = searched_transmission_error(pair, gear_angles)
+    gear = np.full((gear_angles.size, 3), np.nan)
+    some = np.isfinite(found.error)
+    gear[some] = pair.gear.parameters(found.s[some], found.t[some])
+    pinion = found.pinion_parameters
+    own = pair.pinion.sample_parameters(pinion).r
+    places = np.stack([found.s, found.t, *tooth_position(pair.pinion, own)])
+    edge = ~(np.minimum(places, 1.0 - places).min(axis=0) > _AT_EDGE)
+    angle = np.where(edge, np.nan, pair.ratio * gear_angles + found.error)
+    gear[edge] = np.nan
+    unknowns = np.column_stack([gear, pinion, pair.pinion_turn(angle)])
+    unknowns[edge] = np.nan
+    return path_at(pair, gear_angles, unknowns)
 
 
 def _facing(pair: FlankPair) -> float:

@@ -10,6 +10,9 @@ from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.contact_rotation_kernel import find_contact_rotations
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
+from gearlube_core.hypoid_geometry.flank.flank import FlankSample
+
+_SHORTEST = 1e-5  # m, arm of a normal that still turns the pinion
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +29,8 @@ class ContactRotations:
         Profile and face position of the pinion point [-].
     pinion_regularity : ndarray of shape (K, m, n)
         Not positive beyond a fold of the pinion surface (undercut) [-].
+    by_correction : ndarray of shape (K, m, n)
+        Part of pinion_angle that closes what the corrections of both flanks took away [rad].
     """
 
     pinion_angle: Array
@@ -33,6 +38,7 @@ class ContactRotations:
     pinion_s: Array
     pinion_t: Array
     pinion_regularity: Array
+    by_correction: Array
 
     def on_tooth(self) -> ContactRotations:
         """Return the map with NaN beyond the edges of the pinion tooth and beyond folds."""
@@ -45,6 +51,7 @@ class ContactRotations:
             np.where(outside, np.nan, self.pinion_s),
             np.where(outside, np.nan, self.pinion_t),
             np.where(outside, np.nan, self.pinion_regularity),
+            np.where(outside, np.nan, self.by_correction),
         )
 
 
@@ -75,9 +82,25 @@ def contact_rotations(
         found,
     )
     own = pair.pinion.sample_parameters(found[..., :3])
+    extra = _by_correction(pair, points, own)
     return ContactRotations(
-        np.asarray(pair.pinion_angle(found[..., 3])),
+        np.asarray(pair.pinion_angle(found[..., 3])) + extra,
         found[..., :3],
         *tooth_position(pair.pinion, own.r),
         own.regularity,
+        extra,
     )
+
+
+def _by_correction(pair: FlankPair, gear_points: Array, own: FlankSample) -> Array:
+    """Return the pinion rotation that closes the removals of gear (m, n) and pinion (K, m, n).
+
+    The rotation over the arm of the pinion's normal; infinite where that has none.
+    """
+    if not pair.is_corrected:
+        return np.zeros(own.r.shape[:-1])
+    removed = pair.gear.removal(gear_points) + pair.pinion.removal(own.r)
+    swing = np.cross(pair.pinion.axis, own.r - pair.pinion.axis_point)
+    arm = np.abs(np.einsum("...i,...i->...", own.normal, swing))
+    turn = np.divide(removed, arm, out=np.full_like(removed, np.inf), where=arm > _SHORTEST)
+    return np.asarray(pair.touching_sign * np.where(np.isnan(arm), np.nan, turn))

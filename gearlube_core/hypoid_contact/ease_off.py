@@ -123,4 +123,8 @@ def ease_off(
     R_p = np.einsum("ni,ni->n", np.cross(-axis_p, surface.r - point_p), normal).reshape(shape)
     R_g = np.einsum("ni,ni->n", np.cross(axis_g, surface.r - point_g), normal).reshape(shape)
     error = found.pinion_angle - pair.ratio * gear_angles[:, None, None]
-    return EaseOff(pair, s, t, gear_angles, error, R_g / R_p - pair.ratio, R_p)
+    rate = R_g / R_p - pair.ratio
+    if pair.is_corrected:
+        turned = np.gradient(found.by_correction, gear_angles, axis=0)
+        rate += np.where(np.isfinite(turned), turned, 0.0)
+    return EaseOff(pair, s, t, gear_angles, error, rate, R_p)

@@ -40,5 +40,5 @@ def first_contact_point(pair: FlankPair, gear_angle: float) -> FirstContactPoint
         float(t[i, j]),
         gear[i, j],
         reach.pinion_parameters[0, i, j],
-        pair.pinion_turn(float(reach.pinion_angle[0, i, j])),
+        pair.pinion_turn(float(reach.pinion_angle[0, i, j] - reach.by_correction[0, i, j])),
     )

@@ -143,5 +143,6 @@ def gap_map(pair: FlankPair, gear_angle: float, pinion_angle: float) -> GapMap:
     on_tooth = within_tooth(pinion, opposite.r) & (opposite.regularity > 0.0)
     point, normal = pair.gear_in_place(gear_angle, surface.r, surface.normal)
     arm = closing_arm(pair, point, normal)
-    gap = np.where(on_tooth & (arm > 0.0), found[..., 3], np.inf)
+    removed = gear.removal(surface.r) + pinion.removal(opposite.r)
+    gap = np.where(on_tooth & (arm > 0.0), found[..., 3] + removed, np.inf)
     return GapMap(gap, point, normal, parameters, found[..., :3], arm)

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.placement import (
     ALIGNED,
     Misalignment,
@@ -21,6 +22,7 @@ from gearlube_core.hypoid_contact.placement import (
     place_point,
     turned,
 )
+from gearlube_core.hypoid_geometry.flank.correction import NO_CORRECTION
 from gearlube_core.hypoid_geometry.flank.cutting_motion import cut_state
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Side
 from gearlube_core.hypoid_geometry.flank.machine_frames import reference_point
@@ -67,6 +69,25 @@ class FlankPair:
     def misaligned(self, misalignment: Misalignment) -> FlankPair:
         """Return the same flanks, displaced; the zero of the angles stays."""
         return replace(self, misalignment=misalignment)
+
+    def uncorrected(self) -> FlankPair:
+        """Return the same pair without the corrections of its flanks."""
+        plain = replace(self.pinion, correction=NO_CORRECTION)
+        return replace(self, pinion=plain, gear=replace(self.gear, correction=NO_CORRECTION))
+
+    @property
+    def is_corrected(self) -> bool:
+        """Whether material is taken off either flank as it is cut."""
+        return not (self.pinion.correction.is_none and self.gear.correction.is_none)
+
+    def check_uncorrected(self) -> None:
+        """Raise ParameterError where flanks have corrections, for what knows none."""
+        if self.is_corrected:
+            raise ParameterError(
+                "Derivatives of the unloaded contact must be taken of flanks without reliefs, "
+                f"crowns and twist, got a pair with corrected {self.side} flanks. Take "
+                "`pair.uncorrected()`, or differences of two analyses."
+            )
 
     @property
     def side(self) -> Side:

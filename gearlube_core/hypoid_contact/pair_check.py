@@ -138,21 +138,27 @@ def _slopes(file: HypoidGearFile, cuts: Cuts) -> list[Misfit]:
 
 
 def unloaded_refusal(file: HypoidGearFile, misalignment: Misalignment = ALIGNED) -> str | None:
-    """Return why the unloaded flanks touch in no point of both teeth; None if both sides do."""
+    """Return why the unloaded flanks touch in no point of both teeth; None if both sides do.
+
+    As they are cut, without corrections.
+    """
     for side in SIDES:
         try:
-            contact_path(FlankPair.from_file(file, side, misalignment), np.zeros(1))
+            contact_path(FlankPair.from_file(file, side, misalignment).uncorrected(), np.zeros(1))
         except ParameterError as reason:
             return str(reason)
     return None
 
 
 def unloaded_warnings(file: HypoidGearFile) -> list[str]:
-    """Return what the unloaded mesh of a file that meets says against it, one sentence each."""
+    """Return what the unloaded mesh of a file that meets says against it, one sentence each.
+
+    As the flanks are cut, without corrections.
+    """
     found = []
     for side in SIDES:
         try:
-            error = unloaded_error(FlankPair.from_file(file, side), _ERROR_POSITIONS)
+            error = unloaded_error(FlankPair.from_file(file, side).uncorrected(), _ERROR_POSITIONS)
         except ParameterError as reason:
             field = f"pinion.cutter.{CURVES['pinion', side]}_flank_angle_correction_deg"
             found.append(f"{reason} {field} moves the extreme most.")

@@ -50,10 +50,7 @@ def placed_axis(flank: Flank, base: Placement) -> tuple[Array, Array]:
 
 def tooth_position(flank: Flank, r: Array) -> tuple[Array, Array]:
     """Return profile and face position s, t [-] of points (..., 3) [m] in the member's frame."""
-    r = r - flank.axis_point
-    axial = r @ flank.axis
-    radius = np.linalg.norm(r - axial[..., None] * flank.axis, axis=-1)
-    return flank.region.position(radius, axial)
+    return flank.position(r)
 
 
 def shape_operator(sample: FlankSample) -> Array:

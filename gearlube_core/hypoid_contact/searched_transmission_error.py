@@ -25,11 +25,15 @@ _ROUNDS = 40  # ten shrink to the smallest, the others travel
 
 
 class SearchedTransmissionError(NamedTuple):
-    """First contact of one pair: error [rad], profile and face position on the gear [-], (N,)."""
+    """First contact of one pair: error [rad], profile and face position on the gear [-], (N,).
+
+    `pinion_parameters`, (N, 3), are u [m], th, ph [rad] of the pinion point.
+    """
 
     error: Array
     s: Array
     t: Array
+    pinion_parameters: Array
 
 
 def searched_transmission_error(pair: FlankPair, gear_angles: Array) -> SearchedTransmissionError:
@@ -39,13 +43,14 @@ def searched_transmission_error(pair: FlankPair, gear_angles: Array) -> Searched
     gear angle, found with parabolas through stencils of nine points that shrink about it. NaN
     where no flank point of the pinion reaches the gear flank: the pair is out of mesh.
     """
-    return SearchedTransmissionError(*np.array([_touch(pair, float(a)) for a in gear_angles]).T)
+    found = np.array([_touch(pair, float(a)) for a in gear_angles]).reshape(-1, 6)
+    return SearchedTransmissionError(found[:, 0], found[:, 1], found[:, 2], found[:, 3:])
 
 
-def _touch(pair: FlankPair, angle: float) -> tuple[float, float, float]:
+def _touch(pair: FlankPair, angle: float) -> tuple[float, ...]:
     touch = first_contact_point(pair, angle)
     if touch is None:
-        return np.nan, np.nan, np.nan
+        return (np.nan,) * 6
     x, size = np.array([touch.gear_s, touch.gear_t]), _FIRST
     start = np.array([*touch.pinion_parameters, touch.pinion_turn])
     error = np.nan
@@ -58,7 +63,8 @@ def _touch(pair: FlankPair, angle: float) -> tuple[float, float, float]:
             continue
         errors = found.pinion_angle[0] - pair.ratio * angle
         error = float(errors[1, 1])
-        turn = pair.pinion_turn(float(found.pinion_angle[0, 1, 1]))
+        as_cut = found.pinion_angle[0, 1, 1] - found.by_correction[0, 1, 1]
+        turn = pair.pinion_turn(float(as_cut))
         start = np.array([*found.pinion_parameters[0, 1, 1], turn])
         lowest = _lowest(pair.touching_sign * errors, found.pinion_s[0], found.pinion_t[0])
         # at the rim of the flank the extreme stays on the rim of the stencil
@@ -67,7 +73,7 @@ def _touch(pair: FlankPair, angle: float) -> tuple[float, float, float]:
             if size[0] < _SMALLEST:
                 break
             size = _SHRINK * size
-    return error, float(x[0]), float(x[1])
+    return error, float(x[0]), float(x[1]), *map(float, start[:3])
 
 
 def _lowest(height: Array, pinion_s: Array, pinion_t: Array) -> Array:

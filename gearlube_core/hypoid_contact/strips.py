@@ -297,7 +297,8 @@ def facing_cells(
     )
     if beyond:
         there = np.isfinite(cosine) & np.isfinite(on_pinion[..., 3])
-    gap = np.where(there, (on_pinion[..., 3] - on_gear[..., 3]) * cosine, np.inf)
+    removed = gear.removal(gear_surface.r) + pinion.removal(pinion_surface.r)
+    gap = np.where(there, (on_pinion[..., 3] - on_gear[..., 3]) * cosine + removed, np.inf)
     arm = closing_arm(pair, point, normal)
     return Strip(
         frame,

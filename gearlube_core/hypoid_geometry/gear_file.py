@@ -8,7 +8,21 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank, MemberBlank
-from gearlube_core.hypoid_geometry.gear_file_sections import Gear, Member, Pair, Pinion
+from gearlube_core.hypoid_geometry.flank.correction import (
+    EDGES,
+    NO_CORRECTION,
+    EdgeRelief,
+    FlankCorrection,
+    rounding,
+)
+from gearlube_core.hypoid_geometry.gear_file_sections import (
+    RELIEFS,
+    FlankRelief,
+    Gear,
+    Member,
+    Pair,
+    Pinion,
+)
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.units import DEGREE, MILLIMETRE
@@ -83,7 +97,64 @@ class HypoidGearFile(InputFile):
                 f"milling) or both above 0, got {self.pinion.cutter.blade_groups} and "
                 f"{self.gear.cutter.blade_groups}"
             )
+        self._check_reliefs()
         return self
+
+    def _check_reliefs(self) -> None:
+        """Check that the reliefs of a flank fit on it."""
+        for name, relief in self._reliefs.items():
+            if relief is None:
+                continue
+            role = name.partition(".")[0]
+            height = self.blank().whole_depth / MILLIMETRE
+            width = getattr(self, role).face_width_mm
+            for ends, whole, what in (
+                (("tip", "root"), height, "the whole depth of the tooth"),
+                (("toe", "heel"), width, f"{role}.face_width_mm"),
+            ):
+                word = "depth" if "tip" in ends else "length"
+                fields = [f"{end}_relief_{word}_mm" for end in ends]
+                reach = [getattr(relief, field) or 0.0 for field in fields]
+                if sum(reach) > whole:
+                    given = " and ".join(
+                        f"{field} {one:g} mm"
+                        for field, one in zip(fields, reach, strict=True)
+                        if one
+                    )
+                    raise ValueError(
+                        f"{name}: the reliefs must fit on the flank, together at most {what}, "
+                        f"{whole:.4g} mm, got {given}. Shorten them; a crown covers the whole flank"
+                    )
+
+    @property
+    def _reliefs(self) -> dict[str, FlankRelief | None]:
+        return {
+            f"{role}.{side}_flank": getattr(getattr(self, role), f"{side}_flank")
+            for role in ("pinion", "gear")
+            for side in ("drive", "coast")
+        }
+
+    def correction(self, role: str, side: str) -> FlankCorrection:
+        """Return what is taken off the "drive" or "coast" flank of a member, in SI units."""
+        found = self._reliefs[f"{role}.{side}_flank"]
+        if found is None:
+            return NO_CORRECTION
+        edges = [
+            EdgeRelief(edge=edge, amount=um * 1e-6, extent=mm * MILLIMETRE)
+            for edge, (amount, extent) in zip(EDGES, RELIEFS, strict=True)
+            if (um := getattr(found, amount)) > 0.0 and (mm := getattr(found, extent)) is not None
+        ]
+        for edge in EDGES:
+            radius = found.end_edge_radius_mm if edge in ("toe", "heel") else 0.0
+            radius = found.tip_edge_radius_mm if edge == "tip" else radius
+            if radius > 0.0:
+                edges.append(rounding(edge, radius * MILLIMETRE))
+        return FlankCorrection(
+            reliefs=tuple(edges),
+            profile_crown=found.profile_crown_um * 1e-6,
+            lead_crown=found.lead_crown_um * 1e-6,
+            twist=found.twist_um * 1e-6,
+        )
 
     def origin(self, field: str) -> Origin:
         """Return where the value of a dotted field, e.g. "gear.cutter.blade_groups", is from."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from gearlube_core.input_file.input_file import Section
 
@@ -26,6 +26,19 @@ PairOffset = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
 Clearance = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
 BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False)]
 Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False)]
+Removal = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
+Crown = Annotated[float, Field(ge=-500.0, le=500.0, allow_inf_nan=False)]
+Extent = Annotated[float, Field(gt=0.0, le=200.0, allow_inf_nan=False)]
+Rounding = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False)]
+
+RELIEFS = (  # amount and extent of the relief of each edge
+    ("tip_relief_um", "tip_relief_depth_mm"),
+    ("root_relief_um", "root_relief_depth_mm"),
+    ("toe_relief_um", "toe_relief_length_mm"),
+    ("heel_relief_um", "heel_relief_length_mm"),
+)
+_LEAST_RELIEF, _MOST_RELIEF = 0.5, 500.0  # um
+_STEEPEST = 0.1  # amount over extent: the removal stays along the normal
 
 
 class Cutter(Section):
@@ -160,6 +173,65 @@ class GeneratorMachine(Section):
     )
 
 
+class FlankRelief(Section):
+    """Material taken off one flank as it is cut, along its normal."""
+
+    tip_relief_um: Removal = Field(0.0, description="At the tip edge; 0: none")
+    tip_relief_depth_mm: Extent | None = Field(
+        None, description="Tooth height from the tip over which it falls to nothing, a parabola"
+    )
+    root_relief_um: Removal = Field(0.0, description="At the root line; 0: none")
+    root_relief_depth_mm: Extent | None = Field(
+        None, description="Tooth height from the root line, likewise"
+    )
+    toe_relief_um: Removal = Field(0.0, description="At the toe; 0: none")
+    toe_relief_length_mm: Extent | None = Field(
+        None, description="Length from the toe along the pitch cone, likewise"
+    )
+    heel_relief_um: Removal = Field(0.0, description="At the heel; 0: none")
+    heel_relief_length_mm: Extent | None = Field(
+        None, description="Length from the heel along the pitch cone, likewise"
+    )
+    tip_edge_radius_mm: Rounding = Field(
+        0.0, description="Rounding of the tip edge; 0: sharp. Half of it is taken off at the edge"
+    )
+    end_edge_radius_mm: Rounding = Field(
+        0.0, description="Rounding of the edges at toe and heel, likewise"
+    )
+    profile_crown_um: Crown = Field(
+        0.0, description="Parabola over the tooth height: removed at tip and root"
+    )
+    lead_crown_um: Crown = Field(
+        0.0, description="Parabola over the face width: removed at toe and heel"
+    )
+    twist_um: Crown = Field(
+        0.0,
+        description="Removed at the tip of the heel and the root of the toe, left standing as much "
+        "at the other corners, none along the middle lines",
+    )
+
+    @model_validator(mode="after")
+    def _check_reliefs(self) -> FlankRelief:
+        for name in type(self).model_fields:
+            amount = abs(getattr(self, name) or 0.0)
+            if name.endswith("_um") and 0.0 < amount < _LEAST_RELIEF:
+                raise ValueError(
+                    f"{name} must be 0 or {_LEAST_RELIEF:g} to {_MOST_RELIEF:g} um, got {amount:g} "
+                    f"um. Is it in mm? {amount:g} mm is {1e3 * amount:g} um"
+                )
+        for name, extent in RELIEFS:
+            amount, reach = getattr(self, name), getattr(self, extent)
+            if amount > 0.0 and reach is None:
+                raise ValueError(f"{extent} is missing; it must be above 0 mm where {name} is")
+            if reach is not None and amount > _STEEPEST * 1e3 * reach:
+                raise ValueError(
+                    f"{name} must be at most {100.0 * _STEEPEST:g} % of {extent}, "
+                    f"{_STEEPEST * 1e3 * reach:g} um, got {amount:g} um. Make the relief longer; "
+                    "an edge radius makes a steep edge"
+                )
+        return self
+
+
 class Member(Section):
     """Blank of one member; apexes count positive beyond the crossing point of the axes."""
 
@@ -179,6 +251,8 @@ class Member(Section):
         description="Apex of the face cone, positive beyond the crossing point"
     )
     cutter: Cutter
+    drive_flank: FlankRelief | None = None
+    coast_flank: FlankRelief | None = None
 
 
 class Pinion(Member):

@@ -138,6 +138,8 @@ BEARING = {
     "f0": (3.0, "f0", 3.0),
     "f1": (7e-4, "f1", 7e-4),
     "series": ("303", "series", "303"),
+    "rib_height_mm": (2.5, "rib_height", 0.0025),
+    "rib_boundary_friction": (0.1, "rib_boundary_friction", 0.1),
 }
 for _role, _place in (("pinion", "bearing"), ("gear", "gear_bearing")):
     for _key, (_value, _name, _si) in BEARING.items():
@@ -147,6 +149,8 @@ GROUPS = {"oil.viscosity_40_degc_mm2_s", "oil.viscosity_100_degc_mm2_s", "oil.wa
 GROUPS |= {"oil.walther_b", "engine.orders", "engine.order_amplitudes", "engine.order_phases_deg"}
 GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gear")
            for side in ("inner", "outer")}  # fmt: skip
+GROUPS |= {f"{role}.frusta_{one}_mm" for role in ("pinion", "gear")
+           for one in ("lengths", "first_diameters", "last_diameters", "bores")}  # fmt: skip
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
 WORDS |= {"seals.material", "tolerances"}
 NOT_PACKED = {"oil.heat_capacity_j_kg_k"}  # the axle's films take no heat away with the oil
@@ -202,6 +206,7 @@ def every_field(text):
     data = tomllib.loads(uncommented)
     data["oil"] = {"name": "mohammadpour_2015"}  # its data there are another oil's, to copy
     del data["gear_set"]["asperity_table"]  # a file that does not ship
+    del data["pinion"]["bearing"]["rib_height_mm"]  # 0.15 of 12.7 mm, a rounding apart
     return data
 
 

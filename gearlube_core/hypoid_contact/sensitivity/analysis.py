@@ -173,25 +173,28 @@ def contact_sensitivity(
 
 
 def _unloaded(variations: Variations) -> Record:
-    ease = ease_off_rates(variations, EASE_S, EASE_T)
-    found = {"ease_off": ease.gap, "ease_off_rate": ease.rate}
+    """Return what is known without load; NaN where teeth meet at edges or flanks are corrected."""
+    count = len(variations.parameters)
     names = ("unloaded_pp", "unloaded_s", "unloaded_t")
+    found: Record = {name: np.array(np.nan) for name in names}
+    found |= {f"{name}_rate": np.full(count, np.nan) for name in names}
+    empty = np.full((EASE_S.size, EASE_T.size), np.nan)
+    found |= {"ease_off": empty, "ease_off_rate": np.full((count, *empty.shape), np.nan)}
+    if variations.pair.is_corrected:
+        return found
+    ease = ease_off_rates(variations, EASE_S, EASE_T)
+    found |= {"ease_off": ease.gap, "ease_off_rate": ease.rate}
     try:
         error = unloaded_error(variations.pair, _ERROR_POSITIONS)
     except ParameterError:  # teeth that hand over at edges: there is no parabola
-        lost = np.full(len(variations.parameters), np.nan)
-        return found | {n: np.array(np.nan) for n in names} | {f"{n}_rate": lost for n in names}
+        return found
     rates = error_rates(variations, error)
     mean = rates.path.path
     values = (abs(error.angular[0]), mean.gear_s[-1], mean.gear_t[-1])
-    return (
-        found
-        | {name: np.array(value) for name, value in zip(names, values, strict=True)}
-        | {
-            f"{name}_rate": rate
-            for name, rate in zip(names, (rates.peak_to_peak, rates.s, rates.t), strict=True)
-        }
-    )
+    slopes = (rates.peak_to_peak, rates.s, rates.t)
+    for name, value, slope in zip(names, values, slopes, strict=True):
+        found[name], found[f"{name}_rate"] = np.array(value), slope
+    return found
 
 
 def _position(

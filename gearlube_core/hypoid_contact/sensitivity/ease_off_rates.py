@@ -65,12 +65,18 @@ def ease_off_rates(variations: Variations, s: Array, t: Array) -> EaseOffRates:
     s, t : ndarray of shape (m,), (n,)
         Profile and face positions [-], both within 0 to 1.
 
+    Raises
+    ------
+    ParameterError
+        When the flanks are corrected.
+
     References
     ----------
     [stadtfeld_1993] (ease-off).
     """
     s, t = np.asarray(s, float), np.asarray(t, float)
     pair = variations.pair
+    pair.check_uncorrected()
     places, known = _bracketed(pair, s, t)
     places = _extremes(pair, places)
     sign = pair.touching_sign

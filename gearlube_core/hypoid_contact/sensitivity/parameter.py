@@ -16,7 +16,7 @@ from gearlube_core.units import DEGREE, MILLIMETRE
 MISALIGNMENT = "misalignment"
 
 # differences are taken over twice the step: cutting it or doubling it changes derivatives by 1e-7
-_STEPS = {"mm": 1e-3, "um": 1e-2, "deg": 1e-3, "mm/rad": 1e-3, "m": 1e-6, "rad": 1e-5}
+_STEPS = {"mm": 1e-3, "um": 0.1, "deg": 1e-3, "mm/rad": 1e-3, "m": 1e-6, "rad": 1e-5}
 _RATIO_STEP = 1e-5
 _TOLERANCES = {
     "mm": 0.01,
@@ -27,7 +27,8 @@ _TOLERANCES = {
     "rad": 0.01 * DEGREE,
 }
 _RATIO_TOLERANCE = 1e-4
-_EDGE = "edge_radius_mm"
+_BLADE_EDGE = ".cutter.", "edge_radius_mm"
+_OF_FLANKS = ("machine", "cutter", "drive_flank", "coast_flank")  # sections of a member
 _EDGE_STEP = 2e-4  # of the radius of a blade edge
 _ROLES: tuple[Role, Role] = ("pinion", "gear")
 
@@ -93,7 +94,7 @@ class Parameter:
                 "derivative by counts and words."
             )
         unit = notes[name].unit or "1"
-        step = _EDGE_STEP * value if name.endswith(_EDGE) else _STEPS.get(unit, _RATIO_STEP)
+        step = _EDGE_STEP * value if _is_blade_edge(name) else _STEPS.get(unit, _RATIO_STEP)
         return cls(name, unit, value, step)
 
     @property
@@ -103,7 +104,7 @@ class Parameter:
         0.01 mm, 0.01 deg, 1 um of a relief, 1e-4 of a ratio, a hundredth of the radius of a blade
         edge.
         """
-        if self.name.endswith(_EDGE):
+        if _is_blade_edge(self.name):
             return 0.01 * self.value
         return _TOLERANCES.get(self.unit, _RATIO_TOLERANCE)
 
@@ -113,7 +114,7 @@ class Parameter:
         section, _, rest = self.name.partition(".")
         if section == MISALIGNMENT:
             return ()
-        if rest.startswith(("machine.", "cutter.")):
+        if rest.partition(".")[0] in _OF_FLANKS:
             return ("pinion",) if section == "pinion" else ("gear",)
         return _ROLES  # the blank: mean point and region of both
 
@@ -147,7 +148,7 @@ class Parameter:
 
 
 def usual_parameters(file: HypoidGearFile) -> tuple[str, ...]:
-    """Return the names of the misalignments and of all settings of machines and cutters.
+    """Return the names of the misalignments, of all settings and of the reliefs of the file.
 
     Left out: fields without value or with one on its limit, corrections of blade angles (as the
     blade angles) and the basic cradle angle (only a phase).
@@ -155,8 +156,10 @@ def usual_parameters(file: HypoidGearFile) -> tuple[str, ...]:
     found = [f"{MISALIGNMENT}.{field.name}" for field in fields(Misalignment)]
     for role in _ROLES:
         member = getattr(file, role)
-        for section in ("machine", "cutter"):
+        for section in _OF_FLANKS:
             values = getattr(member, section)
+            if values is None:
+                continue
             for key in type(values).model_fields:
                 if key.endswith("_angle_correction_deg") or key == "basic_cradle_angle_deg":
                     continue
@@ -164,6 +167,11 @@ def usual_parameters(file: HypoidGearFile) -> tuple[str, ...]:
                 if isinstance(getattr(values, key), float) and _is_free(file, name):
                     found.append(name)
     return tuple(found)
+
+
+def _is_blade_edge(name: str) -> bool:
+    section, ending = _BLADE_EDGE
+    return section in name and name.endswith(ending)
 
 
 def _is_free(file: HypoidGearFile, name: str) -> bool:

@@ -63,10 +63,16 @@ def path_rates(variations: Variations, path: ContactPath) -> PathRates:
         Of the path's pair.
     path : ContactPath
 
+    Raises
+    ------
+    ParameterError
+        When the flanks are corrected.
+
     References
     ----------
     [litvin_fuentes_2004 ch. 9.4] (equations of tangency).
     """
+    variations.pair.check_uncorrected()
     angles = path.gear_angle
     lower, upper = moved_paths(
         path,

@@ -14,6 +14,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
+from gearlube_core.hypoid_geometry.flank.correction import NO_CORRECTION, FlankCorrection
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion, cut_state
 from gearlube_core.hypoid_geometry.flank.grid import march, sample_surface
 from gearlube_core.hypoid_geometry.flank.machine_frames import Curve, gear_cut, pinion_cut
@@ -47,6 +48,16 @@ class ToothRegion:
     apex_axial: float  # m, pitch apex along the work axis from the work point
     root_depth: float  # m, root line under the pitch cone
     addendum: float  # m
+
+    @property
+    def whole_height(self) -> float:
+        """From root line to tip [m]."""
+        return self.root_depth + self.addendum
+
+    @property
+    def face_width(self) -> float:
+        """From toe to heel along the pitch cone [m]."""
+        return self.outer_cone_distance - self.inner_cone_distance
 
     def cone_distance(self, t: Array) -> Array:
         """Return the cone distance [m] at face position t."""
@@ -114,6 +125,9 @@ class Flank:
     role : {"pinion", "gear"}
     side : {"drive", "coast"}
     teeth : int
+    correction : FlankCorrection
+        Material taken off the surface that the motion cuts. Points, normals and curvatures are
+        those of the cut surface; `removal` and `removal_bend` stand beside them.
     """
 
     motion: CuttingMotion
@@ -123,6 +137,7 @@ class Flank:
     role: Role
     side: Side
     teeth: int
+    correction: FlankCorrection = NO_CORRECTION
 
     @classmethod
     def from_file(cls, file: HypoidGearFile, role: Role, side: Side) -> Flank:
@@ -157,6 +172,7 @@ class Flank:
             role=role,
             side=side,
             teeth=(file.pinion if role == "pinion" else file.gear).teeth,
+            correction=file.correction(role, side),
         )
 
     @property
@@ -168,6 +184,59 @@ class Flank:
     def axis_point(self) -> Array:
         """Point of the member's axis [m], shape (3,)."""
         return np.array(self.motion.work_point)
+
+    def position(self, r: Array) -> tuple[Array, Array]:
+        """Return profile and face position s, t [-] of points (..., 3) [m], rotation zero."""
+        r = r - self.axis_point
+        axial = r @ self.axis
+        radius = np.linalg.norm(r - axial[..., None] * self.axis, axis=-1)
+        return self.region.position(radius, axial)
+
+    def removal(self, r: Array) -> Array:
+        """Return what corrections take away along the normal [m] at points (..., 3) [m]."""
+        if self.correction.is_none:
+            return np.zeros(r.shape[:-1])
+        region = self.region
+        return self.correction.bends(*self.position(r), region.whole_height, region.face_width)[0]
+
+    def removal_bend(self, sample: FlankSample) -> Array:
+        """Return the second derivatives of the removal in the tangents [1/m], (..., 2, 2).
+
+        They add to the curvature of the gap, as -K does. With heights h and face positions l as
+        functions of the place, and the cut surface's own curvature K:
+        m_ij = m_ab d_i a d_j b + m_a d_i d_j a + (grad m . n) K_ij
+        """
+        if self.correction.is_none:
+            return np.zeros_like(sample.curvature)
+        region = self.region
+        own = sample.r - self.axis_point
+        radial = own - (own @ self.axis)[..., None] * self.axis
+        radius = np.linalg.norm(radial, axis=-1, keepdims=True)
+        radial = radial / radius
+        around = np.cross(self.axis, radial)
+        sine, cosine = math.sin(region.pitch_angle), math.cos(region.pitch_angle)
+        up, along = cosine * radial - sine * self.axis, sine * radial + cosine * self.axis
+        m = self.correction.bends(*self.position(sample.r), region.whole_height, region.face_width)
+        tangents = np.stack([sample.tangent_1, sample.tangent_2], axis=-2)
+
+        def product(a: Array, b: Array) -> Array:
+            of_a, of_b = (np.einsum("...ai,...i->...a", tangents, one) for one in (a, b))
+            return np.asarray(of_a[..., :, None] * of_b[..., None, :])
+
+        def weighted(weight: Array, matrix: Array) -> Array:
+            return np.asarray(weight[..., None, None] * matrix)
+
+        mixed = product(up, along)
+        turn = weighted((cosine * m.by_h + sine * m.by_l) / radius[..., 0], product(around, around))
+        slope = m.by_h[..., None] * up + m.by_l[..., None] * along
+        lean = np.einsum("...i,...i->...", slope, sample.normal)
+        return (
+            weighted(m.by_hh, product(up, up))
+            + weighted(m.by_ll, product(along, along))
+            + weighted(m.by_hl, mixed + np.swapaxes(mixed, -1, -2))
+            + turn
+            + weighted(lean, sample.curvature)
+        )
 
     def parameters(self, s: Array, t: Array) -> Array:
         """Return u [m], th, ph [rad] at profile positions s and face positions t, (..., 3).

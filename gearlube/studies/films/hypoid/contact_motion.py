@@ -35,9 +35,11 @@ def contact_motion(gear: str, torque: float, phase: Array) -> Array:
     -----
     Along the minor and the major axis, both turned so that entrainment points to larger values, as
     in `HypoidFilm`. The velocity itself is that of `contact_migration`.
-    The path is that of the unloaded flanks; the centre of force of loaded ones stays close to it.
+    The path is that of the unloaded flanks as they are cut, without corrections; the centre of
+    force of loaded ones stays close to it.
     """
-    pair = FlankPair.from_file(HypoidGearFile.given(gear), "drive" if torque > 0.0 else "coast")
+    file, side = HypoidGearFile.given(gear), "drive" if torque > 0.0 else "coast"
+    pair = FlankPair.from_file(file, side).uncorrected()  # type: ignore[arg-type]
     places = np.linspace(phase.min(), phase.max(), _POSITIONS)
     path = contact_path(pair, places * pair.gear_pitch)
     k, motion = path_kinematics(path), contact_migration(path)
