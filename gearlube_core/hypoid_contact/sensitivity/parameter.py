@@ -71,7 +71,7 @@ class Parameter:
             )
         value: object = file
         for part in name.split("."):
-            value = getattr(value, part)
+            value = getattr(value, part, None)
         if value is None:
             raise ParameterError(
                 f"{name} must have a value to be changed, and this file leaves it open. Give it."
@@ -83,7 +83,8 @@ class Parameter:
             )
         endings: tuple[Unit, ...] = ("mm", "um", "deg")
         unit = next((one for one in endings if name.endswith(f"_{one}")), "1")
-        step = _EDGE_STEP * value if name.endswith("edge_radius_mm") else _STEPS[unit]
+        blade = ".cutter." in name and name.endswith("edge_radius_mm")
+        step = _EDGE_STEP * value if blade else _STEPS[unit]
         return cls(name, unit, value, step)
 
     @property
