@@ -4,4 +4,5 @@ from __future__ import annotations
 
 from rich.console import Console
 
-console = Console(stderr=True)
+# no markup: it would take "[mm]" in a heading for a style
+console = Console(stderr=True, markup=False)

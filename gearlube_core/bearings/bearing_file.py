@@ -11,6 +11,7 @@ from gearlube_core.bearings.losses.geometry import (
     Rib,
     closing_inner_angle,
 )
+from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_notes
@@ -37,7 +38,6 @@ ShareC = Annotated[float, Field(ge=0.1, le=3.0, allow_inf_nan=False)]
 Friction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Speeds = Annotated[tuple[float, ...], Field(strict=False, min_length=1)]
 _MICROMETRE = 1e-6  # m
-_HEIGHT = 0.15  # of the roller diameter: contact of the rib above the race
 
 
 class LossBearingSection(Section):
@@ -162,7 +162,7 @@ class BearingFile(InputFile):
                 closing_inner_angle(pitch, roller, outer) if given is None else given * DEGREE
             ),
             rib=Rib(
-                contact_height=_HEIGHT * roller if height is None else height * mm,
+                contact_height=RIB_HEIGHT * roller if height is None else height * mm,
                 end_radius=rib.end_radius_ratio,
                 roughness=rib.roughness_um * _MICROMETRE,
                 share_b=rib.share_b,

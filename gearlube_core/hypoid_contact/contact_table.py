@@ -23,10 +23,12 @@ _LOST = 0.02  # largest share of a pair outside its window that is dropped
 def contact_table(file: HypoidGearFile, dataset: xr.Dataset) -> MeshTable:
     """Return the mesh table of a dataset from `contact_dataset`.
 
+    On either side it ends below the torque of which `levels_left_out` says that it does not fit.
+
     Raises
     ------
     TableError
-        When more than `PAIRS` tooth pairs carry at a time.
+        When more than `PAIRS` tooth pairs carry at a time, at any torque of the drive flanks.
 
     Notes
     -----
@@ -34,8 +36,11 @@ def contact_table(file: HypoidGearFile, dataset: xr.Dataset) -> MeshTable:
     angle; over a period they differ from the pinion angle by the transmission error alone, below
     1e-3 of the period.
     """
-    levels = [("coast", t) for t in dataset["torque"].values[::-1]]
-    levels += [("drive", t) for t in dataset["torque"].values]
+    fitting, reasons = _fitting(dataset)
+    if not fitting["drive"]:
+        raise TableError(reasons[0])
+    levels = [("coast", t) for t in fitting["coast"][::-1]]
+    levels += [("drive", t) for t in fitting["drive"]]
     series: dict[str, list[Array]] = {}
     windows: dict[str, list[Array]] = {}
     for side, torque in levels:
@@ -60,6 +65,27 @@ def contact_table(file: HypoidGearFile, dataset: xr.Dataset) -> MeshTable:
             "path_contact_ratio": float(dataset["path_contact_ratio"].sel(side="drive")),
         },
     )
+
+
+def levels_left_out(dataset: xr.Dataset) -> list[str]:
+    """Return why levels of a dataset are not in its mesh table, a sentence for each side."""
+    return _fitting(dataset)[1]
+
+
+def _fitting(dataset: xr.Dataset) -> tuple[dict[str, list[float]], list[str]]:
+    """Return the torques [N.m] of each side that fit into a table, and why one ends where."""
+    fitting: dict[str, list[float]] = {}
+    reasons = []
+    for side in ("drive", "coast"):
+        fitting[side] = []
+        for torque in dataset["torque"].values:
+            try:
+                _windows(dataset.sel(side=side, torque=torque), f"{side} {torque:g} N.m")
+            except TableError as reason:
+                reasons.append(str(reason))
+                break
+            fitting[side].append(float(torque))
+    return fitting, reasons
 
 
 def orders_kept(positions: int) -> int:
@@ -145,8 +171,8 @@ def _window_start(node: NDArray[np.int_], share: Array, nodes: int, where: str) 
     if lost > _LOST:
         raise TableError(
             f"{where}: a tooth pair still carries {lost:.1%} of the torque more than {PAIRS} mesh "
-            "periods after another position; the table holds that many pairs. Analyse smaller "
-            "torques, or relieve tips and ends."
+            "periods after another position. A mesh table holds that many pairs, so it ends below "
+            "this torque; contact.nc has all. Relieve tips and ends, as cut gears are, to go on."
         )
     return int(node.min()) + best
 

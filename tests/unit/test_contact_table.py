@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from gearlube_core.errors import TableError
-from gearlube_core.hypoid_contact.contact_table import contact_table, fourier
+from gearlube_core.hypoid_contact.contact_table import contact_table, fourier, levels_left_out
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.kernels import mesh_series, pair_channels, transmission_error
 from gearlube_core.mesh_table.table import PAIRS
@@ -202,6 +202,21 @@ def test_length_of_contact_is_counted_at_the_highest_torque():
 def test_pairs_in_contact_over_more_than_the_window_are_refused():
     with pytest.raises(TableError, match="more than 3 mesh periods"):
         contact_table(FILE, dataset(reach=2.0))
+
+
+def test_a_table_ends_below_the_torque_at_which_too_many_pairs_carry():
+    low, high = dataset(), dataset(reach=2.0)
+    both = xr.concat(
+        [low.sel(torque=TORQUES[:1]), high.sel(torque=TORQUES[1:])], "torque", data_vars="minimal"
+    )
+    table = contact_table(FILE, both)
+    np.testing.assert_array_equal(table.torque, [-TORQUES[0], TORQUES[0]])
+    np.testing.assert_array_equal(
+        table.windows["share"][1], contact_table(FILE, low).windows["share"][2]
+    )
+    said = levels_left_out(both)
+    assert [one.split(":")[0] for one in said] == ["drive 50 N.m", "coast 50 N.m"]
+    assert levels_left_out(low) == []
 
 
 def test_a_share_too_small_to_matter_is_spread_over_the_other_pairs():

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
+from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.oil_option import oil_kelvin
@@ -27,7 +27,6 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.bearing.summary import BearingRow
 
 logger = logging.getLogger("gearlube")
-console = Console(stderr=True)
 _MICRO = 1e-6
 
 

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
+from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import JobsOption, OverwriteOption
@@ -22,7 +22,6 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.contact.summary import ContactSummary
 
 logger = logging.getLogger("gearlube")
-console = Console(stderr=True)
 
 
 class ContactCommand(MultiValueCommand):
@@ -95,6 +94,7 @@ def contact(
         contact_warnings,
         gear_file_warnings,
     )
+    from gearlube_core.hypoid_contact.contact_table import levels_left_out
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
     began = time.monotonic()
@@ -126,7 +126,7 @@ def contact(
                 write_gears(file, out / "gears")
         rows = contact_summary(results.contact)
         console.print(_table(file.name, rows))
-        for sentence in contact_warnings(rows):
+        for sentence in [*levels_left_out(results.contact), *contact_warnings(rows)]:
             logger.warning("%s", sentence)
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)

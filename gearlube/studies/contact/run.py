@@ -50,8 +50,8 @@ def run_contact(
     file : HypoidGearFile
     settings : ContactSettings
     folder : Path, optional
-        Gets the results as `write_contact` writes them. Finished positions are kept there in
-        `positions`: the same call goes on after a stop.
+        Gets contact.nc, figures/ and the mesh table as NAME.nc. Finished positions are kept there
+        in `positions`: the same call goes on after a stop.
     jobs : int, optional
         Processes; default: all processors.
     progress : callable, optional
@@ -63,6 +63,8 @@ def run_contact(
         A flank is missing or the flanks do not meet.
     ConvergenceError
         A position finds no equilibrium.
+    TableError
+        More tooth pairs carry than a mesh table holds, at any torque. All else is written before.
 
     Examples
     --------
@@ -74,17 +76,11 @@ def run_contact(
         folder.mkdir(parents=True, exist_ok=True)
     store = None if folder is None else folder / POSITIONS
     dataset = analyse_contact(file, settings, store=store, jobs=jobs, progress=progress)
-    results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
     if folder is not None:
         progress(1.0, "figures")
-        write_contact(results, folder)
+        write_dataset(dataset, folder / "contact.nc")
+        save_contact_figures(dataset, folder / "figures")
+    results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
+    if folder is not None:
+        write_mesh_table(results.mesh_table, folder / f"{file.name}.nc")
     return results
-
-
-def write_contact(results: ContactResults, folder: Path) -> Path:
-    """Write the mesh table as NAME.nc, contact.nc and figures/; return the file of the table."""
-    folder.mkdir(parents=True, exist_ok=True)
-    table = write_mesh_table(results.mesh_table, folder / f"{results.contact.attrs['name']}.nc")
-    write_dataset(results.contact, folder / "contact.nc")
-    save_contact_figures(results.contact, folder / "figures")
-    return table

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
+from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
@@ -20,7 +20,6 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.design.summary import AskedAndFound
 
 logger = logging.getLogger("gearlube")
-console = Console(stderr=True)
 
 
 def design(

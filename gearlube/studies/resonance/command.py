@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
+from gearlube.cli.console import console
 from gearlube.cli.exit_codes import INTERRUPTED, exit_on_error
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import OilTemperatureOption, OverwriteOption, RoughnessOption
@@ -24,7 +24,6 @@ if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube_core.mesh_table.table import MeshTable
 
 logger = logging.getLogger("gearlube")
-console = Console(stderr=True)
 
 _RADII = ("consistent", "paper", "mean")
 _FRICTION = ("thermal_eyring", "off")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
@@ -310,7 +311,6 @@ def _run(
 
 
 def _show(title: str, rows: list[Row]) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table(title=title)
@@ -320,4 +320,4 @@ def _show(title: str, rows: list[Row]) -> None:
     for row in rows:
         more = (f"{row.asked:.5g}",) if row.asked is not None else ()
         table.add_row(row.name, f"{row.value:.5g}", row.unit, *more)
-    Console(stderr=True).print(table)
+    console.print(table)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import logging
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
@@ -49,7 +50,6 @@ def flow_factors(
 ) -> None:
     """Solve Reynolds' equation on rough patches: flow factors, and asperity load, as a table."""
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
-        from rich.console import Console
         from rich.progress import Progress
 
         from gearlube.studies.roughness.flow_factors import flow_results, shown_rows
@@ -77,7 +77,6 @@ def flow_factors(
                 nodes=int(check_within("--points", points, 48, 1024)),
                 nodes_per_length=12.0,
             )
-        console = Console(stderr=True)
         with results_folder(out, "roughness flow-factors", overwrite=overwrite):
             with Progress(console=console) as bar:
                 task = bar.add_task("patches", total=1.0)
@@ -90,7 +89,7 @@ def flow_factors(
                     ),
                 )
             written = flow_results(table, out, known)
-        _show(console, *shown_rows(table))
+        _show(*shown_rows(table))
         logger.info("Results: %s", ", ".join(str(one) for one in written))
 
 
@@ -108,7 +107,7 @@ def _patch(file: str) -> HeightMap:
     return replace(surface, periodic=(True, True), name=file)
 
 
-def _show(console: Any, headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> None:
+def _show(headings: tuple[str, ...], rows: list[tuple[str, ...]]) -> None:
     from rich.table import Table
 
     table = Table(title="means over patches")

@@ -8,9 +8,9 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from rich.table import Table
 
+from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.results_folder import results_folder
@@ -23,7 +23,6 @@ if TYPE_CHECKING:  # the solvers take seconds to import, other commands do witho
     from gearlube_core.progress import Progress
 
 logger = logging.getLogger("gearlube")
-console = Console(stderr=True)
 _SCALES = {"Pa": (1e-9, "GPa"), "m": (1e6, "µm"), "N/m": (1e-3, "N/mm"), "1": (1.0, "")}
 
 
