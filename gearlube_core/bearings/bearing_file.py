@@ -134,13 +134,17 @@ class BearingFile(InputFile):
     )
 
     @model_validator(mode="after")
+    def _check_tolerances(self) -> BearingFile:
+        if self.tolerances:
+            check_tolerances(self.tolerances, field_notes(type(self)))
+        return self
+
+    @model_validator(mode="after")
     def _check_bearing(self) -> BearingFile:
         try:
             self.geometry()
         except ParameterError as reason:
             raise ValueError(str(reason).removesuffix(".")) from None
-        if self.tolerances:
-            check_tolerances(self.tolerances, field_notes(type(self)))
         return self
 
     def geometry(self) -> BearingGeometry:
