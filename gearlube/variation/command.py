@@ -57,7 +57,9 @@ def vary(
     ] = None,
     scatter: Annotated[
         bool,
-        typer.Option("--scatter", help="Sample the [tolerances] of the axle file as well."),
+        typer.Option(
+            "--scatter", help="Sample the [tolerances] of the axle or bearing file as well."
+        ),
     ] = False,
     seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
     limit: Annotated[

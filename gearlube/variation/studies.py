@@ -73,15 +73,18 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
 
 
 def scatter(study: PointStudy) -> tuple[Spread, ...]:
-    """Return the spreads of the tolerances in a study's axle file; see `scatter_of`."""
+    """Return the spreads of the tolerances in a study's axle or bearing file; see `scatter_of`."""
+    from gearlube.variation.points.bearing import BearingPoint
     from gearlube.variation.points.of_axle import AxlePoint
-    from gearlube.variation.scatter import scatter_of
+    from gearlube.variation.scatter import scatter_of, scatter_of_bearing
 
     if isinstance(study, AxlePoint):
         return scatter_of(study.axle)
+    if isinstance(study, BearingPoint):
+        return scatter_of_bearing(study.file)
     raise ParameterError(
-        f"--scatter is for axle files, got it with {study.name}, whose file has no tolerances. "
-        "Give them by --vary KEY=value+-width."
+        f"--scatter is for axle and bearing files, got it with {study.name}, whose file has no "
+        "tolerances. Give them by --vary KEY=value+-width."
     )
 
 

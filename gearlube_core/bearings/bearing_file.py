@@ -14,7 +14,9 @@ from gearlube_core.bearings.losses.geometry import (
 from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
@@ -127,6 +129,15 @@ class BearingFile(InputFile):
     bearing: LossBearingSection
     rib: RibSection = Field(default_factory=RibSection)
     operation: OperationSection = Field(default_factory=OperationSection)
+    tolerances: Tolerances = Field(
+        default={}, description="How fields scatter from part to part, by their dotted names"
+    )
+
+    @model_validator(mode="after")
+    def _check_tolerances(self) -> BearingFile:
+        if self.tolerances:
+            check_tolerances(self.tolerances, field_notes(type(self)))
+        return self
 
     @model_validator(mode="after")
     def _check_bearing(self) -> BearingFile:

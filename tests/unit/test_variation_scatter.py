@@ -8,9 +8,11 @@ import pytest
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.variation.design import Design, Sampling
 from gearlube.variation.file_variants import AxleVariants
+from gearlube.variation.points.bearing import BearingPoint
 from gearlube.variation.points.losses import LossPoint
 from gearlube.variation.scatter import scatter_of
 from gearlube.variation.studies import point_study, scatter
+from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.errors import ParameterError
 
 FILE = """
@@ -90,9 +92,62 @@ def test_a_wrong_tolerance_is_refused(tolerances, said):
 def test_scatter_without_tolerances_or_values_is_refused():
     with pytest.raises(ParameterError, match="needs \\[tolerances\\] in the axle file"):
         scatter(point_study("map"))
-    with pytest.raises(ParameterError, match="is for axle files"):
+    with pytest.raises(ParameterError, match="needs \\[tolerances\\] in the bearing file"):
         scatter(point_study("bearing"))
+    with pytest.raises(ParameterError, match="is for axle and bearing files"):
+        scatter(point_study("helical"))
     tolerances = {"housing.immersion_mm": {"plus_minus": 1.0}}
     file = AxleFile.named("mohammadpour_2015").varied({"tolerances": tolerances})
     with pytest.raises(ParameterError, match="needs a value to scatter about"):
         scatter_of(AxleVariants(file=file))
+
+
+def bearing_with(tolerances):
+    return BearingFile.named("wingertszahn_2023").varied({"tolerances": tolerances})
+
+
+def test_fields_of_a_bearing_scatter_about_their_values():
+    file = bearing_with(
+        {"rib.contact_height_mm": {"plus_minus": 0.3}, "bearing.f0": {"plus_minus_percent": 10.0}}
+    )
+    height, f0 = scatter(BearingPoint(file=file))
+    assert (height.low, height.high, height.mean) == pytest.approx((2.2, 2.8, 2.5))
+    assert height.deviation == pytest.approx(0.1)  # three to the tolerance
+    assert (f0.low, f0.high) == pytest.approx((5.4, 6.6))  # 6 is the default
+    part = BearingPoint(file=file).varied({"rib.contact_height_mm": 2.3})
+    assert part.rib.contact_height_mm == 2.3
+    assert part.tolerances == {}
+
+
+def test_the_viscous_torque_of_scattering_bearings_is_proportional_to_their_f0():
+    """M0 = 1e-7 f0 (nu n)^(2/3) dm^3 (Palmgren): so mean and deviation follow those of f0."""
+    study = BearingPoint(file=bearing_with({"bearing.f0": {"plus_minus": 1.5}})).prepared({})
+    design = Design(spreads=scatter(study), sampling=Sampling("lhs", 16))
+    column = [one.name for one in study.quantities].index("torque_viscous")
+    torques = np.array(
+        [study.compute({"law": "palmgren", **design.point(i)})[column] for i in range(16)]
+    )
+    f0 = design.column("bearing.f0")
+    assert f0.std() > 0.3
+    assert torques / torques.mean() == pytest.approx(f0 / f0.mean(), rel=1e-12)  # roundings
+
+
+@pytest.mark.parametrize(
+    ("tolerances", "said"),
+    [
+        ({"rib.contact_height": {"plus_minus": 0.3}}, "is it rib.contact_height_mm"),
+        ({"operation.speed_rpm": {"plus_minus": 1.0}}, "fields that are numbers"),
+    ],
+)
+def test_a_wrong_tolerance_of_a_bearing_is_refused(tolerances, said):
+    with pytest.raises(ParameterError, match=said):
+        bearing_with(tolerances)
+
+
+def test_a_bearing_scatters_about_no_field_that_its_file_leaves_out():
+    data = {"tolerances": {"bearing.timken_g1": {"plus_minus": 5.0}}}
+    file = BearingFile.named("wingertszahn_2023").varied(data)
+    with pytest.raises(
+        ParameterError, match=r"bearing\.timken_g1 needs a value .*the bearing does"
+    ):
+        scatter(BearingPoint(file=file))
