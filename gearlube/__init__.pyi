@@ -110,6 +110,11 @@ from gearlube.studies.design.run import run_design as run_design
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact
+from gearlube_core.hypoid_contact.sensitivity.analysis import (
+    SensitivitySettings as SensitivitySettings,
+)
+from gearlube.studies.contact.sensitivity import run_sensitivity as run_sensitivity
+from gearlube.studies.contact.sensitivity import sensitivity_rows as sensitivity_rows
 
 # -- Study: friction of a bearing
 from gearlube_core.bearings.bearing_file import BearingFile as BearingFile
