@@ -57,9 +57,7 @@ def vary(
     ] = None,
     scatter: Annotated[
         bool,
-        typer.Option(
-            "--scatter", help="Sample the [tolerances] of the axle or bearing file as well."
-        ),
+        typer.Option("--scatter", help="Sample the [tolerances] of the file as well."),
     ] = False,
     seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
     limit: Annotated[

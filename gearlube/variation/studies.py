@@ -73,19 +73,24 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
 
 
 def scatter(study: PointStudy) -> tuple[Spread, ...]:
-    """Return the spreads of the tolerances in a study's axle or bearing file; see `scatter_of`."""
-    from gearlube.variation.points.bearing import BearingPoint
-    from gearlube.variation.points.of_axle import AxlePoint
-    from gearlube.variation.scatter import scatter_of, scatter_of_bearing
+    """Return the spreads of the tolerances in a study's file about the values of its fields.
 
-    if isinstance(study, AxlePoint):
-        return scatter_of(study.axle)
-    if isinstance(study, BearingPoint):
-        return scatter_of_bearing(study.file)
-    raise ParameterError(
-        f"--scatter is for axle and bearing files, got it with {study.name}, whose file has no "
-        "tolerances. Give them by --vary KEY=value+-width."
-    )
+    Raises
+    ------
+    ParameterError
+        There are no tolerances, or a field has no value to scatter about.
+
+    Examples
+    --------
+    >>> from gearlube.variation.points.of_file import FilePoint
+    >>> study = point_study("bearing")
+    >>> assert isinstance(study, FilePoint)
+    >>> tolerances = {"rib.roughness_um": {"plus_minus": 0.03}}
+    >>> study = type(study)(file=study.file.varied({"tolerances": tolerances}))
+    >>> scatter(study)[0].key
+    'rib.roughness_um'
+    """
+    return study.scatter()
 
 
 def prepared(study: PointStudy, design: Design) -> PointStudy:
