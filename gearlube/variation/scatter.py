@@ -1,89 +1,67 @@
-"""Scatter from part to part: the tolerances of a file as spreads."""
+"""Scatter from part to part: the tolerances of an input file as spreads."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from gearlube.variation.design import Spread
-from gearlube.variation.file_variants import AxleVariants
-from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.tolerance import Tolerance
 
 _DEVIATIONS = 3.0  # that a tolerance of a normal distribution is: process capability Cp = 1
 
 
-def scatter_of(axle: AxleVariants) -> tuple[Spread, ...]:
-    """Return the spreads of an axle file's tolerances about the values of its fields.
-
-    A field that the file leaves out scatters about its default.
-
-    Raises
-    ------
-    ParameterError
-        There are no tolerances, or a field has no value to scatter about.
-
-    Examples
-    --------
-    >>> file = AxleVariants.read("mohammadpour_2015").file.varied(
-    ...     {"tolerances": {"gear_set.backlash_um": {"plus_minus": 30.0}}}
-    ... )
-    >>> scatter_of(AxleVariants(file=file))[0].deviation
-    10.0
-    """
-    tolerances = axle.file.tolerances
-    if not tolerances:
-        raise _without_tolerances("axle file", axle.file.name, "gear_set.backlash_um")
-    values = {note.field: note.value for note in axle.car_axle({}, notes=True).inputs}
-    return _spreads(tolerances, values, "the axle")
-
-
-def scatter_of_bearing(file: BearingFile) -> tuple[Spread, ...]:
-    """Return the spreads of a bearing file's tolerances about the values of its fields.
-
-    Raises
-    ------
-    ParameterError
-        There are no tolerances, or a field has no value to scatter about.
-
-    Examples
-    --------
-    >>> file = BearingFile.named("wingertszahn_2023").varied(
-    ...     {"tolerances": {"rib.contact_height_mm": {"plus_minus": 0.3}}}
-    ... )
-    >>> scatter_of_bearing(file)[0].mean
-    2.5
-    """
-    if not file.tolerances:
-        raise _without_tolerances("bearing file", file.name, "rib.contact_height_mm")
-    values = {}
-    for name in file.tolerances:
-        section, _, key = name.rpartition(".")
-        values[name] = getattr(getattr(file, section) if section else file, key)
-    return _spreads(file.tolerances, values, "the bearing")
-
-
-def _without_tolerances(title: str, name: str, field: str) -> ParameterError:
-    return ParameterError(
-        f"--scatter needs [tolerances] in the {title}, got none in {name}. Write for instance "
-        f"{field} = {{ plus_minus = 0.3 }} there."
-    )
-
-
-def _spreads(
-    tolerances: Mapping[str, Tolerance], values: Mapping[str, object], user: str
+def scatter_of(
+    name: str, tolerances: Mapping[str, Tolerance], values: Mapping[str, Any]
 ) -> tuple[Spread, ...]:
+    """Return the spreads of a file's tolerances about the values of its fields.
+
+    Parameters
+    ----------
+    name : str
+        Of the file's subject.
+    tolerances : mapping
+        By dotted field.
+    values : mapping
+        Of the fields, defaults included.
+
+    Raises
+    ------
+    ParameterError
+        There are no tolerances, or a field has no value to scatter about.
+    """
+    if not tolerances:
+        raise ParameterError(
+            f"--scatter needs [tolerances] in the file, got none in that of {name}. Write there "
+            "a field and its width, for instance gear_set.backlash_um = { plus_minus = 30.0 }."
+        )
     spreads = []
-    for name, tolerance in tolerances.items():
-        value = values.get(name)
+    for field, tolerance in tolerances.items():
+        value = values.get(field)
         if not isinstance(value, int | float):
             raise ParameterError(
-                f"The tolerance of {name} needs a value to scatter about, got none: {user} does "
+                f"The tolerance of {field} needs a value to scatter about, got none: {name} does "
                 "not use this field. Give it in the file, or take its tolerance away."
             )
-        spreads.append(spread_about(name, float(value), tolerance))
+        spreads.append(spread_about(field, float(value), tolerance))
     return tuple(spreads)
+
+
+def values_of(data: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return the values of nested tables by dotted name.
+
+    Examples
+    --------
+    >>> values_of({"pair": {"offset_mm": 24.0}})
+    {'pair.offset_mm': 24.0}
+    """
+    found: dict[str, Any] = {}
+    for key, value in data.items():
+        whole = f"{prefix}{key}"
+        found |= values_of(value, f"{whole}.") if isinstance(value, Mapping) else {whole: value}
+    return found
 
 
 def spread_about(name: str, value: float, tolerance: Tolerance) -> Spread:

@@ -83,7 +83,7 @@ class Parameter:
             )
         value: object = file
         for part in name.split("."):
-            value = getattr(value, part)
+            value = getattr(value, part, None)
         if value is None:
             raise ParameterError(
                 f"{name} must have a value to be changed, and this file leaves it open. Give it."
