@@ -69,6 +69,9 @@ class WaitingStudy:
     def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> WaitingStudy:
         return self
 
+    def scatter(self) -> tuple[Spread, ...]:
+        return self.other.scatter()
+
     def check(self, point: Point) -> None:
         self.other.check(point)
 

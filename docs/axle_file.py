@@ -88,7 +88,7 @@ for note in paper.assumed:
 - Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
 - `bearing_torque_loss` of `[model]` other than palmgren takes the forces of each bearing or the
   load of each roller, anew at least once in 12 integrator steps. With the sums over rollers a
-  communication step of 0.1 ms takes 1.4 to 2 times as long.
+  communication step of 0.1 ms takes 2 to 4 times as long.
 - `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
   fields of `[oil]`.
 - Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
@@ -140,7 +140,8 @@ These inputs are parameters of the FMU and can be set at run time; all others ar
 - Masses and inertias are given, those of the member's frusta, or the paper's. Nothing takes them
   from the teeth: a frustum between root and tip stands for them.
 - The stiffness of the rollers is that of steel, whatever `[steel]` says.
-- The contact angle is that of the outer race for both races; the rib is not modelled.
+- The contact angle is that of the outer race for both races; for the rib the inner race has the
+  angle with which rollers and races share one apex.
 """
 _FIELDS = {
     "bearing_preload": "`pinion.bearing.preload_n`",

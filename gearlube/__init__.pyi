@@ -110,6 +110,11 @@ from gearlube.studies.design.run import run_design as run_design
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact
+from gearlube_core.hypoid_contact.sensitivity.analysis import (
+    SensitivitySettings as SensitivitySettings,
+)
+from gearlube.studies.contact.sensitivity import run_sensitivity as run_sensitivity
+from gearlube.studies.contact.sensitivity import sensitivity_rows as sensitivity_rows
 
 # -- Study: friction of a bearing
 from gearlube_core.bearings.bearing_file import BearingFile as BearingFile
@@ -134,6 +139,7 @@ from drivetrain.steady_temperature import steady_temperature as steady_temperatu
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
 from gearlube.studies.helical.run import run_helical as run_helical
+from gearlube_core.helical_contact.flank_rates import flank_rates as flank_rates
 
 # -- Study: resonance
 from gearlube.studies.resonance.settings import ResonanceSettings as ResonanceSettings

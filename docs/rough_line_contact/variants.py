@@ -67,6 +67,7 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
     "straight, 5 u": ("jamali_2015_d", STRAIGHT),
     "crossed, tolerances a tenth": (A, {"solver.tolerance": 0.1, "solver.load_tolerance": 0.1}),
     "crossed, half time step": (A, {"times.steps_per_half_width": 160}),
+    "crossed, Crank-Nicolson": (A, {"solver.scheme": "crank_nicolson"}),
     "crossed, layer 5 nm": (A, {"touching.thickness_um": 0.005}),
     "crossed, layer 20 nm": (A, {"touching.thickness_um": 0.02}),
     "crossed, 64 rows": (A, {"solver.rows": 64}),

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from docs.tooth_contact import sensitivity
 from docs.tooth_contact.claims import CLAIMS
 from docs.tooth_contact.pages import (
     axle_table,
@@ -73,6 +74,7 @@ def main() -> None:
     images.mkdir(exist_ok=True)
     for picture in save_contact_figures(shipped, work / "figures"):
         shutil.copyfile(picture, images / f"contact_{picture.name}")
+    sensitivity.main()
 
 
 if __name__ == "__main__":

@@ -106,8 +106,8 @@ class ModelOptions(ModelSection):
     bearing_torque_loss: TorqueLoss | None = Field(
         default=None,
         description="Drag torque of the bearings; palmgren: under the preload; palmgren_loaded, "
-        "skf_2013: under the forces of each bearing; others: of the raceways alone, under the load "
-        "of each roller",
+        "skf_2013: under the forces of each bearing; others: of raceways, ribs and oil, under the "
+        "load of each roller",
     )
     bearing_approach: Literal["full", "as_printed"] | None = Field(
         default=None, description="Roller approach under shaft displacement: full, or halved"

@@ -29,6 +29,9 @@ Interference = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
 ViscousFactor = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
 LoadFactor = Annotated[float, Field(ge=0.0, le=0.1, allow_inf_nan=False)]
 
+RibHeight = Annotated[float, Field(ge=0.0, le=100.0, allow_inf_nan=False)]
+RibFriction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
+
 PRELOAD = 2500.0  # N, the lower one of [mohammadpour_2015]
 _RACES = ("inner_race_diameter_mm", "outer_race_diameter_mm")
 _BOUNDARY = ("bore_diameter_mm", "outside_diameter_mm")
@@ -46,6 +49,7 @@ class BearingSection(ModelSection):
         "preload_n": "the lower of the two of Mohammadpour et al. 2015",
         "film": "default of the model",
         "series": "default of the model",
+        "rib_boundary_friction": "default of `gearlube bearing`",
     }
 
     bore_diameter_mm: Diameter | None = Field(default=None, description="Of the inner ring")
@@ -95,6 +99,15 @@ class BearingSection(ModelSection):
     f1: LoadFactor | None = Field(default=None, description="Load factor of the drag torque")
     series: Literal["302", "303", "313", "320X", "322", "other"] | None = Field(
         default=None, description="Of the catalogue, for the drag by skf_2013"
+    )
+
+    rib_height_mm: RibHeight | None = Field(
+        default=None,
+        description="Of the contact of roller ends and rib above the inner race, for the drag by "
+        "the laws of rolling; absent: 0.15 roller diameters, assumed; 0: no rib",
+    )
+    rib_boundary_friction: RibFriction | None = Field(
+        default=None, description="Of the asperities between roller ends and rib"
     )
 
     @model_validator(mode="after")

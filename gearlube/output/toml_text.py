@@ -7,7 +7,7 @@ from typing import Any
 
 
 def toml_text(data: Mapping[str, Any], prefix: str = "") -> str:
-    """Return nested tables of numbers, texts and lists as TOML.
+    """Return nested tables of numbers, texts and lists as TOML; empty tables are left out.
 
     Examples
     --------
@@ -19,7 +19,7 @@ def toml_text(data: Mapping[str, Any], prefix: str = "") -> str:
     plain = {key: value for key, value in data.items() if not isinstance(value, Mapping)}
     lines = "".join(f"{key} = {_value(value)}\n" for key, value in plain.items())
     for key, value in data.items():
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and value:
             lines += f"[{prefix}{key}]\n{toml_text(value, f'{prefix}{key}.')}"
     return lines
 

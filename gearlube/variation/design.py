@@ -177,8 +177,8 @@ class Design:
         if self.sampling is not None and not self.spreads:
             raise ParameterError(
                 f"A design {self.sampling.method}:{self.sampling.count} needs ranges to sample, "
-                "got none. Give --vary KEY=low:high or KEY=value+-width, or --scatter with an axle "
-                "file that has [tolerances]."
+                "got none. Give --vary KEY=low:high or KEY=value+-width, or --scatter with a file "
+                "that has [tolerances]."
             )
         check_within("the number of points", self.size, 1, MOST_POINTS)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol, Self
 
-from gearlube.variation.design import Point, Value
+from gearlube.variation.design import Point, Spread, Value
 from gearlube.variation.keys import Keys
 
 
@@ -57,6 +57,10 @@ class PointStudy(Protocol):
 
     def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> Self:
         """Return the study with all files read that points name, by the values of the axes."""
+        ...
+
+    def scatter(self) -> tuple[Spread, ...]:
+        """Return the spreads of the tolerances in the file; raise ParameterError without any."""
         ...
 
     def check(self, point: Point) -> None:

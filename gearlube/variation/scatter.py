@@ -1,52 +1,67 @@
-"""Scatter from part to part: the tolerances of an axle file as spreads."""
+"""Scatter from part to part: the tolerances of an input file as spreads."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 from gearlube.variation.design import Spread
-from gearlube.variation.file_variants import AxleVariants
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.tolerance import Tolerance
 
 _DEVIATIONS = 3.0  # that a tolerance of a normal distribution is: process capability Cp = 1
 
 
-def scatter_of(axle: AxleVariants) -> tuple[Spread, ...]:
-    """Return the spreads of an axle file's tolerances about the values of its fields.
+def scatter_of(
+    name: str, tolerances: Mapping[str, Tolerance], values: Mapping[str, Any]
+) -> tuple[Spread, ...]:
+    """Return the spreads of a file's tolerances about the values of its fields.
 
-    A field that the file leaves out scatters about its default.
+    Parameters
+    ----------
+    name : str
+        Of the file's subject.
+    tolerances : mapping
+        By dotted field.
+    values : mapping
+        Of the fields, defaults included.
 
     Raises
     ------
     ParameterError
         There are no tolerances, or a field has no value to scatter about.
+    """
+    if not tolerances:
+        raise ParameterError(
+            f"--scatter needs [tolerances] in the file, got none in that of {name}. Write there "
+            "a field and its width, for instance gear_set.backlash_um = { plus_minus = 30.0 }."
+        )
+    spreads = []
+    for field, tolerance in tolerances.items():
+        value = values.get(field)
+        if not isinstance(value, int | float):
+            raise ParameterError(
+                f"The tolerance of {field} needs a value to scatter about, got none: {name} does "
+                "not use this field. Give it in the file, or take its tolerance away."
+            )
+        spreads.append(spread_about(field, float(value), tolerance))
+    return tuple(spreads)
+
+
+def values_of(data: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return the values of nested tables by dotted name.
 
     Examples
     --------
-    >>> file = AxleVariants.read("mohammadpour_2015").file.varied(
-    ...     {"tolerances": {"gear_set.backlash_um": {"plus_minus": 30.0}}}
-    ... )
-    >>> scatter_of(AxleVariants(file=file))[0].deviation
-    10.0
+    >>> values_of({"pair": {"offset_mm": 24.0}})
+    {'pair.offset_mm': 24.0}
     """
-    tolerances = axle.file.tolerances
-    if not tolerances:
-        raise ParameterError(
-            f"--scatter needs [tolerances] in the axle file, got none in {axle.file.name}. Write "
-            "for instance gear_set.backlash_um = { plus_minus = 30.0 } there."
-        )
-    values = {note.field: note.value for note in axle.car_axle({}, notes=True).inputs}
-    spreads = []
-    for name, tolerance in tolerances.items():
-        value = values.get(name)
-        if not isinstance(value, int | float):
-            raise ParameterError(
-                f"The tolerance of {name} needs a value to scatter about, got none: the axle does "
-                "not use this field. Give it in the file, or take its tolerance away."
-            )
-        spreads.append(spread_about(name, float(value), tolerance))
-    return tuple(spreads)
+    found: dict[str, Any] = {}
+    for key, value in data.items():
+        whole = f"{prefix}{key}"
+        found |= values_of(value, f"{whole}.") if isinstance(value, Mapping) else {whole: value}
+    return found
 
 
 def spread_about(name: str, value: float, tolerance: Tolerance) -> Spread:

@@ -16,9 +16,10 @@ SHIPPED = {
     "bearing": "wingertszahn_2023",
     "helical": "he_2007",
     "contact": "mohammadpour_2015",
+    "resonance": "mohammadpour_2015",
 }
 STUDIES = tuple(SHIPPED)
-_QUICK = ("sweep", "helical", "contact")
+_QUICK = ("sweep", "helical", "contact", "resonance")
 
 
 def point_study(name: str, file: str | None = None, *, quick: bool = False) -> PointStudy:
@@ -26,11 +27,11 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
 
     Parameters
     ----------
-    name : {"map", "sweep", "cycle", "bearing", "helical", "contact"}
+    name : {"map", "sweep", "cycle", "bearing", "helical", "contact", "resonance"}
     file : str, optional
-        Axle, bearing or gear file, or the name of a shipped one.
+        Axle, bearing or gear file, of resonance a mesh table; or the name of a shipped one.
     quick : bool
-        Short records of the sweep; coarse teeth and few positions of the gear pairs.
+        Short records of the sweep; coarse teeth, few positions or frequencies of gear pairs.
 
     Examples
     --------
@@ -58,6 +59,10 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
         from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
         return ContactPoint(file=HypoidGearFile.given(file), quick=quick)
+    if name == "resonance":
+        from gearlube.variation.points.resonance import ResonancePoint
+
+        return ResonancePoint(table=file, quick=quick).prepared({})
     axle = AxleVariants.read(file)
     if name == "sweep":
         from gearlube.variation.points.march import MarchPoint
@@ -73,16 +78,24 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
 
 
 def scatter(study: PointStudy) -> tuple[Spread, ...]:
-    """Return the spreads of the tolerances in a study's axle file; see `scatter_of`."""
-    from gearlube.variation.points.of_axle import AxlePoint
-    from gearlube.variation.scatter import scatter_of
+    """Return the spreads of the tolerances in a study's file about the values of its fields.
 
-    if isinstance(study, AxlePoint):
-        return scatter_of(study.axle)
-    raise ParameterError(
-        f"--scatter is for axle files, got it with {study.name}, whose file has no tolerances. "
-        "Give them by --vary KEY=value+-width."
-    )
+    Raises
+    ------
+    ParameterError
+        There are no tolerances, or a field has no value to scatter about.
+
+    Examples
+    --------
+    >>> from gearlube.variation.points.of_file import FilePoint
+    >>> study = point_study("bearing")
+    >>> assert isinstance(study, FilePoint)
+    >>> tolerances = {"rib.roughness_um": {"plus_minus": 0.03}}
+    >>> study = type(study)(file=study.file.varied({"tolerances": tolerances}))
+    >>> scatter(study)[0].key
+    'rib.roughness_um'
+    """
+    return study.scatter()
 
 
 def prepared(study: PointStudy, design: Design) -> PointStudy:

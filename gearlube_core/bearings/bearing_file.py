@@ -11,9 +11,12 @@ from gearlube_core.bearings.losses.geometry import (
     Rib,
     closing_inner_angle,
 )
+from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
@@ -35,7 +38,6 @@ ShareC = Annotated[float, Field(ge=0.1, le=3.0, allow_inf_nan=False)]
 Friction = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
 Speeds = Annotated[tuple[float, ...], Field(strict=False, min_length=1)]
 _MICROMETRE = 1e-6  # m
-_HEIGHT = 0.15  # of the roller diameter: contact of the rib above the race
 
 
 class LossBearingSection(Section):
@@ -127,6 +129,15 @@ class BearingFile(InputFile):
     bearing: LossBearingSection
     rib: RibSection = Field(default_factory=RibSection)
     operation: OperationSection = Field(default_factory=OperationSection)
+    tolerances: Tolerances = Field(
+        default={}, description="How fields scatter from part to part, by their dotted names"
+    )
+
+    @model_validator(mode="after")
+    def _check_tolerances(self) -> BearingFile:
+        if self.tolerances:
+            check_tolerances(self.tolerances, field_notes(type(self)))
+        return self
 
     @model_validator(mode="after")
     def _check_bearing(self) -> BearingFile:
@@ -155,7 +166,7 @@ class BearingFile(InputFile):
                 closing_inner_angle(pitch, roller, outer) if given is None else given * DEGREE
             ),
             rib=Rib(
-                contact_height=_HEIGHT * roller if height is None else height * mm,
+                contact_height=RIB_HEIGHT * roller if height is None else height * mm,
                 end_radius=rib.end_radius_ratio,
                 roughness=rib.roughness_um * _MICROMETRE,
                 share_b=rib.share_b,

@@ -51,3 +51,5 @@ class BearingParameters(NamedTuple):
     inner_radius: float  # of the inner race there, from the shaft's axis [m]
     outer_radius: float  # ditto of the outer race [m]
     reduced_modulus: float  # E' = 2 E* of rollers and races [Pa]
+    rib_height: float  # of the contact of roller end and rib above the inner race [m]; 0: no rib
+    rib_friction: float  # of the asperities there [-]

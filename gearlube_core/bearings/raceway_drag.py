@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftMotion
-from gearlube_core.bearings.cage_frame import approach_terms
+from gearlube_core.bearings.cage_frame import ApproachTerms, approach_terms
 from gearlube_core.bearings.losses.laws import (
     AIHARA_HEATING,
     ZHOU_HOEPRICH,
@@ -30,6 +31,48 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
 
+class SteadyRollers(NamedTuple):
+    """What the steady loads of the rollers of both bearings follow from."""
+
+    terms: ApproachTerms
+    film: float
+    floor_load: float  # N
+
+
+@kernel
+def steady_rollers(motion: ShaftMotion, oil: LubricantState, p: BearingParameters) -> SteadyRollers:
+    """Return what the loads of the rollers follow from at rest at this motion."""
+    film, _ = film_amplitude(motion.speed, oil.eta0, oil.alpha, p)
+    terms = approach_terms(motion, math.cos(motion.cage_angle), math.sin(motion.cage_angle), p)
+    return SteadyRollers(terms, film, p.kn * FILM_FLOOR_APPROACH**p.n)
+
+
+@kernel
+def steady_load(rollers: SteadyRollers, side: float, i: int, p: BearingParameters) -> float:
+    """Return the load of roller `i` of the bearing on `side`, +1 or -1 [N]."""
+    terms, film, K = rollers
+    count = int(p.n_rollers)
+    g = terms.g0 + side * terms.ga
+    g += terms.g1 * COS_TABLE[count, i] + terms.g2 * SIN_TABLE[count, i]
+    if p.n == N_LINE:
+        load, _ = roller_load_line(g, 0.0, film, 0.0, K, 0.0, 0.0)
+    else:
+        load, _ = roller_load_general(g, 0.0, film, 0.0, K, 0.0, 0.0, p.n)
+    return load
+
+
+@kernel
+def line_radii(p: BearingParameters) -> tuple[float, float]:
+    """Return the relative radii of a roller on the inner and on the outer race [m].
+
+    The races are cones: their curvature lies across the line of contact.
+    """
+    return (
+        1.0 / (1.0 / p.roller_radius + p.cos_contact / p.inner_radius),
+        1.0 / (1.0 / p.roller_radius - p.cos_contact / p.outer_radius),
+    )
+
+
 @kernel
 def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingParameters) -> float:
     """Return the torque of the raceways of both bearings, with the sign of the speed [N m].
@@ -52,7 +95,7 @@ def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingP
     F is the rolling force of the law for each length under the steady load of the roller, which is
     the same at both races; r_u is the mean surface speed over the shaft speed, l the length of the
     roller. Each contact is flooded and heated once. Rib, oil drag and the steel's hysteresis are
-    not in it.
+    those of `rib_drag`.
     Source: [zhou_hoeprich_1991 (42)]
     """
     u = p.film_speed_radius * abs(motion.speed)
@@ -60,25 +103,13 @@ def raceway_drag(motion: ShaftMotion, law: int, oil: LubricantState, p: BearingP
         return 0.0
     heating = ZHU_CHENG_HEATING if law == ZHOU_HOEPRICH else AIHARA_HEATING
     number = inlet_heating_number(oil.eta0, oil.beta, u, oil.conductivity)
-    film, _ = film_amplitude(motion.speed, oil.eta0, oil.alpha, p)
-    terms = approach_terms(motion, math.cos(motion.cage_angle), math.sin(motion.cage_angle), p)
-    K = p.kn * FILM_FLOOR_APPROACH**p.n
-    count = int(p.n_rollers)
-    line = p.n == N_LINE
+    rollers = steady_rollers(motion, oil, p)
+    R_inner, R_outer = line_radii(p)
     E = p.reduced_modulus
-    # the races are cones: their curvature lies across the line of contact
-    R_inner = 1.0 / (1.0 / p.roller_radius + p.cos_contact / p.inner_radius)
-    R_outer = 1.0 / (1.0 / p.roller_radius - p.cos_contact / p.outer_radius)
     total = 0.0
     for bearing in range(2):
-        side = 1.0 - 2.0 * bearing
-        for i in range(count):
-            g = terms.g0 + side * terms.ga
-            g += terms.g1 * COS_TABLE[count, i] + terms.g2 * SIN_TABLE[count, i]
-            if line:
-                load, _ = roller_load_line(g, 0.0, film, 0.0, K, 0.0, 0.0)
-            else:
-                load, _ = roller_load_general(g, 0.0, film, 0.0, K, 0.0, 0.0, p.n)
+        for i in range(int(p.n_rollers)):
+            load = steady_load(rollers, 1.0 - 2.0 * bearing, i, p)
             if load <= 0.0:
                 continue
             q = load / p.roller_length

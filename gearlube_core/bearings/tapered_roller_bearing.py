@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
+from gearlube_core.bearings.losses.rib import RIB_BOUNDARY_FRICTION, RIB_HEIGHT
 from gearlube_core.bearings.losses.skf_2013 import OTHER_SERIES, SERIES, SERIES_NAMES
 from gearlube_core.bearings.palmgren_1959 import F0_TAPERED_OIL_BATH, F1_TAPERED
 from gearlube_core.bearings.parameters import (
@@ -73,6 +74,11 @@ class TaperedRollerBearing:
         two describe the same approach.
     series : str
         Of the catalogue, for the drag by `skf_2013`: one of `SERIES_NAMES`.
+    rib_height : float, optional
+        Of the contact of the roller ends with the rib above the inner race [m], for the drag by the
+        laws of rolling; None: 0.15 roller diameters, assumed; 0: no rib.
+    rib_boundary_friction : float
+        Of the asperities there [-].
 
     Examples
     --------
@@ -100,6 +106,8 @@ class TaperedRollerBearing:
     preload: float | None = None
     interference: float | None = None
     series: str = "other"
+    rib_height: float | None = None
+    rib_boundary_friction: float = RIB_BOUNDARY_FRICTION
 
     def __post_init__(self) -> None:
         check_option("approach", self.approach, get_args(Approach))
@@ -124,6 +132,10 @@ class TaperedRollerBearing:
         check_within("loss", self.loss, 0.0, 1.0)
         check_within("f0", self.f0, 0.0, 100.0)
         check_within("f1", self.f1, 0.0, 0.1)
+        cure = "It is below the roller diameter; 0 m is no rib."
+        if self.rib_height is not None:
+            check_within("rib_height", self.rib_height, 0.0, self.roller_diameter, "m", cure)
+        check_within("rib_boundary_friction", self.rib_boundary_friction, 0.0, 0.5)
         self._check_fit()
 
     def _check_fit(self) -> None:
@@ -271,4 +283,8 @@ class TaperedRollerBearing:
             inner_radius=0.5 * float(self.inner_race_diameter),
             outer_radius=0.5 * float(self.outer_race_diameter),
             reduced_modulus=reduced_modulus(self.solid, self.solid),
+            rib_height=float(
+                RIB_HEIGHT * self.roller_diameter if self.rib_height is None else self.rib_height
+            ),
+            rib_friction=float(self.rib_boundary_friction),
         )

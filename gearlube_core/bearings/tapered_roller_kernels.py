@@ -8,6 +8,7 @@ from gearlube_core.bearings.losses.laws import SKF
 from gearlube_core.bearings.palmgren_1959 import drag_torque
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.raceway_drag import raceway_drag
+from gearlube_core.bearings.rib_drag import rib_drag
 from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.bearings.shaft_energy import shaft_bearing_energy
 from gearlube_core.bearings.shaft_expansion import expand_shaft_bearings, expanded_shaft_forces
@@ -111,8 +112,12 @@ class TaperedRollerParameters(BearingParameters):
 
     @kernel
     def raceway_torque(self, motion: ShaftMotion, law: int, oil: LubricantState) -> float:
-        """Return the torque of the raceways of both bearings [N m]."""
-        return raceway_drag(motion, law, oil, self)
+        """Return the torque of raceways, ribs, hysteresis and oil of both bearings [N m]."""
+        ends = rib_drag(motion, oil, self)
+        beside = ends.rib + ends.hysteresis + ends.oil
+        if motion.speed < 0.0:
+            beside = -beside
+        return raceway_drag(motion, law, oil, self) + beside
 
     def without_loss(self) -> TaperedRollerParameters:
         """Return the bearings without hysteresis."""

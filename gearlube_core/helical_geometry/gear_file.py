@@ -25,6 +25,7 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.helical_geometry.tip_relief import PowerTipRelief, TipRelief
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
@@ -82,6 +83,9 @@ class HelicalGearFile(InputFile):
         default={},
         description="Dotted fields or sections that the source lacks, and why they are so",
     )
+    tolerances: Tolerances = Field(
+        default={}, description="How fields scatter from part to part, by their dotted names"
+    )
 
     @model_validator(mode="after")
     def _check_relations(self) -> HelicalGearFile:
@@ -90,6 +94,7 @@ class HelicalGearFile(InputFile):
         for field in (*self.inferred, *self.completed):
             if not any(name == field or name.startswith(f"{field}.") for name in known):
                 raise ValueError(f"inferred or completed names {field!r}, which is not a field")
+        check_tolerances(self.tolerances, known)
         for name in self.compared_with:
             if name not in self.shipped():
                 raise ValueError(

@@ -190,7 +190,7 @@ def _key(
     file: HypoidGearFile, stiffness: dict[Side, PairStiffness], settings: CycleSettings
 ) -> str:
     digest = hashlib.sha256(f"mesh cycle {_FORMAT}".encode())
-    digest.update(file.model_dump_json().encode())
+    digest.update(file.model_dump_json(exclude={"tolerances"}).encode())
     digest.update(repr(asdict(settings)).encode())
     for side in SIDES:
         digest.update(repr(stiffness[side].contact_modulus).encode())

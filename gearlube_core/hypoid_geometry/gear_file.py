@@ -25,6 +25,7 @@ from gearlube_core.hypoid_geometry.gear_file_sections import (
 )
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.input_file.tolerance import Tolerances, check_tolerances
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
@@ -59,6 +60,9 @@ class HypoidGearFile(InputFile):
     )
     completed: Fields = Field(
         (), description="Dotted names of fields that the source lacks and that were chosen"
+    )
+    tolerances: Tolerances = Field(
+        default={}, description="How fields scatter from part to part, by their dotted names"
     )
 
     @model_validator(mode="after")
@@ -98,6 +102,7 @@ class HypoidGearFile(InputFile):
                 f"{self.gear.cutter.blade_groups}"
             )
         self._check_reliefs()
+        check_tolerances(self.tolerances, known)
         return self
 
     def _check_reliefs(self) -> None:

@@ -11,7 +11,7 @@ import pytest
 import gearlube_core.ehl.transient.newton as transient_newton
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.transient.history import FilmHistory
-from gearlube_core.ehl.transient.lift import lifted
+from gearlube_core.ehl.transient.lift import lifted, lifted_off_solids
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.record import MarchRecord
 from gearlube_core.ehl.transient.solution import FilmSolution
@@ -99,11 +99,39 @@ def test_a_film_that_is_too_thin_everywhere_is_not_lifted():
     assert lifted(march._level, start, 1.01 * start.film) is None
 
 
-def test_lifted_peaks_leave_the_answer_and_save_steps(monkeypatch, tmp_path):
+@cache
+def touching_march() -> FilmMarch:
+    """Return the march one step before its end."""
     case = RoughCase.from_data(TOUCHING, "touching")
     march = march_of(case)
     for _ in range(case.schedule().steps - 1):
         march.step()
+    return march
+
+
+def test_solids_that_are_pressed_too_far_are_lifted_to_what_the_pressure_holds():
+    march = touching_march()
+    level, found = march._level, march._past.state
+    nanometre = 1e-9 / level.scales.film
+    near = level.state(found.pressure, found.approach - 4.0 * nanometre)
+    layer = march.film.solids
+    pressed = level.scales.pressure * near.pressure
+    # the layer's law solved for the film: p = p_half (t/h - 1)^2
+    holds = layer.thickness / (1.0 + np.sqrt(pressed / layer.pressure)) / level.scales.film
+    thin = (near.film < holds / 1.5) & (near.film * level.scales.film < layer.thickness)
+    assert 0 < thin.sum() < 30
+    lifted_film = lifted_off_solids(level, near)
+    assert (lifted_film.film[thin] >= holds[thin] / 1.5).all()
+    # aimed at the film that holds the pressure; neighbours lift each other by some more
+    assert lifted_film.film[thin] == pytest.approx(holds[thin], rel=0.5, abs=0.0)
+    np.testing.assert_array_equal(lifted_film.pressure[~thin], near.pressure[~thin])
+    # nothing is too far in a film that is found
+    assert lifted_off_solids(level, found) is found
+
+
+def test_lifted_peaks_leave_the_answer_and_save_steps(monkeypatch, tmp_path):
+    case = RoughCase.from_data(TOUCHING, "touching")
+    march = touching_march()
     march.save(tmp_path / "march.npz")
     record = MarchRecord.read(tmp_path / "march.npz")
 
@@ -113,6 +141,7 @@ def test_lifted_peaks_leave_the_answer_and_save_steps(monkeypatch, tmp_path):
     found = next_film()
     assert found.minimum_film < 10e-9  # solids touch
     monkeypatch.setattr(transient_newton, "lifted", lambda level, state, least: None)
+    monkeypatch.setattr(transient_newton, "lifted_off_solids", lambda level, state: state)
     monkeypatch.setattr(FilmHistory, "carried", lambda self, smooth, nodes: self.predicted()[0])
     plain = next_film()
     assert found.newton_steps < 0.8 * plain.newton_steps

@@ -10,8 +10,10 @@ from gearlube_core.contact.half_space import love_coefficients
 from gearlube_core.contact.unilateral import solve_torque
 from gearlube_core.contact.unilateral_problem import UnilateralProblem
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
+from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import tooth_position
 from gearlube_core.hypoid_contact.sensitivity.loaded_rates import QUANTITIES, loaded_rates
+from gearlube_core.hypoid_contact.sensitivity.parameter import usual_parameters
 from gearlube_core.hypoid_contact.sensitivity.variations import Variations
 from gearlube_core.hypoid_contact.strips import StripSettings, cut_strip
 from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
@@ -35,8 +37,8 @@ LIMIT = 1e-6
 class Frozen:
     """The same strips and loaded cells cut out of other flanks, solved by elimination."""
 
-    def __init__(self, side):
-        self.pair = shipped_pair(side)
+    def __init__(self, pair):
+        self.pair = pair
         self.state = MeshPosition.at(self.pair, PHASE, pairs=1).load(TORQUE, SOFT_TEETH, SETTINGS)
         self.carrying = [one for one in self.state.pairs if (one.forces > 0.0).any()]
 
@@ -122,7 +124,7 @@ class Frozen:
 
 @pytest.fixture(scope="module", params=["drive", "coast"])
 def frozen(request):
-    return Frozen(request.param)
+    return Frozen(shipped_pair(request.param))
 
 
 @pytest.fixture(scope="module")
@@ -204,3 +206,24 @@ def test_rotation_by_axial_displacement_is_axial_force_by_torque(frozen, rates):
         SOFT_TEETH,
     )
     assert found.rate.rotation[0] == pytest.approx(-(force[1] - force[0]) / 8.0, rel=0.01)
+
+
+def test_reliefs_have_rates_like_any_setting():
+    relief = {"tip_relief_um": 15.0, "tip_relief_depth_mm": 2.0, "lead_crown_um": 5.0}
+    file = shipped_file().varied({"pinion.drive_flank": relief, "gear.drive_flank": relief})
+    frozen = Frozen(FlankPair.from_file(file, "drive"))
+    names = ("pinion.drive_flank.tip_relief_um", "pinion.machine.radial_setting_mm")
+    variations = Variations.of(file, frozen.pair, names)
+    assert set(names) <= set(usual_parameters(file))
+    found = loaded_rates(variations, frozen.state, SOFT_TEETH)
+    for k, parameter in enumerate(variations.parameters):
+        expected = extrapolated(
+            lambda change, parameter=parameter: frozen.quantities(
+                changed_pair(file, frozen.pair, parameter, change)
+            ),
+            parameter.step,
+        )
+        # the relief's own step is 0.1 um of 15: where it moves nothing, differences are rounding
+        np.testing.assert_allclose(
+            flat(found.rate, k), expected, rtol=LIMIT, atol=LIMIT * max(abs(expected[9:]))
+        )

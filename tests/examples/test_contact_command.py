@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.studies.contact import run as contact_run
+from gearlube.studies.contact import sensitivity
 from gearlube.studies.contact.figures import CONTACT_CATALOGUE
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.hypoid_contact import contact_dataset, mesh_cycle
@@ -133,6 +134,44 @@ def test_options_reach_the_settings_in_si_units(asked):
     assert cycle.misalignment.gear_axial == pytest.approx(10e-6)
     assert cycle.misalignment.shaft_angle == pytest.approx(0.5e-3)
     assert call["jobs"] == 2
+
+
+@pytest.fixture
+def differentiated(monkeypatch):
+    """What the command would have differentiated; it ends as a failed analysis does."""
+    calls = []
+
+    def note(file, settings, **options):
+        calls.append({"file": file, "settings": settings, **options})
+        raise ConvergenceError("noted")
+
+    monkeypatch.setattr(sensitivity, "run_sensitivity", note)
+    return calls
+
+
+def test_sensitivity_takes_one_torque_and_the_misalignment(differentiated, asked, tmp_path):
+    result = run(
+        *("--sensitivity", "--torques", 120, "--positions", 5, "--gear-axial-um", 10),
+        *("--jobs", 1, "--out", tmp_path / "out"),
+    )
+    assert result.exit_code == FAILED, result.output
+    (call,) = differentiated
+    assert (call["settings"].torque, call["settings"].positions) == (120.0, 5)
+    assert call["settings"].misalignment.gear_axial == pytest.approx(10e-6)
+    assert call["folder"] == tmp_path / "out"
+    assert not asked
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [(("--torques", 20, 50), "one torque"), (("--export",), "--export"), (("--torques", 0), "0")],
+)
+def test_sensitivity_refuses_what_it_does_not_do(options, word, differentiated, tmp_path, caplog):
+    with caplog.at_level(logging.ERROR, "gearlube"):
+        result = run("--sensitivity", *options, "--out", tmp_path / "out")
+    assert result.exit_code == BAD_ARGUMENT
+    assert word in caplog.text
+    assert not differentiated
 
 
 def test_a_gear_file_is_read_from_its_path(asked, tmp_path, gear_text):

@@ -161,6 +161,10 @@ def all_cases():
             (bearing_drag.bearing_drag, (state, state_of_oil, p._replace(drag=law)))
             for law in (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
         ),
+        *(
+            (bearing_drag.loaded_drag, (p.bearing_p, rhs.pinion_motion(state), law, state_of_oil))
+            for law in (0, 1)
+        ),
         (
             integrate.inputs_with_drag,
             (state, 3.0, 5.0, bearing_drag.BearingDrag(0.2, 0.3), state_of_oil, p),

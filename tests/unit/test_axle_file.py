@@ -138,6 +138,8 @@ BEARING = {
     "f0": (3.0, "f0", 3.0),
     "f1": (7e-4, "f1", 7e-4),
     "series": ("303", "series", "303"),
+    "rib_height_mm": (2.5, "rib_height", 0.0025),
+    "rib_boundary_friction": (0.1, "rib_boundary_friction", 0.1),
 }
 for _role, _place in (("pinion", "bearing"), ("gear", "gear_bearing")):
     for _key, (_value, _name, _si) in BEARING.items():
@@ -204,6 +206,7 @@ def every_field(text):
     data = tomllib.loads(uncommented)
     data["oil"] = {"name": "mohammadpour_2015"}  # its data there are another oil's, to copy
     del data["gear_set"]["asperity_table"]  # a file that does not ship
+    del data["pinion"]["bearing"]["rib_height_mm"]  # 0.15 of 12.7 mm, a rounding apart
     return data
 
 

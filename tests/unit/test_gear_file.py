@@ -45,8 +45,8 @@ def test_what_is_no_number_is_refused(name, value):
 @pytest.mark.parametrize("name", BOUNDED)
 def test_every_number_has_a_unit_or_needs_none_and_a_meaning(name):
     note = NOTES[name]
-    plain = ("teeth", "blade_groups", "ratio_of_roll")
-    assert note.unit in ("mm", "um", "deg") or name.rsplit(".", 1)[1] in plain
+    plain = ("teeth", "blade_groups", "ratio_of_roll", "modified_roll_2c", "modified_roll_6d")
+    assert note.unit in ("mm", "um", "deg", "mm/rad") or name.rsplit(".", 1)[1] in plain
     assert len(note.meaning) > 10
 
 

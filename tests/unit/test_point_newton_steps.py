@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.ehl.point.newton import newton as steady
+from gearlube_core.ehl.point.terms.solids import NoSolids
 from gearlube_core.ehl.transient import march
 from gearlube_core.ehl.transient import newton as moving
 from gearlube_core.ehl.transient.level import MovingLevel
@@ -21,7 +22,8 @@ class MadeUpLevel(MovingLevel):
     flow_rate = FLOW_RATE
 
     def __init__(self):
-        self.terms = SimpleNamespace(cavitation=SimpleNamespace(conserves_mass=False))
+        full = SimpleNamespace(conserves_mass=False)
+        self.terms = SimpleNamespace(cavitation=full, solids=NoSolids())
         self.grid = SimpleNamespace(integral=lambda field: float(field.sum()))
         self.half_width, self.load = 0.5, 4.0
         self.squeezes, self.tried = [], []

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gearlube.studies.films.rough import run as rough_run
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.errors import ParameterError
 from gearlube_core.surface.files import write_surface
@@ -126,8 +127,27 @@ def test_the_key_knows_surfaces_and_grid_and_not_names():
         {"solver.rows": 34},
         {"side_conditions": "no_flow"},
         {"times.rough": 5.0},
+        {"solver.scheme": "crank_nicolson"},
     ):
         assert case(**change).key() != key
+
+
+@pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
+def test_a_march_stores_oil_by_the_scheme_of_its_case(scheme, monkeypatch):
+    given = []
+
+    class BegunError(Exception):
+        pass
+
+    def begin(film: object, step: float, **more: object) -> None:
+        given.append(more["scheme"])
+        raise BegunError
+
+    monkeypatch.setattr(rough_run, "FilmMarch", begin)
+    monkeypatch.setattr(rough_run, "Gathered", lambda case: None)
+    with pytest.raises(BegunError):
+        rough_run.run_rough(case(**{"solver.scheme": scheme}))
+    assert given == [scheme]
 
 
 @pytest.mark.parametrize(

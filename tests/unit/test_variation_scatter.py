@@ -1,6 +1,8 @@
 """Tolerances of an axle file as distributions of its fields."""
 
 import math
+from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 import pytest
@@ -8,9 +10,10 @@ import pytest
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube.variation.design import Design, Sampling
 from gearlube.variation.file_variants import AxleVariants
+from gearlube.variation.points.bearing import BearingPoint
 from gearlube.variation.points.losses import LossPoint
-from gearlube.variation.scatter import scatter_of
 from gearlube.variation.studies import point_study, scatter
+from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.errors import ParameterError
 
 FILE = """
@@ -34,7 +37,7 @@ def variants(tmp_path):
 
 
 def test_fields_scatter_about_their_values_or_defaults(variants):
-    found = {one.key: one for one in scatter_of(variants)}
+    found = {one.key: one for one in scatter(LossPoint(axle=variants))}
     backlash = found["gear_set.backlash_um"]
     assert (backlash.low, backlash.high, backlash.mean) == (90.0, 150.0, 120.0)
     assert backlash.deviation == pytest.approx(10.0)  # three to the tolerance
@@ -48,7 +51,7 @@ def test_fields_scatter_about_their_values_or_defaults(variants):
 def test_the_loss_of_a_bearing_follows_its_preload_as_its_law_says(variants):
     """Drag by preload is f1 F d (Palmgren): linear, so deviations scale alike."""
     study = LossPoint(axle=variants)
-    preload = next(one for one in scatter_of(variants) if "preload" in one.key)
+    preload = next(one for one in scatter(LossPoint(axle=variants)) if "preload" in one.key)
     design = Design(spreads=(preload,), sampling=Sampling("lhs", 12))
     column = [one.name for one in study.quantities].index("loss_bearing_torque")
     losses = np.array([study.compute(design.point(i))[column] for i in range(12)])
@@ -88,11 +91,85 @@ def test_a_wrong_tolerance_is_refused(tolerances, said):
 
 
 def test_scatter_without_tolerances_or_values_is_refused():
-    with pytest.raises(ParameterError, match="needs \\[tolerances\\] in the axle file"):
+    with pytest.raises(ParameterError, match="needs \\[tolerances\\] in the file"):
         scatter(point_study("map"))
-    with pytest.raises(ParameterError, match="is for axle files"):
+    with pytest.raises(ParameterError, match="got none in that of wingertszahn_2023"):
         scatter(point_study("bearing"))
     tolerances = {"housing.immersion_mm": {"plus_minus": 1.0}}
     file = AxleFile.named("mohammadpour_2015").varied({"tolerances": tolerances})
     with pytest.raises(ParameterError, match="needs a value to scatter about"):
-        scatter_of(AxleVariants(file=file))
+        scatter(LossPoint(axle=AxleVariants(file=file)))
+
+
+@pytest.mark.parametrize(
+    ("study", "field", "unread"),
+    [
+        ("helical", "pair.backlash_mm", "oil.viscosity_pa_s"),
+        ("contact", "gear.cutter.point_radius_mm", None),
+        ("bearing", "rib.roughness_um", None),
+    ],
+)
+def test_fields_of_gear_and_bearing_files_scatter_about_their_values(study, field, unread):
+    shipped = point_study(study)
+    value = reduce(getattr, field.split("."), shipped.file)
+    file = shipped.file.varied({"tolerances": {field: {"plus_minus_percent": 3.0}}})
+    (found,) = scatter(replace(shipped, file=file))
+    assert found.key == field
+    assert (found.low, found.mean, found.high) == pytest.approx((0.97 * value, value, 1.03 * value))
+    assert found.deviation == pytest.approx(0.01 * value)
+    assert replace(shipped, file=file).varied({field: value}).tolerances == {}
+    if unread is not None:
+        file = shipped.file.varied({"tolerances": {unread: {"plus_minus": 1.0}}})
+        with pytest.raises(ParameterError, match=f"of a field that the study {study} reads"):
+            scatter(replace(shipped, file=file))
+    with pytest.raises(ParameterError, match="fields that are numbers"):
+        shipped.file.varied({"tolerances": {"nothing_mm": {"plus_minus": 1.0}}})
+
+
+def bearing_with(tolerances):
+    return BearingFile.named("wingertszahn_2023").varied({"tolerances": tolerances})
+
+
+def test_fields_of_a_bearing_scatter_about_their_values():
+    file = bearing_with(
+        {"rib.contact_height_mm": {"plus_minus": 0.3}, "bearing.f0": {"plus_minus_percent": 10.0}}
+    )
+    height, f0 = scatter(BearingPoint(file=file))
+    assert (height.low, height.high, height.mean) == pytest.approx((2.2, 2.8, 2.5))
+    assert height.deviation == pytest.approx(0.1)  # three to the tolerance
+    assert (f0.low, f0.high) == pytest.approx((5.4, 6.6))  # 6 is the default
+    part = BearingPoint(file=file).varied({"rib.contact_height_mm": 2.3})
+    assert part.rib.contact_height_mm == 2.3
+    assert part.tolerances == {}
+
+
+def test_the_viscous_torque_of_scattering_bearings_is_proportional_to_their_f0():
+    """M0 = 1e-7 f0 (nu n)^(2/3) dm^3 (Palmgren): so mean and deviation follow those of f0."""
+    study = BearingPoint(file=bearing_with({"bearing.f0": {"plus_minus": 1.5}})).prepared({})
+    design = Design(spreads=scatter(study), sampling=Sampling("lhs", 16))
+    column = [one.name for one in study.quantities].index("torque_viscous")
+    torques = np.array(
+        [study.compute({"law": "palmgren", **design.point(i)})[column] for i in range(16)]
+    )
+    f0 = design.column("bearing.f0")
+    assert f0.std() > 0.3
+    assert torques / torques.mean() == pytest.approx(f0 / f0.mean(), rel=1e-12)  # roundings
+
+
+@pytest.mark.parametrize(
+    ("tolerances", "said"),
+    [
+        ({"rib.contact_height": {"plus_minus": 0.3}}, "is it rib.contact_height_mm"),
+        ({"operation.speed_rpm": {"plus_minus": 1.0}}, "fields that are numbers"),
+    ],
+)
+def test_a_wrong_tolerance_of_a_bearing_is_refused(tolerances, said):
+    with pytest.raises(ParameterError, match=said):
+        bearing_with(tolerances)
+
+
+def test_a_bearing_scatters_about_no_field_that_its_file_leaves_out():
+    data = {"tolerances": {"bearing.timken_g1": {"plus_minus": 5.0}}}
+    file = BearingFile.named("wingertszahn_2023").varied(data)
+    with pytest.raises(ParameterError, match=r"bearing\.timken_g1 needs a value .*does not use"):
+        scatter(BearingPoint(file=file))

@@ -20,6 +20,9 @@ from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.contact.summary import ContactSummary
+    from gearlube_core.hypoid_contact.placement import Misalignment
+    from gearlube_core.hypoid_contact.sensitivity.analysis import SensitivitySettings
+    from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 logger = logging.getLogger("gearlube")
 
@@ -80,11 +83,20 @@ def contact(
     quick: Annotated[
         bool, typer.Option("--quick", help="Few positions and torques, for a first look.")
     ] = False,
+    sensitivity: Annotated[
+        bool,
+        typer.Option(
+            "--sensitivity",
+            help="Instead: what each machine setting, cutter dimension and misalignment changes, "
+            "per small error. At one of --torques, default 50; 8 positions.",
+        ),
+    ] = False,
     overwrite: OverwriteOption = False,
 ) -> None:
     """Analyse the tooth contact of a hypoid pair; write its mesh table, contact.nc and figures.
 
-    Finished positions are kept in OUT/positions: run the same command again to go on after a stop.
+    With --sensitivity: sensitivity.nc, sensitivity.csv and figures/sensitivity.png. Finished
+    positions are kept in OUT: run the same command again to go on after a stop.
     """
     from gearlube.studies.contact import run
     from gearlube.studies.contact.gear_solids import write_gears
@@ -114,6 +126,11 @@ def contact(
         )
         for sentence in gear_file_warnings(file):
             logger.warning("%s", sentence)
+        if sensitivity:
+            wanted = _sensitivity_settings(torques, positions, cycle.misalignment, export)
+            with results_folder(out, "contact", overwrite=overwrite):
+                _sensitivity(file, wanted, out, jobs)
+            return
         with (
             results_folder(out, "contact", overwrite=overwrite),
             progress_on(console, "contact", 2 * cycle.positions) as progress,
@@ -131,6 +148,44 @@ def contact(
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")
+
+
+def _sensitivity_settings(
+    torques: list[float] | None, positions: int | None, misalignment: Misalignment, export: bool
+) -> SensitivitySettings:
+    from gearlube_core.errors import ParameterError
+    from gearlube_core.hypoid_contact.sensitivity.analysis import SensitivitySettings
+
+    if torques and len(torques) > 1:
+        raise ParameterError(
+            f"--sensitivity must have one torque, got {len(torques)}. Give one of them and run it "
+            "again in another --out for the next."
+        )
+    if export:
+        raise ParameterError("--export must stand without --sensitivity. Run them one by one.")
+    usual = SensitivitySettings()
+    return SensitivitySettings(
+        torque=torques[0] if torques else usual.torque,
+        positions=positions or usual.positions,
+        misalignment=misalignment,
+    )
+
+
+def _sensitivity(
+    file: HypoidGearFile, settings: SensitivitySettings, out: Path, jobs: int | None
+) -> None:
+    from gearlube.studies.contact.sensitivity import run_sensitivity, sensitivity_rows
+    from gearlube.studies.contact.sensitivity_table import sensitivity_table
+
+    with progress_on(console, "contact", 2 * settings.positions) as progress:
+        dataset = run_sensitivity(file, settings, folder=out, jobs=jobs, progress=progress)
+    console.print(sensitivity_table(file.name, settings.torque, sensitivity_rows(dataset)))
+    logger.info(
+        "Results: %s, %s, %s",
+        out / "sensitivity.nc",
+        out / "sensitivity.csv",
+        out / "figures" / "sensitivity.png",
+    )
 
 
 def _table(name: str, rows: list[ContactSummary]) -> Table:

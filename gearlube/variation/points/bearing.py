@@ -59,6 +59,12 @@ class BearingPoint(FilePoint[BearingFile]):
     quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
     unused: ClassVar[tuple[str, ...]] = ("operation.",)  # the operands stand for them
 
+    def varied(self, point: Point) -> BearingFile:
+        """Return the file with the fields of a point that are its own; it has no tolerances."""
+        own = {name: one for name, one in point.items() if name not in self.operands}
+        # one part has no tolerances; they need not be checked again for each
+        return self.file.model_copy(update={"tolerances": {}}).varied(own) if own else self.file
+
     @property
     def usual_oils(self) -> tuple[str, ...]:
         """The oil of the file."""

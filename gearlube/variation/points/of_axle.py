@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
-from gearlube.variation.design import Value
+from gearlube.variation.design import Spread, Value
 from gearlube.variation.file_variants import AxleVariants, axle_keys, files_named
 from gearlube.variation.keys import Keys
 from gearlube.variation.point_study import Quantity
+from gearlube.variation.scatter import scatter_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,3 +45,14 @@ class AxlePoint:
     def prepared(self, texts: Mapping[str, tuple[Value, ...]]) -> Self:
         """Return the study with all files read that the values of the axes name."""
         return replace(self, axle=self.axle.with_files(files_named(texts)))
+
+    def scatter(self) -> tuple[Spread, ...]:
+        """Return the spreads of the axle file's tolerances.
+
+        A field that the file leaves out scatters about its default.
+        """
+        file = self.axle.file
+        if not file.tolerances:
+            return scatter_of(file.name, {}, {})
+        notes = self.axle.car_axle({}, notes=True).inputs
+        return scatter_of(file.name, file.tolerances, {note.field: note.value for note in notes})

@@ -7,10 +7,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import ClassVar, Generic, Self, TypeVar
 
-from gearlube.variation.design import Point, Value
+from gearlube.variation.design import Point, Spread, Value
 from gearlube.variation.file_variants import content_hash
 from gearlube.variation.keys import Keys, file_keys
 from gearlube.variation.point_study import Quantity
+from gearlube.variation.scatter import scatter_of, values_of
+from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.oil.lubricant import Lubricant
@@ -32,6 +34,7 @@ class FilePoint(Generic[File]):
         Coarse, for a first look; for the studies that have it.
     """
 
+    name: ClassVar[str]
     operands: ClassVar[Keys]
     quantities: ClassVar[tuple[Quantity, ...]]
     unused: ClassVar[tuple[str, ...]] = ()  # beginnings of fields that the study does not read
@@ -75,7 +78,21 @@ class FilePoint(Generic[File]):
     def varied(self, point: Point) -> File:
         """Return the file with the fields of a point that are its own."""
         own = {name: one for name, one in point.items() if name not in self.operands}
-        return self.file.varied(own) if own else self.file
+        if not own:
+            return self.file
+        # one part has no tolerances; they need not be checked again for each
+        return self.file.model_copy(update={"tolerances": {}}).varied(own)
+
+    def scatter(self) -> tuple[Spread, ...]:
+        """Return the spreads of the file's tolerances about its values."""
+        tolerances = getattr(self.file, "tolerances", {})
+        unread = [name for name in tolerances if name.startswith(self.unused)]
+        if unread:
+            raise ParameterError(
+                f"The tolerance of {unread[0]} must be of a field that the study {self.name} "
+                "reads, got one that it does not. Take it away, or vary an operand of `--keys`."
+            )
+        return scatter_of(self.subject, tolerances, values_of(self.file.model_dump()))
 
     def oil(self, name: str) -> Lubricant:
         """Return an oil by its name or file."""

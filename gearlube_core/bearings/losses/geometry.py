@@ -8,7 +8,14 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 
 from gearlube_core.bearings.losses.physical_loss import LossParameters
-from gearlube_core.bearings.losses.rib import RibParameters
+from gearlube_core.bearings.losses.rib import (
+    RIB_BOUNDARY_FRICTION,
+    RIB_END_RADIUS,
+    RIB_ROUGHNESS,
+    RIB_SHARE_B,
+    RIB_SHARE_C,
+    RibParameters,
+)
 from gearlube_core.bearings.losses.skf_2013 import (
     OTHER_SERIES,
     SERIES,
@@ -49,11 +56,11 @@ class Rib:
     """
 
     contact_height: float
-    end_radius: float = 0.9
-    roughness: float = 0.24e-6
-    share_b: float = 1.90
-    share_c: float = 0.99
-    boundary_friction: float = 0.12
+    end_radius: float = RIB_END_RADIUS
+    roughness: float = RIB_ROUGHNESS
+    share_b: float = RIB_SHARE_B
+    share_c: float = RIB_SHARE_C
+    boundary_friction: float = RIB_BOUNDARY_FRICTION
 
     def __post_init__(self) -> None:
         check_positive("contact_height", self.contact_height, "m", "2.5 mm is 0.0025 m.")

@@ -19,6 +19,13 @@ from gearlube_core.oil.roelands_1966 import (
     roelands_viscosity,
 )
 
+# where a file does not say
+RIB_HEIGHT = 0.15  # of the contact above the race, over the roller diameter; assumed
+RIB_END_RADIUS = 0.9  # of the sphere of the roller end, over its distance from the apex
+RIB_ROUGHNESS = 0.24e-6  # composite rms, [wingertszahn_2023] [m]
+RIB_SHARE_B, RIB_SHARE_C = 1.90, 0.99  # likewise
+RIB_BOUNDARY_FRICTION = 0.12
+
 
 class RibParameters(NamedTuple):
     """Contact of one roller end with the rib; all floats, SI."""

@@ -74,8 +74,8 @@ def bearing_drag(s: Array, oil: LubricantState, p: AxleParameters) -> BearingDra
     """Return the drag of the bearings by the law p.drag.
 
     Palmgren's is that of the preload; the laws of the catalogues, "palmgren_loaded" and "skf_2013",
-    take the present forces of either bearing; the others sum the raceways under the present load of
-    each roller, see `raceway_drag`.
+    take the present forces of either bearing; the others sum raceways and ribs under the present
+    load of each roller, see `raceway_drag` and `rib_drag`.
     """
     if p.drag == 0.0:
         return BearingDrag(0.0, 0.0)

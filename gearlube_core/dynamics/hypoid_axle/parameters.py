@@ -102,9 +102,9 @@ class HypoidAxleParameters(AxleScalars):
         Law of the rolling loss of the flanks, see `flank_rolling_force`.
     bearing_torque_loss : {"none", "palmgren", "zhou_hoeprich_1991", "biboulet_houpert_2010", \
         "aihara_1987", "palmgren_loaded", "skf_2013"}
-        Palmgren's law under the preload; the raceways by a law of rolling under the load of each
-        roller, without rib and oil drag; or a law of the catalogues under the forces of either
-        bearing.
+        Palmgren's law under the preload; the raceways by a law of rolling, with ribs, hysteresis
+        and oil drag, under the load of each roller; or a law of the catalogues under the forces of
+        either bearing.
     churning : {"none", "changenet_velex_2007", "boness_1989", "iso_tr_14179_2"}
         Law of the gear's churning, see `churning_torque`.
     ring_diameter, ring_width : float

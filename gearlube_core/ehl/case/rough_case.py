@@ -87,6 +87,10 @@ class RoughSolver(Section):
     nodes_x: Columns = Field(default=401, description="Along x, border included")
     rows: Rows = Field(default=64, description="Along y, an even number from 16 on")
     wedge: Wedge = Field(default="quick", description="Stencil of the wedge")
+    scheme: Literal["bdf2", "crank_nicolson"] = Field(
+        default="bdf2",
+        description="Of what is stored in time; crank_nicolson has a quarter of the error",
+    )
     tolerance: Tolerance = Field(default=1e-5, description="Unbalanced flow")
     load_tolerance: Tolerance = Field(default=1e-4, description="Error of the load")
     newton_steps: Steps = Field(default=60, description="Most Newton steps of a time step")
@@ -215,7 +219,7 @@ class RoughCase(ContactCase):
 
     def settings(self) -> PointSolverSettings:
         """Return how each time step is solved."""
-        given = self.solver.model_dump(exclude={"nodes_x", "rows"})
+        given = self.solver.model_dump(exclude={"nodes_x", "rows", "scheme"})
         return PointSolverSettings(estimate_error=False, **given)
 
     def kept_steps(self) -> tuple[int, ...]:

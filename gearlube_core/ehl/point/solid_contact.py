@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,7 +58,7 @@ class SolidContact:
 
     def film(self, pressure: float) -> float:
         """Return the film [m] at which the solids carry a pressure [Pa]."""
-        return self.thickness / (1.0 + math.sqrt(pressure / self.pressure))
+        return float(SolidLayer(self.thickness, self.pressure).film(np.array(pressure)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +76,10 @@ class SolidLayer:
         slope = -2.0 * self.pressure * excess * self.thickness / (h * h)
         below = np.minimum(film - least, 0.0)
         return self.pressure * excess * excess + slope * below, slope
+
+    def film(self, pressure: Array) -> Array:
+        """Return the film at which the solids carry a pressure from zero on, of its shape."""
+        return np.asarray(self.thickness / (1.0 + np.sqrt(pressure / self.pressure)))
 
 
 @dataclass(frozen=True, slots=True)

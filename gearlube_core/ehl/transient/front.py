@@ -14,7 +14,7 @@ from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.level import MovingLevel
 from gearlube_core.kernels.jit import kernel
 
-_LARGEST = 0.05  # flow residual, above which the film behind the front is too rough
+_LARGEST = 3.0  # flow residual, above which the film behind the front is too rough
 _SHARE = 0.3  # of the unbalanced flow at opening nodes, from which on the front is what lacks
 _FEW = 0.01  # of the largest unbalanced flow, below which an opening node is left alone
 _BACK, _AHEAD, _BESIDE = 4, 16, 2  # nodes along and across the motion that follow an opening one

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.ehl.point.terms.solids import NoContact, TouchingSolids
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.level import MovingLevel
 
@@ -49,3 +50,34 @@ def lifted(level: MovingLevel, state: FilmState, least: Array | float) -> FilmSt
         pressure[low] += _SHARE * (_BEYOND * limit - film)[low] / own[low]
         film = level.film(pressure, state.approach)
     return None
+
+
+def lifted_off_solids(level: MovingLevel, state: FilmState) -> FilmState:
+    """Return the state lifted where solids press on each other far more than the pressure says.
+
+    Parameters
+    ----------
+    level
+        Grid.
+    state
+        A trial; its film is above zero.
+
+    Returns
+    -------
+    FilmState
+        As given where no node, or more than a few, are pressed too far.
+
+    Notes
+    -----
+    The pressure of a layer rises with the second power of 1/h: a Newton step that left a node with
+    too thin a film is followed by steps that each make it thicker by a third or so. Such nodes get
+    the film at which their layer carries the pressure, at once.
+    """
+    contact, solids = state.contact, level.terms.solids
+    if isinstance(contact, NoContact) or not isinstance(solids, TouchingSolids):
+        return state
+    carrying = solids.layer.film(np.maximum(state.pressure, 0.0))
+    least = np.where(contact.left < 0.0, carrying / _BEYOND, 0.0)
+    if not (state.film < least).any():
+        return state
+    return lifted(level, state, least) or state

@@ -17,7 +17,7 @@ from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.transient.deflection_window import WindowedDeflection
 from gearlube_core.ehl.transient.front import advance_front
 from gearlube_core.ehl.transient.level import MovingLevel
-from gearlube_core.ehl.transient.lift import lifted
+from gearlube_core.ehl.transient.lift import lifted, lifted_off_solids
 from gearlube_core.ehl.transient.rows import Inverse
 
 _THINNEST = 0.2  # of the film before a step
@@ -140,7 +140,8 @@ def step_newton(
     Notes
     -----
     As the steady iteration: active set, negative pressure cut, steps shortened where the film
-    would collapse or the residual grow. A film that collapses at few nodes is lifted there.
+    would collapse or the residual grow. A film that collapses at few nodes, or where solids are
+    pressed on each other too far, is lifted there.
     Storage makes a fictitious squeeze term superfluous.
     Linear solutions are as exact as the step before suggests that the film is linear
     ([eisenstat_walker_1996]), with deflection in single precision.
@@ -182,6 +183,7 @@ def step_newton(
             )
             if float(trial.film.min()) <= thinnest:
                 trial = lifted(level, trial, _THINNEST * state.film) or trial
+            trial = lifted_off_solids(level, trial)
             trial_size = flow_residual(level, trial)
             # a change of load unbalances flow before it balances it
             allowed = _GROWTH * (size + abs(state.load_error))

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Literal
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.placement import Misalignment
+from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role
 from gearlube_core.hypoid_geometry.flank.machine_frames import reference_point
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -15,10 +14,21 @@ from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.units import DEGREE, MILLIMETRE
 
 MISALIGNMENT = "misalignment"
-Unit = Literal["mm", "um", "deg", "1", "m", "rad"]
 
 # differences are taken over twice the step: cutting it or doubling it changes derivatives by 1e-7
-_STEPS: dict[Unit, float] = {"mm": 1e-3, "um": 0.1, "deg": 1e-3, "1": 1e-5, "m": 1e-6, "rad": 1e-5}
+_STEPS = {"mm": 1e-3, "um": 0.1, "deg": 1e-3, "mm/rad": 1e-3, "m": 1e-6, "rad": 1e-5}
+_RATIO_STEP = 1e-5
+_TOLERANCES = {
+    "mm": 0.01,
+    "um": 1.0,
+    "deg": 0.01,
+    "mm/rad": 0.01,
+    "m": 0.01 * MILLIMETRE,
+    "rad": 0.01 * DEGREE,
+}
+_RATIO_TOLERANCE = 1e-4
+_BLADE_EDGE = ".cutter.", "edge_radius_mm"
+_OF_FLANKS = ("machine", "cutter", "drive_flank", "coast_flank")  # sections of a member
 _EDGE_STEP = 2e-4  # of the radius of a blade edge
 _ROLES: tuple[Role, Role] = ("pinion", "gear")
 
@@ -33,7 +43,8 @@ class Parameter:
         Dotted field of the gear file, e.g. "pinion.machine.radial_setting_mm", or
         "misalignment." and a field of `Misalignment`.
     unit : str
-        Of the number: "mm", "um", "deg" or "1" in the gear file, "m" or "rad" of a misalignment.
+        Of the number: that of the field in the gear file, "1" without one; "m" or "rad" of a
+        misalignment.
     value : float
         [unit].
     step : float
@@ -41,7 +52,7 @@ class Parameter:
     """
 
     name: str
-    unit: Unit
+    unit: str
     value: float
     step: float
 
@@ -61,9 +72,10 @@ class Parameter:
                 raise ParameterError(
                     f"A misalignment must be one of {', '.join(known)}, got {key!r}."
                 )
-            unit: Unit = "rad" if key == "shaft_angle" else "m"
+            unit = "rad" if key == "shaft_angle" else "m"
             return cls(name, unit, float(getattr(misalignment, key)), _STEPS[unit])
-        if name not in field_notes(HypoidGearFile):
+        notes = field_notes(HypoidGearFile)
+        if name not in notes:
             raise ParameterError(
                 f"A parameter must be a number of the gear file, as "
                 f"pinion.machine.radial_setting_mm, or {MISALIGNMENT}. and a displacement, got "
@@ -71,7 +83,7 @@ class Parameter:
             )
         value: object = file
         for part in name.split("."):
-            value = getattr(value, part)
+            value = getattr(value, part, None)
         if value is None:
             raise ParameterError(
                 f"{name} must have a value to be changed, and this file leaves it open. Give it."
@@ -81,15 +93,20 @@ class Parameter:
                 f"{name} must be a length, an angle or a ratio, got {value!r}: there is no "
                 "derivative by counts and words."
             )
-        endings: tuple[Unit, ...] = ("mm", "um", "deg")
-        unit = next((one for one in endings if name.endswith(f"_{one}")), "1")
-        step = _EDGE_STEP * value if name.endswith("edge_radius_mm") else _STEPS[unit]
+        unit = notes[name].unit or "1"
+        step = _EDGE_STEP * value if _is_blade_edge(name) else _STEPS.get(unit, _RATIO_STEP)
         return cls(name, unit, value, step)
 
     @property
-    def scale(self) -> float:
-        """SI units in one unit of the parameter: m, rad or 1 [-]."""
-        return {"mm": MILLIMETRE, "um": 1e-3 * MILLIMETRE, "deg": DEGREE}.get(self.unit, 1.0)
+    def tolerance(self) -> float:
+        """A small change to compare parameters by [unit].
+
+        0.01 mm, 0.01 deg, 1 um of a relief, 1e-4 of a ratio, a hundredth of the radius of a blade
+        edge.
+        """
+        if _is_blade_edge(self.name):
+            return 0.01 * self.value
+        return _TOLERANCES.get(self.unit, _RATIO_TOLERANCE)
 
     @property
     def moves(self) -> tuple[Role, ...]:
@@ -97,7 +114,7 @@ class Parameter:
         section, _, rest = self.name.partition(".")
         if section == MISALIGNMENT:
             return ()
-        if rest.startswith(("machine.", "cutter.")):
+        if rest.partition(".")[0] in _OF_FLANKS:
             return ("pinion",) if section == "pinion" else ("gear",)
         return _ROLES  # the blank: mean point and region of both
 
@@ -131,19 +148,37 @@ class Parameter:
 
 
 def usual_parameters(file: HypoidGearFile) -> tuple[str, ...]:
-    """Return the names of the misalignments and of all settings of machines and cutters.
+    """Return the names of the misalignments, of all settings and of the reliefs of the file.
 
-    Left out: fields without value, corrections of blade angles (as the blade angles) and the
-    basic cradle angle (only a phase).
+    Left out: fields without value or with one on its limit, corrections of blade angles (as the
+    blade angles) and the basic cradle angle (only a phase).
     """
     found = [f"{MISALIGNMENT}.{field.name}" for field in fields(Misalignment)]
     for role in _ROLES:
         member = getattr(file, role)
-        for section in ("machine", "cutter"):
+        for section in _OF_FLANKS:
             values = getattr(member, section)
+            if values is None:
+                continue
             for key in type(values).model_fields:
                 if key.endswith("_angle_correction_deg") or key == "basic_cradle_angle_deg":
                     continue
-                if isinstance(getattr(values, key), float):
-                    found.append(f"{role}.{section}.{key}")
+                name = f"{role}.{section}.{key}"
+                if isinstance(getattr(values, key), float) and _is_free(file, name):
+                    found.append(name)
     return tuple(found)
+
+
+def _is_blade_edge(name: str) -> bool:
+    section, ending = _BLADE_EDGE
+    return section in name and name.endswith(ending)
+
+
+def _is_free(file: HypoidGearFile, name: str) -> bool:
+    parameter = Parameter.named(name, file, ALIGNED)
+    try:
+        for step in (-parameter.step, parameter.step):
+            file.varied({name: parameter.value + step})
+    except ParameterError:
+        return False
+    return True

@@ -94,6 +94,7 @@ def run_rough(
     march = FilmMarch(
         case.film(),
         schedule.time_step,
+        scheme=case.solver.scheme,
         settings=case.settings(),
         record=record,
         throw=True,
