@@ -35,7 +35,7 @@ def vary(
         str | None,
         typer.Argument(
             help="Axle file (TOML) or the name of a shipped one; for bearing, helical and contact "
-            "a bearing or gear file. Default: the shipped one.",
+            "a bearing or gear file, for resonance a mesh table. Default: the shipped one.",
             metavar="FILE",
         ),
     ] = None,
@@ -80,7 +80,7 @@ def vary(
         ),
     ] = None,
     quick: Annotated[
-        bool, typer.Option("--quick", help="sweep, helical, contact: coarse, for a first look.")
+        bool, typer.Option("--quick", help="sweep, helical, contact, resonance: coarse.")
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_vary"),
     overwrite: OverwriteOption = False,

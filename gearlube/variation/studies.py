@@ -16,9 +16,10 @@ SHIPPED = {
     "bearing": "wingertszahn_2023",
     "helical": "he_2007",
     "contact": "mohammadpour_2015",
+    "resonance": "mohammadpour_2015",
 }
 STUDIES = tuple(SHIPPED)
-_QUICK = ("sweep", "helical", "contact")
+_QUICK = ("sweep", "helical", "contact", "resonance")
 
 
 def point_study(name: str, file: str | None = None, *, quick: bool = False) -> PointStudy:
@@ -26,11 +27,11 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
 
     Parameters
     ----------
-    name : {"map", "sweep", "cycle", "bearing", "helical", "contact"}
+    name : {"map", "sweep", "cycle", "bearing", "helical", "contact", "resonance"}
     file : str, optional
-        Axle, bearing or gear file, or the name of a shipped one.
+        Axle, bearing or gear file, of resonance a mesh table; or the name of a shipped one.
     quick : bool
-        Short records of the sweep; coarse teeth and few positions of the gear pairs.
+        Short records of the sweep; coarse teeth, few positions or frequencies of gear pairs.
 
     Examples
     --------
@@ -58,6 +59,10 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
         from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
         return ContactPoint(file=HypoidGearFile.given(file), quick=quick)
+    if name == "resonance":
+        from gearlube.variation.points.resonance import ResonancePoint
+
+        return ResonancePoint(table=file, quick=quick).prepared({})
     axle = AxleVariants.read(file)
     if name == "sweep":
         from gearlube.variation.points.march import MarchPoint

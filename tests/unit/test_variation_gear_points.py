@@ -10,7 +10,7 @@ from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import HelicalSettings, quick_settings
 from gearlube.variation.points.mesh_orders import order_values
 from gearlube.variation.studies import point_study
-from gearlube_core.errors import ParameterError
+from gearlube_core.errors import ParameterError, TableError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.analysis import analyse_contact
 from gearlube_core.hypoid_contact.pair import FlankPair
@@ -92,10 +92,13 @@ def test_a_varied_helical_pair_is_that_of_the_helical_study():
         ("contact", {"side": "both"}, "side must be one of drive, coast"),
         ("contact", {"misalignment.pinion_axial_um": 6000.0}, "pinion_axial must be within"),
         ("contact", {"pinion.machine.tilt_angle_deg": 85.0}, "tilt_angle_deg must be a number"),
+        ("resonance", {"pinion.torque_n_m": 5000.0}, "pinion_torque must be at most"),
+        ("resonance", {"range.first": 1.6}, "range must rise"),
+        ("resonance", {"mesh_table": "no_such"}, "No mesh table is called"),
     ],
 )
 def test_a_wrong_point_is_refused_by_its_check(study, point, said):
-    with pytest.raises(ParameterError, match=said):
+    with pytest.raises((ParameterError, TableError), match=said):
         point_study(study).check(point)
 
 
@@ -104,3 +107,19 @@ def test_what_a_study_does_not_read_cannot_be_varied():
     assert "pinion.flank.crown_um" in keys
     assert "oil.viscosity_pa_s" not in keys
     assert "operation.axial_n" not in point_study("bearing").keys
+
+
+@pytest.mark.slow  # compiles the pair and follows it twice: seconds
+def test_a_heavier_gear_resonates_lower_by_its_part_in_the_equivalent_mass():
+    study = point_study("resonance", quick=True)
+    usual = numbers(study, {})
+    heavy = numbers(study, {"gear.inertia_kg_mm2": 2.0 * 58100.0})
+    # m_eq = 1/(R_p^2/J_p + R_g^2/J_g) with R_g = 36/13 R_p
+    mass = [1.0 / (1.0 / 1734.0 + (36.0 / 13.0) ** 2 / gear) for gear in (58100.0, 116200.0)]
+    ratio = heavy["natural_frequency"] / usual["natural_frequency"]
+    # the arms of the table are mean values over the period, R_g / R_p within 1e-3 of the teeth
+    assert ratio == pytest.approx((mass[0] / mass[1]) ** 0.5, rel=1e-3)
+    assert usual["folds"] == 2.0
+    assert 0.8 < usual["dte_peak_at"] < usual["apart_rising"] < 1.0
+    # nearly a sine: the second order has a tenth of the first
+    assert 2.0 * usual["dte_peak_mesh_1"] == pytest.approx(usual["dte_peak"], rel=0.1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -58,6 +59,9 @@ class ResonanceSettings:
     load_at : float, optional
         Also follow the response over the pinion torque, at this mesh over natural frequency [-],
         0.05 to 3.
+    changes : tuple of (str, float)
+        Fields of `HypoidTorsionalParameters` by name that differ from the papers' pair, in SI
+        units: inertias, backlash, damping.
     steps_per_mesh_period, lubricated_steps : int
         Of the integrator, without and with friction. Steps in which flanks touch or part are cut
         there; with the default, Floquet multipliers are exact to 1e-4, with friction to 3e-4.
@@ -81,6 +85,7 @@ class ResonanceSettings:
     sweep_frequencies: int = 60
     section_starts: int = 24
     load_at: float | None = None
+    changes: tuple[tuple[str, float], ...] = ()
     steps_per_mesh_period: int = 256
     lubricated_steps: int = 128
 
@@ -142,8 +147,10 @@ class ResonanceSettings:
         self, model: str, oil_temperature: float | None = None
     ) -> HypoidTorsionalParameters:
         """Return the gear pair of a model, at another oil temperature [K] if given."""
+        changes: dict[str, Any] = dict(self.changes)
         return replace(
             karagiannis_2012_pair(self.mesh),
+            **changes,
             form="one_dof" if model == "one_dof" else "two_dof",
             radii="mean" if model == "two_dof_mean_radii" else self.radii,
             pinion_torque=self.pinion_torque,
