@@ -59,6 +59,13 @@ class Design:
     fit: Fit
     warnings: tuple[str, ...]
 
+    @property
+    def as_cut(self) -> HypoidGearFile:
+        """The gear file without relief: the flanks of which the targets are asked."""
+        flanks = [f"{role}.{side}_flank" for role in ("pinion", "gear") for side in SIDES]
+        kept = tuple(one for one in self.file.completed if not one.startswith(tuple(flanks)))
+        return self.file.varied(dict.fromkeys(flanks, None) | {"completed": kept})
+
 
 def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
     """Return the machine settings of a pair whose contact comes nearest to what the file asks.

@@ -37,7 +37,7 @@ def design():
 
 def check_near(design):
     for side in SIDES:
-        found = measured_contact(design.file, side)
+        found = measured_contact(design.as_cut, side)
         for missed, limit in zip(
             misses(design.targets[side], found, design.designed), NEAR[side], strict=False
         ):

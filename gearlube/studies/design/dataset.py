@@ -29,7 +29,7 @@ _VARIABLES = {
 
 
 def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
-    """Return contact of both sides and form of both teeth; units as attributes.
+    """Return contact of both sides as cut, and form of both teeth; units as attributes.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
     """
     sides = []
     for side in SIDES:
-        found = unloaded_contact(FlankPair.from_file(design.file, side))
+        found = unloaded_contact(FlankPair.from_file(design.as_cut, side))
         found["error"] = mesh_error(found["path_error"], 1.0 if side == "drive" else -1.0)
         sides.append(found)
     data = {

@@ -9,6 +9,7 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.refusal import pair_warnings
 from gearlube_core.hypoid_design.design import Design, misses
 from gearlube_core.hypoid_design.flank_target import MeanContact
+from gearlube_core.hypoid_design.measured_contact import measured_contact
 from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
@@ -48,6 +49,13 @@ def asked_and_found(design: Design) -> list[AskedAndFound]:
         ):
             rows.append(AskedAndFound(side, what, f"{asked:.1f}", f"{value:.1f}"))
         places = [f"s {one.s:.3f}, t {one.t:.3f}" for one in (target, found)]
+        relieved = measured_contact(design.file, side)
+        if not isinstance(relieved, str):
+            rows.append(
+                AskedAndFound(
+                    side, "the same with relief [urad]", "", f"{relieved.error / _MICRO:.1f}"
+                )
+            )
         off = f"{places[1]} ({centre / MILLIMETRE:.2f} mm off)"
         rows.append(AskedAndFound(side, "mean contact", places[0], off))
         rows.append(
@@ -116,7 +124,7 @@ def report(design: Design, forms: dict[str, ToothForm]) -> str:
         f"# {design.file.name}: designed pair\n",
         f"Blank by ISO 23509, method {design.designed.file.design_method}, uniform depth. Gear "
         f"{design.designed.file.machine.gear}, pinion generated with cutter tilt. Contact without "
-        "load, as the contact analysis finds it from the gear file.\n",
+        "load of the flanks as cut, as the contact analysis finds it.\n",
         "## Contact: asked and found\n",
         _table(("Side", "What", "Asked", "Found"), asked_and_found(design)),
         "Path directions on the gear flank, from the root line towards the heel, to the tip "
