@@ -139,6 +139,7 @@ from drivetrain.steady_temperature import steady_temperature as steady_temperatu
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
 from gearlube.studies.helical.run import run_helical as run_helical
+from gearlube_core.helical_contact.flank_rates import flank_rates as flank_rates
 
 # -- Study: resonance
 from gearlube.studies.resonance.settings import ResonanceSettings as ResonanceSettings

@@ -21,6 +21,7 @@ from gearlube_core.helical_contact.strips import (
 from gearlube_core.helical_contact.tooth_body import flank_position, tooth_form
 from gearlube_core.helical_geometry.contact_line import line_count, line_position
 from gearlube_core.helical_geometry.modification import ModifiedPair
+from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.tooth_compliance.flank_compliance import interpolation_weights
 from gearlube_core.tooth_contact.coupled_strips import (
     CoupledSolution,
@@ -188,7 +189,7 @@ class MeshPosition:
 
         def solve(closing: float, half_width: float) -> tuple[list[LineStrip], CoupledSolution]:
             strips = self._strips(closing, half_width, settings.strips)
-            coupled = [self._coupled(strip, stiffness) for strip in strips]
+            coupled = [coupled_strip(self.modified.pair, strip, stiffness) for strip in strips]
             return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
 
         strips, solved = solve_on_growing_strips(
@@ -223,25 +224,6 @@ class MeshPosition:
         radius = x * (x_g - x) / (x_g * math.cos(pair.base_helix_angle))
         return math.sqrt(4.0 * line_load * radius / (math.pi * modulus))
 
-    def _coupled(self, strip: LineStrip, stiffness: PairStiffness) -> CoupledStrip:
-        pair = self.modified.pair
-        t = 0.5 + strip.z / pair.face_width
-        parts = []
-        for member, roll, compliance in (
-            ("pinion", strip.pinion_roll, stiffness.pinion),
-            ("gear", strip.gear_roll, stiffness.gear),
-        ):
-            s = flank_position(tooth_form(pair, member), np.nan_to_num(roll))
-            parts.append(interpolation_weights(s, t, compliance))
-        shape = strip.gap.shape
-        return CoupledStrip(
-            cell=strip.cell,
-            gap=strip.gap,
-            arm=np.where(strip.usable, strip.arm, 1.0),
-            area=np.full(shape, strip.cell[0] * strip.cell[1]),
-            weights=csr_array(hstack(parts)),
-        )
-
     def _state(
         self, torque: float, strips: Sequence[LineStrip], solved: CoupledSolution
     ) -> LoadedState:
@@ -260,3 +242,23 @@ class MeshPosition:
             ),
             iterations=solved.solution.outcome.iterations,
         )
+
+
+def coupled_strip(pair: HelicalPair, strip: LineStrip, stiffness: PairStiffness) -> CoupledStrip:
+    """Return the cells of a strip with their weights on the hats of both teeth."""
+    t = 0.5 + strip.z / pair.face_width
+    parts = []
+    for member, roll, compliance in (
+        ("pinion", strip.pinion_roll, stiffness.pinion),
+        ("gear", strip.gear_roll, stiffness.gear),
+    ):
+        s = flank_position(tooth_form(pair, member), np.nan_to_num(roll))
+        parts.append(interpolation_weights(s, t, compliance))
+    shape = strip.gap.shape
+    return CoupledStrip(
+        cell=strip.cell,
+        gap=strip.gap,
+        arm=np.where(strip.usable, strip.arm, 1.0),
+        area=np.full(shape, strip.cell[0] * strip.cell[1]),
+        weights=csr_array(hstack(parts)),
+    )

@@ -102,7 +102,7 @@ def line_gap(modified: ModifiedPair, X: float) -> LineGap:
     z = np.linspace(-0.5, 0.5, _SAMPLES) * pair.face_width
     x = _along_action(modified, X, z)
     met = engagement(x, pair)
-    gap = _normal_gap(modified, X, met.y, z)
+    gap = normal_gap(modified, X, met.y, z)
     far = _FARTHEST * pair.base_pitch
     beyond = (x < pair.contact_start - far) | (x > pair.contact_end + far) | ~np.isfinite(gap)
     arm = np.where(beyond, 1.0, met.pinion_arm) * math.cos(pair.base_helix_angle)
@@ -188,7 +188,7 @@ def cut_strip(
     r_p, r_g = pair.pinion_base_radius, pair.gear_base_radius
     outside = y > tip_edge(x, r_p, pair.pinion_tip_radius) + _ON_EDGE * across
     outside |= -y > tip_edge(pair.tangent_length - x, r_g, pair.gear_tip_radius) + _ON_EDGE * across
-    gap = _normal_gap(modified, X, y, z)
+    gap = normal_gap(modified, X, y, z)
     cos_b = math.cos(pair.base_helix_angle)
     return LineStrip(
         line=line,
@@ -211,7 +211,7 @@ def _along_action(modified: ModifiedPair, X: float, z: ArrayLike) -> Array:
     return np.asarray(X - lag * math.tan(pair.base_helix_angle))
 
 
-def _normal_gap(modified: ModifiedPair, X: float, y: Array, z: Array) -> Array:
-    """Return the gap normal to the flanks at y off the line X and axial position z [m]."""
+def normal_gap(modified: ModifiedPair, X: float, y: Array, z: Array) -> Array:
+    """Return the gap normal to the flanks [m] at y off the line X and axial position z [m]."""
     along = z / math.cos(modified.pair.base_helix_angle)
     return UndeformedGap(modified=modified).heights(-y, along, X)

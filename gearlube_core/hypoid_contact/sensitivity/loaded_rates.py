@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.linalg import block_diag, cho_factor, cho_solve
+from scipy.linalg import block_diag
 
 from gearlube_core.arrays import Array
-from gearlube_core.contact.half_space import love_coefficients
 from gearlube_core.hypoid_contact.loaded_contact import LoadedState
 from gearlube_core.hypoid_contact.sensitivity.frozen_cells import CellGeometry, FrozenCells
 from gearlube_core.hypoid_contact.sensitivity.variations import Variations
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
+from gearlube_core.tooth_contact.frozen_equilibrium import FrozenEquilibrium, frozen_compliance
 
 QUANTITIES = (
     "rotation",
@@ -84,26 +85,13 @@ class LoadedRates:
     rate: LoadedQuantities
 
 
-@dataclass(frozen=True, slots=True)
-class _Strip:
-    """Loaded cells of one tooth pair in equilibrium."""
-
-    cells: FrozenCells
-    here: CellGeometry
-    factor: Any  # of A on these cells
-    tangent: Array  # y = A^-1 R, N/rad
-    forces: Array
-
-
 def loaded_rates(
     variations: Variations, state: LoadedState, stiffness: PairStiffness
 ) -> LoadedRates:
     """Return the derivatives of a loaded position by parameters.
 
-    On the loaded cells A f + g = theta R and R.f = T. With y = A^-1 R and b = theta dR/dp - dg/dp
-    - (dA/dp) f
-
-    dtheta/dp = -(y.b + f.dR/dp) / (y.R),  df/dp = y dtheta/dp + A^-1 b
+    The equilibrium of the loaded cells, A f + g = theta R and R.f = T, is differentiated as it
+    stands (`FrozenEquilibrium.rates`).
 
     Parameters
     ----------
@@ -115,10 +103,11 @@ def loaded_rates(
 
     Notes
     -----
-    The strips, their cells and which cells carry are held. For the rotation that is exact up to
-    the cells' size: cells at the edge of the contact carry no pressure. An analysis anew cuts
-    other strips, and its differences scatter by what that changes. `value` is the equilibrium
-    on the loaded cells without the tolerance of the contact's iteration.
+    The strips, their cells and which cells carry are held. Inside the flanks that is exact for
+    the rotation up to the cells' size: cells at the border of the contact carry no pressure. At
+    the edge of a tooth they do, and that the edge moves over the cells is left out. An analysis
+    anew cuts other strips, and its differences scatter by what that changes. `value` is the
+    equilibrium on the loaded cells without the tolerance of the contact's iteration.
 
     References
     ----------
@@ -129,17 +118,26 @@ def loaded_rates(
     carrying = [loaded for loaded in state.pairs if (loaded.forces > 0.0).any()]
     cells = [FrozenCells.of(pair, loaded) for loaded in carrying]
     here = [one.geometry(pair, stiffness) for one in cells]
-    rotation, strips = _equilibrium(cells, here, image, stiffness.contact_modulus, state.torque)
-    forces = [one.forces for one in strips]
-    marked = _marked(forces, here)
-    value = _quantities(rotation, forces, here, state.torque, marked)
+    held = FrozenEquilibrium.of(
+        [
+            frozen_compliance(
+                *(one.row, one.column, one.cell, there.weights, image, stiffness.contact_modulus)
+            )
+            for one, there in zip(cells, here, strict=True)
+        ],
+        [there.gap for there in here],
+        [there.arm for there in here],
+        state.torque,
+    )
+    marked = _marked(held.forces, here)
+    value = _quantities(held.rotation, held.forces, here, state.torque, marked)
     rates = []
     for k, step in enumerate(variations.steps):
         ends = [
             [one.geometry(end[k], stiffness) for one in cells]
             for end in (variations.lower, variations.upper)
         ]
-        rates.append(_rates(value, strips, ends, step, image, state.torque, marked))
+        rates.append(_rates(value, held, ends, step, image, state.torque, marked))
     return LoadedRates(
         tuple(loaded.phase for loaded in carrying),
         value,
@@ -151,44 +149,9 @@ _NAMES = (*QUANTITIES, "share")
 _Marked = tuple[int, int]  # cells counted through all strips
 
 
-def _equilibrium(
-    cells: list[FrozenCells],
-    here: list[CellGeometry],
-    image: Array,
-    modulus: float,
-    torque: float,
-) -> tuple[float, list[_Strip]]:
-    """Return the rotation [rad] and the forces with which exactly these cells carry."""
-    factors, tangents, resisted = [], [], []
-    for one, geometry in zip(cells, here, strict=True):
-        factor = cho_factor(_compliance(one, geometry, image, modulus), overwrite_a=True)
-        solved = cho_solve(factor, np.stack([geometry.arm, geometry.gap], axis=1))
-        factors.append(factor)
-        tangents.append(solved[:, 0])
-        resisted.append(solved[:, 1])
-    stiffness = sum(y @ one.arm for y, one in zip(tangents, here, strict=True))
-    missing = torque + sum(r @ one.arm for r, one in zip(resisted, here, strict=True))
-    rotation = float(missing / stiffness)
-    return rotation, [
-        _Strip(one, geometry, factor, y, rotation * y - r)
-        for one, geometry, factor, y, r in zip(
-            cells, here, factors, tangents, resisted, strict=True
-        )
-    ]
-
-
-def _compliance(cells: FrozenCells, here: CellGeometry, image: Array, modulus: float) -> Array:
-    """Return the displacements of the cells under unit forces on each [m/N], (n, n)."""
-    rows = np.abs(cells.row[:, None] - cells.row)
-    columns = np.abs(cells.column[:, None] - cells.column)
-    size = int(rows.max()) + 1, int(columns.max()) + 1
-    half_space = love_coefficients(*cells.cell, *size, modulus)[rows, columns]
-    return np.asarray(half_space + here.weights @ image @ here.weights.T)
-
-
 def _rates(
     value: LoadedQuantities,
-    strips: list[_Strip],
+    held: FrozenEquilibrium,
     ends: list[list[CellGeometry]],
     step: float,
     image: Array,
@@ -196,28 +159,23 @@ def _rates(
     marked: _Marked,
 ) -> LoadedQuantities:
     """Return the derivatives by one parameter, of which both ends are `step` away."""
-    rotation = value.rotation
-    right, work, stiffness = [], 0.0, 0.0
-    for strip, lower, upper in zip(strips, *ends, strict=True):
-        bent = [
-            geometry.weights @ (image @ (geometry.weights.T @ strip.forces))
-            for geometry in (lower, upper)
-        ]
-        b = (rotation * (upper.arm - lower.arm) - (upper.gap - lower.gap) - (bent[1] - bent[0])) / (
-            2.0 * step
-        )
-        right.append(b)
-        work += strip.tangent @ b + strip.forces @ (upper.arm - lower.arm) / (2.0 * step)
-        stiffness += strip.tangent @ strip.here.arm
-    turn = -work / stiffness
-    moves = [
-        turn * strip.tangent + cho_solve(strip.factor, b)
-        for strip, b in zip(strips, right, strict=True)
-    ]
+
+    def rate(lower: Array, upper: Array) -> Array:
+        return np.asarray((upper - lower) / (2.0 * step))
+
+    def bent(geometry: CellGeometry, forces: Array) -> Array:
+        return np.asarray(geometry.weights @ (image @ (geometry.weights.T @ forces)))
+
+    pairs = list(zip(*ends, strict=True))
+    turn, moves = held.rates(
+        [rate(a.gap, b.gap) for a, b in pairs],
+        [rate(a.arm, b.arm) for a, b in pairs],
+        [rate(bent(a, f), bent(b, f)) for (a, b), f in zip(pairs, held.forces, strict=True)],
+    )
     lower_value, upper_value = (
         _quantities(
-            rotation + sign * step * turn,
-            [strip.forces + sign * step * move for strip, move in zip(strips, moves, strict=True)],
+            held.rotation + sign * step * turn,
+            [f + sign * step * move for f, move in zip(held.forces, moves, strict=True)],
             end,
             torque,
             marked,
@@ -236,7 +194,7 @@ def _rates(
     return LoadedQuantities(**found)
 
 
-def _marked(forces: list[Array], here: list[CellGeometry]) -> _Marked:
+def _marked(forces: Sequence[Array], here: list[CellGeometry]) -> _Marked:
     """Return the cell that touches first and the one with the highest pressure."""
     touching = np.concatenate([one.gap / one.arm for one in here])
     pressure = np.concatenate([f / one.area for f, one in zip(forces, here, strict=True)])
@@ -245,7 +203,7 @@ def _marked(forces: list[Array], here: list[CellGeometry]) -> _Marked:
 
 def _quantities(
     rotation: float,
-    forces: list[Array],
+    forces: Sequence[Array],
     here: list[CellGeometry],
     torque: float,
     marked: _Marked,

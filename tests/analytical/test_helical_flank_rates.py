@@ -1,0 +1,134 @@
+"""Derivatives of loaded helical contact by modifications of its flanks."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_contact.flank_rates import flank_rates
+from gearlube_core.helical_contact.loaded_contact import (
+    LoadedSettings,
+    MeshPosition,
+    coupled_strip,
+)
+from gearlube_core.helical_contact.strips import StripSettings, normal_gap
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.tooth_contact.coupled_strips import solve_coupled
+from tests.helpers.differences import apart, extrapolated
+from tests.helpers.helical_contact_cases import TORQUE, coarse_stiffness, stiff_teeth
+
+MODULUS = 1.1e11
+FILE = HelicalGearFile.named("he_2007").varied(
+    {
+        f"{role}.flank": {
+            "tip_relief_um": 15.0,
+            "tip_relief_depth_mm": 2.0,
+            "crown_um": 6.0,
+            "lead_slope_um": 2.0,
+        }
+        for role in ("pinion", "gear")
+    }
+)
+NAMES = (
+    "pinion.flank.tip_relief_um",
+    "gear.flank.tip_relief_depth_mm",
+    "pinion.flank.crown_um",
+    "gear.flank.lead_slope_um",
+)
+PHASES = np.array([0.0, 0.25, 0.5, 0.75])
+COARSE = LoadedSettings(strips=StripSettings(cells_across=11, cells_along=20), tolerance=1e-9)
+
+
+@pytest.fixture(scope="module")
+def rates():
+    teeth = coarse_stiffness(FILE.helical_pair())
+    return flank_rates(FILE, NAMES, torque=TORQUE, phases=PHASES, stiffness=teeth, settings=COARSE)
+
+
+def varied(name, change):
+    role, _, key = name.split(".")
+    return FILE.varied({name: getattr(getattr(FILE, role).flank, key) + change})
+
+
+def rotations(file):
+    teeth, modified = coarse_stiffness(FILE.helical_pair()), file.modified_pair()
+    return np.array(
+        [MeshPosition.at(modified, k).load(TORQUE, teeth, COARSE).rotation for k in PHASES]
+    )
+
+
+def test_rotation_is_that_of_the_iteration(rates):
+    # the iteration's tolerance is 1e-9 of the closing
+    np.testing.assert_allclose(rates.rotation, rotations(FILE), rtol=1e-7)
+
+
+def test_rates_are_those_of_the_contact_on_frozen_cells(rates):
+    teeth, phase = coarse_stiffness(FILE.helical_pair()), PHASES[1]
+    modified = FILE.modified_pair()
+    state = MeshPosition.at(modified, phase).load(TORQUE, teeth, COARSE)
+
+    def rotation(name, change):
+        changed = varied(name, change).modified_pair()
+        strips = []
+        for line in state.lines:
+            strip, there = line.strip, line.forces > 0.0
+            if there.any():
+                gap = normal_gap(changed, strip.X, strip.y, strip.z)
+                held = replace(strip, gap=np.where(there, gap, np.inf))
+                strips.append(coupled_strip(modified.pair, held, teeth))
+        return solve_coupled(strips, teeth, TORQUE, 1e-11).solution.rotation
+
+    for k, name in enumerate(NAMES):
+        # steps of some nanometres let no cell go; solved to 1e-11 of the closing
+        expected = extrapolated(partial(rotation, name), 2e-3)
+        assert rates.rotation_rate[k, 1] == pytest.approx(expected, rel=1e-6)
+
+
+def test_rates_are_near_those_of_whole_analyses(rates):
+    # whole analyses cut strips anew; with such large cells their differences scatter by a tenth
+    near, far = (rotations(varied(NAMES[0], change)) for change in (0.5, -0.5))
+    assert apart(rates.rotation_rate[0], near - far) < 0.1
+
+
+def test_slopes_of_both_members_open_the_same_gap():
+    # each is a removal over the same face; a member's section differs by the gap's lean, and
+    # cells lie off the line of action: half a per cent
+    found = flank_rates(
+        FILE,
+        ("pinion.flank.lead_slope_um", "gear.flank.lead_slope_um", "pinion.flank.crown_um"),
+        torque=TORQUE,
+        phases=PHASES[:2],
+        stiffness=stiff_teeth(MODULUS),
+        settings=COARSE,
+    )
+    np.testing.assert_allclose(found.rotation_rate[0], found.rotation_rate[1], rtol=5e-3)
+    assert (found.rotation_rate[2] > 0.0).all()  # what is removed has to be closed
+
+
+def test_rates_over_the_mesh_follow_from_those_of_phases(rates):
+    step = 1e-6  # um
+    value, rate = rates.order(1)
+    moved = rates.rotation + step * rates.rotation_rate
+    wave = np.exp(-2j * np.pi * PHASES)
+    np.testing.assert_allclose(
+        (0.5 * abs(moved @ wave) - value) / step, rate, rtol=1e-3, atol=1e-3 * max(abs(rate))
+    )
+    np.testing.assert_allclose(
+        np.ptp(moved, axis=1), rates.peak_to_peak + step * rates.peak_to_peak_rate, rtol=1e-9
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("pinion.flank.profile_crown_um", "docs/helical_gear_file"),
+        ("pair.centre_distance_mm", r"pinion\.flank or gear\.flank"),
+        ("pinion.flank.facets", "number with decimals"),
+        ("pinion.flank.crown_start_mm", "inside its range"),
+    ],
+)
+def test_what_has_no_rate_is_refused_by_its_name(name, reason):
+    with pytest.raises(ParameterError, match=reason):
+        flank_rates(FILE, (name,), torque=TORQUE, phases=PHASES, stiffness=stiff_teeth(MODULUS))
