@@ -11,6 +11,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.contact_path import ContactPath
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_axis, placed_sample, shape_operator
+from gearlube_core.hypoid_geometry.flank.flank import Flank, FlankSample
 
 _LARGEST_LEAN = 0.1  # rad, between normals that still count as opposite: edges lean
 _LARGEST_GAP = 1e-3  # m, between points that still count as opposite
@@ -127,8 +128,8 @@ def contact_kinematics(
     1/R = eigenvalues of -(K_p + K_g),  v_p = j_p x r,  v_g = (z_p / z_g) j_g x r
 
     with both shape operators for outward normals and velocities projected on the tangent plane.
-    Corrections of the flanks add the second derivatives of their removal to the curvature; the
-    normals and arms stay those of the flanks as cut.
+    Corrections of the flanks tilt the normals by the slope of their removal, at most 0.1, and add
+    its second derivatives to the curvature.
 
     Parameters
     ----------
@@ -153,6 +154,10 @@ def contact_kinematics(
     pinion = placed_sample(pair.pinion, pair.pinion_base, turns, pinion_parameters)
     _check_opposite(pinion.r - gear.r, pinion.normal + gear.normal)
     normal = pair.touching_sign * (pinion.normal - gear.normal)
+    if pair.is_corrected:
+        lean = _lean(pair.pinion, pinion, pinion_parameters)
+        lean -= _lean(pair.gear, gear, gear_parameters)
+        normal += pair.touching_sign * lean
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     r = 0.5 * (pinion.r + gear.r)
     arm_p = _swing(*placed_axis(pair.pinion, pair.pinion_base), r, -1.0)
@@ -185,6 +190,14 @@ def contact_kinematics(
         velocity_g=velocity_g,
         ratio=pair.ratio,
     )
+
+
+def _lean(flank: Flank, placed: FlankSample, parameters: Array) -> Array:
+    """Return by how much corrections tilt a flank's outward normal [-], (N, 3), fixed frame."""
+    slope = flank.removal_slope(flank.sample_parameters(parameters))
+    size = np.linalg.norm(slope, axis=1)
+    slope *= np.minimum(1.0, _LARGEST_LEAN / np.maximum(size, _LARGEST_LEAN))[:, None]
+    return slope[:, :1] * placed.tangent_1 + slope[:, 1:] * placed.tangent_2
 
 
 def _principal(curvature: Array, normal: Array, towards: Array) -> tuple[Array, Array, Array]:

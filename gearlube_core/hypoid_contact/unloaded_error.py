@@ -102,7 +102,8 @@ def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
     ------
     ParameterError
         When a pair leaves its teeth before the next takes over: the teeth then meet at edges and
-        the error is a sawtooth; searched_transmission_error gives it.
+        the error is a sawtooth; searched_transmission_error gives it. Also of corrected flanks,
+        where a path that is searched ends at an edge within a pitch of the extreme.
 
     References
     ----------

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube_core.hypoid_contact.contact_kinematics import contact_kinematics
+from gearlube_core.hypoid_contact.contact_kinematics import contact_kinematics, path_kinematics
 from gearlube_core.hypoid_contact.contact_path import contact_path
 from gearlube_core.hypoid_contact.ease_off import ease_off
 from gearlube_core.hypoid_contact.gap_map import gap_map
@@ -174,6 +174,21 @@ def test_a_crown_bends_the_gap_along_the_face_by_its_own_curvature(middle):
     # contact is up to a tenth of the face off its middle: the slope of the crown there, times the
     # curvature of the flank, adds some per cent
     assert change == pytest.approx(expected, rel=0.08)
+
+
+def test_the_error_of_a_crowned_pair_changes_as_the_ratio_of_its_radii_says(middle):
+    """Gearing: the pinion gains nothing on the gear where R_g / R_p is the ratio of the teeth."""
+    crown = FlankCorrection(lead_crown=20e-6)
+    pair = replace(middle.pair, gear=replace(middle.pair.gear, correction=crown))
+    angles = np.linspace(-0.2, 0.5, 7) * pair.gear_pitch
+    path = contact_path(pair, angles)
+    k = path_kinematics(path)
+    rate = np.polyder(np.polyfit(angles, path.transmission_error, 4))
+    expected = np.polyval(rate, angles[1:-1])
+    # de/d(gear angle) = R_g/R_p - ratio; a parabola of the fourth degree through seven points
+    np.testing.assert_allclose(
+        (k.R_g / k.R_p - pair.ratio)[1:-1], expected, atol=0.02 * np.ptp(expected)
+    )
 
 
 def test_the_path_of_corrected_flanks_is_that_of_tangency_where_nothing_is_taken_off(middle):

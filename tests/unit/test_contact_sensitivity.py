@@ -111,6 +111,8 @@ def test_table_and_figure_show_every_parameter_the_largest_on_top(found):
     rows = study.sensitivity_rows(found)
     table = sensitivity_table("pair", 60.0, rows)
     assert table.row_count == 2
+    lost = [row._replace(unloaded_pp=np.nan) for row in rows]  # as on corrected flanks
+    assert list(sensitivity_table("pair", 60.0, lost).columns[1].cells) == ["-/-", "-/-"]
     first = max(rows, key=lambda row: abs(row.te_1)).parameter
     assert next(iter(table.columns[0].cells)).startswith(f"{parameter_words(first)}, 0.01 ")
     labels = [text.get_text() for text in sensitivity_figure(found).axes[0].get_yticklabels()]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from rich.table import Table
@@ -32,8 +33,12 @@ def sensitivity_table(name: str, torque: float, rows: Sequence[SensitivityRow]) 
             parameter_words(pair[0].parameter)
             + f", {tolerance_words(pair[0].tolerance, pair[0].unit)}",
             *(
-                "/".join(f"{scale * getattr(one, field):+.2f}" for one in pair)
+                "/".join(_shown(scale * getattr(one, field)) for one in pair)
                 for _, field, scale in _COLUMNS
             ),
         )
     return table
+
+
+def _shown(change: float) -> str:
+    return "-" if math.isnan(change) else f"{change:+.2f}"

@@ -14,7 +14,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
-from gearlube_core.hypoid_geometry.flank.correction import NO_CORRECTION, FlankCorrection
+from gearlube_core.hypoid_geometry.flank.correction import NO_CORRECTION, Bends, FlankCorrection
 from gearlube_core.hypoid_geometry.flank.cutting_motion import CuttingMotion, cut_state
 from gearlube_core.hypoid_geometry.flank.grid import march, sample_surface
 from gearlube_core.hypoid_geometry.flank.machine_frames import Curve, gear_cut, pinion_cut
@@ -196,8 +196,36 @@ class Flank:
         """Return what corrections take away along the normal [m] at points (..., 3) [m]."""
         if self.correction.is_none:
             return np.zeros(r.shape[:-1])
+        return self._bends(r).value
+
+    def removal_slope(self, sample: FlankSample) -> Array:
+        """Return the derivatives of the removal along the tangents [-], (..., 2).
+
+        With them the outward normal n becomes n + grad m, but for its length.
+        """
+        if self.correction.is_none:
+            return np.zeros((*sample.r.shape[:-1], 2))
+        up, along, _, _ = self._directions(sample.r)
+        m = self._bends(sample.r)
+        slope = m.by_h[..., None] * up + m.by_l[..., None] * along
+        return np.stack(
+            [np.einsum("...i,...i->...", slope, t) for t in (sample.tangent_1, sample.tangent_2)],
+            axis=-1,
+        )
+
+    def _bends(self, r: Array) -> Bends:
         region = self.region
-        return self.correction.bends(*self.position(r), region.whole_height, region.face_width)[0]
+        return self.correction.bends(*self.position(r), region.whole_height, region.face_width)
+
+    def _directions(self, r: Array) -> tuple[Array, Array, Array, Array]:
+        """Return unit vectors up the tooth, along the pitch cone, around the axis; the radius."""
+        own = r - self.axis_point
+        radial = own - (own @ self.axis)[..., None] * self.axis
+        radius = np.linalg.norm(radial, axis=-1)
+        radial = radial / radius[..., None]
+        sine, cosine = math.sin(self.region.pitch_angle), math.cos(self.region.pitch_angle)
+        up, along = cosine * radial - sine * self.axis, sine * radial + cosine * self.axis
+        return up, along, np.cross(self.axis, radial), radius
 
     def removal_bend(self, sample: FlankSample) -> Array:
         """Return the second derivatives of the removal in the tangents [1/m], (..., 2, 2).
@@ -208,15 +236,9 @@ class Flank:
         """
         if self.correction.is_none:
             return np.zeros_like(sample.curvature)
-        region = self.region
-        own = sample.r - self.axis_point
-        radial = own - (own @ self.axis)[..., None] * self.axis
-        radius = np.linalg.norm(radial, axis=-1, keepdims=True)
-        radial = radial / radius
-        around = np.cross(self.axis, radial)
-        sine, cosine = math.sin(region.pitch_angle), math.cos(region.pitch_angle)
-        up, along = cosine * radial - sine * self.axis, sine * radial + cosine * self.axis
-        m = self.correction.bends(*self.position(sample.r), region.whole_height, region.face_width)
+        up, along, around, radius = self._directions(sample.r)
+        sine, cosine = math.sin(self.region.pitch_angle), math.cos(self.region.pitch_angle)
+        m = self._bends(sample.r)
         tangents = np.stack([sample.tangent_1, sample.tangent_2], axis=-2)
 
         def product(a: Array, b: Array) -> Array:
@@ -227,7 +249,7 @@ class Flank:
             return np.asarray(weight[..., None, None] * matrix)
 
         mixed = product(up, along)
-        turn = weighted((cosine * m.by_h + sine * m.by_l) / radius[..., 0], product(around, around))
+        turn = weighted((cosine * m.by_h + sine * m.by_l) / radius, product(around, around))
         slope = m.by_h[..., None] * up + m.by_l[..., None] * along
         lean = np.einsum("...i,...i->...", slope, sample.normal)
         return (
