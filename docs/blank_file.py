@@ -82,7 +82,18 @@ gearlube map my_design/axle.toml                  # losses; also sweep, cycle, b
 gearlube design --example > my_blank.toml         # a blank file to start from
 ```
 
-The first command writes the gear file (named after `name`), `axle.toml`, an [axle
+From "13 to 42 teeth, 15 mm offset" to loss map and FMU in five commands, about seven minutes on a
+small machine, five of them for the FMUs of five platforms:
+
+```
+gearlube design --example > my_blank.toml
+gearlube design my_blank.toml --out my_pair
+gearlube contact my_pair/hypoid_13_42.toml --out my_pair/contact --quick
+gearlube map my_pair/axle.toml --out my_map
+gearlube build-fmu --axle my_pair/axle.toml --out my_fmus
+```
+
+`gearlube design` writes the gear file (named after `name`), `axle.toml`, an [axle
 file](axle_file.md) to complete, `report.md`, `design.nc` and `figures/`: contact patterns with
 ease-off, transmission error, widths of the teeth. The report says of the contact what was asked
 and found, of the teeth topland, slot, undercut and how wide blade points may be, and of every
@@ -140,8 +151,8 @@ ellipse and path that the paper's settings have. Ease-offs then differ by 4.5 um
 differs are the corners: the design's second order is that of the paper, its third is not. The
 settings themselves differ, tilt by 2 deg: many settings give nearly one flank.
 
-**A pair that fails in part**: 9/41 with offset 45 mm, gear 190 mm and a gear spiral angle of 32
-deg. Face-milled its drive flanks find no place of handover; the command says so.
+**48 designs** of five ratios, offsets of 10 to 45 mm, milled and hobbed, form-cut and generated:
+[designs.md](designs.md). What fails are offsets of nearly half the gear's radius.
 
 **Relief**: designed flanks get tip relief on both members and end relief on the pinion, because
 without it edges carry from small torques on: 13/42 then has 4.4 GPa at 150 N.m and more than three

@@ -46,7 +46,10 @@ class Design:
     targets : dict of str to FlankTarget
         What was asked of both sides.
     measured : dict of str to MeasuredContact or str
-        What the contact analysis finds; a sentence where a side has no parabolic error.
+        What the contact analysis finds of the flanks as cut; a sentence where a side has no
+        parabolic error.
+    relieved : dict of str to MeasuredContact or str
+        The same with relief.
     fit : Fit
     warnings : tuple of str
         About the blank.
@@ -56,6 +59,7 @@ class Design:
     file: HypoidGearFile
     targets: dict[Side, FlankTarget]
     measured: dict[Side, Measured]
+    relieved: dict[Side, Measured]
     fit: Fit
     warnings: tuple[str, ...]
 
@@ -121,6 +125,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress) -> Design:
         file=found,
         targets=best.targets,
         measured=best.measured,
+        relieved={side: measured_contact(found, side) for side in SIDES},
         fit=best.fit,
         warnings=tuple(warnings),
     )

@@ -9,7 +9,6 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.refusal import pair_warnings
 from gearlube_core.hypoid_design.design import Design, misses
 from gearlube_core.hypoid_design.flank_target import MeanContact
-from gearlube_core.hypoid_design.measured_contact import measured_contact
 from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
@@ -48,14 +47,11 @@ def asked_and_found(design: Design) -> list[AskedAndFound]:
             ("ellipse length [mm]", target.length / MILLIMETRE, found.length / MILLIMETRE),
         ):
             rows.append(AskedAndFound(side, what, f"{asked:.1f}", f"{value:.1f}"))
-        places = [f"s {one.s:.3f}, t {one.t:.3f}" for one in (target, found)]
-        relieved = measured_contact(design.file, side)
+        relieved = design.relieved[side]
         if not isinstance(relieved, str):
-            rows.append(
-                AskedAndFound(
-                    side, "the same with relief [urad]", "", f"{relieved.error / _MICRO:.1f}"
-                )
-            )
+            what, value = "transmission error with relief [urad]", relieved.error / _MICRO
+            rows.insert(-2, AskedAndFound(side, what, "", f"{value:.1f}"))
+        places = [f"s {one.s:.3f}, t {one.t:.3f}" for one in (target, found)]
         off = f"{places[1]} ({centre / MILLIMETRE:.2f} mm off)"
         rows.append(AskedAndFound(side, "mean contact", places[0], off))
         rows.append(

@@ -1,0 +1,1 @@
+"""Survey of designs of many ratios and offsets."""
