@@ -19,6 +19,8 @@ S, T = np.linspace(0.4, 1.0, 4), np.linspace(0.1, 0.9, 4)
 def value(field):
     here = FILE
     for part in field.split("."):
+        if here is None:  # an optional section that this file leaves out
+            return None
         here = getattr(here, part)
     return here
 
