@@ -80,10 +80,10 @@ class Goal:
         if limits.sensitivity is not None and spread.all():
             values, rates = found.orders(self.orders)
             moved, moved_rate = values[:, 1:] - values[:, :1], rates[:, 1:] - rates[:, :1]
-            most = (limits.sensitivity * spread) ** 2 * moved.shape[1]
-            square = (np.abs(moved) ** 2).sum(axis=(1, 2)) / most
-            rate = 2.0 * np.real(np.einsum("jsk,jskp->jp", np.conj(moved), moved_rate))
-            add(square, rate / most[:, None])
+            most = limits.sensitivity * spread
+            here = np.maximum(found.spread(self.orders), 1e-6 * most)
+            rate = np.real(np.einsum("jsk,jskp->jp", np.conj(moved), moved_rate))
+            add(here / most, rate / (moved.shape[1] * here * most)[:, None])
         if not parts:
             return np.empty(0), np.empty((0, count))
         return np.concatenate([a for a, _ in parts]), np.concatenate([b for _, b in parts])

@@ -102,7 +102,7 @@ class HeldModel:
     def _file(self, values: Array | None, scenario: Scenario) -> Any:
         if values is None:
             return with_error(self.problem.file, scenario)
-        return self.problem.changed(values, scenario)
+        return self.problem.tried(values, scenario)
 
     def _ends(self, values: Array | None) -> list[tuple[str, float, float]]:
         return [] if values is None else self.problem.ends(values)

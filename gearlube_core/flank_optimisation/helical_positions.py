@@ -11,6 +11,7 @@ from scipy.linalg import block_diag
 
 from gearlube_core.arrays import Array, Indices
 from gearlube_core.flank_optimisation.held_position import HeldPosition, HeldStrip, StripGaps
+from gearlube_core.flank_optimisation.problem import unchecked
 from gearlube_core.helical_contact.loaded_contact import (
     LoadedSettings,
     MeshPosition,
@@ -55,8 +56,8 @@ class HelicalFlanks(NamedTuple):
                 VariedFlank(
                     name.partition(".")[0],
                     high - low,
-                    file.varied({name: low}).modified_pair(),
-                    file.varied({name: high}).modified_pair(),
+                    unchecked(file, {name: low}).modified_pair(),
+                    unchecked(file, {name: high}).modified_pair(),
                 )
                 for name, low, high in ends
             ),

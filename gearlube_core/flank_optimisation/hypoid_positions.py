@@ -11,6 +11,7 @@ from scipy.linalg import block_diag
 
 from gearlube_core.arrays import Array
 from gearlube_core.flank_optimisation.held_position import HeldPosition, HeldStrip, StripGaps
+from gearlube_core.flank_optimisation.problem import unchecked
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, LoadedState, MeshPosition
 from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE
 from gearlube_core.hypoid_contact.pair import FlankPair
@@ -58,7 +59,9 @@ class HypoidFlanks(NamedTuple):
             role, _, rest = name.partition(".")
             if not rest.startswith(f"{side}_flank."):
                 continue
-            lower, upper = (file.varied({name: one}).correction(role, side) for one in (low, high))
+            lower, upper = (
+                unchecked(file, {name: one}).correction(role, side) for one in (low, high)
+            )
             varied[k] = VariedCorrection(role, high - low, lower, upper)
         return cls({role: file.correction(role, side) for role in ROLES}, varied, moves)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -16,6 +16,7 @@ from gearlube_core.flank_optimisation.problem_file import Errors, OptimisationFi
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.hypoid_geometry.gear_file_sections import FlankRelief
 from gearlube_core.input_file.field_notes import field_notes, field_unit
 from gearlube_core.input_file.input_file import read_toml
 
@@ -32,6 +33,7 @@ _SLOPES = {
 }
 _STEPS = {"um": 1e-2, "mm": 1e-3, "deg": 1e-3, "mm/rad": 1e-3}
 _RATIO_STEP = 1e-5
+_LEAST = 0.5  # um, smallest amount of a hypoid gear file
 DIGITS = 5  # of a value in its unit, as the better gear file gives it
 
 
@@ -121,10 +123,27 @@ class Problem:
         units = [field_unit(name.rpartition(".")[2])[0] for name in self.names]
         return np.array([_STEPS.get(unit, _RATIO_STEP) for unit in units])
 
-    def changed(self, values: Array, scenario: Scenario | None = None) -> Any:
-        """Return the gear file with other values (P,) [unit of each], and with an error."""
-        file = self.file.varied(dict(zip(self.names, np.asarray(values).tolist(), strict=True)))
-        return file if scenario is None else with_error(file, scenario)
+    def changed(self, values: Array) -> GearFile:
+        """Return the gear file with other values (P,) [unit of each], checked."""
+        return self.file.varied(self._fields(values))
+
+    def tried(self, values: Array, scenario: Scenario) -> GearFile:
+        """Return the gear file with other values and with an error, not checked.
+
+        Amounts may be smaller than a gear file takes.
+        """
+        return with_error(unchecked(self.file, self._fields(values)), scenario)
+
+    def rounded(self, values: Array) -> Array:
+        """Return values as a gear file gives them: few digits, amounts below 0.5 um are zero."""
+        found = np.clip(np.round(values, DIGITS), self.low, self.high)
+        small = [name.endswith("_um") for name in self.names] & (np.abs(found) < _LEAST)
+        if not self.is_hypoid:
+            small = np.zeros(found.size, bool)
+        return np.where(small & (self.low <= 0.0) & (self.high >= 0.0), 0.0, found)
+
+    def _fields(self, values: Array) -> dict[str, float]:
+        return dict(zip(self.names, np.asarray(values, float).tolist(), strict=True))
 
     def ends(self, values: Array) -> list[tuple[str, float, float]]:
         """Return name, lower and upper end of the difference of each parameter, within bounds."""
@@ -151,9 +170,25 @@ def with_error(file: GearFile, scenario: Scenario) -> GearFile:
     """Return a gear file with what an error adds to its fields."""
     if not scenario.added:
         return file
-    return file.varied(
-        {name: (_value(file, name) or 0.0) + more for name, more in scenario.added.items()}
+    return unchecked(
+        file, {name: (_value(file, name) or 0.0) + more for name, more in scenario.added.items()}
     )
+
+
+def unchecked(file: GearFile, changes: Mapping[str, float]) -> Any:
+    """Return a gear file with dotted fields changed and no look whether it is sound."""
+    found: Any = file
+    for name, value in changes.items():
+        found = _with(found, name.split("."), value)
+    return found
+
+
+def _with(section: Any, parts: list[str], value: float) -> Any:
+    key, *rest = parts
+    if rest:
+        inner = getattr(section, key)
+        value = _with(FlankRelief() if inner is None else inner, rest, value)
+    return section.model_copy(update={key: value})
 
 
 def _scenarios(file: GearFile, errors: Errors) -> list[Scenario]:
@@ -185,9 +220,8 @@ def _scenarios(file: GearFile, errors: Errors) -> list[Scenario]:
         _check_number(file, key)
         for sign, word in ((1.0, "+"), (-1.0, "-")):
             unit = field_notes(type(file))[key].unit
-            one = Scenario(f"{key} {word}{abs(value):g} {unit}", added={key: sign * value})
-            with_error(file, one)
-            found.append(one)
+            words = f"{key} {word}{abs(value):g} {unit}"
+            found.append(Scenario(words, added={key: sign * value}))
     return found
 
 

@@ -15,7 +15,7 @@ from gearlube_core.flank_optimisation.evaluation import Evaluation
 from gearlube_core.flank_optimisation.goal import Goal
 from gearlube_core.flank_optimisation.held_model import HeldModel
 
-_BREACH = 20.0  # price of a limit that is broken by its own size, in parts of the aim before
+_BREACH = 5.0  # price of a limit that is broken by its own size, in parts of the aim before
 _LEAST_GAIN = 0.02  # of the aim: a round that gains less is the last
 _SMALLEST = 0.01  # region of a round, in parts of the bounds
 
