@@ -25,6 +25,8 @@ class Goal:
     limits : Limits
     loss : bool
         Whether the loss is to be least instead of the mesh orders.
+    most_square : float, optional
+        Limit of the mean square of the mesh orders over that before [-].
     """
 
     before: Evaluation
@@ -32,6 +34,7 @@ class Goal:
     worst: bool
     limits: Limits
     loss: bool = False
+    most_square: float | None = None
 
     def squares(self, found: Evaluation) -> tuple[Array, Array]:
         """Return the squares of the whine over that before (J, S), and their rates (J, S, P).
@@ -65,7 +68,7 @@ class Goal:
         count = found.rotation_rate.shape[-1]
 
         def add(value: Array, rate: Array) -> None:
-            parts.append((value.reshape(-1), rate.reshape(-1, count)))
+            parts.append((np.reshape(value, -1), np.reshape(rate, (-1, count))))
 
         limits = self.limits
         if limits.pressure is not None:
@@ -76,6 +79,9 @@ class Goal:
             add(found.mean_sliding / most, found.sliding_rate.mean(axis=(1, 2)) / most[:, None])
         if limits.edge_share is not None:
             add(found.edge_share / limits.edge_share, found.edge_share_rate / limits.edge_share)
+        if self.most_square is not None:
+            square, rate = self.squares(found)
+            add(square.mean() / self.most_square, rate.mean(axis=(0, 1)) / self.most_square)
         spread = self.before.spread(self.orders)
         if limits.sensitivity is not None and spread.all():
             values, rates = found.orders(self.orders)

@@ -10,7 +10,12 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from gearlube_core.arrays import Array, Indices
-from gearlube_core.flank_optimisation.held_position import HeldPosition, HeldStrip, StripGaps
+from gearlube_core.flank_optimisation.held_position import (
+    HeldPosition,
+    HeldStrip,
+    LoadedMeasures,
+    StripGaps,
+)
 from gearlube_core.flank_optimisation.problem import unchecked
 from gearlube_core.helical_contact.loaded_contact import (
     LoadedSettings,
@@ -46,9 +51,7 @@ class HelicalFlanks(NamedTuple):
     varied: tuple[VariedFlank, ...]
 
     @classmethod
-    def of(
-        cls, file: HelicalGearFile, ends: Sequence[tuple[str, float, float]]
-    ) -> HelicalFlanks:
+    def of(cls, file: HelicalGearFile, ends: Sequence[tuple[str, float, float]]) -> HelicalFlanks:
         """Return the flanks of a file with each field at two ends: (name, lower, upper)."""
         return cls(
             file.modified_pair(),
@@ -148,8 +151,8 @@ def held_position(
                 ),
                 arm=strip.arm[column],
                 area=np.full(row.size, strip.cell[0] * strip.cell[1]),
-                sliding=_sliding(modified, strip)[column],
-                at_edge=_at_edge(modified, strip, edge_band)[row, column],
+                sliding=sliding_arm(modified, strip)[column],
+                at_edge=at_edge(modified, strip, edge_band)[row, column],
                 start=_start(loaded[strip.line].strip, loaded[strip.line].forces, y, z)
                 if strip.line in loaded
                 else np.zeros(row.size, bool),
@@ -159,13 +162,36 @@ def held_position(
     return HeldPosition(torque, strips, lambda flanks: [one.gaps(flanks) for one in cells])
 
 
-def _sliding(modified: ModifiedPair, strip: LineStrip) -> Array:
+def plain_measures(
+    modified: ModifiedPair,
+    phase: float,
+    torque: float,
+    stiffness: PairStiffness,
+    settings: LoadedSettings,
+    edge_band: float,
+) -> LoadedMeasures:
+    """Return the measures of a position as the plain analysis finds it; as `held_position`."""
+    state = MeshPosition.at(modified, phase).load(torque, stiffness, settings)
+    slide = sum(
+        float(np.sum(line.forces * sliding_arm(modified, line.strip))) for line in state.lines
+    )
+    total = sum(float(line.forces.sum()) for line in state.lines)
+    edge = sum(
+        float(np.sum(line.forces * at_edge(modified, line.strip, edge_band)))
+        for line in state.lines
+    )
+    pressure = max(float(line.pressure.max()) for line in state.lines)
+    return LoadedMeasures(state.rotation, pressure, slide / torque, edge / total)
+
+
+def sliding_arm(modified: ModifiedPair, strip: LineStrip) -> Array:
     """Return the sliding speed per pinion speed on the line of action [m], (ny,)."""
     pair = modified.pair
     return np.asarray(np.abs(strip.x - pair.pitch_point) * (1.0 + 1.0 / pair.ratio))
 
 
-def _at_edge(modified: ModifiedPair, strip: LineStrip, band: float) -> Array:
+def at_edge(modified: ModifiedPair, strip: LineStrip, band: float) -> Array:
+    """Return 1 for cells in the border of either flank, else 0, (nx, ny)."""
     pair = modified.pair
     t = 0.5 + strip.z / pair.face_width
     found = np.broadcast_to((t < band) | (t > 1.0 - band), strip.gap.shape).copy()

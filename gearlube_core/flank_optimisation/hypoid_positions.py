@@ -10,12 +10,17 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from gearlube_core.arrays import Array
-from gearlube_core.flank_optimisation.held_position import HeldPosition, HeldStrip, StripGaps
+from gearlube_core.flank_optimisation.held_position import (
+    HeldPosition,
+    HeldStrip,
+    LoadedMeasures,
+    StripGaps,
+)
 from gearlube_core.flank_optimisation.problem import unchecked
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, LoadedState, MeshPosition
 from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.sensitivity.frozen_cells import FrozenCells
+from gearlube_core.hypoid_contact.sensitivity.frozen_cells import FrozenCells, sliding_arm
 from gearlube_core.hypoid_contact.strips import Strip
 from gearlube_core.hypoid_geometry.flank.correction import FlankCorrection
 from gearlube_core.hypoid_geometry.flank.flank import Side
@@ -165,6 +170,29 @@ def held_position(
         )
         cells.append(_Cells(pair, places, here.gap - removed, rates[0], here.arm, rates[1]))
     return HeldPosition(torque, strips, lambda flanks: [one.gaps(flanks) for one in cells])
+
+
+def plain_measures(
+    pair: FlankPair,
+    phase: float,
+    torque: float,
+    stiffness: PairStiffness,
+    settings: LoadedSettings,
+    edge_band: float,
+) -> LoadedMeasures:
+    """Return the measures of a position as the plain analysis finds it; as `held_position`."""
+    state = MeshPosition.at(pair, phase, PAIRS_BESIDE).load(torque, stiffness, settings)
+    slide = edge = total = pressure = 0.0
+    for one in state.pairs:
+        there = one.forces > 0.0
+        if not there.any():
+            continue
+        forces, strip = one.forces[there], one.strip
+        slide += float(forces @ sliding_arm(pair, strip.point[there], strip.normal[there]))
+        edge += float(forces @ _at_edge(_places(pair, strip, there), edge_band))
+        total += float(forces.sum())
+        pressure = max(pressure, float(one.pressure.max()))
+    return LoadedMeasures(state.rotation, pressure, slide / torque, edge / total)
 
 
 def _wide_strips(

@@ -187,7 +187,7 @@ def _with(section: Any, parts: list[str], value: float) -> Any:
     key, *rest = parts
     if rest:
         inner = getattr(section, key)
-        value = _with(FlankRelief() if inner is None else inner, rest, value)
+        value = _with(FlankRelief.model_validate({}) if inner is None else inner, rest, value)
     return section.model_copy(update={key: value})
 
 
@@ -255,6 +255,12 @@ def _value(file: GearFile, name: str) -> float | None:
     for part in name.split("."):
         value = getattr(value, part, None)
     return value
+
+
+def values_of(file: GearFile, names: Sequence[str]) -> Array:
+    """Return the values of dotted fields [unit of each], NaN where the file has none."""
+    found = [_value(file, name) for name in names]
+    return np.array([np.nan if one is None else one for one in found], float)
 
 
 def _start(file: GearFile, name: str, given: Range) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -59,16 +60,25 @@ def _flat(data: Any, prefix: str = "") -> Any:
 class Errors(Section):
     """Errors of assembly and making; each is taken with both signs, one at a time."""
 
-    pinion_offset_um: Length = Field(0.0, description="E of a hypoid pair, of the offset")
-    pinion_axial_um: Length = Field(0.0, description="P of a hypoid pair, of the pinion's place")
-    gear_axial_um: Length = Field(0.0, description="G of a hypoid pair, of the gear's place")
-    shaft_angle_mrad: Angle = Field(0.0, description="Sigma of a hypoid pair, of the shaft angle")
-    lead_slope_um: Length = Field(
-        0.0, description="Of a helical pair: misalignment in the plane of contact over the face"
+    pinion_offset_um: Length = Field(default=0.0, description="E of a hypoid pair, of the offset")
+    pinion_axial_um: Length = Field(
+        default=0.0, description="P of a hypoid pair, of the pinion's place"
     )
-    profile_slope_um: Length = Field(0.0, description="Of a helical pair: pressure angle of a gear")
+    gear_axial_um: Length = Field(
+        default=0.0, description="G of a hypoid pair, of the gear's place"
+    )
+    shaft_angle_mrad: Angle = Field(
+        default=0.0, description="Sigma of a hypoid pair, of the shaft angle"
+    )
+    lead_slope_um: Length = Field(
+        default=0.0,
+        description="Of a helical pair: misalignment in the plane of contact over the face",
+    )
+    profile_slope_um: Length = Field(
+        default=0.0, description="Of a helical pair: pressure angle of a gear"
+    )
     fields: Annotated[dict[Text, Number], BeforeValidator(_flat)] = Field(
-        {}, description="Tolerances of fields of the gear file, by their dotted names"
+        default={}, description="Tolerances of fields of the gear file, by their dotted names"
     )
 
 
@@ -76,19 +86,20 @@ class Limits(Section):
     """What the better pair must keep, at each torque; 1 is the value of the gear file as given."""
 
     pressure: Times | None = Field(
-        1.0, description="Highest pressure, errors included, times that before"
+        default=1.0, description="Highest pressure, errors included, times that before"
     )
     loss: Times | None = Field(
-        1.0, description="Sliding loss at one coefficient of friction, times that before"
+        default=1.0, description="Sliding loss at one coefficient of friction, times that before"
     )
     sensitivity: Times | None = Field(
-        1.0, description="How far errors move the mesh orders, times that before"
+        default=1.0, description="How far errors move the mesh orders, times that before"
     )
     edge_share: Share | None = Field(
-        None, description="Largest part of the load in the border of the flanks; absent: no limit"
+        default=None,
+        description="Largest part of the load in the border of the flanks; absent: no limit",
     )
     edge_band: Band = Field(
-        0.05,
+        default=0.05,
         description="Width of that border at tip, toe and heel, in parts of height and face width",
     )
 
@@ -110,16 +121,17 @@ class OptimisationFile(InputFile):
     torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)] = Field(
         description="Operating torques of the pinion; all count alike"
     )
-    side: Literal["drive", "coast"] = Field("drive", description="Flanks of a hypoid pair")
+    side: Literal["drive", "coast"] = Field(default="drive", description="Flanks of a hypoid pair")
     orders: Annotated[tuple[Order, ...], Field(strict=False, min_length=1)] = Field(
-        (1, 2, 3), description="Mesh orders of the loaded transmission error that count, all alike"
+        default=(1, 2, 3),
+        description="Mesh orders of the loaded transmission error that count, all alike",
     )
     aim: Literal["mean", "worst"] = Field(
-        "mean",
+        default="mean",
         description="mean: least mean square over torques and errors; worst: least highest value",
     )
     positions: Annotated[int, Field(ge=6, le=64)] = Field(
-        8, description="Mesh phases of the search; above twice the highest order"
+        default=8, description="Mesh phases of the search; above twice the highest order"
     )
     parameters: Annotated[dict[Text, Range], BeforeValidator(_flat)] = Field(
         description="Fields of the gear file that may change, with bounds"
@@ -140,6 +152,6 @@ class OptimisationFile(InputFile):
                 f"{self.positions}"
             )
         torques = self.torques_n_m
-        if any(later <= earlier for earlier, later in zip(torques, torques[1:], strict=False)):
+        if any(later <= earlier for earlier, later in pairwise(torques)):
             raise ValueError(f"torques_n_m must rise, got {list(torques)}")
         return self

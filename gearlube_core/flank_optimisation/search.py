@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -196,7 +197,7 @@ def _best_in_box(
         x = np.append(x, goal.highest(at(x)))
         limits.append((0.0, 10.0 * max(1.0, float(x[-1]))))
     limited = slack(x).size > 0
-    try:
+    with suppress(ConvergenceError):  # without equilibrium: what was found till then counts
         minimize(
             aim,
             x,
@@ -206,6 +207,4 @@ def _best_in_box(
             constraints=[{"type": "ineq", "fun": slack, "jac": slack_rate}] if limited else (),
             options={"maxiter": settings.steps, "ftol": settings.tolerance},
         )
-    except ConvergenceError:  # a place without equilibrium: what was found till then counts
-        pass
     return best[1]

@@ -202,9 +202,7 @@ class MeshPosition:
         )
         return self._state(torque, strips, solved)
 
-    def strips(
-        self, closing: float, half_width: float, settings: StripSettings
-    ) -> list[LineStrip]:
+    def strips(self, closing: float, half_width: float, settings: StripSettings) -> list[LineStrip]:
         """Return the strips of all lines within `closing` [rad] of first touch.
 
         `half_width` [m] is that off the line of action.

@@ -172,7 +172,9 @@ class MeshPosition:
         arm = float(np.nanmedian(np.abs(self.maps[len(self.maps) // 2].arm)))
         closing = closing or torque / arm / _FIRST_STIFFNESS
 
-        def solve(closing: float, width: float) -> tuple[list[tuple[float, Strip]], CoupledSolution]:
+        def solve(
+            closing: float, width: float
+        ) -> tuple[list[tuple[float, Strip]], CoupledSolution]:
             strips = self.strips(torque / arm, closing, width, stiffness, settings)
             coupled = [_coupled(self.pair, strip, stiffness) for _, strip in strips]
             return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
@@ -235,7 +237,9 @@ class MeshPosition:
         per_length = force / max(2.0 * frame.half_length, _SHORTEST)
         return math.sqrt(4.0 * per_length / (math.pi * modulus * curvature))
 
-    def _state(self, torque: float, strips: list[tuple[float, Strip]], solved: CoupledSolution) -> LoadedState:
+    def _state(
+        self, torque: float, strips: list[tuple[float, Strip]], solved: CoupledSolution
+    ) -> LoadedState:
         pairs = []
         for (phase, strip), forces, pressure in zip(
             strips, solved.forces, solved.pressure, strict=True

@@ -64,7 +64,8 @@ class HeldContact:
             held.
         """
         held = self.equilibrium
-        right, work, stiffness = [], 0.0, 0.0
+        right, stiffness = [], 0.0
+        work = np.zeros(gaps[0].shape[0])
         for k, gap in enumerate(gaps):
             there = self.active[self.carrying[k]]
             b = -gap[:, there]
