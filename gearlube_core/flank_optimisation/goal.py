@@ -68,7 +68,7 @@ class Goal:
         count = found.rotation_rate.shape[-1]
 
         def add(value: Array, rate: Array) -> None:
-            parts.append((np.reshape(value, -1), np.reshape(rate, (-1, count))))
+            parts.append((np.reshape(value, -1), np.reshape(rate, (np.size(value), count))))
 
         limits = self.limits
         if limits.pressure is not None:

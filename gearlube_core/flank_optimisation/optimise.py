@@ -13,6 +13,7 @@ from gearlube_core.flank_optimisation.goal import Goal
 from gearlube_core.flank_optimisation.held_model import HeldModel
 from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
 from gearlube_core.flank_optimisation.problem import GearFile, Problem
+from gearlube_core.flank_optimisation.problem_file import Limits
 from gearlube_core.flank_optimisation.search import Found, Round, SearchSettings, search
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
 from gearlube_core.helical_contact.tooth_body import pair_stiffness as helical_stiffness
@@ -22,6 +23,7 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
+KEPT = 1.005  # a limit counts as kept up to here: what cells and positions change
 EVALUATIONS, POSITIONS = "evaluations", "positions"  # folders of what is kept
 
 
@@ -33,6 +35,9 @@ class OptimiseSettings:
     ----------
     search : SearchSettings
     check : CheckSettings
+    checks : int
+        Searches at most: after each the plain analysis checks the limits, and those that it finds
+        broken are tightened in the next.
     front : int
         Points of the front of whine against loss; 0: none.
     nominal : bool
@@ -40,10 +45,16 @@ class OptimiseSettings:
     body : ToothBodySettings
         Of a hypoid pair's teeth.
     helical_body : HelicalBodySettings
+
+    Examples
+    --------
+    >>> OptimiseSettings(front=5).search.rounds
+    6
     """
 
     search: SearchSettings = field(default_factory=SearchSettings)
     check: CheckSettings = field(default_factory=CheckSettings)
+    checks: int = 3
     front: int = 0
     nominal: bool = False
     body: ToothBodySettings = field(default_factory=ToothBodySettings)
@@ -142,13 +153,6 @@ def optimise(
     progress(0.0, "elastic teeth (kept for the next run)")
     stiffness = _stiffness(problem, settings, cache, jobs)
     evaluations = None if folder is None else folder / EVALUATIONS
-    found = _search(problem, stiffness, settings.search, evaluations, _part(progress, 0.0, 0.4))
-    alone = replace(problem, scenarios=problem.scenarios[:1])
-    nominal = None
-    if settings.nominal and len(problem.scenarios) > 1:
-        part = _part(progress, 0.4, 0.5)
-        nominal = _search(alone, stiffness, settings.search, evaluations, part, found.values)
-    front = _front(problem, stiffness, settings, evaluations, found, _part(progress, 0.5, 0.7))
 
     def checked(file: GearFile, begin: float) -> Evaluation:
         return plain_check(
@@ -166,13 +170,61 @@ def optimise(
         file = problem.changed(values)
         return Better(file, values, checked(file, begin), one.rounds)
 
-    return Optimised(
-        problem,
-        checked(problem.file, 0.7),
-        better(found, 0.8),
-        None if nominal is None else better(nominal, 0.9),
-        front,
-    )
+    before = checked(problem.file, 0.0)
+    limits = problem.given.limits
+
+    def searched(start: Array, begin: float) -> Found:
+        part = _part(progress, begin, begin + 0.1)
+        return _search(problem, stiffness, settings.search, evaluations, part, start, limits)
+
+    found = searched(problem.start, 0.1)
+    best = last = better(found, 0.2)
+    for attempt in range(1, settings.checks):
+        tighter = _tightened(problem, before, last, limits)
+        if tighter is None:
+            break
+        limits = tighter
+        found = searched(found.values, 0.1 + 0.1 * attempt)
+        last = better(found, 0.2 + 0.1 * attempt)
+        if _rank(problem, before, last) < _rank(problem, before, best):
+            best = last
+    nominal = None
+    if settings.nominal and len(problem.scenarios) > 1:
+        alone = replace(problem, scenarios=problem.scenarios[:1])
+        part = _part(progress, 0.6, 0.7)
+        only = _search(alone, stiffness, settings.search, evaluations, part, found.values, limits)
+        nominal = better(only, 0.7)
+    front = _front(problem, stiffness, settings, evaluations, found, _part(progress, 0.8, 1.0))
+    return Optimised(problem, before, best, nominal, front)
+
+
+def _tightened(
+    problem: Problem, before: Evaluation, tried: Better, limits: Limits
+) -> Limits | None:
+    """Return tighter limits where the plain analysis finds some broken; None: all are kept."""
+    asked, after = problem.given.limits, tried.checked
+    orders = problem.given.orders
+    spread = before.spread(orders)
+    over = {
+        "pressure": after.highest_pressure / before.highest_pressure,
+        "loss": after.mean_sliding / before.mean_sliding,
+        "edge_share": after.largest_edge_share,
+        "sensitivity": after.spread(orders) / spread if spread.all() else np.zeros(1),
+    }
+    changed = {}
+    for name, reached in over.items():
+        most = getattr(asked, name)
+        if most is not None and reached.max() > most * KEPT:
+            changed[name] = getattr(limits, name) * most / float(reached.max())
+    return limits.model_copy(update=changed) if changed else None
+
+
+def _rank(problem: Problem, before: Evaluation, one: Better) -> float:
+    """Return the mean square of the mesh orders with a price for broken limits, plain analysis."""
+    given = problem.given
+    goal = _goal(problem, before, given.limits)
+    over = np.maximum(goal.used(one.checked)[0] - KEPT, 0.0)
+    return goal.highest(one.checked) + 5.0 * float(over.max(initial=0.0))
 
 
 def _stiffness(
@@ -191,14 +243,15 @@ def _search(
     settings: SearchSettings,
     folder: Path | None,
     progress: Progress,
-    start: Array | None = None,
+    start: Array,
+    limits: Limits,
 ) -> Found:
     before = HeldModel(problem, stiffness, None, folder).evaluate(None)
     return search(
         lambda values: HeldModel(problem, stiffness, values, folder),
-        _goal(problem, before),
+        _goal(problem, before, limits),
         (problem.low, problem.high),
-        problem.start if start is None else start,
+        start,
         settings,
         lambda number, sentence: progress(
             (number - 1) / settings.rounds, f"search, round {number}, {sentence}"
@@ -206,9 +259,9 @@ def _search(
     )
 
 
-def _goal(problem: Problem, before: Evaluation) -> Goal:
+def _goal(problem: Problem, before: Evaluation, limits: Limits) -> Goal:
     given = problem.given
-    return Goal(before=before, orders=given.orders, worst=given.aim == "worst", limits=given.limits)
+    return Goal(before=before, orders=given.orders, worst=given.aim == "worst", limits=limits)
 
 
 def _front(
@@ -223,7 +276,7 @@ def _front(
     if settings.front < 2:
         return ()
     before = HeldModel(problem, stiffness, None, folder).evaluate(None)
-    goal = _goal(problem, before)
+    goal = _goal(problem, before, problem.given.limits)
     least = float(goal.squares(best.evaluation)[0].mean())
     most = np.geomspace(max(least, 1e-4), 1.0, settings.front)[1:]
     values, evaluation = best.values, best.evaluation
@@ -239,7 +292,16 @@ def _front(
         )
         values = found.values
         points.append(_point(goal, values, found.evaluation))
-    return tuple(reversed(points))
+    kept = [
+        one for one in points if not any(_below(other, one) for other in points if other is not one)
+    ]
+    return tuple(reversed(kept))
+
+
+def _below(one: FrontPoint, other: FrontPoint) -> bool:
+    """Return whether one point is as good in both and better in one by more than 1e-4."""
+    gain = other.whine - one.whine, other.loss - one.loss
+    return min(gain) > -1e-6 and max(gain) > 1e-4
 
 
 def _point(goal: Goal, values: Array, found: Evaluation) -> FrontPoint:

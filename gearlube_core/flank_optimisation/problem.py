@@ -12,9 +12,15 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-from gearlube_core.flank_optimisation.problem_file import Errors, OptimisationFile, Range
+from gearlube_core.flank_optimisation.problem_file import (
+    Errors,
+    OptimisationFile,
+    Range,
+    Settings,
+)
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
+from gearlube_core.hypoid_geometry.flank.flank import CURVES
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.gear_file_sections import FlankRelief
 from gearlube_core.input_file.field_notes import field_notes, field_unit
@@ -33,6 +39,15 @@ _SLOPES = {
 }
 _STEPS = {"um": 1e-2, "mm": 1e-3, "deg": 1e-3, "mm/rad": 1e-3}
 _RATIO_STEP = 1e-5
+# phases, what doubles a blade angle, and motions that not every machine has
+_NOT_FREE = (
+    "basic_cradle_angle_deg",
+    "convex_flank_angle_correction_deg",
+    "concave_flank_angle_correction_deg",
+    "modified_roll_2c",
+    "modified_roll_6d",
+    "helical_motion_mm_per_rad",
+)
 _LEAST = 0.5  # um, smallest amount of a hypoid gear file
 DIGITS = 5  # of a value in its unit, as the better gear file gives it
 
@@ -92,11 +107,12 @@ class Problem:
             the range of a field.
         """
         file = read_gear_file(given.gear)
-        names = tuple(given.parameters)
+        allowed = {**_free_settings(file, given), **given.parameters}
+        names = tuple(allowed)
         for name in names:
             _check_parameter(file, name, given.side)
-        ranges = list(given.parameters.values())
-        values = [_start(file, name, one) for name, one in given.parameters.items()]
+        ranges = list(allowed.values())
+        values = [_start(file, name, one) for name, one in allowed.items()]
         problem = cls(
             given,
             file,
@@ -208,7 +224,7 @@ def _scenarios(file: GearFile, errors: Errors) -> list[Scenario]:
         if not value:
             continue
         for sign, word in ((1.0, "+"), (-1.0, "-")):
-            unit = field_unit(key)[1] or "_mrad"
+            unit = field_unit(key)[1]
             name = f"{key.removesuffix(unit)} {word}{value:g} {unit[1:]}"
             if isinstance(file, HypoidGearFile):
                 axis, factor = _MISALIGNMENTS[key]
@@ -223,6 +239,45 @@ def _scenarios(file: GearFile, errors: Errors) -> list[Scenario]:
             words = f"{key} {word}{abs(value):g} {unit}"
             found.append(Scenario(words, added={key: sign * value}))
     return found
+
+
+def _free_settings(file: GearFile, given: OptimisationFile) -> dict[str, Range]:
+    """Return the settings that [settings] frees, with their bounds."""
+    free = given.settings
+    if free is None:
+        return {}
+    if not isinstance(file, HypoidGearFile):
+        raise ParameterError(
+            f"[settings] must be of a hypoid pair, got {file.name}, a helical one. Name reliefs, "
+            "crowns and slopes in [parameters]."
+        )
+    found: dict[str, Range] = {}
+    for role in free.members:
+        curve = CURVES[role, given.side]
+        for section in ("machine", "cutter") if free.blades else ("machine",):
+            part = getattr(getattr(file, role), section)
+            for key in type(part).model_fields:
+                value = getattr(part, key)
+                span = _span(key, value, curve, free)
+                if span is not None:
+                    one = Range(low=value - span[0], high=value + span[1])
+                    found[f"{role}.{section}.{key}"] = one
+    return found
+
+
+def _span(key: str, value: Any, curve: str, free: Settings) -> tuple[float, float] | None:
+    """Return how far a setting may go down and up, None where it stays."""
+    other = "concave" if curve == "convex" else "convex"
+    if not isinstance(value, float) or key.startswith(other) or key in _NOT_FREE:
+        return None
+    if key.endswith("edge_radius_mm"):
+        return 0.5 * value, value
+    if key == "ratio_of_roll":
+        return free.within_ratio * value, free.within_ratio * value
+    width = free.within_deg if key.endswith("_deg") else free.within_mm
+    if key == "tilt_angle_deg":
+        return min(width, value), width
+    return width, width
 
 
 def _check_number(file: GearFile, name: str) -> None:

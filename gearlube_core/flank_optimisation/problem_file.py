@@ -18,6 +18,8 @@ Angle = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
 Times = Annotated[float, Field(ge=0.1, le=10.0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
 Band = Annotated[float, Field(gt=0.0, le=0.3, allow_inf_nan=False)]
+Span = Annotated[float, Field(gt=0.0, le=10.0, allow_inf_nan=False)]
+Ratio = Annotated[float, Field(gt=0.0, le=0.2, allow_inf_nan=False)]
 Order = Annotated[int, Field(ge=1, le=20)]
 _RANGE = ("low", "high", "start")
 
@@ -104,6 +106,24 @@ class Limits(Section):
     )
 
 
+class Settings(Section):
+    """Machine settings of a hypoid pair that may change about the values of the gear file."""
+
+    members: Annotated[tuple[Literal["pinion", "gear"], ...], Field(strict=False, min_length=1)] = (
+        Field(
+            default=("pinion",), description="Whose settings may change; the other member is kept"
+        )
+    )
+    blades: bool = Field(
+        default=False, description="Whether their cutters may change too; false: blades are kept"
+    )
+    within_mm: Span = Field(default=0.5, description="Lengths: so much less and more")
+    within_deg: Span = Field(default=0.5, description="Angles: so much less and more")
+    within_ratio: Ratio = Field(
+        default=0.01, description="Ratio of roll: this part of itself less and more"
+    )
+
+
 class OptimisationFile(InputFile):
     """What to make better of a gear pair, and within which bounds.
 
@@ -134,15 +154,18 @@ class OptimisationFile(InputFile):
         default=8, description="Mesh phases of the search; above twice the highest order"
     )
     parameters: Annotated[dict[Text, Range], BeforeValidator(_flat)] = Field(
-        description="Fields of the gear file that may change, with bounds"
+        default={}, description="Fields of the gear file that may change, with bounds"
     )
+    settings: Settings | None = None
     errors: Errors = Errors()
     limits: Limits = Limits()
 
     @model_validator(mode="after")
     def _check_relations(self) -> OptimisationFile:
-        if not self.parameters:
-            raise ValueError("parameters must name at least one field, got none")
+        if not self.parameters and self.settings is None:
+            raise ValueError(
+                "[parameters] must name a field that may change, or [settings] be given, got none"
+            )
         if len(set(self.orders)) < len(self.orders):
             raise ValueError(f"orders must name each order once, got {list(self.orders)}")
         least = 2 * max(self.orders) + 1

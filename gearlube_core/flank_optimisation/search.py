@@ -18,6 +18,7 @@ from gearlube_core.flank_optimisation.held_model import HeldModel
 
 _BREACH = 5.0  # price of a limit that is broken by its own size, in parts of the aim before
 _LEAST_GAIN = 0.02  # of the aim: a round that gains less is the last
+_MOST_MARGIN = 0.2
 _SMALLEST = 0.01  # region of a round, in parts of the bounds
 
 
@@ -91,8 +92,8 @@ def search(
     -----
     A round holds the cells, moves within a region, and is kept when the pair with cells cut anew
     is better: aim plus a price for broken limits. The region halves when it is not and doubles when
-    it is. Within a round the contact is solved anew at every step; what is linear there are machine
-    settings alone.
+    it is; limits that a round broke are tightened in the next. Within a round the contact is solved
+    anew at every step; what is linear there are machine settings alone.
 
     References
     ----------
@@ -100,7 +101,7 @@ def search(
     """
     settings = settings or SearchSettings()
     low, high = bounds
-    values, region = np.array(start, float), settings.region
+    values, region, margin = np.array(start, float), settings.region, 0.0
     here = model(values)
     found = here.evaluate(values)
     merit = _merit(goal, found)
@@ -109,7 +110,7 @@ def search(
         observe(number, f"aim {rounds[-1].aim:.3f}")
         reach = region * (high - low)
         box = np.maximum(low, values - reach), np.minimum(high, values + reach)
-        tried = _best_in_box(here, goal, values, box, low, high, settings)
+        tried = _best_in_box(here, goal, values, box, low, high, settings, margin)
         if np.all(np.abs(tried - values) < 1e-6 * (high - low)):
             break
         try:
@@ -122,6 +123,8 @@ def search(
         better = reached < merit
         rounds.append(_round(goal, tried, moved, better))
         gain = (merit - reached) / merit
+        if not better:  # held cells are off by so much of a limit
+            margin = min(margin + max(rounds[-1].limits - 1.0, 0.0), _MOST_MARGIN)
         if better:
             here, values, found, merit = there, tried, moved, reached
         region = min(1.0, 2.0 * region) if gain > 0.1 else 0.5 * region
@@ -130,9 +133,9 @@ def search(
     return Found(values, found, tuple(rounds))
 
 
-def _merit(goal: Goal, found: Evaluation) -> float:
+def _merit(goal: Goal, found: Evaluation, margin: float = 0.0) -> float:
     used = goal.used(found)[0]
-    over = np.maximum(used - 1.0, 0.0)
+    over = np.maximum(used + margin - 1.0, 0.0)
     return goal.highest(found) + _BREACH * float(over.max(initial=0.0))
 
 
@@ -149,11 +152,15 @@ def _best_in_box(
     low: Array,
     high: Array,
     settings: SearchSettings,
+    margin: float,
 ) -> Array:
-    """Return the best values in a box on held cells; unknowns are parts of the bounds."""
+    """Return the best values in a box on held cells; unknowns are parts of the bounds.
+
+    Limits are tightened by `margin`, in parts of themselves.
+    """
     span = high - low
     seen: dict[bytes, Evaluation] = {}
-    best = (_merit(goal, model.evaluate(values)), values)
+    best = (_merit(goal, model.evaluate(values), margin), values)
 
     def at(x: Array) -> Evaluation:
         nonlocal best
@@ -161,7 +168,7 @@ def _best_in_box(
         key = place.tobytes()
         if key not in seen:
             seen[key] = model.evaluate(place)
-            merit = _merit(goal, seen[key])
+            merit = _merit(goal, seen[key], margin)
             if merit < best[0]:
                 best = (merit, place)
         return seen[key]
@@ -171,7 +178,7 @@ def _best_in_box(
     limits = list(zip((box[0] - low) / span, (box[1] - low) / span, strict=True))
 
     def slack(x: Array) -> Array:
-        parts = [1.0 - goal.used(at(x))[0]]
+        parts = [1.0 - margin - goal.used(at(x))[0]]
         if worst:
             parts.append(x[-1] - goal.squares(at(x))[0].ravel())
         return np.concatenate(parts)

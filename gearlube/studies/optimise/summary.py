@@ -10,12 +10,11 @@ import numpy as np
 from gearlube.studies.optimise.dataset import designs, unit_of
 from gearlube_core.arrays import Array
 from gearlube_core.flank_optimisation.evaluation import Evaluation
-from gearlube_core.flank_optimisation.optimise import Optimised
+from gearlube_core.flank_optimisation.optimise import KEPT, Optimised
 from gearlube_core.flank_optimisation.problem import values_of
 
 _MICRO = 1e-6
 _NEAR = 0.005  # of the bounds: a value counts as on its bound
-_ROUNDING = 1.005  # a limit counts as kept up to here: positions and cells of the check
 
 
 class MeasureRow(NamedTuple):
@@ -43,7 +42,7 @@ class MeasureRow(NamedTuple):
         if self.limit is None:
             return True
         most = self.limit if self.what == EDGE else self.limit * self.before
-        return self.after <= _ROUNDING * most
+        return self.after <= KEPT * most
 
 
 EDGE = "largest share of load in the border"
