@@ -20,7 +20,11 @@ from gearlube_core.flank_optimisation.problem import unchecked
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, LoadedState, MeshPosition
 from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_contact.sensitivity.frozen_cells import FrozenCells, sliding_arm
+from gearlube_core.hypoid_contact.sensitivity.frozen_cells import (
+    CellGeometry,
+    FrozenCells,
+    sliding_arm,
+)
 from gearlube_core.hypoid_contact.strips import Strip
 from gearlube_core.hypoid_geometry.flank.correction import FlankCorrection
 from gearlube_core.hypoid_geometry.flank.flank import Side
@@ -143,14 +147,18 @@ def held_position(
         there = strip.usable & (strip.arm > 0.0)
         if not there.any():
             continue
-        frozen = FrozenCells.of_strip(pair, pair_phase, strip, there)
-        here = frozen.geometry(pair, stiffness)
+        frozen, here, rates = _geometry(
+            pair, pair_phase, strip, there, settings_ends, count, stiffness
+        )
+        sound = np.isfinite(here.gap) & np.isfinite(rates).all(axis=(0, 1))
+        if not sound.all():  # a changed flank ends before such a cell
+            there[there] = sound
+            frozen, here, rates = _geometry(
+                pair, pair_phase, strip, there, settings_ends, count, stiffness
+            )
+        if not there.any():
+            continue
         places = _places(pair, strip, there)
-        rates = np.zeros((2, count, here.gap.size))
-        for k, (step, lower, upper) in settings_ends.items():
-            ends = [frozen.geometry(one, stiffness) for one in (lower, upper)]
-            rates[0, k] = (ends[1].gap - ends[0].gap) / step
-            rates[1, k] = (ends[1].arm - ends[0].arm) / step
         removed = pair.gear.removal(pair.gear.sample_parameters(strip.gear_parameters[there]).r)
         removed += pair.pinion.removal(
             pair.pinion.sample_parameters(strip.pinion_parameters[there]).r
@@ -170,6 +178,26 @@ def held_position(
         )
         cells.append(_Cells(pair, places, here.gap - removed, rates[0], here.arm, rates[1]))
     return HeldPosition(torque, strips, lambda flanks: [one.gaps(flanks) for one in cells])
+
+
+def _geometry(
+    pair: FlankPair,
+    phase: float,
+    strip: Strip,
+    there: Mask,
+    settings_ends: dict[int, tuple[float, FlankPair, FlankPair]],
+    count: int,
+    stiffness: PairStiffness,
+) -> tuple[FrozenCells, CellGeometry, Array]:
+    """Return cells with their geometry, and rates of gap and arm by settings (2, P, n)."""
+    frozen = FrozenCells.of_strip(pair, phase, strip, there)
+    rates = np.zeros((2, count, frozen.row.size))
+    for k, (step, lower, upper) in settings_ends.items():
+        ends = [frozen.geometry(one, stiffness) for one in (lower, upper)]
+        with np.errstate(invalid="ignore"):  # inf less inf
+            rates[0, k] = (ends[1].gap - ends[0].gap) / step
+            rates[1, k] = (ends[1].arm - ends[0].arm) / step
+    return frozen, frozen.geometry(pair, stiffness), rates
 
 
 def plain_measures(
