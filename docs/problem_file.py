@@ -62,11 +62,13 @@ the highest W^2 of all torques and errors least.
 | Limit | Measure, at each torque |
 |---|---|
 | `pressure` | highest pressure of all phases and errors |
-| `loss` | sliding power of the normal forces over the pinion's power, mean over phases and errors: the loss at one coefficient of friction. Oil and film are not in it |
-| `sensitivity` | root mean square over the errors of how far they move the mesh orders, as complex numbers |
-| `edge_share` | largest part of the load in a border along tip, toe and heel (helical: the tips and both ends of the face) of either flank |
+| `loss` | sliding power of the normal forces over the pinion's power, mean over phases and errors |
+| `sensitivity` | how far errors move the mesh orders, complex numbers; root mean square |
+| `edge_share` | largest part of the load in a border along tip, toe and heel of either flank |
 
-All but `edge_share` are relative to the pair as it is.
+All but `edge_share` are relative to the pair as it is. The loss is that at one coefficient of
+friction: oil and film are not in it. The root of a flank has no border; of a helical pair both ends
+of the face have.
 
 ## How it is found
 

@@ -15,7 +15,7 @@ TEXT = HERE / "text"
 def page() -> str:
     """Return docs/optimise.md."""
     parts = [(TEXT / "head.md").read_text(encoding="utf-8")]
-    for name in ("helical", "hypoid"):
+    for name in ("helical", "helical_plain", "hypoid"):
         if (HERE / f"{name}.csv").is_file():
             parts.append((TEXT / f"{name}.md").read_text(encoding="utf-8"))
             parts.append(_tables(name))

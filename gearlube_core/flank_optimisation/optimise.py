@@ -194,7 +194,8 @@ def optimise(
         part = _part(progress, 0.6, 0.7)
         only = _search(alone, stiffness, settings.search, evaluations, part, found.values, limits)
         nominal = better(only, 0.7)
-    front = _front(problem, stiffness, settings, evaluations, found, _part(progress, 0.8, 1.0))
+    part = _part(progress, 0.8, 1.0)
+    front = _front(problem, stiffness, settings, evaluations, found, limits, part)
     return Optimised(problem, before, best, nominal, front)
 
 
@@ -270,13 +271,14 @@ def _front(
     settings: OptimiseSettings,
     folder: Path | None,
     best: Found,
+    limits: Limits,
     progress: Progress,
 ) -> tuple[FrontPoint, ...]:
     """Return the least loss under limits of whine between that before and the least."""
     if settings.front < 2:
         return ()
     before = HeldModel(problem, stiffness, None, folder).evaluate(None)
-    goal = _goal(problem, before, problem.given.limits)
+    goal = _goal(problem, before, limits)
     least = float(goal.squares(best.evaluation)[0].mean())
     most = np.geomspace(max(least, 1e-4), 1.0, settings.front)[1:]
     values, evaluation = best.values, best.evaluation
@@ -292,16 +294,23 @@ def _front(
         )
         values = found.values
         points.append(_point(goal, values, found.evaluation))
-    kept = [
-        one for one in points if not any(_below(other, one) for other in points if other is not one)
-    ]
-    return tuple(reversed(kept))
+    front: list[FrontPoint] = []
+    for one in reversed(points):
+        beaten = any(_no_better(one, other) for other in points)
+        known = any(_same(one, other) for other in front)
+        if not (beaten or known):
+            front.append(one)
+    return tuple(front)
 
 
-def _below(one: FrontPoint, other: FrontPoint) -> bool:
-    """Return whether one point is as good in both and better in one by more than 1e-4."""
-    gain = other.whine - one.whine, other.loss - one.loss
-    return min(gain) > -1e-6 and max(gain) > 1e-4
+def _same(one: FrontPoint, other: FrontPoint) -> bool:
+    return max(abs(one.whine - other.whine), abs(one.loss - other.loss)) < 1e-3
+
+
+def _no_better(one: FrontPoint, other: FrontPoint) -> bool:
+    """Return whether another point is as good in both and better in one, by more than 1e-3."""
+    gain = one.whine - other.whine, one.loss - other.loss
+    return min(gain) > -1e-6 and max(gain) > 1e-3
 
 
 def _point(goal: Goal, values: Array, found: Evaluation) -> FrontPoint:

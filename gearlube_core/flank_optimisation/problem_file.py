@@ -130,7 +130,7 @@ class OptimisationFile(InputFile):
     Examples
     --------
     >>> OptimisationFile.shipped()
-    ('helical', 'hypoid')
+    ('helical', 'helical_plain', 'hypoid')
     """
 
     package: ClassVar[str] = "gearlube_core.flank_optimisation"

@@ -19,6 +19,7 @@ from gearlube_core.flank_optimisation.held_model import HeldModel
 _BREACH = 5.0  # price of a limit that is broken by its own size, in parts of the aim before
 _LEAST_GAIN = 0.02  # of the aim: a round that gains less is the last
 _MOST_MARGIN = 0.2
+_TOO_FAR = 0.25  # factor on the region where flanks do not meet or are twice as bad
 _SMALLEST = 0.01  # region of a round, in parts of the bounds
 
 
@@ -91,9 +92,9 @@ def search(
     Notes
     -----
     A round holds the cells, moves within a region, and is kept when the pair with cells cut anew
-    is better: aim plus a price for broken limits. The region halves when it is not and doubles when
-    it is; limits that a round broke are tightened in the next. Within a round the contact is solved
-    anew at every step; what is linear there are machine settings alone.
+    is better: aim plus a price for broken limits. The region doubles when it is, and halves or
+    quarters when it is not; limits that a round broke are tightened in the next. Within a round the
+    contact is solved anew at every step; what is linear there are machine settings alone.
 
     References
     ----------
@@ -118,7 +119,7 @@ def search(
             moved = there.evaluate(tried)
             reached = _merit(goal, moved)
         except (ConvergenceError, ParameterError):
-            region *= 0.5
+            region *= _TOO_FAR
             continue
         better = reached < merit
         rounds.append(_round(goal, tried, moved, better))
@@ -127,7 +128,10 @@ def search(
             margin = min(margin + max(rounds[-1].limits - 1.0, 0.0), _MOST_MARGIN)
         if better:
             here, values, found, merit = there, tried, moved, reached
-        region = min(1.0, 2.0 * region) if gain > 0.1 else 0.5 * region
+        if gain > 0.1:
+            region = min(1.0, 2.0 * region)
+        else:
+            region *= 0.5 if gain > -1.0 else _TOO_FAR
         if region < _SMALLEST or (better and gain < _LEAST_GAIN):
             break
     return Found(values, found, tuple(rounds))

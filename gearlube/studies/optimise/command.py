@@ -27,7 +27,9 @@ logger = logging.getLogger("gearlube")
 def optimise(
     problem: Annotated[
         str,
-        typer.Argument(help="Problem file (TOML), helical or hypoid.", metavar="PROBLEM"),
+        typer.Argument(
+            help="Problem file (TOML), helical, helical_plain or hypoid.", metavar="PROBLEM"
+        ),
     ] = "helical",
     front: Annotated[
         int,
