@@ -22,7 +22,7 @@ from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.storage.atomic_file import write_text
 
 IMAGES = HERE.parent / "images"
-SHOWN = ("transmission_error", "errors")
+SHOWN = ("transmission_error", "errors", "front")
 
 
 def make(name: str, folder: Path) -> None:
@@ -37,7 +37,7 @@ def make(name: str, folder: Path) -> None:
         rows = [(f"{one.whine:.4f}", f"{one.loss:.4f}") for one in found.front]
         write_text(csv_text(("whine", "loss"), rows), HERE / f"{name}_front.csv")
     for path in save_optimise_figures(results.dataset, folder / name / "figures"):
-        if path.stem in SHOWN:
+        if path.stem in SHOWN and (path.stem != "front" or len(found.front) > 2):
             shutil.copy(path, IMAGES / f"optimise_{name}_{path.name}")
 
 

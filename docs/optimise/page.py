@@ -9,7 +9,7 @@ from gearlube_core.storage.atomic_file import write_text
 
 HERE = Path(__file__).resolve().parent
 PAGE = HERE.parent / "optimise.md"
-TEXT = HERE / "text"
+TEXT, IMAGES = HERE / "text", HERE.parent / "images"
 
 
 def page() -> str:
@@ -36,7 +36,7 @@ def _tables(name: str) -> str:
     ]
     for row in _rows(name):
         lines.append("| " + " | ".join(one or "-" for one in row.values()) + " |")
-    if (HERE / f"{name}_front.csv").is_file():
+    if (HERE / f"{name}_front.csv").is_file() and len(_rows(f"{name}_front")) > 2:
         lines += ["", "Least loss under limits of the mesh orders, both over those before:", ""]
         lines += ["| Mesh orders | Loss |", "|---|---|"]
         lines += [f"| {row['whine']} | {row['loss']} |" for row in _rows(f"{name}_front")]
@@ -47,6 +47,8 @@ def _tables(name: str) -> str:
         f"![All orders under each error](images/optimise_{name}_errors.png)",
         "",
     ]
+    if (IMAGES / f"optimise_{name}_front.png").is_file():
+        lines += [f"![Mesh orders and loss](images/optimise_{name}_front.png)", ""]
     return "\n".join(lines)
 
 
