@@ -59,6 +59,11 @@ COMMANDS = (
         summary="Design a hypoid or bevel pair: from a blank to machine settings.",
     ),
     LazyCommand(
+        name="measured",
+        target="gearlube.studies.measured.command:measured",
+        summary="Lay measured flanks on a hypoid pair: from CSV to a gear file.",
+    ),
+    LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",
