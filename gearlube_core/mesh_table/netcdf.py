@@ -146,11 +146,11 @@ def _check_format(dataset: xr.Dataset, name: str) -> None:
     if found < FORMAT:
         raise TableError(
             f"{name} was written by an older gearlube: a mesh table of format {found}, this one "
-            f"reads format {FORMAT}. Run `gearlube contact` again."
+            f"reads formats {FORMAT} and {SHAFT_FORMAT}. Run `gearlube contact` again."
         )
     if found > SHAFT_FORMAT:
         raise TableError(
             f"{name} was written by a newer gearlube: a mesh table of format {found}, this one "
-            f"reads format {SHAFT_FORMAT}. Install that version, or run `gearlube contact` of this "
-            "one."
+            f"reads formats {FORMAT} and {SHAFT_FORMAT}. Install that version, or run `gearlube "
+            "contact` of this one."
         )

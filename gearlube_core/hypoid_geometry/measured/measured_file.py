@@ -7,14 +7,21 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
-from gearlube_core.hypoid_geometry.flank.flank import Role, tooth_region
+from gearlube_core.hypoid_geometry.flank.flank import Role, Side, tooth_region
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.deviation_grid import GridPlaces
 from gearlube_core.hypoid_geometry.measured.measured_sections import MeasuredMember
+from gearlube_core.hypoid_geometry.measured.tooth_error_files import (
+    PitchKind,
+    read_pitch,
+    read_waves,
+)
+from gearlube_core.hypoid_geometry.measured.tooth_errors import MemberErrors, ToothErrors, Wave
 from gearlube_core.input_file.input_file import InputFile
-from gearlube_core.units import MILLIMETRE
+from gearlube_core.units import DEGREE, MILLIMETRE
 
 Text = Annotated[str, Field(min_length=1)]
 
@@ -44,8 +51,13 @@ class MeasuredFile(InputFile):
         description="Whether the member was turned so that the middle point of each grid is zero",
     )
     degree: int = Field(3, ge=0, le=5, description="Of the smooth surface through the deviations")
-    pinion: MeasuredMember = MeasuredMember()
-    gear: MeasuredMember = MeasuredMember()
+    pitch: Text | None = Field(None, description="CSV file of pitch deviations, likewise")
+    pitch_kind: PitchKind = Field(
+        "cumulative", description="Whether they are summed up from tooth to tooth or not"
+    )
+    waviness: Text | None = Field(None, description="CSV file of waves, likewise")
+    pinion: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
+    gear: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
 
     def nominal(self, folder: Path) -> HypoidGearFile:
         """Return the gear file of the nominal flanks; `folder` is that of this file."""
@@ -77,3 +89,26 @@ class MeasuredFile(InputFile):
             except ParameterError as reason:
                 raise ParameterError(f"{self.name}, {role}: {reason}") from None
         return found
+
+    def tooth_errors(self, folder: Path, blank: HypoidBlank) -> ToothErrors:
+        """Return the errors of single teeth; `folder` is that of this file."""
+        members = {"pinion": (self.pinion, blank.pinion), "gear": (self.gear, blank.gear)}
+        pitch: dict[tuple[Role, Side], Array] = {}
+        waves: dict[tuple[Role, Side], tuple[Wave, ...]] = {}
+        if self.pitch is not None:
+            teeth: dict[Role, int] = {"pinion": blank.pinion.teeth, "gear": blank.gear.teeth}
+            pitch = read_pitch(folder / self.pitch, teeth, self.pitch_kind)
+        if self.waviness is not None:
+            waves = read_waves(folder / self.waviness)
+        found = {}
+        for role, (member, part) in members.items():
+            radius = part.mean_pitch_radius
+            if member.pitch_radius_mm is not None:
+                radius = member.pitch_radius_mm * MILLIMETRE
+            found[role] = MemberErrors(
+                pitch={side: one / radius for (whose, side), one in pitch.items() if whose == role},
+                eccentricity=1e-6 * member.eccentricity_um,
+                eccentricity_angle=DEGREE * member.eccentricity_phase_deg,
+                waves={side: one for (whose, side), one in waves.items() if whose == role},
+            )
+        return ToothErrors(pinion=found["pinion"], gear=found["gear"])

@@ -16,6 +16,7 @@ from gearlube_core.hypoid_geometry.measured.deviation_grid import (
 )
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
 from gearlube_core.hypoid_geometry.measured.smooth_surface import SmoothSurface, smooth_surface
+from gearlube_core.hypoid_geometry.measured.tooth_errors import ToothErrors
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,12 +29,15 @@ class MeasuredFlanks:
     nominal : HypoidGearFile
     grids : mapping of (role, side) to DeviationGrid
     surfaces : mapping of (role, side) to SmoothSurface
+    errors : ToothErrors
+        How teeth differ from each other.
     """
 
     file: MeasuredFile
     nominal: HypoidGearFile
     grids: Mapping[tuple[Role, Side], DeviationGrid]
     surfaces: Mapping[tuple[Role, Side], SmoothSurface]
+    errors: ToothErrors
 
     def gear_file(self) -> HypoidGearFile:
         """Return the nominal gear file with the smooth surfaces laid on its flanks.
@@ -75,4 +79,10 @@ def read_measured_flanks(path: str | Path) -> MeasuredFlanks:
             folder / file.deviations, places, middle_is_zero=file.middle_point == "zero"
         )
     surfaces = {key: smooth_surface(grid, file.degree) for key, grid in grids.items()}
-    return MeasuredFlanks(file=file, nominal=nominal, grids=grids, surfaces=surfaces)
+    return MeasuredFlanks(
+        file=file,
+        nominal=nominal,
+        grids=grids,
+        surfaces=surfaces,
+        errors=file.tooth_errors(folder, nominal.blank()),
+    )

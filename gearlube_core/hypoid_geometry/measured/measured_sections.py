@@ -11,6 +11,9 @@ from gearlube_core.input_file.input_file import Section
 
 Points = Annotated[int, Field(ge=2, le=MOST_POINTS)]
 Inset = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
+Length = Annotated[float, Field(gt=0.0, le=2000.0, allow_inf_nan=False)]
+Eccentricity = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
 
 
 class Grid(Section):
@@ -29,4 +32,15 @@ class Grid(Section):
 class MeasuredMember(Section):
     """What was measured of one member."""
 
+    pitch_radius_mm: Length | None = Field(
+        None,
+        description="Radius at which pitch was measured, from the axis; absent: that of the pitch "
+        "cone at mid-face",
+    )
+    eccentricity_um: Eccentricity = Field(
+        0.0, description="Of the teeth from the axis about which the member runs, in the axle"
+    )
+    eccentricity_phase_deg: Angle = Field(
+        0.0, description="Its direction: angle from tooth 1 in the sense of counting"
+    )
     grid: Grid | None = None
