@@ -10,6 +10,7 @@ from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
 PAGE = Path(__file__).with_suffix(".md")
 SECTIONS = {
     "": "The file",
+    "gear": "[pinion] and [gear]",
     "gear.grid": "[pinion.grid] and [gear.grid]: where the points of the deviations lie",
 }
 
@@ -56,6 +57,76 @@ gear,drive,1,1,1,-3.2
 Layouts differ from machine to machine. Turn yours into this one; of a grid listed from the tip
 down, for instance, the rows count backwards.
 
+## Errors of single teeth
+
+Pitch, a running axis beside that of the teeth, and waves make one tooth differ from the next.
+They do not change the flanks of the gear file. They enter the mesh table, after the contact
+analysis:
+
+```
+gearlube measured examples/measured/axle_17.toml --table m/contact/axle_17.nc --out m/teeth
+gearlube sweep --mesh-table m/teeth/axle_17.nc     # the axle with teeth that differ
+gearlube build-fmu --mesh-table m/teeth/axle_17.nc
+```
+
+**Counting**: teeth are counted in the order in which they come into mesh when the pair is driven
+forward; tooth 2 follows tooth 1. Tooth 1 of the pinion meets tooth 1 of the gear at mesh phase
+zero.
+
+**Pitch** (`pitch`): one line for each tooth of a flank, all of them.
+
+```
+member,flank,tooth,deviation_um
+gear,drive,1,0.0
+```
+
+In micrometres along the circle of `pitch_radius_mm`. Cumulative: how far the flank lies further
+on in the sense of counting than it should; the mean does not count. Single: the change of that
+from the tooth before, tooth 1 from the last; they must sum to zero within 2 um.
+
+**Eccentricity** (`eccentricity_um`, `eccentricity_phase_deg`): of the teeth from the axis about
+which the member runs in the axle, beside that about which it was measured. What pitch was
+measured about is in the pitch deviations already. A runout (twice the eccentricity, peak to
+peak) that was measured about the same axis as pitch must not be given again.
+
+**Waves** (`waviness`): one line for each number of waves a turn.
+
+```
+member,flank,waves,amplitude_um,phase_deg
+gear,drive,83,0.4,45
+```
+
+The deviation is A cos(n theta + phase), plus for more material, with theta the rotation of the
+member in the drive direction at which a point of the flank is in contact. So waves run along the
+lines of contact, as those do that a wobbling work spindle or a worm of the machine leaves. theta
+is zero where tooth 1 stands at the mean point.
+
+### From teeth to orders
+
+For each mesh phase every tooth pair gets a curve: the torque that it carries by the pinion's
+rotation, on elastic teeth with the gap of its flanks. The errors of its two teeth shift the
+curve. The rotation at which all pairs together carry the torque, less that of nominal teeth, is
+the added error; times the mean arm of the mesh force it is in metres. This is done for every
+mesh of the hunting turn (468 of the shipped pair) at every torque of the table, and for both
+sides.
+
+From the hunting turn come a part that repeats with the pinion and one that repeats with the
+gear, each as orders of its turn: `e_pinion` and `e_gear` of the mesh table. The dynamics add
+them to the error e and its rate, in Python and in the FMUs. A pitch error thus acts as the load
+sharing lets it, and gives its order and sidebands of the mesh order; n waves a turn give order
+n. What repeats with the hunting turn alone is left out. The command tells its root mean square;
+in the example it is 0.01 to 0.09 um beside errors of 15 um.
+
+Exact up to the curves' cells where a flank is turned about its axis, as by pitch: 1 % of the
+direct solution of all pairs with changed gaps. Displacements and waves vary over the contact of
+a pair; their mean over it is taken, weighted with the growth of the forces. Stiffness, load
+shares and films stay those of nominal teeth: the mesh force of the axle is right about the
+table's torques, less so where an error is so large that a tooth loses contact.
+
+`tests/analytical/test_tooth_errors.py` has waves that return as their order with their
+amplitude, an eccentric member with the lever of the normal force, pitch errors against the
+stiffness of the pairs and against all pairs solved together.
+
 ## What is refused
 
 Missing points (they are named), points that are there twice, flanks called left and right,
@@ -87,7 +158,13 @@ TAIL = """
 
 - What is finer than the polynomial, such as marks of the feed and single scratches, is left out.
 - The polynomial goes on from the outermost points to the edges.
-- Teeth are averaged; that they differ is not in the contact.
+- Grids of several teeth are averaged; teeth differ by pitch, eccentricity and waves alone.
+- Orders are kept up to a quarter of `--positions` times the teeth; the corners of a step lie
+  above.
+- The gear turns in proportion to the pinion in these errors; that they shake it does not count.
+- The losses of `gearlube map` are those of nominal teeth. The torsional pair (`gearlube
+  resonance`), whose motions have the mesh period, refuses such a table.
+- No axial runout (wobble) of the gear.
 - No fit of machine settings to the deviations.
 """
 

@@ -110,6 +110,7 @@ from gearlube.studies.design.run import run_design as run_design
 # -- Study: measured gears
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile as MeasuredFile
 from gearlube.studies.measured.run import run_measured as run_measured
+from gearlube.studies.measured.teeth import run_tooth_errors as run_tooth_errors
 
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings

@@ -16,12 +16,24 @@ from gearlube_core.hypoid_geometry.flank.flank import Flank, Role, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.deviation_grid import COLUMNS
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
+from gearlube_core.hypoid_geometry.measured.tooth_error_files import (
+    PITCH_COLUMNS,
+    WAVE_COLUMNS,
+)
 from gearlube_core.storage.atomic_file import write_text
 
 FOLDER = Path(__file__).parents[2] / "examples" / "measured"
 MADE = "# made, not measured: python -m docs.measured.data"
 NOISE_UM = 0.3
 TEETH: dict[Role, tuple[int, ...]] = {"pinion": (1, 5, 9), "gear": (1, 13, 25)}
+WAVES = (
+    MADE,
+    ",".join(WAVE_COLUMNS),
+    "pinion,drive,31,0.3,0",
+    "pinion,coast,31,0.3,0",
+    "gear,drive,83,0.4,45",
+    "gear,coast,83,0.4,45",
+)
 CHANGES = {
     "pinion": {
         "pinion.machine.tilt_angle_deg": 0.05,
@@ -67,11 +79,25 @@ def _lines(head: str, smooth: Array, rng: np.random.Generator) -> list[str]:
     ]
 
 
+def pitch_lines(rng: np.random.Generator) -> list[str]:
+    """Return the lines of the CSV file of cumulative pitch deviations: once a turn, and noise."""
+    lines = [MADE, ",".join(PITCH_COLUMNS)]
+    for role, teeth, once, noise in (("pinion", 13, 4.0, 1.0), ("gear", 36, 8.0, 1.5)):
+        for side, phase in (("drive", 0.6), ("coast", 2.0)):
+            turn = 2.0 * np.pi * np.arange(teeth) / teeth
+            values = once * np.cos(turn - phase) + noise * rng.standard_normal(teeth)
+            values -= values[0]  # counted from tooth 1
+            lines += [f"{role},{side},{k},{value:.1f}" for k, value in enumerate(values, 1)]
+    return lines
+
+
 def main() -> None:
     """Write the CSV files."""
     rng = np.random.default_rng(17)
     file = MeasuredFile.from_toml(FOLDER / "axle_17.toml")
     write_text("\n".join(deviation_lines(file, rng)) + "\n", FOLDER / "deviations.csv")
+    write_text("\n".join(pitch_lines(rng)) + "\n", FOLDER / "pitch.csv")
+    write_text("\n".join(WAVES) + "\n", FOLDER / "waviness.csv")
 
 
 if __name__ == "__main__":

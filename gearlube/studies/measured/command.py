@@ -11,13 +11,16 @@ from rich.table import Table
 
 from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
-from gearlube.cli.options import OverwriteOption
+from gearlube.cli.options import JobsOption, OverwriteOption
+from gearlube.cli.progress_report import progress_on
 from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
+    from gearlube.studies.measured.teeth import ToothErrorResults
     from gearlube_core.hypoid_geometry.measured.measured_flanks import MeasuredFlanks
 
 logger = logging.getLogger("gearlube")
+_SHOWN = 4  # orders of a member in a row
 
 
 def measured(
@@ -25,19 +28,72 @@ def measured(
         str,
         typer.Argument(help="Measured-gear file (TOML), its CSV files beside it.", metavar="FILE"),
     ],
+    table: Annotated[
+        str | None,
+        typer.Option(
+            help="Mesh table that `gearlube contact` made of the gear file: add to it what single "
+            "teeth do (pitch, eccentricity, waves).",
+            metavar="TABLE",
+        ),
+    ] = None,
+    positions: Annotated[
+        int, typer.Option(help="With --table: positions over a mesh period.", metavar="N")
+    ] = 12,
+    jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_measured"),
     overwrite: OverwriteOption = False,
 ) -> None:
-    """Lay measured flanks on a hypoid pair; write its gear file for `gearlube contact`."""
+    """Lay measured flanks on a hypoid pair; write its gear file for `gearlube contact`.
+
+    With --table: the mesh table with the errors of single teeth, tooth_errors.nc and a figure.
+    Finished positions are kept in OUT: run the same command again to go on after a stop.
+    """
     from gearlube.studies.measured.run import run_measured
 
     with exit_on_error():
+        if table is not None:
+            with results_folder(out, "measured", overwrite=overwrite):
+                _teeth(file, table, positions, out, jobs)
+            return
         with results_folder(out, "measured", overwrite=overwrite):
             flanks = run_measured(file, folder=out)
         console.print(_table(flanks))
         gear = out / f"{flanks.file.name}.toml"
         logger.info("Results: %s (gear file), %s", gear, out / "flanks.png")
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
+
+
+def _teeth(file: str, table: str, positions: int, out: Path, jobs: int | None) -> None:
+    from gearlube.studies.measured.teeth import run_tooth_errors
+
+    with progress_on(console, "measured", 2 * positions) as progress:
+        found = run_tooth_errors(
+            file, table, positions=positions, folder=out, jobs=jobs, progress=progress
+        )
+    console.print(_orders(found))
+    mesh = out / f"{found.flanks.file.name}.nc"
+    logger.info("Results: %s (mesh table), %s", mesh, out / "tooth_errors.png")
+    logger.info("Next: gearlube sweep --mesh-table %s", mesh)
+
+
+def _orders(found: ToothErrorResults) -> Table:
+    import numpy as np
+
+    cycle, rest = found.cycle, found.cycle.turns()[1]
+    table = Table(title=f"{found.flanks.file.name}: largest orders, amplitude in µm")
+    table.add_column("torque [N·m]", justify="right")
+    orders = cycle.orders()
+    for member in orders:
+        table.add_column(f"of the {member}")
+    table.add_column("hunting turn alone, rms [µm]", justify="right")
+    for level, torque in enumerate(cycle.torque):
+        row = []
+        for values in orders.values():
+            amplitude = 1e6 * np.hypot(*values[level].T)
+            largest = np.argsort(amplitude)[::-1][:_SHOWN]
+            row.append(", ".join(f"{k + 1}: {amplitude[k]:.2f}" for k in largest))
+        table.add_row(f"{torque:g}", *row, f"{1e6 * rest[level]:.2f}")
+    return table
 
 
 def _table(flanks: MeasuredFlanks) -> Table:

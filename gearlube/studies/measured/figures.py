@@ -1,4 +1,4 @@
-"""Figure of measured flanks: deviations, the smooth surface, and what it leaves."""
+"""Figures of measured gears: deviations and smooth surfaces, errors of single teeth."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from gearlube.plotting.style import house_style, new_figure
+from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
+from gearlube_core.hypoid_contact.tooth_errors.error_cycle import ToothErrorCycle
 from gearlube_core.hypoid_geometry.measured.measured_flanks import MeasuredFlanks
+
+_LEAST = 1e-3  # um, amplitude that is shown
 
 
 def measured_flanks(flanks: MeasuredFlanks) -> Any:
@@ -37,4 +40,38 @@ def measured_flanks(flanks: MeasuredFlanks) -> Any:
         for ax in rows[-1]:
             ax.set_xlabel("toe  -  heel")
         figure.suptitle(f"{flanks.file.name}: plus is more material", fontsize=11.5)
+    return figure
+
+
+def tooth_errors(cycle: ToothErrorCycle, name: str) -> Any:
+    """Return what single teeth add to the transmission error: over each turn, and by orders.
+
+    At the lowest and the highest torque on the drive flanks.
+    """
+    drive = np.flatnonzero(cycle.torque > 0.0)
+    levels = dict.fromkeys((int(drive[0]), int(drive[-1])))
+    turns, orders = cycle.turns()[0], cycle.orders()
+    teeth = {"pinion": cycle.pinion_teeth, "gear": cycle.gear_teeth}
+    with house_style():
+        figure = new_figure(11.0, 3.4 * len(turns))
+        rows = figure.subplots(len(turns), 2, squeeze=False)
+        for (turn_axis, order_axis), member in zip(rows, turns, strict=True):
+            values = turns[member]
+            place = np.arange(values.shape[1]) / values.shape[1]
+            amplitude = 1e6 * np.hypot(orders[member][..., 0], orders[member][..., 1])
+            for level, colour in zip(levels, (BLUE, VERMILLION), strict=False):
+                label = f"{cycle.torque[level]:g} N·m"
+                turn_axis.plot(place, 1e6 * values[level], color=colour, lw=1.2, label=label)
+                order = np.arange(1, amplitude.shape[1] + 1) + 0.25 * (colour == VERMILLION)
+                order_axis.vlines(order, _LEAST, amplitude[level], color=colour, lw=1.6)
+            for mesh in range(teeth[member], amplitude.shape[1] + 1, teeth[member]):
+                order_axis.axvline(mesh, color=GREY, lw=0.8, zorder=0)
+            turn_axis.set(xlabel=f"turn of the {member}", ylabel="added error [µm]", xlim=(0, 1))
+            turn_axis.legend()
+            order_axis.set(
+                xlabel=f"order of the {member}; grey: mesh orders", ylabel="amplitude [µm]"
+            )
+            order_axis.set_yscale("log")
+            order_axis.set_ylim(bottom=_LEAST)
+        figure.suptitle(f"{name}: what single teeth add to the transmission error", fontsize=11.5)
     return figure
