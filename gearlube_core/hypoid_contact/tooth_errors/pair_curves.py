@@ -15,7 +15,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.contact.unilateral import solve_rotation
 from gearlube_core.contact.unilateral_problem import UnilateralSolution
 from gearlube_core.contact.unilateral_stiffness import tangent_forces
-from gearlube_core.hypoid_contact.gap_map import GapMap
+from gearlube_core.hypoid_contact.gap_map import GapMap, closing_arm, gear_arm
 from gearlube_core.hypoid_contact.loaded_contact import (
     LoadedSettings,
     MeshPosition,
@@ -102,7 +102,7 @@ def position_curves(
                 continue
             force = float(solution.forces.sum()) * ((k + 1) / k) ** 2.5  # about that of the next
             weight = growth / float(growth @ _flat(strip.arm, growth))
-            turns = contact_turns(pair, strip)
+            turns = contact_turns(pair, strip.point, strip.normal)
             found["rotation"][j, k] = rotation
             found["torque"][j, k] = solution.torque
             found["ratio"][j, k] = weight @ _flat(strip.gear_arm, growth)
@@ -130,28 +130,30 @@ def _begin(found: Record, j: int, first: float) -> None:
     found["rotation"][j, :k] = np.linspace(first, found["rotation"][j, k], k + 1)[:k]
 
 
-def contact_turns(pair: FlankPair, strip: Strip) -> Array:
-    """Return how much further the gear turns until cells are in contact, teeth as nominal [rad].
+def contact_turns(pair: FlankPair, point: Array, normal: Array) -> Array:
+    """Return how much further the gear turns until points are in contact, teeth as nominal [rad].
 
     Waves that a machine's or a tool's turning cuts run along lines of equal value of this. The
     gear's normal arm does not change as the gear turns, the pinion's does: that they have the teeth
-    ratio is the condition.
+    ratio is the condition, here to first order in the turn.
+
+    Parameters
+    ----------
+    pair : FlankPair
+    point, normal : ndarray of shape (..., 3)
+        Of the gear flank in the fixed frame [m] [-]; normals towards the pinion.
     """
-    usable = strip.usable
+    arm = closing_arm(pair, point, normal)
+    # the change of arm = -n.(a x (r - o)) as r and n turn about the gear's axis
     axis, origin = pair.pinion_axis_placed
-    gear_axis = pair.gear.axis
-    sign = pair.touching_sign
-    r, n = strip.point, strip.normal
-    around_r, around_n = np.cross(gear_axis, r), np.cross(gear_axis, n)
-    swing = np.cross(sign * -axis, r - origin)
-    arm = -np.einsum("...i,...i->...", n, swing)
-    rate = -np.einsum("...i,...i->...", around_n, swing) - np.einsum(
-        "...i,...i->...", n, np.cross(sign * -axis, around_r)
+    turned_point, turned_normal = np.cross(pair.gear.axis, point), np.cross(pair.gear.axis, normal)
+    lever = np.cross(pair.touching_sign * -axis, point - origin)
+    rate = -np.einsum("...i,...i->...", turned_normal, lever) - np.einsum(
+        "...i,...i->...", normal, np.cross(pair.touching_sign * -axis, turned_point)
     )
-    wanted = strip.gear_arm / pair.ratio
     with np.errstate(divide="ignore", invalid="ignore"):
-        turn = (wanted - arm) / rate
-    return np.where(usable & np.isfinite(turn), turn, 0.0)
+        turn = (gear_arm(pair, point, normal) / pair.ratio - arm) / rate
+    return np.where(np.isfinite(turn), turn, 0.0)
 
 
 def _flat(values: Array, growth: Array) -> Array:
