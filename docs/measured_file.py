@@ -128,6 +128,21 @@ table's torques, less so where an error is so large that a tooth loses contact.
 amplitude, an eccentric member with the lever of the normal force, pitch errors against the
 stiffness of the pairs and against all pairs solved together.
 
+## Nominal points
+
+With `nominal_points` the grids need no sections. One line for each point, rows and columns as in
+the deviations:
+
+```
+member,flank,row,column,x_mm,y_mm,z_mm
+```
+
+in a right-handed frame of the member, z along its axis and away from the crossing point of the
+axes; where the zeros of z and of the angle lie does not matter. Each grid must lie within 2 um
+of the flank of the gear file, after one rotation and one axial shift. If it does not, the
+sentence says how far it is off, and whether it fits the other flank, the other hand, z the other
+way round or another unit. A tilt angle that differs by 0.1 deg is 4 um rms.
+
 ## What is refused
 
 Missing points (they are named), points that are there twice, flanks called left and right,
@@ -135,8 +150,8 @@ members without a described grid, numbers beyond 500 um, grids whose largest dev
 0.1 um (in another unit, most likely), middle points that are not zero. Every sentence names file
 and line.
 
-Not found out: a grid with rows or columns in the wrong order, or of the wrong hand, where its
-middle point still is zero.
+Not found out without nominal points: a grid with rows or columns in the wrong order, or of the
+wrong hand, where its middle point still is zero.
 
 ## The smooth surface
 

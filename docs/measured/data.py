@@ -12,7 +12,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.flank_deviation import flank_deviation
-from gearlube_core.hypoid_geometry.flank.flank import Flank, Role, Side
+from gearlube_core.hypoid_geometry.flank.flank import Flank, Role
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.deviation_grid import COLUMNS
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
@@ -59,14 +59,11 @@ def deviation_lines(file: MeasuredFile, rng: np.random.Generator) -> list[str]:
     """Return the lines of the CSV file of deviations."""
     nominal = file.nominal(FOLDER)
     lines = [MADE, ",".join(COLUMNS)]
-    sides: tuple[Side, Side] = ("drive", "coast")
-    for role, places in file.places(nominal.blank()).items():
-        cut = cut_file(nominal, role)
-        for side in sides:
-            flanks = (Flank.from_file(one, role, side) for one in (nominal, cut))
-            smooth = flank_deviation(*flanks, places.s, places.t)
-            for tooth in TEETH[role]:
-                lines += _lines(f"{role},{side},{tooth}", 1e6 * smooth, rng)
+    for (role, side), places in file.places(nominal.blank()).items():
+        flanks = (Flank.from_file(one, role, side) for one in (nominal, cut_file(nominal, role)))
+        smooth = flank_deviation(*flanks, places.s, places.t)
+        for tooth in TEETH[role]:
+            lines += _lines(f"{role},{side},{tooth}", 1e6 * smooth, rng)
     return lines
 
 

@@ -89,7 +89,7 @@ def wrong(rows, index, line):
         ([*lines(), *lines("convex")], ["is there twice", "or check flank and tooth"]),
         (wrong(lines(), 3, "gear,left,1,1,4,2.0"), ["flank must be drive, coast", "got 'left'"]),
         (wrong(lines(), 3, "ring,drive,1,1,4,2.0"), ["member must be pinion or gear, got 'ring'"]),
-        (wrong(lines(), 3, "pinion,drive,1,1,4,2.0"), ["Add the section [pinion.grid]"]),
+        (wrong(lines(), 3, "pinion,drive,1,1,4,2.0"), ["Add the section [pinion.grid], or its"]),
         (wrong(lines(), 3, "gear,drive,1,1,10,2.0"), ["line 6: column must be", "from 1 to 9"]),
         (wrong(lines(), 3, "gear,drive,1,1,4,2000"), ["from -500 to 500, got '2000'"]),
         (wrong(lines(), 3, "gear,drive,1,1,4,2,5"), ["line 6: must have 6 entries", "got 7"]),

@@ -103,7 +103,7 @@ class DeviationGrid:
 
 
 def read_deviation_grids(
-    path: str | Path, places: Mapping[Role, GridPlaces], *, middle_is_zero: bool
+    path: str | Path, places: Mapping[tuple[Role, Side], GridPlaces], *, middle_is_zero: bool
 ) -> dict[tuple[Role, Side], DeviationGrid]:
     """Return the grids of a CSV file with the columns of `COLUMNS`, in any order of lines.
 
@@ -112,7 +112,7 @@ def read_deviation_grids(
     path
         Rows count from the root to the tip, columns from the toe to the heel, both from 1.
         Deviations in micrometres along the outward normal, plus for more material.
-    places : mapping of role to GridPlaces
+    places : mapping of (role, side) to GridPlaces
     middle_is_zero
         Whether the middle point of each grid must be zero, as after turning the member for it.
 
@@ -125,14 +125,15 @@ def read_deviation_grids(
     values: dict[tuple[Role, Side], dict[int, Array]] = {}
     for row in read_rows(path, COLUMNS):
         role = row.role()
-        if role not in places:
-            raise ParameterError(
-                f"{row.where}: the file has points of the {role}, whose grid is not described. Add "
-                f"the section [{role}.grid]."
-            )
         side = row.side(role)
+        if (role, side) not in places:
+            raise ParameterError(
+                f"{row.where}: the file has points of the {role}'s {side} flank, whose grid is not "
+                f"described. Add the section [{role}.grid], or its nominal points."
+            )
         tooth = row.whole("tooth", 1, 400)
-        shape = places[role].s.size, places[role].t.size
+        at = places[role, side]
+        shape = at.s.size, at.t.size
         i, j = row.whole("row", 1, shape[0]) - 1, row.whole("column", 1, shape[1]) - 1
         value = row.number("deviation_um", -_MOST, _MOST, "Give micrometres, plus for material.")
         grid = values.setdefault((role, side), {}).setdefault(tooth, np.full(shape, np.nan))
@@ -157,7 +158,7 @@ def read_deviation_grids(
         found[role, side] = DeviationGrid(
             role=role,
             side=side,
-            places=places[role],
+            places=places[role, side],
             teeth=tuple(sorted(teeth)),
             deviation=1e-6 * stacked,
         )

@@ -46,6 +46,11 @@ class MeasuredFile(InputFile):
         "to this file"
     )
     deviations: Text | None = Field(None, description="CSV file of normal deviations, likewise")
+    nominal_points: Text | None = Field(
+        None,
+        description="CSV file of the nominal points of the grids, likewise: checked against the "
+        "flanks; then no grid needs a section",
+    )
     middle_point: Literal["zero", "measured"] = Field(
         "zero",
         description="Whether the member was turned so that the middle point of each grid is zero",
@@ -64,9 +69,9 @@ class MeasuredFile(InputFile):
         beside = folder / self.gear_file
         return HypoidGearFile.given(str(beside) if beside.is_file() else self.gear_file)
 
-    def places(self, blank: HypoidBlank) -> dict[Role, GridPlaces]:
-        """Return where the grid points of each member lie on its flanks."""
-        found: dict[Role, GridPlaces] = {}
+    def places(self, blank: HypoidBlank) -> dict[tuple[Role, Side], GridPlaces]:
+        """Return where the grid points of each described grid lie on its flanks."""
+        found: dict[tuple[Role, Side], GridPlaces] = {}
         members: tuple[tuple[Role, MeasuredMember], ...] = (
             ("pinion", self.pinion),
             ("gear", self.gear),
@@ -76,7 +81,7 @@ class MeasuredFile(InputFile):
                 continue
             region = tooth_region(blank, role)
             try:
-                found[role] = GridPlaces.inset(
+                places = GridPlaces.inset(
                     member.grid.rows,
                     member.grid.columns,
                     height=region.whole_height,
@@ -88,6 +93,7 @@ class MeasuredFile(InputFile):
                 )
             except ParameterError as reason:
                 raise ParameterError(f"{self.name}, {role}: {reason}") from None
+            found[role, "drive"] = found[role, "coast"] = places
         return found
 
     def tooth_errors(self, folder: Path, blank: HypoidBlank) -> ToothErrors:

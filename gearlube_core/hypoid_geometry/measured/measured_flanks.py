@@ -15,6 +15,7 @@ from gearlube_core.hypoid_geometry.measured.deviation_grid import (
     read_deviation_grids,
 )
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
+from gearlube_core.hypoid_geometry.measured.nominal_points import check_nominal_points
 from gearlube_core.hypoid_geometry.measured.smooth_surface import SmoothSurface, smooth_surface
 from gearlube_core.hypoid_geometry.measured.tooth_errors import ToothErrors
 
@@ -70,10 +71,12 @@ def read_measured_flanks(path: str | Path) -> MeasuredFlanks:
     grids: dict[tuple[Role, Side], DeviationGrid] = {}
     if file.deviations is not None:
         places = file.places(nominal.blank())
+        if file.nominal_points is not None:
+            places |= check_nominal_points(folder / file.nominal_points, nominal)
         if not places:
             raise ParameterError(
                 f"{path}: deviations are given, so a grid must be described. Add the section "
-                "[pinion.grid] or [gear.grid]."
+                "[pinion.grid] or [gear.grid], or nominal_points."
             )
         grids = read_deviation_grids(
             folder / file.deviations, places, middle_is_zero=file.middle_point == "zero"
