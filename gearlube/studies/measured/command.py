@@ -17,6 +17,7 @@ from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.measured.teeth import ToothErrorResults
+    from gearlube_core.hypoid_contact.settings_fit import SettingsFit
     from gearlube_core.hypoid_geometry.measured.measured_flanks import MeasuredFlanks
 
 logger = logging.getLogger("gearlube")
@@ -39,12 +40,22 @@ def measured(
     positions: Annotated[
         int, typer.Option(help="With --table: positions over a mesh period.", metavar="N")
     ] = 12,
+    fit: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Setting with which the flanks may have been cut, as "
+            "pinion.machine.tilt_angle_deg; repeat for more. Writes settings.csv, with corrective "
+            "settings.",
+            metavar="FIELD",
+        ),
+    ] = None,
     jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_measured"),
     overwrite: OverwriteOption = False,
 ) -> None:
     """Lay measured flanks on a hypoid pair; write its gear file for `gearlube contact`.
 
+    With --fit: settings that explain the deviations, and corrective ones.
     With --table: the mesh table with the errors of single teeth, tooth_errors.nc and a figure.
     Finished positions are kept in OUT: run the same command again to go on after a stop.
     """
@@ -57,10 +68,32 @@ def measured(
             return
         with results_folder(out, "measured", overwrite=overwrite):
             flanks = run_measured(file, folder=out)
+            fits = _fits(flanks, fit or [], out)
         console.print(_table(flanks))
+        for one in fits:
+            console.print(_settings(flanks.file.name, one))
         gear = out / f"{flanks.file.name}.toml"
         logger.info("Results: %s (gear file), %s", gear, out / "flanks.png")
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
+
+
+def _fits(flanks: MeasuredFlanks, fields: list[str], out: Path) -> list[SettingsFit]:
+    from gearlube.studies.measured.settings import fitted_settings
+
+    return fitted_settings(flanks, fields, out) if fields else []
+
+
+def _settings(name: str, fit: SettingsFit) -> Table:
+    from gearlube.studies.measured.settings import rows
+
+    title = f"{name}: {1e6 * fit.before:.2f} µm rms, with other settings {1e6 * fit.after:.2f} µm"
+    table = Table(title=title)
+    table.add_column("setting", overflow="fold")
+    for heading in ("unit", "nominal", "cut with more by", "uncertain by", "corrective"):
+        table.add_column(heading, justify="right")
+    for row in rows(fit):
+        table.add_row(*row)
+    return table
 
 
 def _teeth(file: str, table: str, positions: int, out: Path, jobs: int | None) -> None:
