@@ -112,6 +112,11 @@ from gearlube_core.flank_optimisation.problem_file import OptimisationFile as Op
 from gearlube_core.flank_optimisation.optimise import OptimiseSettings as OptimiseSettings
 from gearlube.studies.optimise.run import run_optimise as run_optimise
 
+# -- Study: measured gears
+from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile as MeasuredFile
+from gearlube.studies.measured.run import run_measured as run_measured
+from gearlube.studies.measured.teeth import run_tooth_errors as run_tooth_errors
+
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact

@@ -64,6 +64,11 @@ COMMANDS = (
         summary="Make a gear pair quieter: reliefs and settings under limits.",
     ),
     LazyCommand(
+        name="measured",
+        target="gearlube.studies.measured.command:measured",
+        summary="Lay measured flanks on a hypoid pair: from CSV to a gear file.",
+    ),
+    LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",

@@ -142,7 +142,7 @@ class MeshPosition:
     def at(cls, pair: FlankPair, phase: float, pairs: int = 2) -> MeshPosition:
         """Return the position at mesh phase `phase`, with `pairs` tooth pairs before and after."""
         phases = tuple(phase + j for j in range(-pairs, pairs + 1))
-        maps = tuple(gap_map(pair, *_angles(pair, k)) for k in phases)
+        maps = tuple(gap_map(pair, *pair_angles(pair, k)) for k in phases)
         return cls(pair, phase, phases, maps)
 
     @property
@@ -176,7 +176,7 @@ class MeshPosition:
             closing: float, width: float
         ) -> tuple[list[tuple[float, Strip]], CoupledSolution]:
             strips = self.strips(torque / arm, closing, width, stiffness, settings)
-            coupled = [_coupled(self.pair, strip, stiffness) for _, strip in strips]
+            coupled = [coupled_strip(self.pair, strip, stiffness) for _, strip in strips]
             return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
 
         strips, solved = solve_on_growing_strips(
@@ -219,13 +219,15 @@ class MeshPosition:
             frame = strip_frame(touching, closing)
             if frame is None:
                 continue
-            half = _WIDE * width * self._hertz_half_width(frame, force, stiffness.contact_modulus)
-            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, half, settings.strips)
+            half = _WIDE * width * self.hertz_half_width(frame, force, stiffness.contact_modulus)
+            strip = cut_strip(
+                self.pair, *pair_angles(self.pair, phase), frame, half, settings.strips
+            )
             if strip.usable.any():
                 strips.append((phase, strip))
         return strips
 
-    def _hertz_half_width(self, frame: StripFrame, force: float, modulus: float) -> float:
+    def hertz_half_width(self, frame: StripFrame, force: float, modulus: float) -> float:
         """Return the half-width [m] of line contact under `force` [N] over the strip's length."""
         curvature = 0.0
         for flank, start in (
@@ -260,11 +262,13 @@ class MeshPosition:
         )
 
 
-def _angles(pair: FlankPair, phase: float) -> tuple[float, float]:
+def pair_angles(pair: FlankPair, phase: float) -> tuple[float, float]:
+    """Return the angles of gear and pinion [rad] at which a tooth pair has a phase."""
     return phase * pair.gear_pitch, phase * pair.pinion_pitch
 
 
-def _coupled(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> CoupledStrip:
+def coupled_strip(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> CoupledStrip:
+    """Return the cells of a strip with their weights on the elastic teeth."""
     usable = strip.usable
     parts = []
     for flank, parameters, compliance in (

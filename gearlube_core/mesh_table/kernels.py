@@ -11,6 +11,7 @@ from gearlube_core.kernels.jit import kernel
 # order of the series in a packed coefficient array
 K_M, R_P, R_G, N_X, N_Y, N_Z, E = range(7)
 N_SERIES = 7
+SHAFT_HEAD = 3  # numbers before the coefficients of `shaft_error`
 
 _THIRD = 1.0 / 3.0
 _WINDOWS_PER_RADIAN = _THIRD / (2.0 * math.pi)
@@ -83,11 +84,42 @@ def blend_levels(packed: Array, size: int, bracket: LoadBracket, out: Array) -> 
 
 
 @kernel
+def shaft_error(tail: Array, phi: float) -> tuple[float, float]:
+    """Return the part of e with periods of the shafts [m] and its derivative by `phi` [m/rad].
+
+    Parameters
+    ----------
+    tail : ndarray of shape (SHAFT_HEAD + 2 (P + Q),)
+        P, Q, gear turns per pinion turn; then cosine and sine of orders 1 to P of the pinion and of
+        orders 1 to Q of the gear [m].
+    phi : float
+        Pinion angle [rad]; the gear turns in proportion.
+    """
+    error = 0.0
+    slope = 0.0
+    place = SHAFT_HEAD
+    step = 1.0
+    for member in range(2):
+        c1 = math.cos(step * phi)
+        s1 = math.sin(step * phi)
+        c = 1.0
+        s = 0.0
+        for order in range(1, int(tail[member]) + 1):
+            c, s = c * c1 - s * s1, s * c1 + c * s1
+            error += tail[place] * c + tail[place + 1] * s
+            slope += order * step * (tail[place + 1] * c - tail[place] * s)
+            place += 2
+        step = tail[2]
+    return error, slope
+
+
+@kernel
 def mesh_series(coefficients: Array, n_orders: int, z_p: float, phi: float) -> MeshSeries:
     """Return all series at pinion angle `phi` [rad].
 
     `coefficients` has shape (N_SERIES * (2 n_orders + 1),): the series are grouped by order,
     first the means, then for each order h the N_SERIES cosine and the N_SERIES sine coefficients.
+    What follows, if anything, is the `tail` of `shaft_error`.
 
     Notes
     -----
@@ -124,6 +156,9 @@ def mesh_series(coefficients: Array, n_orders: int, z_p: float, phi: float) -> M
         dny += w * (coefficients[j + N_Y] * c - coefficients[i + N_Y] * s)
         dnz += w * (coefficients[j + N_Z] * c - coefficients[i + N_Z] * s)
         de += w * (coefficients[j + E] * c - coefficients[i + E] * s)
+    size = N_SERIES * (2 * n_orders + 1)
+    if coefficients.size > size:
+        de += shaft_error(coefficients[size:], phi)[1]
     return MeshSeries(k, rp, rg, nx, ny, nz, dk, dnx, dny, dnz, de)
 
 
@@ -139,6 +174,9 @@ def transmission_error(coefficients: Array, n_orders: int, z_p: float, phi: floa
         c, s = c * c1 - s * s1, s * c1 + c * s1
         i = N_SERIES * (2 * h - 1)
         e += coefficients[i + E] * c + coefficients[i + N_SERIES + E] * s
+    size = N_SERIES * (2 * n_orders + 1)
+    if coefficients.size > size:
+        e += shaft_error(coefficients[size:], phi)[0]
     return e
 
 
