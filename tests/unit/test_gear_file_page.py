@@ -11,8 +11,8 @@ from docs import (
     ehl_case_file,
     gear_file,
     helical_gear_file,
-    problem_file,
     measured_file,
+    problem_file,
 )
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
