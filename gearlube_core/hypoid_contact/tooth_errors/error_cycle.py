@@ -28,7 +28,7 @@ from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import compute_positions, stack_records
 
 _POSITIONS_PER_ORDER = 4  # as in the mesh table: what is above folds onto the rest
-_FORMAT = 1  # raise with every change of the model that changes results
+_FORMAT = 2  # raise with every change of the model that changes results
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -245,7 +245,8 @@ def _span(errors: ToothErrors, pair: FlankPair, table: MeshTable) -> float:
         if side in member.pitch:
             span += ratio * float(np.ptp(member.pitch[side]))
         amplitudes = sum(wave.amplitude for wave in member.waves.get(side, ()))
-        span += 2.0 * (amplitudes + member.eccentricity) / arm
+        moved = member.eccentricity + member.wobble * pair.gear.region.outer_cone_distance
+        span += 2.0 * (amplitudes + moved) / arm
     return span
 
 

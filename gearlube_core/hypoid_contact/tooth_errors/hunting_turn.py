@@ -128,7 +128,8 @@ class TurnProblem:
         sign = pair.touching_sign
         count = self.curves["rotation"].shape[0]
         nominal = float(self.rotation(np.zeros((1, count)))[0])
-        ratio, direction = self.means("ratio", nominal), self.means("direction", nominal)
+        ratio = self.means("ratio", nominal)
+        direction, moment = (np.nan_to_num(self.means(n, nominal)) for n in ("direction", "moment"))
         tooth = meshes[:, None] - (np.arange(count) - count // 2)
         found = np.zeros((meshes.size, count))
         turns = meshes + self.phase
@@ -140,9 +141,18 @@ class TurnProblem:
             angle = 2.0 * math.pi * turns / teeth
             if side in member.pitch:
                 found += sign * scale * member.pitch[side][tooth % teeth]
-            if member.eccentricity:
-                moved = _displacement(pair, role, angle, errors)
-                found += (1.0 if role == "pinion" else -1.0) * moved @ np.nan_to_num(direction).T
+            if member.eccentricity or member.wobble:
+                axis, lever = _axis_and_lever(pair, role)
+                unit = lever / np.linalg.norm(lever)
+                moved = member.eccentricity * _around(
+                    role, axis, unit, angle - member.eccentricity_angle
+                )
+                opens = 1.0 if role == "pinion" else -1.0  # normals point to the pinion
+                found += opens * moved @ direction.T
+                tilt = member.wobble * np.cross(
+                    _around(role, axis, unit, angle - member.wobble_angle), axis
+                )
+                found += opens * tilt @ (moment + np.cross(lever, direction)).T
             means = self.means(f"{role}_waves", nominal)
             for i, wave in enumerate(member.waves.get(side, ())):
                 place = wave.waves * angle + wave.phase
@@ -153,16 +163,15 @@ class TurnProblem:
         return np.asarray(np.nan_to_num(found))
 
 
-def _displacement(pair: FlankPair, role: str, angle: Array, errors: ToothErrors) -> Array:
-    """Return the displacement of a member's teeth [m] at its angles (M,), fixed frame, (M, 3)."""
-    member = errors.of(role)  # type: ignore[arg-type]
+def _axis_and_lever(pair: FlankPair, role: str) -> tuple[Array, Array]:
+    """Return a member's axis, away from the crossing point, and the mean point from it [m]."""
     axis, origin = pair.pinion_axis_placed if role == "pinion" else (pair.gear.axis, np.zeros(3))
-    radial = pair.mean_point - origin
-    radial = radial - (radial @ axis) * axis
-    radial /= np.linalg.norm(radial)
-    # drive turns the gear about +z and the pinion about -x; teeth are counted the other way
-    sense = -1.0 if role == "pinion" else 1.0
-    turn = sense * (angle - member.eccentricity_angle)
-    return np.asarray(
-        member.eccentricity * Rotation.from_rotvec(turn[:, None] * axis).apply(radial)
-    )
+    lever = pair.mean_point - origin
+    return axis, lever - (lever @ axis) * axis
+
+
+def _around(role: str, axis: Array, unit: Array, angle: Array) -> Array:
+    """Return a direction that turns with a member driven forward, (M, 3); `unit` at angle zero."""
+    # drive turns the gear about +z and the pinion about -x
+    turn = (-1.0 if role == "pinion" else 1.0) * angle
+    return np.asarray(Rotation.from_rotvec(turn[:, None] * axis).apply(unit))

@@ -67,7 +67,8 @@ def position_curves(
     Record
         J = 2 beside + 1 pairs, K = SAMPLES + 1 rotations, the first of them at first touch:
         rotation [rad], torque [N.m], ratio (R_g over R_p) [-], all (J, K); direction (J, K, 3),
-        mean normal over the arm [1/m]; pinion_waves, gear_waves (J, K, counts, 2), mean cosine and
+        mean normal over the arm [1/m]; moment (J, K, 3), its moment about the mean point [-];
+        pinion_waves, gear_waves (J, K, counts, 2), mean cosine and
         sine of waves over the arm [1/m]. NaN where a pair touches later. Means are weighted with
         the growth of the forces.
 
@@ -85,6 +86,7 @@ def position_curves(
         "torque": np.full(shape, np.nan),
         "ratio": np.full(shape, np.nan),
         "direction": np.full((*shape, 3), np.nan),
+        "moment": np.full((*shape, 3), np.nan),
         "pinion_waves": np.full((*shape, len(counts[0]), 2), np.nan),
         "gear_waves": np.full((*shape, len(counts[1]), 2), np.nan),
     }
@@ -107,6 +109,8 @@ def position_curves(
             found["torque"][j, k] = solution.torque
             found["ratio"][j, k] = weight @ _flat(strip.gear_arm, growth)
             found["direction"][j, k] = weight @ strip.normal.reshape(-1, 3)
+            moment = np.cross(strip.point - pair.mean_point, strip.normal)
+            found["moment"][j, k] = weight @ moment.reshape(-1, 3)
             for name, numbers, scale in (
                 ("pinion_waves", counts[0], pair.ratio),
                 ("gear_waves", counts[1], 1.0),

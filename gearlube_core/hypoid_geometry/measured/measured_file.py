@@ -115,6 +115,8 @@ class MeasuredFile(InputFile):
                 pitch={side: one / radius for (whose, side), one in pitch.items() if whose == role},
                 eccentricity=1e-6 * member.eccentricity_um,
                 eccentricity_angle=DEGREE * member.eccentricity_phase_deg,
+                wobble=1e-6 * member.wobble_um / part.mean_pitch_radius,
+                wobble_angle=DEGREE * member.wobble_phase_deg,
                 waves={side: one for (whose, side), one in waves.items() if whose == role},
             )
         return ToothErrors(pinion=found["pinion"], gear=found["gear"])

@@ -43,4 +43,13 @@ class MeasuredMember(Section):
     eccentricity_phase_deg: Angle = Field(
         0.0, description="Its direction: angle from tooth 1 in the sense of counting"
     )
+    wobble_um: Eccentricity = Field(
+        0.0,
+        description="Axial rise of the teeth over a turn from their mean, at the pitch radius: "
+        "half of the axial runout, peak to peak",
+    )
+    wobble_phase_deg: Angle = Field(
+        0.0,
+        description="Where the teeth stand farthest from the crossing point, counted likewise",
+    )
     grid: Grid | None = None

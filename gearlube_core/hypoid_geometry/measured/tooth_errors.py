@@ -36,12 +36,19 @@ class MemberErrors:
         Of the teeth from the running axis [m].
     eccentricity_angle : float
         Its direction: angle from the reference point of tooth 1 in the sense of counting [rad].
+    wobble : float
+        Tilt of the teeth against the running axis [rad], about the point of the axis at the level
+        of the mean point.
+    wobble_angle : float
+        Where the teeth stand farthest from the crossing point, counted as eccentricity_angle [rad].
     waves : mapping of side to tuple of Wave
     """
 
     pitch: Mapping[Side, Array] = field(default_factory=dict)
     eccentricity: float = 0.0
     eccentricity_angle: float = 0.0
+    wobble: float = 0.0
+    wobble_angle: float = 0.0
     waves: Mapping[Side, tuple[Wave, ...]] = field(default_factory=dict)
 
     @property
@@ -50,6 +57,7 @@ class MemberErrors:
         return not (
             any(np.ptp(values) > 0.0 for values in self.pitch.values())
             or self.eccentricity
+            or self.wobble
             or any(wave.amplitude for waves in self.waves.values() for wave in waves)
         )
 
