@@ -14,7 +14,7 @@ from gearlube_core.flank_optimisation.held_model import HeldModel
 from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
 from gearlube_core.flank_optimisation.problem import GearFile, Problem
 from gearlube_core.flank_optimisation.problem_file import Limits
-from gearlube_core.flank_optimisation.search import Found, Round, SearchSettings, search
+from gearlube_core.flank_optimisation.search import KEPT, Found, Round, SearchSettings, search
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
 from gearlube_core.helical_contact.tooth_body import pair_stiffness as helical_stiffness
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -23,7 +23,6 @@ from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
-KEPT = 1.005  # a limit counts as kept up to here: what cells and positions change
 EVALUATIONS, POSITIONS = "evaluations", "positions"  # folders of what is kept
 
 

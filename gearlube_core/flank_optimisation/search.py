@@ -16,9 +16,10 @@ from gearlube_core.flank_optimisation.evaluation import Evaluation
 from gearlube_core.flank_optimisation.goal import Goal
 from gearlube_core.flank_optimisation.held_model import HeldModel
 
+KEPT = 1.005  # a limit counts as kept up to here: what cells and positions change
 _BREACH = 5.0  # price of a limit that is broken by its own size, in parts of the aim before
 _LEAST_GAIN = 0.02  # of the aim: a round that gains less is the last
-_MOST_MARGIN = 0.2
+_MOST_MARGIN = 0.05
 _TOO_FAR = 0.25  # factor on the region where flanks do not meet or are twice as bad
 _SMALLEST = 0.01  # region of a round, in parts of the bounds
 
@@ -40,7 +41,7 @@ class SearchSettings:
     """
 
     rounds: int = 6
-    steps: int = 15
+    steps: int = 20
     region: float = 0.35
     tolerance: float = 1e-3
 
@@ -113,7 +114,10 @@ def search(
         box = np.maximum(low, values - reach), np.minimum(high, values + reach)
         tried = _best_in_box(here, goal, values, box, low, high, settings, margin)
         if np.all(np.abs(tried - values) < 1e-6 * (high - low)):
-            break
+            if margin == 0.0:
+                break
+            margin = 0.0
+            continue
         try:
             there = model(tried)
             moved = there.evaluate(tried)
@@ -124,22 +128,23 @@ def search(
         better = reached < merit
         rounds.append(_round(goal, tried, moved, better))
         gain = (merit - reached) / merit
-        if not better:  # held cells are off by so much of a limit
-            margin = min(margin + max(rounds[-1].limits - 1.0, 0.0), _MOST_MARGIN)
+        over = max(rounds[-1].limits - 1.0, 0.0)
+        if not better and over < _MOST_MARGIN:  # held cells are off by so much of a limit
+            margin = min(margin + over, _MOST_MARGIN)
         if better:
             here, values, found, merit = there, tried, moved, reached
         if gain > 0.1:
             region = min(1.0, 2.0 * region)
         else:
             region *= 0.5 if gain > -1.0 else _TOO_FAR
-        if region < _SMALLEST or (better and gain < _LEAST_GAIN):
+        if region < _SMALLEST or (better and gain < _LEAST_GAIN and rounds[-1].limits <= KEPT):
             break
     return Found(values, found, tuple(rounds))
 
 
 def _merit(goal: Goal, found: Evaluation, margin: float = 0.0) -> float:
     used = goal.used(found)[0]
-    over = np.maximum(used + margin - 1.0, 0.0)
+    over = np.maximum(used + margin - KEPT, 0.0)
     return goal.highest(found) + _BREACH * float(over.max(initial=0.0))
 
 

@@ -10,8 +10,9 @@ import numpy as np
 from gearlube.studies.optimise.dataset import designs, unit_of
 from gearlube_core.arrays import Array
 from gearlube_core.flank_optimisation.evaluation import Evaluation
-from gearlube_core.flank_optimisation.optimise import KEPT, Optimised
+from gearlube_core.flank_optimisation.optimise import Optimised
 from gearlube_core.flank_optimisation.problem import values_of
+from gearlube_core.flank_optimisation.search import KEPT
 
 _MICRO = 1e-6
 _NEAR = 0.005  # of the bounds: a value counts as on its bound
