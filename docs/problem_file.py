@@ -70,6 +70,10 @@ All but `edge_share` are relative to the pair as it is. The loss is that at one 
 friction: oil and film are not in it. The root of a flank has no border; of a helical pair both ends
 of the face have.
 
+Both flanks of a hypoid member are cut in one set-up: where machine or cutter may change, the slopes
+between the flanks of the other side at the mean point stay below 4 mrad. Name the blade angle of
+that side as a parameter too, so that it can follow, and look at that side with `gearlube contact`.
+
 ## How it is found
 
 1. Cells of the loaded contact are cut once about the contact, 1.25 times wider and for 1.5 times

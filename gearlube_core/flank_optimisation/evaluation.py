@@ -21,6 +21,10 @@ class Evaluation:
         As in `LoadedMeasures`: [rad], [Pa], [-], [-].
     rotation_rate, pressure_rate, sliding_rate, edge_share_rate : ndarray of shape (J, S, N, P)
         Per unit of each parameter; P is 0 where rates were not asked.
+    other_slopes : ndarray of shape (2,) or (0,)
+        Slopes between the flanks of the other side at the mean point, along the tooth and over its
+        height [rad]; empty where that side cannot change.
+    other_slopes_rate : ndarray of shape (2, P) or (0, P)
     """
 
     rotation: Array
@@ -31,16 +35,25 @@ class Evaluation:
     pressure_rate: Array
     sliding_rate: Array
     edge_share_rate: Array
+    other_slopes: Array
+    other_slopes_rate: Array
 
     @classmethod
     def of(
-        cls, rows: list[tuple[LoadedMeasures, LoadedMeasures]], shape: tuple[int, int, int]
+        cls,
+        rows: list[tuple[LoadedMeasures, LoadedMeasures]],
+        shape: tuple[int, int, int],
+        other: tuple[Array, Array] | None = None,
     ) -> Evaluation:
-        """Return the evaluation of measures and rates in the order of `shape` (J, S, N)."""
+        """Return the evaluation of measures and rates in the order of `shape` (J, S, N).
+
+        `other`: slopes of the other side and their rates.
+        """
         values = np.array([one for one, _ in rows]).reshape(*shape, 4)
         rates = np.array([one for _, one in rows]).reshape(*shape, 4, -1)
         parts = [values[..., k] for k in range(4)] + [rates[..., k, :] for k in range(4)]
-        return cls(*parts)
+        none = np.empty(0), np.empty((0, rates.shape[-1]))
+        return cls(*[*parts, *(other or none)])
 
     @classmethod
     def from_record(cls, record: Record) -> Evaluation:

@@ -14,19 +14,25 @@ from gearlube_core.arrays import Array
 from gearlube_core.flank_optimisation import helical_positions, hypoid_positions
 from gearlube_core.flank_optimisation.evaluation import Evaluation
 from gearlube_core.flank_optimisation.held_position import HeldPosition
-from gearlube_core.flank_optimisation.problem import Problem, Scenario, with_error
+from gearlube_core.flank_optimisation.problem import (
+    Problem,
+    Scenario,
+    unchecked,
+    with_error,
+)
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings as HelicalLoaded
 from gearlube_core.helical_contact.strips import StripSettings as HelicalStrips
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings as HypoidLoaded
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.sensitivity.parameter import Parameter
 from gearlube_core.hypoid_contact.strips import StripSettings as HypoidStrips
+from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import single_threaded
 from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
-_FORMAT = 1  # raise with every change of the model that changes results
+_FORMAT = 2  # raise with every change of the model that changes results
 HELICAL_CELLS = HelicalLoaded(strips=HelicalStrips(cells_across=13, cells_along=22))
 HYPOID_CELLS = HypoidLoaded(strips=HypoidStrips(cells_across=14, cells_along=24))
 
@@ -83,7 +89,7 @@ class HeldModel:
                 position.measures(flanks[(k // each) % len(flanks)])
                 for k, position in enumerate(self._positions)
             ]
-        found = Evaluation.of(rows, self.shape)
+        found = Evaluation.of(rows, self.shape, self._other_side(values))
         store.keep(key, found.record())
         return found
 
@@ -120,6 +126,30 @@ class HeldModel:
             settings = [_is_setting(name) for name, _, _ in ends]
             moves = np.where(settings, values - self.at, 0.0)
         return hypoid_positions.HypoidFlanks.of(file, self.problem.given.side, ends, moves)
+
+    def _other_side(self, values: Array | None) -> tuple[Array, Array] | None:
+        """Return the slopes of the flanks that do not carry, and their rates; None: they stay.
+
+        Both flanks of a member are cut in one set-up.
+        """
+        if values is None or not self.problem.is_hypoid:
+            return None
+        ends = self._ends(values)
+        if not any(_is_setting(name) for name, _, _ in ends):
+            return None
+        side: Side = "coast" if self.problem.given.side == "drive" else "drive"
+
+        def slopes(changes: dict[str, float]) -> Array:
+            file = unchecked(self.problem.tried(values, self.problem.scenarios[0]), changes)
+            return hypoid_positions.side_slopes(file, side)
+
+        rates = [
+            (slopes({name: high}) - slopes({name: low})) / (high - low)
+            if _is_setting(name)
+            else np.zeros(2)
+            for name, low, high in ends
+        ]
+        return slopes({}), np.array(rates).T
 
     def _cut(self) -> list[HeldPosition]:
         torques, band = self.problem.given.torques_n_m, self.problem.given.limits.edge_band

@@ -18,6 +18,7 @@ from gearlube_core.flank_optimisation.held_position import (
 )
 from gearlube_core.flank_optimisation.problem import unchecked
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, LoadedState, MeshPosition
+from gearlube_core.hypoid_contact.mean_point_slopes import mean_point_slopes
 from gearlube_core.hypoid_contact.mesh_cycle import PAIRS_BESIDE
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.sensitivity.frozen_cells import (
@@ -27,7 +28,8 @@ from gearlube_core.hypoid_contact.sensitivity.frozen_cells import (
 )
 from gearlube_core.hypoid_contact.strips import Strip
 from gearlube_core.hypoid_geometry.flank.correction import FlankCorrection
-from gearlube_core.hypoid_geometry.flank.flank import Side
+from gearlube_core.hypoid_geometry.flank.flank import CURVES, Side
+from gearlube_core.hypoid_geometry.flank.machine_frames import gear_cut, pinion_cut
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.frozen_equilibrium import frozen_compliance
@@ -221,6 +223,20 @@ def plain_measures(
         total += float(forces.sum())
         pressure = max(pressure, float(one.pressure.max()))
     return LoadedMeasures(state.rotation, pressure, slide / torque, edge / total)
+
+
+def side_slopes(file: HypoidGearFile, side: Side) -> Array:
+    """Return the slopes between the flanks of a side at the mean point (2,) [rad].
+
+    Along the tooth and over its height, see `mean_point_slopes`.
+
+    Raises
+    ------
+    ParameterError
+        A cutter does not reach the tooth.
+    """
+    gear, pinion = gear_cut(file, CURVES["gear", side]), pinion_cut(file, CURVES["pinion", side])
+    return np.array(mean_point_slopes(gear, pinion, file.blank()))
 
 
 def _wide_strips(
