@@ -17,7 +17,7 @@ from gearlube_core.flank_optimisation.goal import Goal
 from gearlube_core.flank_optimisation.held_model import HeldModel
 
 KEPT = 1.005  # a limit counts as kept up to here: what cells and positions change
-_BREACH = 5.0  # price of a limit that is broken by its own size, in parts of the aim before
+_BREACH = 20.0  # price of a limit that is broken by its own size, in parts of the aim before
 _LEAST_GAIN = 0.02  # of the aim: a round that gains less is the last
 _MOST_MARGIN = 0.05
 _TOO_FAR = 0.25  # factor on the region where flanks do not meet or are twice as bad
