@@ -71,8 +71,9 @@ friction: oil and film are not in it. The root of a flank has no border; of a he
 of the face have.
 
 Both flanks of a hypoid member are cut in one set-up: where machine or cutter may change, the slopes
-between the flanks of the other side at the mean point stay below 4 mrad. Name the blade angle of
-that side as a parameter too, so that it can follow, and look at that side with `gearlube contact`.
+between the flanks of the other side at the mean point stay below 4 mrad, and the reference plane of
+the pinion's cutter within 0.05 mm of mid-depth. Name the blade angle of that side as a parameter
+too, so that it can follow, and look at that side with `gearlube contact`.
 
 ## How it is found
 

@@ -21,10 +21,10 @@ class Evaluation:
         As in `LoadedMeasures`: [rad], [Pa], [-], [-].
     rotation_rate, pressure_rate, sliding_rate, edge_share_rate : ndarray of shape (J, S, N, P)
         Per unit of each parameter; P is 0 where rates were not asked.
-    other_slopes : ndarray of shape (2,) or (0,)
-        Slopes between the flanks of the other side at the mean point, along the tooth and over its
-        height [rad]; empty where that side cannot change.
-    other_slopes_rate : ndarray of shape (2, P) or (0, P)
+    settings_used : ndarray of shape (3,) or (0,)
+        Parts of what the check of a gear file leaves machine settings, -1 to 1: slopes between the
+        flanks of the other side, depth of the pinion's cut; empty where no setting may change.
+    settings_used_rate : ndarray of shape (3, P) or (0, P)
     """
 
     rotation: Array
@@ -35,8 +35,8 @@ class Evaluation:
     pressure_rate: Array
     sliding_rate: Array
     edge_share_rate: Array
-    other_slopes: Array
-    other_slopes_rate: Array
+    settings_used: Array
+    settings_used_rate: Array
 
     @classmethod
     def of(
@@ -47,7 +47,7 @@ class Evaluation:
     ) -> Evaluation:
         """Return the evaluation of measures and rates in the order of `shape` (J, S, N).
 
-        `other`: slopes of the other side and their rates.
+        `other`: `settings_used` and its rates.
         """
         values = np.array([one for one, _ in rows]).reshape(*shape, 4)
         rates = np.array([one for _, one in rows]).reshape(*shape, 4, -1)

@@ -10,8 +10,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.flank_optimisation.evaluation import Evaluation
 from gearlube_core.flank_optimisation.problem_file import Limits
 
-OTHER_SLOPE = 4e-3  # rad; gear files are refused beyond 10 mrad
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Goal:
@@ -92,9 +90,9 @@ class Goal:
             here = np.maximum(found.spread(self.orders), 1e-6 * most)
             rate = np.real(np.einsum("jsk,jskp->jp", np.conj(moved), moved_rate))
             add(here / most, rate / (moved.shape[1] * here * most)[:, None])
-        for slope, slope_rate in zip(found.other_slopes, found.other_slopes_rate, strict=True):
+        for part, rate in zip(found.settings_used, found.settings_used_rate, strict=True):
             for sign in (1.0, -1.0):
-                add(sign * slope / OTHER_SLOPE, sign * slope_rate / OTHER_SLOPE)
+                add(sign * part, sign * rate)
         if not parts:
             return np.empty(0), np.empty((0, count))
         return np.concatenate([a for a, _ in parts]), np.concatenate([b for _, b in parts])

@@ -32,7 +32,9 @@ from gearlube_core.storage.process_pool import single_threaded
 from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
-_FORMAT = 2  # raise with every change of the model that changes results
+_FORMAT = 3  # raise with every change of the model that changes results
+OTHER_SLOPE = 4e-3  # rad, of flanks that do not carry; gear files are refused beyond 10 mrad
+PLANE = 0.05e-3  # m, pinion cutter's plane from mid-depth; gear files are refused beyond 0.1 mm
 HELICAL_CELLS = HelicalLoaded(strips=HelicalStrips(cells_across=13, cells_along=22))
 HYPOID_CELLS = HypoidLoaded(strips=HypoidStrips(cells_across=14, cells_along=24))
 
@@ -128,9 +130,10 @@ class HeldModel:
         return hypoid_positions.HypoidFlanks.of(file, self.problem.given.side, ends, moves)
 
     def _other_side(self, values: Array | None) -> tuple[Array, Array] | None:
-        """Return the slopes of the flanks that do not carry, and their rates; None: they stay.
+        """Return what the check of a gear file leaves settings, and its rates; None: they stay.
 
-        Both flanks of a member are cut in one set-up.
+        Both flanks of a member are cut in one set-up: slopes between those that do not carry, and
+        the depth of the cut.
         """
         if values is None or not self.problem.is_hypoid:
             return None
@@ -139,17 +142,18 @@ class HeldModel:
             return None
         side: Side = "coast" if self.problem.given.side == "drive" else "drive"
 
-        def slopes(changes: dict[str, float]) -> Array:
+        def used(changes: dict[str, float]) -> Array:
             file = unchecked(self.problem.tried(values, self.problem.scenarios[0]), changes)
-            return hypoid_positions.side_slopes(file, side)
+            slopes = hypoid_positions.side_slopes(file, side) / OTHER_SLOPE
+            return np.append(slopes, hypoid_positions.plane_distance(file) / PLANE)
 
         rates = [
-            (slopes({name: high}) - slopes({name: low})) / (high - low)
+            (used({name: high}) - used({name: low})) / (high - low)
             if _is_setting(name)
-            else np.zeros(2)
+            else np.zeros(3)
             for name, low, high in ends
         ]
-        return slopes({}), np.array(rates).T
+        return used({}), np.array(rates).T
 
     def _cut(self) -> list[HeldPosition]:
         torques, band = self.problem.given.torques_n_m, self.problem.given.limits.edge_band

@@ -29,7 +29,11 @@ from gearlube_core.hypoid_contact.sensitivity.frozen_cells import (
 from gearlube_core.hypoid_contact.strips import Strip
 from gearlube_core.hypoid_geometry.flank.correction import FlankCorrection
 from gearlube_core.hypoid_geometry.flank.flank import CURVES, Side
-from gearlube_core.hypoid_geometry.flank.machine_frames import gear_cut, pinion_cut
+from gearlube_core.hypoid_geometry.flank.machine_frames import (
+    gear_cut,
+    pinion_cut,
+    reference_plane_distance,
+)
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.frozen_equilibrium import frozen_compliance
@@ -237,6 +241,11 @@ def side_slopes(file: HypoidGearFile, side: Side) -> Array:
     """
     gear, pinion = gear_cut(file, CURVES["gear", side]), pinion_cut(file, CURVES["pinion", side])
     return np.array(mean_point_slopes(gear, pinion, file.blank()))
+
+
+def plane_distance(file: HypoidGearFile) -> float:
+    """Return how far the pinion cutter's reference plane misses mid-depth [m]."""
+    return reference_plane_distance(pinion_cut(file, CURVES["pinion", "drive"]), file.blank())
 
 
 def _wide_strips(

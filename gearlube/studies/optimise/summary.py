@@ -9,10 +9,13 @@ import numpy as np
 
 from gearlube.studies.optimise.dataset import designs, unit_of
 from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
 from gearlube_core.flank_optimisation.evaluation import Evaluation
 from gearlube_core.flank_optimisation.optimise import Optimised
 from gearlube_core.flank_optimisation.problem import values_of
 from gearlube_core.flank_optimisation.search import KEPT
+from gearlube_core.hypoid_contact.refusal import check_pair
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 _MICRO = 1e-6
 _NEAR = 0.005  # of the bounds: a value counts as on its bound
@@ -99,6 +102,11 @@ def sentences(found: Optimised) -> list[str]:
         for bound, word in ((low, "low"), (high, "high")):
             if abs(value - bound) < _NEAR * width:
                 said.append(f"{name} stands on its bound {word} = {bound:g} {unit_of(name)}.")
+    if isinstance(found.better.file, HypoidGearFile):
+        try:
+            check_pair(found.better.file)
+        except ParameterError as reason:
+            said.append(f"The better gear file would be refused: {reason}")
     if not any(one.kept for one in found.better.rounds[1:]):
         said.append(
             "The search found nothing better than its start. Give another start, wider bounds, "
