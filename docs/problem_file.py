@@ -21,7 +21,7 @@ The tables are written by `python -m docs.problem_file` from the data model
 (`gearlube_core/flank_optimisation/problem_file.py`), the text with them; not edited by hand.
 
 What of a gear pair may change, and for which torques and errors it shall be quiet.
-[optimise.md](optimise.md) shows two pairs made better.
+[optimise.md](optimise.md) shows three pairs before and after.
 
 ```
 gearlube optimise helical --example > my_problem.toml     # or hypoid

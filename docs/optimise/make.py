@@ -1,6 +1,6 @@
 """Optimise the shipped problems for docs/optimise.md: python -m docs.optimise.make FOLDER [NAME].
 
-Some minutes for helical, half an hour for hypoid. The results are kept in FOLDER, where a run that
+Some minutes for each. The results are kept in FOLDER, where a run that
 was stopped goes on. Figures go to docs/images, tables to this folder; then the page is written.
 """
 
