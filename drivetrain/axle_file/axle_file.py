@@ -104,7 +104,7 @@ class AxleFile(InputFile):
 
     name: Text = Field(default="axle", description="What reports call the axle")
     source: Text | None = Field(default=None, description="Where the numbers are from")
-    gear_set: GearSet
+    gear_set: GearSet = Field(default={}, validate_default=True)  # type: ignore[arg-type]
     pinion: Member = Member()
     gear: Member = Member()
     steel: Steel = Steel()

@@ -85,7 +85,7 @@ class GearSet(ModelSection):
     def _check_gears(self) -> GearSet:
         if self.mesh_table is None and self.gear_file is None:
             raise ValueError(
-                "gear_set must name its gears, got neither mesh_table nor gear_file; write "
+                "mesh_table or gear_file must be given, got neither; write "
                 'gear_file = "my_gears.toml", or mesh_table = "mohammadpour_2015", which ships'
             )
         if self.mesh_table is not None and self.gear_file is not None:
