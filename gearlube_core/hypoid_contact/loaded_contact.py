@@ -76,9 +76,6 @@ class LoadedPair:
     torque: float
 
 
-_Strips = list[tuple[float, Strip]]  # of each tooth pair, with its phase
-
-
 @dataclass(frozen=True, slots=True)
 class LoadedState:
     """Equilibrium at one gear angle and pinion torque.
@@ -175,8 +172,10 @@ class MeshPosition:
         arm = float(np.nanmedian(np.abs(self.maps[len(self.maps) // 2].arm)))
         closing = closing or torque / arm / _FIRST_STIFFNESS
 
-        def solve(closing: float, width: float) -> tuple[_Strips, CoupledSolution]:
-            strips = self._strips(torque / arm, closing, width, stiffness, settings)
+        def solve(
+            closing: float, width: float
+        ) -> tuple[list[tuple[float, Strip]], CoupledSolution]:
+            strips = self.strips(torque / arm, closing, width, stiffness, settings)
             coupled = [coupled_strip(self.pair, strip, stiffness) for _, strip in strips]
             return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
 
@@ -191,14 +190,27 @@ class MeshPosition:
         )
         return self._state(torque, strips, solved)
 
-    def _strips(
+    def strips(
         self,
         force: float,
         closing: float,
         width: float,
         stiffness: PairStiffness,
         settings: LoadedSettings,
-    ) -> _Strips:
+    ) -> list[tuple[float, Strip]]:
+        """Return the strips of all pairs within reach, each with the pair's phase.
+
+        Parameters
+        ----------
+        force : float
+            Mesh force that sets their width [N].
+        closing : float
+            Beyond first touch [m].
+        width : float
+            Factor on their width [-].
+        stiffness : PairStiffness
+        settings : LoadedSettings
+        """
         strips = []
         for phase, gaps in zip(self.phases, self.maps, strict=True):
             # turned to first touch: with backlash to close, arms that differ by per cents would
@@ -227,7 +239,9 @@ class MeshPosition:
         per_length = force / max(2.0 * frame.half_length, _SHORTEST)
         return math.sqrt(4.0 * per_length / (math.pi * modulus * curvature))
 
-    def _state(self, torque: float, strips: _Strips, solved: CoupledSolution) -> LoadedState:
+    def _state(
+        self, torque: float, strips: list[tuple[float, Strip]], solved: CoupledSolution
+    ) -> LoadedState:
         pairs = []
         for (phase, strip), forces, pressure in zip(
             strips, solved.forces, solved.pressure, strict=True

@@ -12,10 +12,12 @@ from docs import (
     gear_file,
     helical_gear_file,
     measured_file,
+    problem_file,
 )
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -29,6 +31,7 @@ PAGES = {
     helical_gear_file: (HelicalGearFile,),
     ehl_case_file: (LineCase, PointCase, HypoidCase),
     axle_file: (AxleFile,),
+    problem_file: (OptimisationFile,),
     measured_file: (MeasuredFile,),
 }
 
