@@ -29,7 +29,7 @@ SECTIONS = {
     "pinion.machine": "[pinion.machine]: generated, with cutter tilt",
     "gear.machine": "[gear.machine]: form-cut (Formate), or generated with a ratio of roll",
     "pinion.drive_flank": "[pinion.drive_flank], [pinion.coast_flank], [gear.drive_flank] and "
-    "[gear.coast_flank]: reliefs and crowns",
+    "[gear.coast_flank]: reliefs, crowns and measured surfaces",
 }
 
 HEAD = """# The gear file

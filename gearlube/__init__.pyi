@@ -107,6 +107,16 @@ from gearlube_core.ehl.statistics.rough_film import statistics_of_run as statist
 from gearlube_core.hypoid_design.blank_file import BlankFile as BlankFile
 from gearlube.studies.design.run import run_design as run_design
 
+# -- Study: quieter flanks of a pair
+from gearlube_core.flank_optimisation.problem_file import OptimisationFile as OptimisationFile
+from gearlube_core.flank_optimisation.optimise import OptimiseSettings as OptimiseSettings
+from gearlube.studies.optimise.run import run_optimise as run_optimise
+
+# -- Study: measured gears
+from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile as MeasuredFile
+from gearlube.studies.measured.run import run_measured as run_measured
+from gearlube.studies.measured.teeth import run_tooth_errors as run_tooth_errors
+
 # -- Study: tooth contact of a hypoid pair
 from gearlube_core.hypoid_contact.analysis import ContactSettings as ContactSettings
 from gearlube.studies.contact.run import run_contact as run_contact

@@ -59,6 +59,16 @@ COMMANDS = (
         summary="Design a hypoid or bevel pair: from a blank to machine settings.",
     ),
     LazyCommand(
+        name="optimise",
+        target="gearlube.studies.optimise.command:optimise",
+        summary="Make a gear pair quieter: reliefs and settings under limits.",
+    ),
+    LazyCommand(
+        name="measured",
+        target="gearlube.studies.measured.command:measured",
+        summary="Lay measured flanks on a hypoid pair: from CSV to a gear file.",
+    ),
+    LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",

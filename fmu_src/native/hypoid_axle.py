@@ -302,7 +302,7 @@ def _places(found: ParameterMap, mesh: PackedMesh) -> _Places:
         control=trial + N_STATE,
         rollers=rollers,
         scratch=scratch,
-        work_end=scratch + max(work_size(mesh.orders, mesh.nodes), START_WORK),
+        work_end=scratch + max(work_size(mesh.series_size, mesh.nodes), START_WORK),
         **_DERIVED,
         orders=mesh.orders,
         nodes=mesh.nodes,

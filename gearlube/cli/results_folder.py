@@ -20,6 +20,7 @@ _RESULTS = frozenset(
         "report.html",
         "contact.nc",
         "design.nc",
+        "optimise.nc",
         "resonance.nc",
         "cycle.nc",
         "line.nc",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -15,13 +16,21 @@ def toml_text(data: Mapping[str, Any], prefix: str = "") -> str:
     name = "a"
     [oil]
     file = "oil.toml"
+    >>> print(toml_text({"why": {"pair.offset_mm": "printed"}}), end="")
+    [why]
+    "pair.offset_mm" = "printed"
     """
     plain = {key: value for key, value in data.items() if not isinstance(value, Mapping)}
-    lines = "".join(f"{key} = {_value(value)}\n" for key, value in plain.items())
+    lines = "".join(f"{_key(key)} = {_value(value)}\n" for key, value in plain.items())
     for key, value in data.items():
         if isinstance(value, Mapping) and value:
-            lines += f"[{prefix}{key}]\n{toml_text(value, f'{prefix}{key}.')}"
+            section = f"{prefix}{_key(key)}"
+            lines += f"[{section}]\n{toml_text(value, f'{section}.')}"
     return lines
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _value(key)
 
 
 def _value(value: Any) -> str:

@@ -11,7 +11,7 @@ from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_rolling import rolling_geometry
 from gearlube_core.friction.thermal_eyring_data import circular_pressure_coefficient
 from gearlube_core.mesh_table.kernels import K_M, N_SERIES, R_G, R_P, E
-from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.mesh_table.table import MEMBERS, MeshTable
 
 # the series whose mean is the linear stiffness of the mesh
 STIFFNESS_SERIES = {"tangent": "k_t", "secant": "k_m"}
@@ -33,8 +33,9 @@ class PackedMesh:
     ----------
     levels : ndarray of shape (L,)
         Load levels, signed pinion torque [N.m].
-    series : ndarray of shape (L * N_SERIES * (2 H + 1),)
-        Fourier coefficients grouped by load, then order, then cosine before sine.
+    series : ndarray of shape (L * (N_SERIES * (2 H + 1) + tail),)
+        Fourier coefficients grouped by load, then order, then cosine before sine; at each load
+        followed by the tail that `mesh_table.kernels.shaft_error` reads, if teeth differ.
     windows : ndarray of shape (L * (N + 1) * N_CHANNELS,)
         Pair data at the nodes, the first node repeated at the end.
     orders, nodes : int
@@ -50,7 +51,7 @@ class PackedMesh:
     @property
     def series_size(self) -> int:
         """Number of series coefficients at one load level."""
-        return N_SERIES * (2 * self.orders + 1)
+        return self.series.size // self.levels.size
 
     @property
     def window_size(self) -> int:
@@ -125,8 +126,30 @@ def pack_mesh(
             )
     windows[:, nodes] = windows[:, 0]
     return PackedMesh(
-        np.ascontiguousarray(table.torque), series.ravel(), windows.ravel(), orders, nodes
+        np.ascontiguousarray(table.torque),
+        np.concatenate([series.reshape(levels, -1), _shaft_tail(table)], axis=1).ravel(),
+        windows.ravel(),
+        orders,
+        nodes,
     )
+
+
+def _shaft_tail(table: MeshTable) -> Array:
+    """Return the tails of `shaft_error` at each load, shape (L, 0) where all teeth are alike."""
+    levels = table.torque.size
+    if not table.shaft_error:
+        return np.zeros((levels, 0))
+    none = np.zeros((levels, 0, 2))
+    parts = [_even(table.shaft_error.get(member, none)) for member in MEMBERS]
+    head = [parts[0].shape[1], parts[1].shape[1], 1.0 / table.ratio]
+    flat = [part.reshape(levels, -1) for part in parts]
+    return np.concatenate([np.tile(head, (levels, 1)), *flat], axis=1)
+
+
+def _even(coefficients: Array) -> Array:
+    """Return (L, N, 2) coefficients with one more order, of nothing, where N is odd."""
+    more = coefficients.shape[1] % 2
+    return np.pad(coefficients, ((0, 0), (0, more), (0, 0)))
 
 
 def _flat(coefficients: Array) -> Array:

@@ -188,7 +188,7 @@ class MeshPosition:
         half_width = _WIDE * self._hertz_half_width(line_load, stiffness.contact_modulus)
 
         def solve(closing: float, half_width: float) -> tuple[list[LineStrip], CoupledSolution]:
-            strips = self._strips(closing, half_width, settings.strips)
+            strips = self.strips(closing, half_width, settings.strips)
             coupled = [coupled_strip(self.modified.pair, strip, stiffness) for strip in strips]
             return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
 
@@ -202,9 +202,11 @@ class MeshPosition:
         )
         return self._state(torque, strips, solved)
 
-    def _strips(
-        self, closing: float, half_width: float, settings: StripSettings
-    ) -> list[LineStrip]:
+    def strips(self, closing: float, half_width: float, settings: StripSettings) -> list[LineStrip]:
+        """Return the strips of all lines within `closing` [rad] of first touch.
+
+        `half_width` [m] is that off the line of action.
+        """
         reach = self.unloaded_rotation + closing
         strips = []
         for number, gap in self.gaps.items():

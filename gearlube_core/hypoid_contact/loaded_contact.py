@@ -76,9 +76,6 @@ class LoadedPair:
     torque: float
 
 
-_Strips = list[tuple[float, Strip]]  # of each tooth pair, with its phase
-
-
 @dataclass(frozen=True, slots=True)
 class LoadedState:
     """Equilibrium at one gear angle and pinion torque.
@@ -145,7 +142,7 @@ class MeshPosition:
     def at(cls, pair: FlankPair, phase: float, pairs: int = 2) -> MeshPosition:
         """Return the position at mesh phase `phase`, with `pairs` tooth pairs before and after."""
         phases = tuple(phase + j for j in range(-pairs, pairs + 1))
-        maps = tuple(gap_map(pair, *_angles(pair, k)) for k in phases)
+        maps = tuple(gap_map(pair, *pair_angles(pair, k)) for k in phases)
         return cls(pair, phase, phases, maps)
 
     @property
@@ -175,9 +172,11 @@ class MeshPosition:
         arm = float(np.nanmedian(np.abs(self.maps[len(self.maps) // 2].arm)))
         closing = closing or torque / arm / _FIRST_STIFFNESS
 
-        def solve(closing: float, width: float) -> tuple[_Strips, CoupledSolution]:
-            strips = self._strips(torque / arm, closing, width, stiffness, settings)
-            coupled = [_coupled(self.pair, strip, stiffness) for _, strip in strips]
+        def solve(
+            closing: float, width: float
+        ) -> tuple[list[tuple[float, Strip]], CoupledSolution]:
+            strips = self.strips(torque / arm, closing, width, stiffness, settings)
+            coupled = [coupled_strip(self.pair, strip, stiffness) for _, strip in strips]
             return strips, solve_coupled(coupled, stiffness, torque, settings.tolerance)
 
         strips, solved = solve_on_growing_strips(
@@ -191,14 +190,27 @@ class MeshPosition:
         )
         return self._state(torque, strips, solved)
 
-    def _strips(
+    def strips(
         self,
         force: float,
         closing: float,
         width: float,
         stiffness: PairStiffness,
         settings: LoadedSettings,
-    ) -> _Strips:
+    ) -> list[tuple[float, Strip]]:
+        """Return the strips of all pairs within reach, each with the pair's phase.
+
+        Parameters
+        ----------
+        force : float
+            Mesh force that sets their width [N].
+        closing : float
+            Beyond first touch [m].
+        width : float
+            Factor on their width [-].
+        stiffness : PairStiffness
+        settings : LoadedSettings
+        """
         strips = []
         for phase, gaps in zip(self.phases, self.maps, strict=True):
             # turned to first touch: with backlash to close, arms that differ by per cents would
@@ -207,13 +219,15 @@ class MeshPosition:
             frame = strip_frame(touching, closing)
             if frame is None:
                 continue
-            half = _WIDE * width * self._hertz_half_width(frame, force, stiffness.contact_modulus)
-            strip = cut_strip(self.pair, *_angles(self.pair, phase), frame, half, settings.strips)
+            half = _WIDE * width * self.hertz_half_width(frame, force, stiffness.contact_modulus)
+            strip = cut_strip(
+                self.pair, *pair_angles(self.pair, phase), frame, half, settings.strips
+            )
             if strip.usable.any():
                 strips.append((phase, strip))
         return strips
 
-    def _hertz_half_width(self, frame: StripFrame, force: float, modulus: float) -> float:
+    def hertz_half_width(self, frame: StripFrame, force: float, modulus: float) -> float:
         """Return the half-width [m] of line contact under `force` [N] over the strip's length."""
         curvature = 0.0
         for flank, start in (
@@ -225,7 +239,9 @@ class MeshPosition:
         per_length = force / max(2.0 * frame.half_length, _SHORTEST)
         return math.sqrt(4.0 * per_length / (math.pi * modulus * curvature))
 
-    def _state(self, torque: float, strips: _Strips, solved: CoupledSolution) -> LoadedState:
+    def _state(
+        self, torque: float, strips: list[tuple[float, Strip]], solved: CoupledSolution
+    ) -> LoadedState:
         pairs = []
         for (phase, strip), forces, pressure in zip(
             strips, solved.forces, solved.pressure, strict=True
@@ -246,11 +262,13 @@ class MeshPosition:
         )
 
 
-def _angles(pair: FlankPair, phase: float) -> tuple[float, float]:
+def pair_angles(pair: FlankPair, phase: float) -> tuple[float, float]:
+    """Return the angles of gear and pinion [rad] at which a tooth pair has a phase."""
     return phase * pair.gear_pitch, phase * pair.pinion_pitch
 
 
-def _coupled(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> CoupledStrip:
+def coupled_strip(pair: FlankPair, strip: Strip, stiffness: PairStiffness) -> CoupledStrip:
+    """Return the cells of a strip with their weights on the elastic teeth."""
     usable = strip.usable
     parts = []
     for flank, parameters, compliance in (

@@ -159,6 +159,7 @@ class HypoidGearFile(InputFile):
             profile_crown=found.profile_crown_um * 1e-6,
             lead_crown=found.lead_crown_um * 1e-6,
             twist=found.twist_um * 1e-6,
+            surface=tuple(value * 1e-6 for value in found.surface_um),
         )
 
     def origin(self, field: str) -> Origin:

@@ -9,6 +9,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_geometry.flank.correction import surface_degree
 from gearlube_core.input_file.input_file import Section
 
 Millimetres = Annotated[float, Field(ge=-1000.0, le=1000.0, allow_inf_nan=False)]
@@ -28,6 +30,7 @@ BladeAngle = Annotated[float, Field(ge=1.0, le=45.0, allow_inf_nan=False)]
 Correction = Annotated[float, Field(ge=-5.0, le=5.0, allow_inf_nan=False)]
 Removal = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False)]
 Crown = Annotated[float, Field(ge=-500.0, le=500.0, allow_inf_nan=False)]
+Coefficients = Annotated[tuple[Crown, ...], Field(strict=False)]
 Extent = Annotated[float, Field(gt=0.0, le=200.0, allow_inf_nan=False)]
 Rounding = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False)]
 
@@ -209,10 +212,24 @@ class FlankRelief(Section):
         description="Removed at the tip of the heel and the root of the toe, left standing as much "
         "at the other corners, none along the middle lines",
     )
+    surface_um: Coefficients = Field(
+        (),
+        description="Smooth removal over the whole flank, a_ij x^i y^j, of either sign, in the "
+        "order 1, x, y, x^2, x y, y^2, ...: x -1 at the root line to 1 at the tip, y -1 at the toe "
+        "to 1 at the heel. Written by `gearlube measured`; 1, 3, 6, 10, 15 or 21 numbers, each "
+        "-500 to 500 um",
+    )
 
     @model_validator(mode="after")
     def _check_reliefs(self) -> FlankRelief:
+        if self.surface_um:
+            try:
+                surface_degree(len(self.surface_um))
+            except ParameterError as reason:
+                raise ValueError(str(reason).replace("surface must", "surface_um must")) from None
         for name in type(self).model_fields:
+            if name == "surface_um":
+                continue
             amount = abs(getattr(self, name) or 0.0)
             if name.endswith("_um") and 0.0 < amount < _LEAST_RELIEF:
                 raise ValueError(

@@ -17,6 +17,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_mm_per_rad": "mm/rad",
     "_um": "um",
     "_deg": "deg",
+    "_mrad": "mrad",
     "_degc": "degC",
     "_kg": "kg",
     "_l": "l",

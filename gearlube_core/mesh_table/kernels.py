@@ -11,6 +11,7 @@ from gearlube_core.kernels.jit import kernel
 # order of the series in a packed coefficient array
 K_M, R_P, R_G, N_X, N_Y, N_Z, E = range(7)
 N_SERIES = 7
+SHAFT_HEAD = 3  # numbers before the coefficients of `shaft_error`
 
 _THIRD = 1.0 / 3.0
 _WINDOWS_PER_RADIAN = _THIRD / (2.0 * math.pi)
@@ -83,11 +84,71 @@ def blend_levels(packed: Array, size: int, bracket: LoadBracket, out: Array) -> 
 
 
 @kernel
+def shaft_error(tail: Array, phi: float) -> float:
+    """Return the part of e with periods of the shafts [m].
+
+    Parameters
+    ----------
+    tail : ndarray of shape (SHAFT_HEAD + 2 (P + Q),)
+        P and Q, even, and gear turns per pinion turn; then cosine and sine of orders 1 to P of
+        the pinion and of orders 1 to Q of the gear [m].
+    phi : float
+        Pinion angle [rad]; the gear turns in proportion.
+    """
+    error = 0.0
+    place = SHAFT_HEAD
+    step = 1.0
+    for member in range(2):
+        c1 = math.cos(step * phi)
+        s1 = math.sin(step * phi)
+        c = 1.0
+        s = 0.0
+        for _ in range(int(tail[member])):
+            c, s = c * c1 - s * s1, s * c1 + c * s1
+            error += tail[place] * c + tail[place + 1] * s
+            place += 2
+        step = tail[2]
+    return error
+
+
+@kernel
+def shaft_error_rate(tail: Array, phi: float) -> float:
+    """Return the derivative of `shaft_error` by `phi` [m/rad]; arguments as there.
+
+    Odd and even orders turn on side by side: a processor then waits half as long.
+    """
+    rate = 0.0
+    place = SHAFT_HEAD
+    step = 1.0
+    for member in range(2):
+        c_odd = math.cos(step * phi)
+        s_odd = math.sin(step * phi)
+        c2 = c_odd * c_odd - s_odd * s_odd
+        s2 = 2.0 * s_odd * c_odd
+        c_even = c2
+        s_even = s2
+        odd = 0.0
+        even = 0.0
+        order = 1.0
+        for _ in range(int(tail[member]) // 2):
+            odd += order * (tail[place + 1] * c_odd - tail[place] * s_odd)
+            even += (order + 1.0) * (tail[place + 3] * c_even - tail[place + 2] * s_even)
+            c_odd, s_odd = c_odd * c2 - s_odd * s2, s_odd * c2 + c_odd * s2
+            c_even, s_even = c_even * c2 - s_even * s2, s_even * c2 + c_even * s2
+            order += 2.0
+            place += 4
+        rate += step * (odd + even)
+        step = tail[2]
+    return rate
+
+
+@kernel
 def mesh_series(coefficients: Array, n_orders: int, z_p: float, phi: float) -> MeshSeries:
     """Return all series at pinion angle `phi` [rad].
 
     `coefficients` has shape (N_SERIES * (2 n_orders + 1),): the series are grouped by order,
     first the means, then for each order h the N_SERIES cosine and the N_SERIES sine coefficients.
+    What follows, if anything, is the `tail` of `shaft_error`.
 
     Notes
     -----
@@ -124,6 +185,9 @@ def mesh_series(coefficients: Array, n_orders: int, z_p: float, phi: float) -> M
         dny += w * (coefficients[j + N_Y] * c - coefficients[i + N_Y] * s)
         dnz += w * (coefficients[j + N_Z] * c - coefficients[i + N_Z] * s)
         de += w * (coefficients[j + E] * c - coefficients[i + E] * s)
+    size = N_SERIES * (2 * n_orders + 1)
+    if coefficients.size > size:
+        de += shaft_error_rate(coefficients[size:], phi)
     return MeshSeries(k, rp, rg, nx, ny, nz, dk, dnx, dny, dnz, de)
 
 
@@ -139,6 +203,9 @@ def transmission_error(coefficients: Array, n_orders: int, z_p: float, phi: floa
         c, s = c * c1 - s * s1, s * c1 + c * s1
         i = N_SERIES * (2 * h - 1)
         e += coefficients[i + E] * c + coefficients[i + N_SERIES + E] * s
+    size = N_SERIES * (2 * n_orders + 1)
+    if coefficients.size > size:
+        e += shaft_error(coefficients[size:], phi)
     return e
 
 

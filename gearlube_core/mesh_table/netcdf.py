@@ -15,6 +15,7 @@ import xarray as xr
 from gearlube_core.errors import TableError
 from gearlube_core.mesh_table.netcdf_content import dataset_from_bytes
 from gearlube_core.mesh_table.table import (
+    MEMBERS,
     SERIES_UNITS,
     WINDOW_UNITS,
     Kind,
@@ -24,9 +25,11 @@ from gearlube_core.mesh_table.table import (
 from gearlube_core.storage.atomic_file import write_dataset
 
 FORMAT = 2  # 1 had one sign of torque, no tangent stiffness, sliding angle or highest pressure
+SHAFT_FORMAT = 3  # with errors that repeat with a shaft
 FILE_IN_FMU = "mesh_table.nc"  # name among the resources of an FMU with a table of its own
 _ATTRIBUTES = ("name", "pinion_teeth", "gear_teeth", "contact_ratio")
 _SETTING = "setting_"
+_SHAFT = "e_"  # and the member
 
 
 def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
@@ -40,6 +43,10 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
             origin = table.provenance[key]
             attributes = {"units": unit, "provenance": origin.kind, "derivation": origin.derivation}
             data[key] = (dims, group[key], attributes)
+    for member, values in table.shaft_error.items():
+        note = f"transmission error by orders 1, 2, ... in turns of the {member}"
+        dims = ("torque", f"{member}_order", "part")
+        data[_SHAFT + member] = (dims, values, {"units": "m", "long_name": note})
     dataset = xr.Dataset(
         data,
         coords={
@@ -51,7 +58,7 @@ def write_mesh_table(table: MeshTable, path: str | Path) -> Path:
             "part": ("part", ["cos", "sin"]),
         },
         attrs={
-            "gearlube_mesh_table": FORMAT,
+            "gearlube_mesh_table": SHAFT_FORMAT if table.shaft_error else FORMAT,
             "name": table.name,
             "pinion_teeth": table.pinion_teeth,
             "gear_teeth": table.gear_teeth,
@@ -122,6 +129,11 @@ def mesh_table_from_bytes(content: bytes, name: str) -> MeshTable:
             for key, value in dataset.attrs.items()
             if isinstance(key, str) and key.startswith(_SETTING)
         },
+        shaft_error={
+            member: np.ascontiguousarray(dataset[_SHAFT + member].values)
+            for member in MEMBERS
+            if _SHAFT + member in dataset
+        },
     )
 
 
@@ -134,10 +146,11 @@ def _check_format(dataset: xr.Dataset, name: str) -> None:
     if found < FORMAT:
         raise TableError(
             f"{name} was written by an older gearlube: a mesh table of format {found}, this one "
-            f"reads format {FORMAT}. Run `gearlube contact` again."
+            f"reads formats {FORMAT} and {SHAFT_FORMAT}. Run `gearlube contact` again."
         )
-    if found > FORMAT:
+    if found > SHAFT_FORMAT:
         raise TableError(
             f"{name} was written by a newer gearlube: a mesh table of format {found}, this one "
-            f"reads format {FORMAT}. Install that version, or run `gearlube contact` of this one."
+            f"reads formats {FORMAT} and {SHAFT_FORMAT}. Install that version, or run `gearlube "
+            "contact` of this one."
         )

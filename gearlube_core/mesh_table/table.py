@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
@@ -40,6 +40,7 @@ WINDOW_UNITS: Mapping[str, str] = {
 }
 ABOVE_ZERO = ("k_m", "R_p", "R_g", "k_t", "R_x", "R_y")  # means of series, every node of windows
 PAIRS = 3
+MEMBERS = ("pinion", "gear")
 SHARE_TOLERANCE = 1e-9  # shares are normalised in double precision before they are stored
 
 
@@ -89,6 +90,10 @@ class MeshTable:
         One entry for each series and window.
     source : str
         What the data were computed from, e.g. the name of a gear file.
+    shaft_error : mapping of str to ndarray of shape (L, N, 2)
+        "pinion", "gear" or both, or none: cosine and sine coefficients [m] of orders 1 to N in
+        turns of that member, added to e. Angles count from pinion angle zero; the gear's is the
+        pinion's over the teeth ratio.
     settings : mapping of str to str or float
         How they were computed, e.g. numbers of positions; names of letters, digits, "_", "." and
         "-".
@@ -127,6 +132,7 @@ class MeshTable:
     provenance: Mapping[str, Provenance]
     source: str = ""
     settings: Mapping[str, str | float] = field(default_factory=dict)
+    shaft_error: Mapping[str, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         levels = self.torque.size
@@ -158,6 +164,7 @@ class MeshTable:
         worst = float(np.max(np.abs(share - 1.0)))
         if worst > SHARE_TOLERANCE:
             raise TableError(f"{self.name}: load shares must sum to 1, off by {worst:.3g}.")
+        self._check_shaft_error()
         for key, value in self.settings.items():
             if not re.fullmatch(r"[\w.-]+", key, re.ASCII) or not isinstance(
                 value, str | float | int
@@ -187,6 +194,21 @@ class MeshTable:
             if origin is None or origin.kind not in get_args(Kind) or not origin.derivation:
                 raise TableError(f"{self.name}: {key!r} needs a provenance and its derivation.")
 
+    def _check_shaft_error(self) -> None:
+        for key, values in self.shaft_error.items():
+            if key not in MEMBERS:
+                raise TableError(
+                    f"{self.name}: shaft_error must be of pinion or gear, got {key!r}."
+                )
+            levels = self.torque.size
+            if values.ndim != 3 or values.shape[::2] != (levels, 2) or values.shape[1] < 1:
+                raise TableError(
+                    f"{self.name}: shaft_error of the {key} has shape {values.shape}, expected "
+                    f"({levels}, orders, 2): load levels first."
+                )
+            if not np.all(np.isfinite(values)):
+                raise TableError(f"{self.name}: shaft_error holds a NaN or an infinity.")
+
     def _check_signs(self) -> None:
         for key in ABOVE_ZERO:
             values = self.series[key][:, 0, 0] if key in self.series else self.windows[key]
@@ -202,6 +224,10 @@ class MeshTable:
                 f"{self.name}: load shares must not be below 0, got "
                 f"{np.min(self.windows['share']):g}."
             )
+
+    def without_shaft_error(self) -> MeshTable:
+        """Return the same table repeating with the mesh: all teeth alike."""
+        return replace(self, shaft_error={}) if self.shaft_error else self
 
     @property
     def has_coast_levels(self) -> bool:

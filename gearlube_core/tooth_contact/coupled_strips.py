@@ -100,18 +100,7 @@ def solve_coupled(
     ConvergenceError
         As `solve_torque` and `tangent_stiffness`.
     """
-    one = block_diag([stiffness.pinion.image, stiffness.gear.image]).toarray()
-    compliance = StripCompliance(
-        [_half_space(strip, stiffness.contact_modulus) for strip in strips],
-        csr_array(block_diag([strip.weights for strip in strips], "csr")),
-        block_diag([one] * len(strips)).toarray(),
-    )
-    problem = UnilateralProblem(
-        compliance=compliance,
-        gap=np.concatenate([strip.gap.ravel() for strip in strips]),
-        arm=np.concatenate([strip.arm.ravel() for strip in strips]),
-        cell_area=np.concatenate([strip.area.ravel() for strip in strips]),
-    )
+    problem = strips_problem(strips, stiffness)
     solution = solve_torque(problem, torque, tolerance=tolerance)
     tangents = tangent_forces(problem, solution)
     ends = np.cumsum([0, *(strip.gap.size for strip in strips)])
@@ -129,6 +118,22 @@ def solve_coupled(
         forces=parted(solution.forces),
         pressure=parted(solution.pressure),
         tangents=parted(tangents),
+    )
+
+
+def strips_problem(strips: Sequence[CoupledStrip], stiffness: PairStiffness) -> UnilateralProblem:
+    """Return the contact of strips, each on a pair of teeth of its own."""
+    one = block_diag([stiffness.pinion.image, stiffness.gear.image]).toarray()
+    compliance = StripCompliance(
+        [_half_space(strip, stiffness.contact_modulus) for strip in strips],
+        csr_array(block_diag([strip.weights for strip in strips], "csr")),
+        block_diag([one] * len(strips)).toarray(),
+    )
+    return UnilateralProblem(
+        compliance=compliance,
+        gap=np.concatenate([strip.gap.ravel() for strip in strips]),
+        arm=np.concatenate([strip.arm.ravel() for strip in strips]),
+        cell_area=np.concatenate([strip.area.ravel() for strip in strips]),
     )
 
 

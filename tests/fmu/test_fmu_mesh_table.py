@@ -29,13 +29,17 @@ from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohamma
 from gearlube_core.errors import InterruptedRunError, ParameterError, TableError
 from gearlube_core.mesh_table.netcdf import FILE_IN_FMU, write_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from tests.helpers.axle_cases import with_coast_flanks
+from tests.helpers.axle_cases import with_coast_flanks, with_shaft_errors
 from tests.helpers.fmu_host import FATAL, OK, Host
 
 SHIPPED = shipped_mesh_table("mohammadpour_2015")
-# other teeth, and coast flanks that differ from the drive flanks
+# other teeth that are not all alike, and coast flanks that differ from the drive flanks
 OTHER = replace(
-    with_coast_flanks(SHIPPED), name="pair_11_43", pinion_teeth=11, gear_teeth=43, source="my.toml"
+    with_shaft_errors(with_coast_flanks(SHIPPED)),
+    name="pair_11_43",
+    pinion_teeth=11,
+    gear_teeth=43,
+    source="my.toml",
 )
 H = 2.0**-10
 TORQUES = {"pinion__torque": -40.0, "wheel__torque": -40.0 * 43 / 11}

@@ -30,7 +30,7 @@ from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.kernels.flat_tuples import count_floats, flatten
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table
-from tests.helpers.axle_cases import with_coast_flanks
+from tests.helpers.axle_cases import with_coast_flanks, with_shaft_errors
 from tests.helpers.object_code import (
     FREESTANDING,
     LIBM,
@@ -251,6 +251,7 @@ def test_what_is_refused_leaves_the_state_as_it_was(native):
 def test_another_mesh_table_is_the_one_that_counts(tmp_path):
     shipped = shipped_mesh_table("mohammadpour_2015")
     other = replace(with_coast_flanks(shipped), name="11_43", pinion_teeth=11, gear_teeth=43)
+    other = with_shaft_errors(other)
     definition = definition_with_table(write_mesh_table(other, tmp_path / "other.nc"))
     model = native_model(definition)
     loaded = LoadedModel(model)

@@ -111,3 +111,16 @@ def with_coast_flanks(table, R_p=1.03, k_m=0.9, e=1.6):
         series={key: np.concatenate([coast[key], v]) for key, v in table.series.items()},
         windows=windows,
     )
+
+
+def with_shaft_errors(table, seed=4):
+    """The table with errors of some micrometres that repeat with pinion and gear, by load."""
+    rng = np.random.default_rng(seed)
+    levels = table.torque.size
+    return replace(
+        table,
+        shaft_error={
+            "pinion": 2e-6 * rng.normal(size=(levels, 14, 2)),
+            "gear": 1e-6 * rng.normal(size=(levels, 37, 2)),
+        },
+    )

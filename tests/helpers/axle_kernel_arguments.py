@@ -102,7 +102,7 @@ def all_cases():
     at_start = state.copy()
     at_start[TIME_IN_STEP] = 0.0
     torques = (torque_p, torque_g)
-    work = zeros(integrate.work_size(mesh.orders, mesh.nodes))
+    work = zeros(integrate.work_size(mesh.series_size, mesh.nodes))
     lossless = without_losses(p)
     at_rest = start.RestProblem(
         state, inputs, mesh_data, state_of_oil, lossless, zeros(1), zeros(rhs.SCRATCH), zeros(N_ODE)
@@ -111,6 +111,7 @@ def all_cases():
     force_derivatives.force_derivatives(
         state, 0.0, 60.0, OIL, table, lossless, zeros(START_WORK), stiffness
     )
+    tail = np.array([2.0, 2.0, 0.4, 3.0, -1.0, 0.5, 0.2, 2.0, 1.0, -0.3, 0.7])
     bracket = kernels.load_bracket(33.0, 1.0, mesh.levels, mesh.levels.size)
     write_shaft = (motion, 300.0, state_of_oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0))
     found = [
@@ -122,6 +123,13 @@ def all_cases():
         ),
         (kernels.blend_levels, (mesh.series, mesh.series_size, bracket, zeros(mesh.series_size))),
         (kernels.mesh_series, (series, mesh.orders, 13.0, 0.3)),
+        (kernels.shaft_error, (tail, 0.3)),
+        (kernels.shaft_error_rate, (tail, 0.3)),
+        (
+            kernels.mesh_series,
+            (np.append(series, tail), mesh.orders, 13.0, 0.3),
+        ),
+        (mesh_at_load.series_size, (table,)),
         (kernels.transmission_error, (series, mesh.orders, 13.0, 0.3)),
         (kernels.pair_channels, (window, mesh.nodes, 13.0, 0.3, 1, N_CHANNELS, zeros(N_CHANNELS))),
         (shaft_expansion._sums_line, loop),

@@ -5,13 +5,23 @@ from pathlib import Path
 
 import pytest
 
-from docs import axle_file, blank_file, ehl_case_file, gear_file, helical_gear_file
+from docs import (
+    axle_file,
+    blank_file,
+    ehl_case_file,
+    gear_file,
+    helical_gear_file,
+    measured_file,
+    problem_file,
+)
 from drivetrain.axle_file.axle_file import AxleFile
 from gearlube_core.ehl.case.contact_case import LineCase, PointCase
 from gearlube_core.ehl.case.hypoid_case import HypoidCase
+from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
 from gearlube_core.input_file.field_notes import field_notes
 
 FOLDER = Path(__file__).parents[2] / "docs"
@@ -21,6 +31,8 @@ PAGES = {
     helical_gear_file: (HelicalGearFile,),
     ehl_case_file: (LineCase, PointCase, HypoidCase),
     axle_file: (AxleFile,),
+    problem_file: (OptimisationFile,),
+    measured_file: (MeasuredFile,),
 }
 
 

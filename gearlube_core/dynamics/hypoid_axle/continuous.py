@@ -14,6 +14,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     blend_mesh,
     follow_flank,
     gap_rotation,
+    series_size,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_force import MeshForceConstants
 from gearlube_core.dynamics.hypoid_axle.state import (
@@ -29,7 +30,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     X,
 )
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import N_SERIES, mesh_series
+from gearlube_core.mesh_table.kernels import mesh_series
 
 # outputs that hold the continuous states, in the order of the state vector
 STATE_NAMES: tuple[str, ...] = (
@@ -112,10 +113,10 @@ def change_side(s: Array, table: MeshLevels, p: MeshForceConstants, work: Array)
     ----------
     s : ndarray of shape (N_STATE,)
         Changed at X and SIDE, if at all.
-    work : ndarray of shape (work_size(n_orders, n_nodes),)
+    work : ndarray of shape (work_size(series_size(table), n_nodes),)
     """
     if table.levels[0] < 0.0:
-        at_window = N_SERIES * (2 * table.n_orders + 1)
+        at_window = series_size(table)
         mesh = MeshAtLoad(work[0:at_window], table.n_orders, work[at_window:], table.n_nodes)
         blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
         follow_flank(s, table, p, mesh)

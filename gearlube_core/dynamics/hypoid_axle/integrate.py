@@ -15,6 +15,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshLevels,
     blend_mesh,
     follow_flank,
+    series_size,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
@@ -39,7 +40,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import K_M, N_SERIES
+from gearlube_core.mesh_table.kernels import K_M
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 OK = 0
@@ -164,11 +165,12 @@ def largest_change(a: Displacements, b: Displacements) -> float:
     return largest
 
 
-def work_size(n_orders: int, n_nodes: int) -> int:
-    """Return the length of the work array of `advance` and `write_outputs`."""
-    return (
-        N_STATE + 2 * N_ODE + SCRATCH + N_SERIES * (2 * n_orders + 1) + (n_nodes + 1) * N_CHANNELS
-    )
+def work_size(series: int, n_nodes: int) -> int:
+    """Return the length of the work array of `advance` and `write_outputs`.
+
+    `series` is the number of series coefficients at one load, `series_size`.
+    """
+    return N_STATE + 2 * N_ODE + SCRATCH + series + (n_nodes + 1) * N_CHANNELS
 
 
 @kernel
@@ -230,7 +232,7 @@ def advance(
     table : MeshLevels
     p : AxleParameters
     control : StepControl
-    work : ndarray of shape (work_size(n_orders, n_nodes),)
+    work : ndarray of shape (work_size(series_size(table), n_nodes),)
 
     Returns
     -------
@@ -245,7 +247,7 @@ def advance(
     """
     at_scratch = N_STATE + 2 * N_ODE
     at_series = at_scratch + SCRATCH
-    at_window = at_series + N_SERIES * (2 * table.n_orders + 1)
+    at_window = at_series + series_size(table)
     stages = work[0:at_scratch]
     scratch = work[at_scratch:at_series]
     mesh = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)

@@ -144,7 +144,7 @@ def axle_losses(
     check_within("angles", angles, 4, 4096, "", "Default 32.")
     p = parameters.kernel_parameters()
     mesh = pack_mesh(
-        parameters.mesh,
+        parameters.mesh.without_shaft_error(),  # over one mesh period
         contact_modulus(parameters.solid, parameters.solid),
         parameters.radii,
         parameters.mesh_stiffness,
@@ -153,7 +153,7 @@ def axle_losses(
     works = (
         np.zeros(N_STATE),
         np.zeros(cycle_work(mesh.orders, mesh.nodes)),
-        np.zeros(work_size(mesh.orders, mesh.nodes)),
+        np.zeros(work_size(mesh.series_size, mesh.nodes)),
         np.zeros(ROLLERS_MAX),
         np.zeros(N_OUTPUTS),
     )

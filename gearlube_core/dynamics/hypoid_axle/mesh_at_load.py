@@ -20,7 +20,6 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import (
-    N_SERIES,
     MeshSeries,
     blend_levels,
     load_bracket,
@@ -39,6 +38,12 @@ class MeshLevels(NamedTuple):
     n_nodes: int
 
 
+@kernel
+def series_size(table: MeshLevels) -> int:
+    """Return the number of series coefficients at one load, with the tail of `shaft_error`."""
+    return table.series.size // table.levels.size
+
+
 # the same as a plain tuple: Python hands that over 0.6 us faster a call
 MeshFields = tuple[Array, Array, int, Array, int]
 
@@ -46,7 +51,7 @@ MeshFields = tuple[Array, Array, int, Array, int]
 class MeshAtLoad(NamedTuple):
     """The mesh table at one load."""
 
-    series: Array  # shape (N_SERIES * (2 n_orders + 1),)
+    series: Array  # shape (series_size(table),)
     n_orders: int
     window: Array  # shape ((n_nodes + 1) * N_CHANNELS,)
     n_nodes: int
@@ -56,7 +61,7 @@ class MeshAtLoad(NamedTuple):
 def blend_mesh(load_torque: float, side: float, table: MeshLevels, mesh: MeshAtLoad) -> None:
     """Interpolate the table to the load `load_torque` [N.m] of one side, into `mesh`."""
     bracket = load_bracket(load_torque, side, table.levels, table.levels.size)
-    blend_levels(table.series, N_SERIES * (2 * table.n_orders + 1), bracket, mesh.series)
+    blend_levels(table.series, series_size(table), bracket, mesh.series)
     blend_levels(table.windows, (table.n_nodes + 1) * N_CHANNELS, bracket, mesh.window)
 
 

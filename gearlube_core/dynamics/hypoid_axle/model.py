@@ -120,7 +120,7 @@ class HypoidAxle(SteppedModel[StepControl]):
         mesh = self.packed
         fields: MeshFields = (mesh.levels, mesh.series, mesh.orders, mesh.windows, mesh.nodes)
         data = fields, flatten(self.kernel_parameters)
-        work, rollers = np.zeros(work_size(mesh.orders, mesh.nodes)), np.zeros(ROLLERS_MAX)
+        work, rollers = np.zeros(work_size(mesh.series_size, mesh.nodes)), np.zeros(ROLLERS_MAX)
         p = self.kernel_parameters
         kernels = self._start_kernels = axle_kernels(type(p.bearing_p), type(p.flank_law))
         self._start_data = fields, flatten(without_losses(p)), np.zeros(START_WORK)

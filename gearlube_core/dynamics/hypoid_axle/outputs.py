@@ -21,7 +21,12 @@ from gearlube_core.dynamics.hypoid_axle.continuous import (
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import FLANK_OUTPUTS, write_flanks
 from gearlube_core.dynamics.hypoid_axle.integrate import step_inputs
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
+    MeshAtLoad,
+    MeshLevels,
+    blend_mesh,
+    series_size,
+)
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     MeshForce,
     backlash_deflection,
@@ -69,7 +74,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.ranges import RANGE_EXCEEDED, RANGE_OUTPUTS, write_ranges
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.mesh_table.kernels import N_SERIES, R_P, blend_levels, load_bracket
+from gearlube_core.mesh_table.kernels import R_P, blend_levels, load_bracket
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 _OUTPUTS: tuple[str, ...] = (
@@ -245,7 +250,7 @@ def write_motion(
     s : ndarray of shape (N_STATE,)
     rates : ndarray of shape (N_ODE,)
         Its rates; read before the first step only.
-    series : ndarray of shape (N_SERIES * (2 n_orders + 1),)
+    series : ndarray of shape (series_size(table),)
         Of the mesh table at the present load.
     """
     mesh = mesh_force(s, series, n_orders, p.mesh)
@@ -278,7 +283,7 @@ def write_motion_after_step(
     s: Array, table: MeshLevels, p: AxleParameters, work: Array, out: Array
 ) -> None:
     """Write `MOTION_OUTPUTS` of a state that a step has left; arguments as in `write_outputs`."""
-    size = N_SERIES * (2 * table.n_orders + 1)
+    size = series_size(table)
     series = work[N_ODE : N_ODE + size]
     bracket = load_bracket(s[LOAD_TORQUE], s[SIDE], table.levels, table.levels.size)
     blend_levels(table.series, size, bracket, series)
@@ -301,7 +306,7 @@ def write_derivatives(
     nothing is kept between calls. Arguments as in `write_outputs`.
     """
     at_series = N_ODE + SCRATCH
-    at_window = at_series + N_SERIES * (2 * table.n_orders + 1)
+    at_window = at_series + series_size(table)
     rates = work[0:N_ODE]
     data = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)
     oil = lubricant_state(p.oil, oil_temperature)
@@ -328,7 +333,7 @@ def write_outputs(
     Arguments as in `integrate.advance`; `rollers` is work space of shape (ROLLERS_MAX,).
     """
     at_series = N_ODE + SCRATCH
-    at_window = at_series + N_SERIES * (2 * table.n_orders + 1)
+    at_window = at_series + series_size(table)
     rates = work[0:N_ODE]
     scratch = work[N_ODE:at_series]
     data = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import MeshAtLoad, MeshLevels, series_size
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
@@ -67,7 +67,7 @@ class RestProblem(NamedTuple):
 def mean_series(torque: float, mesh: MeshLevels, means: Array) -> None:
     """Write the means of the series at the pinion torque [N.m] into `means`, (N_SERIES,)."""
     bracket = load_bracket(torque, torque, mesh.levels, mesh.levels.size)
-    size = N_SERIES * (2 * mesh.n_orders + 1)
+    size = series_size(mesh)
     first = bracket.lower * size
     second = bracket.upper * size
     for i in range(N_SERIES):

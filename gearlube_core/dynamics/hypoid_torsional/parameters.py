@@ -163,6 +163,12 @@ class HypoidTorsionalParameters:
                 f"friction must be 'off' with form 'one_dof', got {self.friction!r}. "
                 "Friction acts on the two shafts; choose form 'two_dof'."
             )
+        if self.mesh.shaft_error:
+            raise ParameterError(
+                f"mesh must repeat with the mesh, {self.mesh.name} has errors that repeat with a "
+                "shaft: the motions sought here have the mesh period. Give "
+                "`mesh.without_shaft_error()`, or simulate the axle."
+            )
 
 
 def karagiannis_2012_pair(mesh: MeshTable | None = None) -> HypoidTorsionalParameters:

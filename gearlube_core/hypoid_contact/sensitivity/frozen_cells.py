@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array, Indices
 from gearlube_core.hypoid_contact.gap_map import along_normals
@@ -12,7 +13,7 @@ from gearlube_core.hypoid_contact.loaded_contact import LoadedPair
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placed_flank import placed_axis, tooth_position
 from gearlube_core.hypoid_contact.placement import Placement
-from gearlube_core.hypoid_contact.strips import StripFrame, facing_cells
+from gearlube_core.hypoid_contact.strips import Strip, StripFrame, facing_cells
 from gearlube_core.hypoid_geometry.flank.vectors import Vector
 from gearlube_core.tooth_compliance.flank_compliance import FlankCompliance
 from gearlube_core.tooth_compliance.hat_grid import bracket
@@ -86,15 +87,24 @@ class FrozenCells:
     @classmethod
     def of(cls, pair: FlankPair, loaded: LoadedPair) -> FrozenCells:
         """Return the cells of a tooth pair that carry load."""
-        strip = loaded.strip
-        row, column = np.nonzero(loaded.forces > 0.0)
-        nx, ny = loaded.forces.shape
+        return cls.of_strip(pair, loaded.phase, loaded.strip, loaded.forces > 0.0)
+
+    @classmethod
+    def of_strip(
+        cls, pair: FlankPair, phase: float, strip: Strip, there: NDArray[np.bool_]
+    ) -> FrozenCells:
+        """Return some cells, `there` (nx, ny), of the strip of a tooth pair.
+
+        `phase` is that of the tooth pair [mesh periods].
+        """
+        row, column = np.nonzero(there)
+        nx, ny = there.shape
         x = (row - 0.5 * (nx - 1)) * strip.cell[0]
         y = (column - 0.5 * (ny - 1)) * strip.cell[1]
         frame = strip.frame
         origin = frame.centre + x[:, None] * frame.across + y[:, None] * frame.along
         starts = strip.gear_parameters[row, column], strip.pinion_parameters[row, column]
-        angles = loaded.phase * pair.gear_pitch, loaded.phase * pair.pinion_pitch
+        angles = phase * pair.gear_pitch, phase * pair.pinion_pitch
         empty = np.full((row.size, 4), np.nan)
         cells = cls(*angles, frame, strip.cell, row, column, origin, pair, empty, empty)
         return cls(

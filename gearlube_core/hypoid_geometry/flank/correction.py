@@ -9,12 +9,14 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
+from gearlube_core.errors import ParameterError
 
 Edge = Literal["tip", "root", "toe", "heel"]
 EDGES: tuple[Edge, ...] = get_args(Edge)
 _METRES = "Give metres, not micrometres or millimetres."
 _MOST = 1e-3  # m
 _LONGEST = 0.5  # m
+_MOST_DEGREE = 5  # of a surface
 
 
 class Bends(NamedTuple):
@@ -93,9 +95,10 @@ def rounding(edge: Edge, radius: float) -> EdgeRelief:
 class FlankCorrection:
     """Corrections of one flank of one member.
 
-    m = sum of reliefs + c_h (2s - 1)^2 + c_l (2t - 1)^2 + w (2s - 1)(2t - 1)
+    m = sum of reliefs + c_h x^2 + c_l y^2 + w x y + sum of a_ij x^i y^j
 
-    with the profile position s, root 0 to tip 1, and the face position t, toe 0 to heel 1.
+    x = 2s - 1, y = 2t - 1, with the profile position s, root 0 to tip 1, and the face position t,
+    toe 0 to heel 1.
 
     Parameters
     ----------
@@ -105,6 +108,9 @@ class FlankCorrection:
     twist : float
         w [m]: removed at the tip of the heel and the root of the toe, left standing at the other
         two corners; -1 to 1 mm.
+    surface : tuple of float
+        a_ij [m] by rising degree, in each by falling power of x: 1, x, y, x^2, x y, y^2, ...; none
+        or 1, 3, 6, 10, 15 or 21 of them. Below 0 material stands over the flank as cut.
 
     Raises
     ------
@@ -122,15 +128,22 @@ class FlankCorrection:
     profile_crown: float = 0.0
     lead_crown: float = 0.0
     twist: float = 0.0
+    surface: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("profile_crown", "lead_crown", "twist"):
             check_within(name, getattr(self, name), -_MOST, _MOST, "m", _METRES)
+        if self.surface:
+            surface_degree(len(self.surface))
+        for value in self.surface:
+            check_within("surface", value, -_MOST, _MOST, "m", _METRES)
 
     @property
     def is_none(self) -> bool:
         """Whether nothing is removed."""
-        return not (self.reliefs or self.profile_crown or self.lead_crown or self.twist)
+        return not (
+            self.reliefs or self.profile_crown or self.lead_crown or self.twist or any(self.surface)
+        )
 
     def bends(self, s: Array, t: Array, height: float, width: float) -> Bends:
         """Return removal and derivatives at s, t (...) of a tooth `height` and `width` [m].
@@ -155,7 +168,45 @@ class FlankCorrection:
                 by_h, by_hh = by_h + outwards, by_hh + bend
             else:
                 by_l, by_ll = by_l + outwards, by_ll + bend
-        return Bends(value, by_h, by_l, by_hh, flat + w * x_h * y_l, by_ll)
+        by_hl = flat + w * x_h * y_l
+        for (i, j), a_ij in zip(surface_powers(len(self.surface)), self.surface, strict=True):
+            x_0, x_1, x_2 = _power(x, i)
+            y_0, y_1, y_2 = _power(y, j)
+            value = value + a_ij * x_0 * y_0
+            by_h, by_l = by_h + a_ij * x_1 * y_0 * x_h, by_l + a_ij * x_0 * y_1 * y_l
+            by_hh = by_hh + a_ij * x_2 * y_0 * x_h**2
+            by_hl = by_hl + a_ij * x_1 * y_1 * x_h * y_l
+            by_ll = by_ll + a_ij * x_0 * y_2 * y_l**2
+        return Bends(value, by_h, by_l, by_hh, by_hl, by_ll)
+
+
+def surface_degree(count: int) -> int:
+    """Return the degree of a surface of so many coefficients; raise ParameterError for others."""
+    for degree in range(_MOST_DEGREE + 1):
+        if count == (degree + 1) * (degree + 2) // 2:
+            return degree
+    raise ParameterError(
+        f"surface must hold 1, 3, 6, 10, 15 or 21 coefficients, got {count}. A surface of degree n "
+        "has (n + 1)(n + 2)/2: 1, x, y, x^2, x y, y^2, ..."
+    )
+
+
+def surface_powers(count: int) -> list[tuple[int, int]]:
+    """Return the powers of x and y of each coefficient of a surface; none for a count of 0.
+
+    >>> surface_powers(6)
+    [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]
+    """
+    if count == 0:
+        return []
+    return [(n - j, j) for n in range(surface_degree(count) + 1) for j in range(n + 1)]
+
+
+def _power(x: Array, power: int) -> tuple[Array, Array, Array]:
+    """Return x^power and its first and second derivative."""
+    value = x**power
+    first = power * x ** max(power - 1, 0)
+    return value, first, power * (power - 1) * x ** max(power - 2, 0)
 
 
 NO_CORRECTION = FlankCorrection()

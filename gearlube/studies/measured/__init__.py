@@ -1,0 +1,1 @@
+"""Measured gears: from CSV files to a gear file with the measured flanks."""

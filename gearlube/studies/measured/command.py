@@ -1,0 +1,147 @@
+"""The command `gearlube measured`."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.table import Table
+
+from gearlube.cli.console import console
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.options import JobsOption, OverwriteOption
+from gearlube.cli.progress_report import progress_on
+from gearlube.cli.results_folder import results_folder
+
+if TYPE_CHECKING:  # the study is loaded when the command runs
+    from gearlube.studies.measured.teeth import ToothErrorResults
+    from gearlube_core.hypoid_contact.settings_fit import SettingsFit
+    from gearlube_core.hypoid_geometry.measured.measured_flanks import MeasuredFlanks
+
+logger = logging.getLogger("gearlube")
+_SHOWN = 4  # orders of a member in a row
+
+
+def measured(
+    file: Annotated[
+        str,
+        typer.Argument(help="Measured-gear file (TOML), its CSV files beside it.", metavar="FILE"),
+    ],
+    table: Annotated[
+        str | None,
+        typer.Option(
+            help="Mesh table that `gearlube contact` made of the gear file: add to it what single "
+            "teeth do (pitch, eccentricity, waves).",
+            metavar="TABLE",
+        ),
+    ] = None,
+    positions: Annotated[
+        int, typer.Option(help="With --table: positions over a mesh period.", metavar="N")
+    ] = 12,
+    fit: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Setting with which the flanks may have been cut, as "
+            "pinion.machine.tilt_angle_deg; repeat for more. Writes settings.csv, with corrective "
+            "settings.",
+            metavar="FIELD",
+        ),
+    ] = None,
+    jobs: JobsOption = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_measured"),
+    overwrite: OverwriteOption = False,
+) -> None:
+    """Lay measured flanks on a hypoid pair; write its gear file for `gearlube contact`.
+
+    With --fit: settings that explain the deviations, and corrective ones.
+    With --table: the mesh table with the errors of single teeth, tooth_errors.nc and a figure.
+    Finished positions are kept in OUT: run the same command again to go on after a stop.
+    """
+    from gearlube.studies.measured.run import run_measured
+
+    with exit_on_error():
+        if table is not None:
+            with results_folder(out, "measured", overwrite=overwrite):
+                _teeth(file, table, positions, out, jobs)
+            return
+        with results_folder(out, "measured", overwrite=overwrite):
+            flanks = run_measured(file, folder=out)
+            fits = _fits(flanks, fit or [], out)
+        console.print(_table(flanks))
+        for one in fits:
+            console.print(_settings(flanks.file.name, one))
+        gear = out / f"{flanks.file.name}.toml"
+        logger.info("Results: %s (gear file), %s", gear, out / "flanks.png")
+        logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
+
+
+def _fits(flanks: MeasuredFlanks, fields: list[str], out: Path) -> list[SettingsFit]:
+    from gearlube.studies.measured.settings import fitted_settings
+
+    return fitted_settings(flanks, fields, out) if fields else []
+
+
+def _settings(name: str, fit: SettingsFit) -> Table:
+    from gearlube.studies.measured.settings import rows
+
+    title = f"{name}: {1e6 * fit.before:.2f} µm rms, with other settings {1e6 * fit.after:.2f} µm"
+    table = Table(title=title)
+    table.add_column("setting", overflow="fold")
+    for heading in ("unit", "nominal", "cut with more by", "uncertain by", "corrective"):
+        table.add_column(heading, justify="right")
+    for row in rows(fit):
+        table.add_row(*row)
+    return table
+
+
+def _teeth(file: str, table: str, positions: int, out: Path, jobs: int | None) -> None:
+    from gearlube.studies.measured.teeth import run_tooth_errors
+
+    with progress_on(console, "measured", 2 * positions) as progress:
+        found = run_tooth_errors(
+            file, table, positions=positions, folder=out, jobs=jobs, progress=progress
+        )
+    console.print(_orders(found))
+    mesh = out / f"{found.flanks.file.name}.nc"
+    logger.info("Results: %s (mesh table), %s", mesh, out / "tooth_errors.png")
+    logger.info("Next: gearlube sweep --mesh-table %s", mesh)
+
+
+def _orders(found: ToothErrorResults) -> Table:
+    import numpy as np
+
+    cycle, rest = found.cycle, found.cycle.turns()[1]
+    table = Table(title=f"{found.flanks.file.name}: largest orders, amplitude in µm")
+    table.add_column("torque [N·m]", justify="right")
+    orders = cycle.orders()
+    for member in orders:
+        table.add_column(f"of the {member}")
+    table.add_column("hunting turn alone, rms [µm]", justify="right")
+    for level, torque in enumerate(cycle.torque):
+        row = []
+        for values in orders.values():
+            amplitude = 1e6 * np.hypot(*values[level].T)
+            largest = np.argsort(amplitude)[::-1][:_SHOWN]
+            row.append(", ".join(f"{k + 1}: {amplitude[k]:.2f}" for k in largest))
+        table.add_row(f"{torque:g}", *row, f"{1e6 * rest[level]:.2f}")
+    return table
+
+
+def _table(flanks: MeasuredFlanks) -> Table:
+    table = Table(title=f"{flanks.file.name}: smooth surface of degree {flanks.file.degree}")
+    table.add_column("flank")
+    for heading in ("teeth", "points", "largest [µm]", "rest rms [µm]", "teeth apart rms [µm]"):
+        table.add_column(heading, justify="right")
+    for key, grid in flanks.grids.items():
+        surface, mean = flanks.surfaces[key], grid.deviation.mean(axis=0)
+        table.add_row(
+            grid.name,
+            str(len(grid.teeth)),
+            f"{mean.shape[0]} x {mean.shape[1]}",
+            f"{1e6 * max(mean.min(), mean.max(), key=abs):.1f}",
+            f"{1e6 * surface.residual_rms:.2f}",
+            f"{1e6 * surface.scatter_rms:.2f}",
+        )
+    return table

@@ -1,0 +1,42 @@
+"""Lay measured flanks on a pair: from a measured-gear file to a gear file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gearlube.output.toml_text import toml_text
+from gearlube.studies.measured.figures import measured_flanks
+from gearlube_core.hypoid_geometry.measured.measured_flanks import (
+    MeasuredFlanks,
+    read_measured_flanks,
+)
+from gearlube_core.storage.atomic_file import write_text
+
+
+def run_measured(path: str | Path, *, folder: Path | None = None) -> MeasuredFlanks:
+    """Return the measured flanks of a measured-gear file.
+
+    Parameters
+    ----------
+    path : str or Path
+        Measured-gear file (TOML), with its CSV files beside it.
+    folder : Path, optional
+        Gets the gear file NAME.toml, which `gearlube contact` takes, and flanks.png.
+
+    Raises
+    ------
+    ParameterError
+        A file is missing or wrong; the sentence names the line.
+
+    Examples
+    --------
+    >>> found = run_measured("examples/measured/axle_17.toml")  # doctest: +SKIP
+    >>> found.surfaces["gear", "drive"].residual_rms  # [m]  # doctest: +SKIP
+    """
+    flanks = read_measured_flanks(path)
+    file = flanks.gear_file()
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+        write_text(toml_text(file.model_dump(exclude_defaults=True)), folder / f"{file.name}.toml")
+        measured_flanks(flanks).savefig(folder / "flanks.png")
+    return flanks

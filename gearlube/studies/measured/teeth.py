@@ -1,0 +1,150 @@
+"""Errors of single teeth: from a measured-gear file and a mesh table to a table with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.measured.figures import tooth_errors
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
+from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
+from gearlube_core.hypoid_contact.tooth_errors.error_cycle import (
+    ToothErrorCycle,
+    tooth_error_cycle,
+)
+from gearlube_core.hypoid_geometry.measured.measured_flanks import (
+    MeasuredFlanks,
+    read_measured_flanks,
+)
+from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
+from gearlube_core.mesh_table.table import MeshTable
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import write_dataset
+from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
+
+POSITIONS = 12
+STORE = "positions"  # folder of finished positions, in that of the results
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToothErrorResults:
+    """Results of an analysis of single teeth.
+
+    Parameters
+    ----------
+    flanks : MeasuredFlanks
+    cycle : ToothErrorCycle
+    mesh_table : MeshTable
+        The given one with the errors.
+    """
+
+    flanks: MeasuredFlanks
+    cycle: ToothErrorCycle
+    mesh_table: MeshTable
+
+
+def run_tooth_errors(
+    path: str | Path,
+    table: str | Path,
+    *,
+    positions: int = POSITIONS,
+    body: ToothBodySettings | None = None,
+    folder: Path | None = None,
+    jobs: int | None = None,
+    progress: Progress = no_progress,
+) -> ToothErrorResults:
+    """Return what the teeth of a measured pair add to its mesh table.
+
+    Parameters
+    ----------
+    path : str or Path
+        Measured-gear file with pitch, eccentricity or waves.
+    table : str or Path
+        Mesh table of the measured flanks, from `gearlube contact`.
+    positions : int
+        In a mesh period; orders are kept up to a quarter of them times the teeth.
+    body : ToothBodySettings, optional
+        Elastic teeth; those of `gearlube contact` by default.
+    folder : Path, optional
+        Gets the mesh table NAME.nc, tooth_errors.nc and tooth_errors.png; finished positions are
+        kept in `positions`, so that the same call goes on after a stop.
+    jobs, progress
+        As in `run_contact`.
+
+    Raises
+    ------
+    ParameterError
+        A file is wrong, all teeth are alike, or waves are too many for the positions.
+    ConvergenceError
+        Errors of single teeth are too large beside the deflection.
+
+    Examples
+    --------
+    >>> found = run_tooth_errors(
+    ...     "examples/measured/axle_17.toml", "m/contact/axle_17.nc"
+    ... )  # doctest: +SKIP
+    >>> found.mesh_table.shaft_error["gear"].shape  # doctest: +SKIP
+    """
+    flanks = read_measured_flanks(path)
+    if flanks.errors.is_none:
+        raise ParameterError(
+            f"{path} must name pitch, waviness or an eccentricity, got none: all teeth are alike. "
+            "The table of `gearlube contact` is complete then."
+        )
+    file, nominal = flanks.gear_file(), read_mesh_table(table).without_shaft_error()
+    settings = CycleSettings(positions=positions)
+    progress(0.0, "tooth compliance")
+    stiffness = pair_stiffness(file, body or ToothBodySettings(), jobs=jobs)
+    progress(0.0, "single pairs")
+    cycle = tooth_error_cycle(
+        file,
+        stiffness,
+        nominal,
+        flanks.errors,
+        settings,
+        store=None if folder is None else folder / STORE,
+        jobs=jobs,
+        progress=progress,
+    )
+    results = ToothErrorResults(flanks=flanks, cycle=cycle, mesh_table=cycle.added_to(nominal))
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+        write_mesh_table(results.mesh_table, folder / f"{file.name}.nc")
+        write_dataset(tooth_error_dataset(cycle), folder / "tooth_errors.nc")
+        tooth_errors(cycle, file.name).savefig(folder / "tooth_errors.png")
+    return results
+
+
+def tooth_error_dataset(cycle: ToothErrorCycle) -> xr.Dataset:
+    """Return the added transmission error over the hunting turn, and its orders, as a dataset."""
+    data = {
+        "error": (
+            ("torque", "mesh", "phase"),
+            cycle.error,
+            {"units": "m", "long_name": "added transmission error, the gear lags"},
+        ),
+        "rest_rms": (
+            ("torque",),
+            cycle.turns()[1],
+            {"units": "m", "long_name": "part that repeats with the hunting turn alone, rms"},
+        ),
+    }
+    for member, orders in cycle.orders().items():
+        data[f"{member}_amplitude"] = (
+            ("torque", f"{member}_order"),
+            np.hypot(orders[..., 0], orders[..., 1]),
+            {"units": "m", "long_name": f"amplitude by order of the {member}'s turn"},
+        )
+    coords = {
+        "torque": ("torque", cycle.torque, {"units": "N.m", "long_name": "pinion torque"}),
+        "phase": ("phase", cycle.phases, {"units": "1", "long_name": "mesh phase"}),
+        **{
+            f"{member}_order": np.arange(1, orders.shape[1] + 1)
+            for member, orders in cycle.orders().items()
+        },
+    }
+    return xr.Dataset(data, coords=coords)

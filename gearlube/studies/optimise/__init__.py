@@ -1,0 +1,1 @@
+"""Study: better flanks of a pair, least mesh orders under limits."""

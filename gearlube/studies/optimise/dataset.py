@@ -1,0 +1,86 @@
+"""Results of an optimisation as one labelled dataset."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube_core.flank_optimisation.evaluation import Evaluation
+from gearlube_core.flank_optimisation.optimise import Optimised
+from gearlube_core.flank_optimisation.problem import values_of
+from gearlube_core.input_file.field_notes import field_unit
+
+_EACH = ("design", "torque", "error")
+_VARIABLES = {
+    "transmission_error": ((*_EACH, "phase"), "rad", "rotation of the pinion under load"),
+    "pressure": ((*_EACH, "phase"), "Pa", "highest pressure"),
+    "sliding_loss": ((*_EACH, "phase"), "1", "sliding power over power, friction coefficient 1"),
+    "edge_share": ((*_EACH, "phase"), "1", "part of the load in the border of the flanks"),
+    "amplitude": ((*_EACH, "order"), "rad", "mesh orders of the transmission error"),
+    "whine": (_EACH, "rad", "root of the sum of squares of the mesh orders"),
+    "spread": (("design", "torque"), "rad", "how far errors move the mesh orders, rms"),
+}
+
+
+def designs(found: Optimised) -> dict[str, Evaluation]:
+    """Return the evaluations by the plain analysis: before, better and, if asked, nominal."""
+    named = {"before": found.before, "better": found.better.checked}
+    if found.nominal is not None:
+        named["nominal"] = found.nominal.checked
+    return named
+
+
+def optimise_dataset(found: Optimised) -> xr.Dataset:
+    """Return loaded measures of all designs, their values and the front; units as attributes."""
+    given, problem = found.problem.given, found.problem
+    named = designs(found)
+
+    def stacked(get: Any) -> Any:
+        return np.stack([get(one) for one in named.values()])
+
+    values = {
+        "transmission_error": stacked(lambda one: one.rotation),
+        "pressure": stacked(lambda one: one.pressure),
+        "sliding_loss": stacked(lambda one: one.sliding),
+        "edge_share": stacked(lambda one: one.edge_share),
+        "amplitude": stacked(lambda one: np.abs(one.orders(given.orders)[0])),
+        "whine": stacked(lambda one: one.whine(given.orders)),
+        "spread": stacked(lambda one: one.spread(given.orders)),
+    }
+    data: dict[str, Any] = {
+        name: (dims, values[name], {"units": unit, "long_name": text})
+        for name, (dims, unit, text) in _VARIABLES.items()
+    }
+    settings = [values_of(problem.file, problem.names), found.better.values]
+    if found.nominal is not None:
+        settings.append(found.nominal.values)
+    data["value"] = (("design", "parameter"), np.stack(settings), {"long_name": "as in the file"})
+    data["value_unit"] = (("parameter",), [unit_of(name) for name in problem.names])
+    if found.front:
+        for name, text in (("whine", "mesh orders"), ("loss", "sliding loss")):
+            front = np.array([getattr(point, name) for point in found.front])
+            note = {"units": "1", "long_name": f"{text} over those before, held cells"}
+            data[f"front_{name}"] = (("front",), front, note)
+    count = found.before.rotation.shape[-1]
+    return xr.Dataset(
+        data,
+        coords={
+            "design": list(named),
+            "torque": ("torque", list(given.torques_n_m), {"units": "N.m"}),
+            "error": [one.name for one in problem.scenarios],
+            "phase": ("phase", np.arange(count) / count, {"units": "1"}),
+            "order": list(given.orders),
+            "parameter": list(problem.names),
+        },
+        attrs={
+            "name": given.name,
+            "gear_file": found.better.file.model_dump_json(exclude_none=True),
+        },
+    )
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of a dotted field, "1" without."""
+    return field_unit(name.rpartition(".")[2])[0] or "1"

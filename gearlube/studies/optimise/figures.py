@@ -1,0 +1,121 @@
+"""Figures of an optimisation: error over the mesh, mesh orders, errors, whine against loss."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
+
+_COLOURS = {"before": GREY, "better": BLUE, "nominal": GREEN}
+_MICRO = 1e6
+
+
+def errors_over_mesh(dataset: xr.Dataset) -> Any:
+    """Return the loaded transmission error over two mesh periods, a panel for each torque."""
+    with house_style():
+        torques = dataset["torque"].values
+        figure = new_figure(max(4.2, 3.2 * torques.size), 3.4)
+        axes = np.atleast_1d(figure.subplots(1, torques.size, sharey=True))
+        for ax, torque in zip(axes, torques, strict=True):
+            for design in dataset["design"].values:
+                part = dataset["transmission_error"].sel(torque=torque, design=design)
+                for s in range(part.sizes["error"] - 1, -1, -1):
+                    values = _MICRO * (part.values[s] - part.values[s].mean())
+                    phase = np.arange(2 * values.size + 1) / values.size
+                    ax.plot(
+                        phase,
+                        np.append(np.tile(values, 2), values[0]),
+                        color=_COLOURS[str(design)],
+                        lw=1.8 if s == 0 else 0.6,
+                        label=str(design) if s == 0 else None,
+                    )
+            ax.set(xlim=(0.0, 2.0), xlabel="mesh periods", title=f"{torque:g} N·m")
+        axes[0].set_ylabel("transmission error [µrad]")
+        axes[0].legend()
+        figure.suptitle("Loaded transmission error, mean removed; thin: with errors", fontsize=11.5)
+    return figure
+
+
+def mesh_orders(dataset: xr.Dataset) -> Any:
+    """Return amplitudes of the mesh orders without errors, a panel for each torque."""
+    with house_style():
+        torques, orders = dataset["torque"].values, dataset["order"].values
+        figure = new_figure(max(4.2, 3.2 * torques.size), 3.4)
+        axes = np.atleast_1d(figure.subplots(1, torques.size, sharey=True))
+        names = [str(one) for one in dataset["design"].values]
+        for ax, torque in zip(axes, torques, strict=True):
+            for k, design in enumerate(names):
+                part = dataset["amplitude"].sel(torque=torque, design=design).isel(error=0)
+                place = np.arange(orders.size) + 0.8 * (k + 0.5) / len(names) - 0.4
+                ax.bar(
+                    place,
+                    _MICRO * part.values,
+                    0.75 / len(names),
+                    color=_COLOURS[design],
+                    label=design,
+                )
+            ax.set_xticks(np.arange(orders.size), [f"{order}" for order in orders])
+            ax.set(xlabel="mesh order", title=f"{torque:g} N·m")
+        axes[0].set_ylabel("amplitude [µrad]")
+        axes[0].legend()
+    return figure
+
+
+def sensitivity_to_errors(dataset: xr.Dataset) -> Any:
+    """Return all orders together under each error, a panel for each torque."""
+    with house_style():
+        torques, errors = dataset["torque"].values, dataset["error"].values
+        figure = new_figure(max(5.0, 3.2 * torques.size + 1.2), 0.35 * errors.size + 1.8)
+        axes = np.atleast_1d(figure.subplots(1, torques.size, sharey=True))
+        for ax, torque in zip(axes, torques, strict=True):
+            for design in dataset["design"].values:
+                part = dataset["whine"].sel(torque=torque, design=design)
+                place = np.arange(errors.size)
+                colour = _COLOURS[str(design)]
+                ax.plot(_MICRO * part.values, place, "o", color=colour, label=str(design))
+            ax.set_yticks(np.arange(errors.size), [str(one) for one in errors])
+            ax.set(xlabel="all orders [µrad]", title=f"{torque:g} N·m")
+            ax.set_xlim(left=0.0)
+        axes[0].invert_yaxis()
+        axes[0].legend()
+    return figure
+
+
+def whine_against_loss(dataset: xr.Dataset) -> Any:
+    """Return the front of mesh orders and loss, both over those before."""
+    with house_style():
+        figure = new_figure(5.2, 3.8)
+        ax = figure.subplots()
+        ax.plot(dataset["front_whine"], dataset["front_loss"], "o-", color=BLUE)
+        ax.plot(1.0, 1.0, "s", color=VERMILLION, label="before")
+        ax.set(xlabel="mesh orders over those before", ylabel="sliding loss over that before")
+        ax.set_xlim(left=0.0)
+        ax.legend()
+    return figure
+
+
+OPTIMISE_CATALOGUE = {
+    "transmission_error": errors_over_mesh,
+    "mesh_orders": mesh_orders,
+    "errors": sensitivity_to_errors,
+    "front": whine_against_loss,
+}
+
+
+def save_optimise_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
+    """Draw the figures that the dataset has into `directory` as PNG and return the files."""
+    directory.mkdir(parents=True, exist_ok=True)
+    files = []
+    for name, draw in OPTIMISE_CATALOGUE.items():
+        if name == "front" and "front_whine" not in dataset:
+            continue
+        if name == "errors" and dataset.sizes["error"] < 2:
+            continue
+        path = directory / f"{name}.png"
+        draw(dataset).savefig(path, dpi=150)
+        files.append(path)
+    return files

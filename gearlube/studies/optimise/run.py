@@ -1,0 +1,96 @@
+"""Optimise flanks: from a problem file to a better gear file, a report and a dataset."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.output.toml_text import toml_text
+from gearlube.studies.optimise.dataset import optimise_dataset
+from gearlube.studies.optimise.figures import save_optimise_figures
+from gearlube.studies.optimise.summary import report
+from gearlube_core.flank_optimisation.optimise import Optimised, OptimiseSettings, optimise
+from gearlube_core.flank_optimisation.problem import Problem
+from gearlube_core.flank_optimisation.problem_file import OptimisationFile
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import write_dataset, write_text
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OptimiseResults:
+    """Results of an optimisation.
+
+    Parameters
+    ----------
+    optimised : Optimised
+        Better pair, its check by the plain analysis, front.
+    dataset : xarray.Dataset
+        The same as labelled arrays, see `optimise_dataset`.
+    """
+
+    optimised: Optimised
+    dataset: xr.Dataset
+
+
+def run_optimise(
+    given: OptimisationFile,
+    settings: OptimiseSettings | None = None,
+    *,
+    folder: Path | None = None,
+    jobs: int | None = None,
+    progress: Progress = no_progress,
+) -> OptimiseResults:
+    """Return the flanks with least mesh orders under the limits of a problem file.
+
+    Parameters
+    ----------
+    given : OptimisationFile
+    settings : OptimiseSettings, optional
+        Rounds, resolution of the check, front, nominal pair.
+    folder : Path, optional
+        Gets the better gear file, report.md, optimise.nc and figures/. Evaluations and positions
+        are kept there: the same call goes on after a stop.
+    jobs : int, optional
+        Processes; default: all processors.
+    progress : callable, optional
+        Called with the share that is done [-] and a sentence on what runs.
+
+    Raises
+    ------
+    ParameterError
+        The problem or its gear file is wrong.
+    ConvergenceError
+        The pair finds no equilibrium under load.
+
+    Examples
+    --------
+    >>> found = run_optimise(OptimisationFile.named("helical"))  # doctest: +SKIP
+    >>> found.dataset["whine"].sel(error="none")  # doctest: +SKIP
+    """
+    problem = Problem.of(given)
+    found = optimise(problem, settings, folder=folder, jobs=jobs, progress=progress)
+    results = OptimiseResults(optimised=found, dataset=optimise_dataset(found))
+    if folder is not None:
+        progress(1.0, "figures")
+        write_optimise(results, folder)
+    return results
+
+
+def write_optimise(results: OptimiseResults, folder: Path) -> Path:
+    """Write gear file, report.md, optimise.nc and figures/; return the gear file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    found = results.optimised
+    path = folder / f"{found.problem.given.name}.toml"
+    file = found.better.file.model_copy(
+        update={
+            "name": found.problem.given.name,
+            "source": f"{found.better.file.source}; flanks optimised by gearlube",
+        }
+    )
+    write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
+    write_text(report(found), folder / "report.md")
+    write_dataset(results.dataset, folder / "optimise.nc")
+    save_optimise_figures(results.dataset, folder / "figures")
+    return path

@@ -1,0 +1,1 @@
+"""Better flanks: reliefs, crowns and settings that lower the mesh orders of loaded error."""

@@ -1,0 +1,94 @@
+"""What is found at one set of values: loaded measures at all loads, errors and phases."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.flank_optimisation.held_position import LoadedMeasures
+from gearlube_core.storage.result_store import Record
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """Measures at J torques, S scenarios and N phases, and their rates by P parameters.
+
+    Parameters
+    ----------
+    rotation, pressure, sliding, edge_share : ndarray of shape (J, S, N)
+        As in `LoadedMeasures`: [rad], [Pa], [-], [-].
+    rotation_rate, pressure_rate, sliding_rate, edge_share_rate : ndarray of shape (J, S, N, P)
+        Per unit of each parameter; P is 0 where rates were not asked.
+    """
+
+    rotation: Array
+    pressure: Array
+    sliding: Array
+    edge_share: Array
+    rotation_rate: Array
+    pressure_rate: Array
+    sliding_rate: Array
+    edge_share_rate: Array
+
+    @classmethod
+    def of(
+        cls, rows: list[tuple[LoadedMeasures, LoadedMeasures]], shape: tuple[int, int, int]
+    ) -> Evaluation:
+        """Return the evaluation of measures and rates in the order of `shape` (J, S, N)."""
+        values = np.array([one for one, _ in rows]).reshape(*shape, 4)
+        rates = np.array([one for _, one in rows]).reshape(*shape, 4, -1)
+        parts = [values[..., k] for k in range(4)] + [rates[..., k, :] for k in range(4)]
+        return cls(*parts)
+
+    @classmethod
+    def from_record(cls, record: Record) -> Evaluation:
+        """Return the evaluation that `record` was made of."""
+        return cls(**{one.name: record[one.name] for one in fields(cls)})
+
+    def record(self) -> Record:
+        """Return the arrays by name."""
+        return {one.name: getattr(self, one.name) for one in fields(self)}
+
+    def orders(self, orders: tuple[int, ...]) -> tuple[Array, Array]:
+        """Return the mesh orders of the error (J, S, K) [rad] and their rates (J, S, K, P).
+
+        c_k = (2/N) sum_n theta_n exp(-2 pi i k n/N)
+
+        Linear in the error, so their rates are those of the error likewise. Amplitudes: abs.
+        """
+        count = self.rotation.shape[-1]
+        angle = np.outer(orders, np.arange(count)) * (2.0 * np.pi / count)
+        wave = np.exp(-1j * angle) * (2.0 / count)
+        return self.rotation @ wave.T, np.einsum("kn,jsnp->jskp", wave, self.rotation_rate)
+
+    def whine(self, orders: tuple[int, ...]) -> Array:
+        """Return the root of the sum of squares of the mesh orders (J, S) [rad]."""
+        return np.asarray(np.linalg.norm(self.orders(orders)[0], axis=-1))
+
+    def spread(self, orders: tuple[int, ...]) -> Array:
+        """Return how far errors move the mesh orders, root mean square over them (J,) [rad].
+
+        Zero without errors.
+        """
+        found = self.orders(orders)[0]
+        if found.shape[1] == 1:
+            return np.zeros(found.shape[0])
+        moved = np.abs(found[:, 1:] - found[:, :1]) ** 2
+        return np.asarray(np.sqrt(moved.sum(axis=2).mean(axis=1)))
+
+    @property
+    def highest_pressure(self) -> Array:
+        """Over errors and phases (J,) [Pa]."""
+        return np.asarray(self.pressure.max(axis=(1, 2)))
+
+    @property
+    def mean_sliding(self) -> Array:
+        """Over errors and phases (J,) [-]."""
+        return np.asarray(self.sliding.mean(axis=(1, 2)))
+
+    @property
+    def largest_edge_share(self) -> Array:
+        """Over errors and phases (J,) [-]."""
+        return np.asarray(self.edge_share.max(axis=(1, 2)))

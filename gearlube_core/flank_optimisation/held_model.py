@@ -1,0 +1,176 @@
+"""A pair near one set of values: all positions held, evaluations kept."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.flank_optimisation import helical_positions, hypoid_positions
+from gearlube_core.flank_optimisation.evaluation import Evaluation
+from gearlube_core.flank_optimisation.held_position import HeldPosition
+from gearlube_core.flank_optimisation.problem import Problem, Scenario, with_error
+from gearlube_core.helical_contact.loaded_contact import LoadedSettings as HelicalLoaded
+from gearlube_core.helical_contact.strips import StripSettings as HelicalStrips
+from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings as HypoidLoaded
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_contact.sensitivity.parameter import Parameter
+from gearlube_core.hypoid_contact.strips import StripSettings as HypoidStrips
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.process_pool import single_threaded
+from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
+from gearlube_core.tooth_contact.coupled_strips import PairStiffness
+
+_FORMAT = 1  # raise with every change of the model that changes results
+HELICAL_CELLS = HelicalLoaded(strips=HelicalStrips(cells_across=13, cells_along=22))
+HYPOID_CELLS = HypoidLoaded(strips=HypoidStrips(cells_across=14, cells_along=24))
+
+
+@dataclass
+class HeldModel:
+    """A problem's pair with its cells cut where it stands at one set of values.
+
+    Parameters
+    ----------
+    problem : Problem
+    stiffness : PairStiffness
+        Of the flanks that carry.
+    at : ndarray of shape (P,), optional
+        Where cells are cut [unit of each]; None: the pair as its file gives it.
+    folder : Path, optional
+        Keeps evaluations, so that an interrupted search goes on.
+    progress : callable
+        Called with the share of positions that are cut [-] and a sentence.
+    """
+
+    problem: Problem
+    stiffness: PairStiffness
+    at: Array | None
+    folder: Path | None = None
+    progress: Progress = no_progress
+    _positions: list[HeldPosition] = field(default_factory=list)
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """J torques, S scenarios, N phases."""
+        given = self.problem.given
+        return len(given.torques_n_m), len(self.problem.scenarios), given.positions
+
+    def evaluate(self, values: Array | None = None) -> Evaluation:
+        """Return the measures with values (P,) [unit of each]; None: as the file gives it.
+
+        Raises
+        ------
+        ConvergenceError
+            A position finds no equilibrium.
+        """
+        store: ResultStore[Record] = ResultStore(self.folder, ARRAYS)
+        key = self._key(values)
+        kept = store.read(key)
+        if kept is not None:
+            return Evaluation.from_record(kept)
+        with single_threaded():
+            if not self._positions:
+                self._positions = self._cut()
+            flanks = [self._flanks(values, one) for one in self.problem.scenarios]
+            each = self.shape[2]
+            rows = [
+                position.measures(flanks[(k // each) % len(flanks)])
+                for k, position in enumerate(self._positions)
+            ]
+        found = Evaluation.of(rows, self.shape)
+        store.keep(key, found.record())
+        return found
+
+    def _key(self, values: Array | None) -> str:
+        digest = hashlib.sha256(f"flank optimisation {_FORMAT}".encode())
+        digest.update(self.problem.file.model_dump_json().encode())
+        given = self.problem.given
+        whole = (given.torques_n_m, given.side, given.positions, given.limits.edge_band)
+        digest.update(repr((whole, self.problem.names, self.problem.scenarios)).encode())
+        for part in (self.stiffness.pinion, self.stiffness.gear):
+            digest.update(np.ascontiguousarray(part.image).tobytes())
+        for one in (self.at, values):
+            digest.update(b"given" if one is None else np.round(one, 12).tobytes())
+        return digest.hexdigest()[:20]
+
+    def _file(self, values: Array | None, scenario: Scenario) -> Any:
+        if values is None:
+            return with_error(self.problem.file, scenario)
+        return self.problem.tried(values, scenario)
+
+    def _ends(self, values: Array | None) -> list[tuple[str, float, float]]:
+        return [] if values is None else self.problem.ends(values)
+
+    def _flanks(self, values: Array | None, scenario: Scenario) -> Any:
+        file, ends = self._file(values, scenario), self._ends(values)
+        ends = [
+            (name, low + scenario.added.get(name, 0.0), high + scenario.added.get(name, 0.0))
+            for name, low, high in ends
+        ]
+        if not self.problem.is_hypoid:
+            return helical_positions.HelicalFlanks.of(file, ends)
+        moves = np.zeros(len(ends))
+        if values is not None and self.at is not None:
+            settings = [_is_setting(name) for name, _, _ in ends]
+            moves = np.where(settings, values - self.at, 0.0)
+        return hypoid_positions.HypoidFlanks.of(file, self.problem.given.side, ends, moves)
+
+    def _cut(self) -> list[HeldPosition]:
+        torques, band = self.problem.given.torques_n_m, self.problem.given.limits.edge_band
+        phases = np.arange(self.shape[2]) / self.shape[2]
+        bodies = [self._body(one) for one in self.problem.scenarios]
+        found = []
+        for torque in torques:
+            for body in bodies:
+                for phase in phases:
+                    found.append(body(float(phase), torque, band))
+                    share = len(found) / (len(torques) * len(bodies) * phases.size)
+                    self.progress(share, f"cells at {torque:g} N.m")
+        return found
+
+    def _body(self, scenario: Scenario) -> Any:
+        """Return what cuts a position of a scenario from phase, torque and border."""
+        file = self._file(self.at, scenario)
+        if not self.problem.is_hypoid:
+            modified = file.modified_pair()
+            return lambda phase, torque, band: helical_positions.held_position(
+                modified, phase, torque, self.stiffness, HELICAL_CELLS, band
+            )
+        ends = self._ends(self.at)
+        side = self.problem.given.side
+        pair = FlankPair.from_file(file, side, scenario.misalignment)
+        about = {
+            k: _setting_ends(file, pair, name)
+            for k, (name, _, _) in enumerate(ends)
+            if _is_setting(name)
+        }
+        return lambda phase, torque, band: hypoid_positions.held_position(
+            *(pair, about, len(ends), phase, torque, self.stiffness, HYPOID_CELLS, band)
+        )
+
+
+def _is_setting(name: str) -> bool:
+    return name.split(".")[1] in ("machine", "cutter")
+
+
+def _setting_ends(file: Any, pair: FlankPair, name: str) -> tuple[float, FlankPair, FlankPair]:
+    parameter = Parameter.named(name, file, pair.misalignment)
+    lower, upper = parameter.about(file, pair)
+    return 2.0 * parameter.step, lower, upper
+
+
+def differences(model: HeldModel, values: Array, steps: Sequence[float]) -> list[Evaluation]:
+    """Return evaluations one step above and below each value in turn, for checks of rates."""
+    found = []
+    for k, step in enumerate(steps):
+        for sign in (1.0, -1.0):
+            moved = np.array(values, float)
+            moved[k] += sign * step
+            found.append(model.evaluate(moved))
+    return found

@@ -1,0 +1,180 @@
+"""The problem file: what may change, at which loads and errors it counts, and what limits it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from gearlube_core.input_file.input_file import InputFile, Section
+
+Text = Annotated[str, Field(min_length=1)]
+Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
+Torque = Annotated[float, Field(ge=1e-2, le=1e6, allow_inf_nan=False)]
+Length = Annotated[float, Field(ge=0.0, le=1000.0, allow_inf_nan=False)]
+Angle = Annotated[float, Field(ge=0.0, le=20.0, allow_inf_nan=False)]
+Times = Annotated[float, Field(ge=0.1, le=10.0, allow_inf_nan=False)]
+Share = Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)]
+Band = Annotated[float, Field(gt=0.0, le=0.3, allow_inf_nan=False)]
+Span = Annotated[float, Field(gt=0.0, le=10.0, allow_inf_nan=False)]
+Ratio = Annotated[float, Field(gt=0.0, le=0.2, allow_inf_nan=False)]
+Order = Annotated[int, Field(ge=1, le=20)]
+_RANGE = ("low", "high", "start")
+
+
+class Range(Section):
+    """Between which values one field may change, in the unit of the field."""
+
+    low: Number = Field(description="Least value")
+    high: Number = Field(description="Largest value")
+    start: Number | None = Field(
+        default=None, description="Where the search starts; absent: the value of the gear file"
+    )
+
+    @model_validator(mode="after")
+    def _check_order(self) -> Range:
+        if not self.low < self.high:
+            raise ValueError(f"low must be below high, got {self.low:g} and {self.high:g}")
+        if self.start is not None and not self.low <= self.start <= self.high:
+            raise ValueError(
+                f"start must lie within low and high, {self.low:g} to {self.high:g}, got "
+                f"{self.start:g}"
+            )
+        return self
+
+
+def _flat(data: Any, prefix: str = "") -> Any:
+    """Return tables in tables as dotted names, so that names need no quotes in the file."""
+    if not isinstance(data, Mapping):
+        return data
+    found: dict[str, Any] = {}
+    for name, entry in data.items():
+        whole = f"{prefix}{name}"
+        if isinstance(entry, Mapping) and not any(key in _RANGE for key in entry):
+            found |= _flat(entry, f"{whole}.")
+        else:
+            found[whole] = entry
+    return found
+
+
+class Errors(Section):
+    """Errors of assembly and making; each is taken with both signs, one at a time."""
+
+    pinion_offset_um: Length = Field(default=0.0, description="E of a hypoid pair, of the offset")
+    pinion_axial_um: Length = Field(
+        default=0.0, description="P of a hypoid pair, of the pinion's place"
+    )
+    gear_axial_um: Length = Field(
+        default=0.0, description="G of a hypoid pair, of the gear's place"
+    )
+    shaft_angle_mrad: Angle = Field(
+        default=0.0, description="Sigma of a hypoid pair, of the shaft angle"
+    )
+    lead_slope_um: Length = Field(
+        default=0.0,
+        description="Of a helical pair: misalignment in the plane of contact over the face",
+    )
+    profile_slope_um: Length = Field(
+        default=0.0, description="Of a helical pair: pressure angle of a gear"
+    )
+    fields: Annotated[dict[Text, Number], BeforeValidator(_flat)] = Field(
+        default={}, description="Tolerances of fields of the gear file, by their dotted names"
+    )
+
+
+class Limits(Section):
+    """What the better pair must keep, at each torque; 1 is the value of the gear file as given."""
+
+    pressure: Times | None = Field(
+        default=1.0, description="Highest pressure, errors included, times that before"
+    )
+    loss: Times | None = Field(
+        default=1.0, description="Sliding loss at one coefficient of friction, times that before"
+    )
+    sensitivity: Times | None = Field(
+        default=1.0, description="How far errors move the mesh orders, times that before"
+    )
+    edge_share: Share | None = Field(
+        default=None,
+        description="Largest part of the load in the border of the flanks; absent: no limit",
+    )
+    edge_band: Band = Field(
+        default=0.05,
+        description="Width of that border at tip, toe and heel, in parts of height and face width",
+    )
+
+
+class Settings(Section):
+    """Machine settings of a hypoid pair that may change about the values of the gear file."""
+
+    members: Annotated[tuple[Literal["pinion", "gear"], ...], Field(strict=False, min_length=1)] = (
+        Field(
+            default=("pinion",), description="Whose settings may change; the other member is kept"
+        )
+    )
+    blades: bool = Field(
+        default=False, description="Whether their cutters may change too; false: blades are kept"
+    )
+    within_mm: Span = Field(default=0.5, description="Lengths: so much less and more")
+    within_deg: Span = Field(default=0.5, description="Angles: so much less and more")
+    within_ratio: Ratio = Field(
+        default=0.01, description="Ratio of roll: this part of itself less and more"
+    )
+
+
+class OptimisationFile(InputFile):
+    """What to make better of a gear pair, and within which bounds.
+
+    Examples
+    --------
+    >>> OptimisationFile.shipped()
+    ('helical', 'helical_plain', 'hypoid')
+    """
+
+    package: ClassVar[str] = "gearlube_core.flank_optimisation"
+    title: ClassVar[str] = "problem file"
+
+    name: Text = Field(description="What the better pair is called")
+    gear: Text = Field(description="A shipped gear pair or a gear file (TOML)")
+    torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)] = Field(
+        description="Operating torques of the pinion; all count alike"
+    )
+    side: Literal["drive", "coast"] = Field(default="drive", description="Flanks of a hypoid pair")
+    orders: Annotated[tuple[Order, ...], Field(strict=False, min_length=1)] = Field(
+        default=(1, 2, 3),
+        description="Mesh orders of the loaded transmission error that count, all alike",
+    )
+    aim: Literal["mean", "worst"] = Field(
+        default="mean",
+        description="mean: least mean square over torques and errors; worst: least highest value",
+    )
+    positions: Annotated[int, Field(ge=6, le=64)] = Field(
+        default=8, description="Mesh phases of the search; above twice the highest order"
+    )
+    parameters: Annotated[dict[Text, Range], BeforeValidator(_flat)] = Field(
+        default={}, description="Fields of the gear file that may change, with bounds"
+    )
+    settings: Settings | None = None
+    errors: Errors = Errors()
+    limits: Limits = Limits()
+
+    @model_validator(mode="after")
+    def _check_relations(self) -> OptimisationFile:
+        if not self.parameters and self.settings is None:
+            raise ValueError(
+                "[parameters] must name a field that may change, or [settings] be given, got none"
+            )
+        if len(set(self.orders)) < len(self.orders):
+            raise ValueError(f"orders must name each order once, got {list(self.orders)}")
+        least = 2 * max(self.orders) + 1
+        if self.positions < least:
+            raise ValueError(
+                f"positions must be at least {least} for order {max(self.orders)}, got "
+                f"{self.positions}"
+            )
+        torques = self.torques_n_m
+        if any(later <= earlier for earlier, later in pairwise(torques)):
+            raise ValueError(f"torques_n_m must rise, got {list(torques)}")
+        return self

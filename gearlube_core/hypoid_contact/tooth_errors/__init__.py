@@ -1,0 +1,1 @@
+"""Transmission error of pairs whose teeth differ: pitch, running axis, waves."""

@@ -1,0 +1,1 @@
+"""Measured gears: deviations of flanks, pitch, running axis and waves."""
