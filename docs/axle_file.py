@@ -56,8 +56,21 @@ for note in paper.assumed:
     print(note.field, note.value_text, note.unit, note.origin, note.why)
 ```
 
-- Only `gear_set.mesh_table` is required: a shipped table, or the file that `gearlube contact` wrote
-  for [your gears](gear_file.md). The numbers of teeth, and so the final drive, are the table's.
+- Only the gears are required: `gear_set.gear_file` names [your gear file](gear_file.md), as
+  `gearlube design` writes it or you fill it in from the machine settings; or `gear_set.mesh_table`
+  names a shipped table or one that `gearlube contact` wrote. The numbers of teeth, and so the final
+  drive, are theirs.
+- With `gear_file = "my_gears.toml"` the first command or call that reads the axle file analyses the
+  loaded contact, 2 to 4 minutes on two processors, with a bar. Its mesh table is kept
+  beside the gear file as `my_gears.mesh.nc`, or in the user's cache folder where nothing can be
+  written there. It carries hashes of the gear file's content, the torques and the code of the
+  analysis: when one of them has changed it is computed anew, and the command says why. Comments and
+  `[tolerances]` of the gear file do not count. Stopped by Ctrl-C, the same command goes on from the
+  finished positions. `gearlube contact my_gears.toml` at its usual settings, or with `--torques`,
+  keeps the same table and draws the figures as well.
+- The analysis has the torques of `gearlube contact`, 5 to 400 N.m on the pinion; a truck needs its
+  own `contact_torques_n_m`. Misaligned pairs, other positions: `gearlube contact`, and its table as
+  `mesh_table`.
 - What the file gives is **given**. What it leaves out is **inferred** where it follows from given
   fields, else **assumed**: the default in the tables below. `gearlube axle show` and the report of
   a sweep list what is inferred and assumed, with values, units and reasons.
@@ -120,13 +133,13 @@ torque of the mesh table, the sweep refuses before it builds anything; beyond th
 
 `gearlube build-fmu --axle my_axle.toml` builds native [FMUs](fmu.md), with `--python` one that
 computes in this package. The FMU carries the file as `resources/axle.toml`, a mesh table of its own
-as `resources/mesh_table.nc`, an asperity table as `resources/asperity_table.nc` and an oil file
-as `resources/oil.toml`; the paths in
-the file have no meaning there. Its GUID depends on every byte of all three. Start values of its
-parameters are the file's. An oil of the file's own is the literal `custom` of `oil.name`.
-`--mesh-table` does not go with `--axle`: the file names its table. A sweep keeps one such FMU in
-the cache for each content of file and tables. The FMU has no car: vehicle, tyre, gearbox, engine
-and driveline of the file are those of the sweep.
+or that of its gear file as `resources/mesh_table.nc`, an asperity table as
+`resources/asperity_table.nc` and an oil file as `resources/oil.toml`; the paths in
+the file have no meaning there, and the gear file itself is not in it. Its GUID depends on every
+byte of all of them. Start values of its parameters are the file's. An oil of the file's own is the
+literal `custom` of `oil.name`. `--mesh-table` does not go with `--axle`: the file names its gears.
+A sweep keeps one such FMU in the cache for each content of file and tables. The FMU has no car:
+vehicle, tyre, gearbox, engine and driveline of the file are those of the sweep.
 
 These inputs are parameters of the FMU and can be set at run time; all others are built in:
 

@@ -117,8 +117,8 @@ gear,drive,83,0.4,45
 
 The deviation is A cos(n theta + phase), plus for more material, with theta the rotation of the
 member in the drive direction at which a point of the flank is in contact. So waves run along the
-lines of contact, as those do that a wobbling work spindle or a worm of the machine leaves. theta
-is zero where tooth 1 stands at the mean point.
+lines of contact, as those do that come from the drive of the machine's work spindle. theta is
+zero where tooth 1 stands at the mean point.
 
 ### From teeth to orders
 
@@ -163,7 +163,7 @@ way round or another unit. A tilt angle that differs by 0.1 deg is 4 um rms.
 
 ## What is refused
 
-Missing points (they are named), points that are there twice, flanks called left and right,
+Missing points and teeth (they are named), what is there twice, flanks called left and right,
 members without a described grid, numbers beyond 500 um, grids whose largest deviation is below
 0.1 um (in another unit, most likely), middle points that are not zero. Every sentence names file
 and line.
@@ -227,6 +227,7 @@ TAIL = """
 - Grids of several teeth are averaged; teeth differ by pitch, eccentricity and waves alone.
 - Orders are kept up to a quarter of `--positions` times the teeth; the corners of a step lie
   above.
+- The axle takes about half as long again with the 147 orders of the example.
 - The gear turns in proportion to the pinion in these errors; that they shake it does not count.
 - The losses of `gearlube map` are those of nominal teeth. The torsional pair (`gearlube
   resonance`), whose motions have the mesh period, refuses such a table.

@@ -95,7 +95,8 @@ def definition_with_axle(
     path : path
         Axle file, or the name of a shipped one.
     mesh_table : path, optional
-        Where the table that the file names as a file is; by default where the file says.
+        Where the table of the gears is that the file names as a file; by default where the file
+        says, or the one that is kept of its gear file.
     asperity_table : path, optional
         The same of its asperity table.
     oil_file : path, optional
@@ -107,12 +108,18 @@ def definition_with_axle(
         The file is missing or wrong.
     TableError
         Its mesh table or its asperity table is missing or wrong.
+
+    Notes
+    -----
+    A gear file whose mesh table is missing or out of date is analysed first, which takes minutes.
     """
     content = _axle_content(path)
     try:
         file = parsed_axle_file(content)
-        table, asperities = file.own_table, file.gear_set.asperity_table
-        where = Path(path).parent / table if mesh_table is None else mesh_table
+        asperities = file.gear_set.asperity_table
+        table = file.table_file(Path(path).parent) if mesh_table is None else Path(mesh_table)
+        if mesh_table is not None and not file.has_own_table:
+            table = None
         of_patches = None
         if asperities is not None:
             there = Path(path).parent / asperities if asperity_table is None else asperity_table
@@ -122,7 +129,8 @@ def definition_with_axle(
             oil = read_oil_content(
                 Path(path).parent / file.oil.file if oil_file is None else oil_file
             )
-        return _definition_with(content, read_content(where) if table else None, of_patches, oil)
+        of_gears = None if table is None else read_content(table)
+        return _definition_with(content, of_gears, of_patches, oil)
     except GearLubeError as error:
         raise type(error)(f"{path}: {error}") from None
 

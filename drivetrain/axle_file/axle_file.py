@@ -30,6 +30,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.kept_table import KeptTable
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
@@ -39,6 +40,7 @@ from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import DescribedOil, read_oil_file
+from gearlube_core.progress import Progress, no_progress
 from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
 from gearlube_core.rough_patch.table import GreenwoodTrippFit
 
@@ -102,7 +104,7 @@ class AxleFile(InputFile):
 
     name: Text = Field(default="axle", description="What reports call the axle")
     source: Text | None = Field(default=None, description="Where the numbers are from")
-    gear_set: GearSet
+    gear_set: GearSet = Field(default={}, validate_default=True)  # type: ignore[arg-type]
     pinion: Member = Member()
     gear: Member = Member()
     steel: Steel = Steel()
@@ -126,16 +128,43 @@ class AxleFile(InputFile):
         return self
 
     @property
-    def own_table(self) -> str:
-        """Path of the mesh table relative to the file; "" where it names a shipped one."""
-        table = self.gear_set.mesh_table
-        return table if table.endswith(".nc") else ""
+    def has_own_table(self) -> bool:
+        """Whether the mesh table is a file, not a shipped one."""
+        return self.gear_set.named.endswith((".nc", ".toml"))
 
-    def mesh(self, folder: Path = Path()) -> MeshTable:
-        """Return the mesh table; `folder` is that of the file."""
-        if self.own_table:
-            return read_mesh_table(folder / self.own_table)
-        return shipped_mesh_table(self.gear_set.mesh_table)
+    def kept_table(self, folder: Path = Path()) -> KeptTable:
+        """Return where the mesh table of the gear file is kept; `folder` is that of the file."""
+        return KeptTable(folder / self.gear_set.named, self.gear_set.contact_torques_n_m)
+
+    def table_file(
+        self, folder: Path = Path(), *, jobs: int | None = None, progress: Progress = no_progress
+    ) -> Path | None:
+        """Return the path of the mesh table; None where the file names a shipped one.
+
+        Parameters
+        ----------
+        folder : Path
+            Of the file.
+        jobs : int, optional
+            Processes of the analysis of a gear file; default: all processors.
+        progress : callable, optional
+            Called with the share of that analysis that is done [-] and a sentence.
+
+        Raises
+        ------
+        GearLubeError
+            The analysis of the gear file fails, see `KeptTable`.
+        """
+        if self.gear_set.gear_file is not None:
+            return self.kept_table(folder).up_to_date(jobs=jobs, progress=progress)
+        return folder / self.gear_set.named if self.has_own_table else None
+
+    def mesh(
+        self, folder: Path = Path(), *, jobs: int | None = None, progress: Progress = no_progress
+    ) -> MeshTable:
+        """Return the mesh table; `folder` is that of the file, the others as in `table_file`."""
+        path = self.table_file(folder, jobs=jobs, progress=progress)
+        return shipped_mesh_table(self.gear_set.named) if path is None else read_mesh_table(path)
 
     def asperities(self, folder: Path = Path()) -> GreenwoodTrippFit | None:
         """Return the fit to the asperity table; `folder` is that of the file; None: no table."""
@@ -161,7 +190,7 @@ class AxleFile(InputFile):
         Parameters
         ----------
         mesh : MeshTable, optional
-            Read from the file's `mesh_table`; by default the shipped one that it names.
+            Of the file's gears; by default the one of `mesh`.
         asperities : GreenwoodTrippFit, optional
             Fit to the file's `asperity_table`; by default read where it names one.
         oil : DescribedOil, optional
@@ -238,6 +267,19 @@ class AxleFile(InputFile):
         )
         return replace(base, **self.driveline.changes(base))
 
+    def _gear_file_notes(self, mesh: MeshTable) -> list[InputNote]:
+        """Return what the gear file became."""
+        notes = [
+            InputNote(
+                "gear_set.mesh_table", mesh.name, "", "inferred", "loaded contact of gear_file"
+            )
+        ]
+        if self.gear_set.contact_torques_n_m is None:
+            drive = tuple(float(one) for one in mesh.torque if one > 0.0)
+            name, why = "gear_set.contact_torques_n_m", "default of `gearlube contact`"
+            notes.append(InputNote(name, drive, "N.m", "assumed", why))
+        return notes
+
     def _notes(
         self,
         axle: HypoidAxleParameters,
@@ -247,6 +289,8 @@ class AxleFile(InputFile):
     ) -> list[InputNote]:
         of_table = {} if fit is None else {"roughness_rms_um": "asperity_table"}
         notes = self.gear_set.notes("gear_set.", axle, _MODEL, of_table)
+        if self.gear_set.gear_file is not None:
+            notes += self._gear_file_notes(axle.mesh)
         if fit is not None:
             notes += _fit_notes(fit)
         for role, member in (("pinion", self.pinion), ("gear", self.gear)):
@@ -288,15 +332,28 @@ def _fit_notes(fit: GreenwoodTrippFit) -> list[InputNote]:
     ]
 
 
-def read_axle(path: str | Path) -> CarAxle:
+def read_axle(
+    path: str | Path, *, jobs: int | None = None, progress: Progress = no_progress
+) -> CarAxle:
     """Return axle and car of an axle file, or of a shipped one by its name.
+
+    Parameters
+    ----------
+    path : path
+    jobs : int, optional
+        Processes of the contact analysis, where the file names a gear file whose mesh table is
+        not there or out of date; default: all processors.
+    progress : callable, optional
+        Called with the share of that analysis that is done [-] and a sentence on what runs.
 
     Raises
     ------
     ParameterError
-        The file is missing or wrong; all wrong fields are named.
+        The file or its gear file is missing or wrong; all wrong fields are named.
     TableError
         Its mesh table or its asperity table is missing or wrong.
+    ConvergenceError
+        The analysis of its gear file finds no equilibrium.
 
     Examples
     --------
@@ -308,7 +365,8 @@ def read_axle(path: str | Path) -> CarAxle:
     """
     file = AxleFile.given(str(path))
     folder = Path(path).parent
-    return file.car_axle(file.mesh(folder), file.asperities(folder), file.described_oil(folder))
+    mesh = file.mesh(folder, jobs=jobs, progress=progress)
+    return file.car_axle(mesh, file.asperities(folder), file.described_oil(folder))
 
 
 def parsed_axle_file(content: bytes) -> AxleFile:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
+import numpy as np
 from pydantic import Field, model_validator
 
 from drivetrain.axle_file.model_section import ModelSection
@@ -12,6 +13,8 @@ from gearlube_core.dynamics.hypoid_axle.bearing_drag import TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.parameters import Friction
 
 Text = Annotated[str, Field(min_length=1)]
+Torque = Annotated[float, Field(ge=0.01, le=1e5, allow_inf_nan=False)]
+Torques = Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)]
 Backlash = Annotated[float, Field(ge=0.0, le=2000.0, allow_inf_nan=False)]
 Roughness = Annotated[float, Field(ge=0.001, le=20.0, allow_inf_nan=False)]
 LossFactor = Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)]
@@ -33,9 +36,20 @@ class GearSet(ModelSection):
         "hysteretic_loss": "Mohammadpour et al. 2015 (4)",
     }
 
-    mesh_table: Text = Field(
+    mesh_table: Text | None = Field(
+        default=None,
         description="Shipped mesh table, or a file (.nc) of `gearlube contact`, its path relative "
-        "to the axle file"
+        "to the axle file; this or gear_file",
+    )
+    gear_file: Text | None = Field(
+        default=None,
+        description="Gear file (.toml) of a hypoid pair, its path relative to the axle file: its "
+        "loaded contact is analysed once, and kept beside it",
+    )
+    contact_torques_n_m: Torques | None = Field(
+        default=None,
+        description="Pinion torques at which the gears of gear_file are analysed, rising, used on "
+        "either flank; absent: 5, 10, 20, 50, 100, 200, 300, 400",
     )
     backlash_um: Backlash | None = Field(
         default=None, description="Total, along the line of action"
@@ -66,6 +80,41 @@ class GearSet(ModelSection):
     frequency_floor_hz: Floor | None = Field(
         default=None, description="Lowest mesh frequency that the hysteresis sees"
     )
+
+    @model_validator(mode="after")
+    def _check_gears(self) -> GearSet:
+        if self.mesh_table is None and self.gear_file is None:
+            raise ValueError(
+                "mesh_table or gear_file must be given, got neither; write "
+                'gear_file = "my_gears.toml", or mesh_table = "mohammadpour_2015", which ships'
+            )
+        if self.mesh_table is not None and self.gear_file is not None:
+            raise ValueError(
+                f"mesh_table and gear_file must not come together, got {self.mesh_table!r} and "
+                f"{self.gear_file!r}; leave out mesh_table to have the gear file analysed"
+            )
+        if self.gear_file is not None and not self.gear_file.endswith(".toml"):
+            raise ValueError(
+                f"gear_file must be a gear file, whose name ends in .toml, got {self.gear_file!r}; "
+                "a mesh table is named as mesh_table"
+            )
+        if self.contact_torques_n_m is not None:
+            if self.gear_file is None:
+                raise ValueError(
+                    "contact_torques_n_m must come with gear_file, got it with mesh_table, which "
+                    "has its own torques; leave it out"
+                )
+            if any(np.diff(self.contact_torques_n_m) <= 0.0):
+                raise ValueError(
+                    f"contact_torques_n_m must rise, got {list(self.contact_torques_n_m)} N.m; "
+                    "sort them"
+                )
+        return self
+
+    @property
+    def named(self) -> str:
+        """What names the gears: a gear file, the file of a mesh table, or a shipped one."""
+        return self.gear_file or self.mesh_table or ""
 
     @model_validator(mode="after")
     def _check_damping(self) -> GearSet:

@@ -29,11 +29,13 @@ def show(
 ) -> None:
     """Check an axle file; print every input with its value, unit and where it is from."""
     from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from gearlube.cli.axle_gears import bring_gears_up_to_date
 
-    with exit_on_error():
+    with exit_on_error("Stopped. Run the same command again to go on."):
         if example:
             typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
             return
+        bring_gears_up_to_date(file)
         described = read_axle(file)
         mesh = described.axle.mesh
         typer.echo(f"{described.name}{f' ({described.source})' if described.source else ''}")

@@ -64,8 +64,10 @@ def build_fmu(
     if not python:
         compile_for_any_machine()
     from fmu_src.build import build_models
+    from fmu_src.hypoid_axle import check_one_table
     from fmu_src.native.build import FMI_VERSIONS, NativeOptions
     from fmu_src.native.platforms import PLATFORM_NAMES
+    from gearlube.cli.axle_gears import bring_gears_up_to_date
 
     began = time.monotonic()
     with exit_on_error("Stopped; no FMU was built."):
@@ -79,6 +81,9 @@ def build_fmu(
                 report=lambda text: _LOGGER.info("%s", text),
             )
         with written_folder(out):
+            if axle is not None:
+                check_one_table(mesh_table)
+            bring_gears_up_to_date(axle)
             paths = build_models(out, model, mesh_table, gear, line_mesh, axle=axle, native=native)
     built = " and ".join(str(path) for path in paths)
     _LOGGER.info("Built %s in %.1f s.", built, time.monotonic() - began)

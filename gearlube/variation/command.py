@@ -93,12 +93,14 @@ def vary(
     Writes results.zarr, points.csv, summary.csv, sensitivity.csv and figures. Finished blocks of
     points are kept: run the same command again to go on after a stop.
     """
+    from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
     from gearlube.variation.design import Design
     from gearlube.variation.figures import save_variation_figures
+    from gearlube.variation.file_variants import GEAR_FILE
     from gearlube.variation.run import MOST_BLOCK, MOST_JOBS, run_variation
-    from gearlube.variation.studies import point_study, prepared
+    from gearlube.variation.studies import OF_AXLE, point_study, prepared
     from gearlube.variation.studies import scatter as scatter_of_study
     from gearlube.variation.summary import write_summary
     from gearlube.variation.vary_option import (
@@ -110,14 +112,16 @@ def vary(
     from gearlube_core.checks import check_address, check_within
 
     with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        if jobs is not None:
+            check_within("--jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all.")
+        if study in OF_AXLE:
+            bring_gears_up_to_date(file, jobs=jobs)
         chosen = point_study(study, file, quick=quick)
         if keys:
             typer.echo(_listed(chosen), nl=False)
             return
         given = varied_from(vary or [], chosen.keys)
         limits = limits_from(limit or [], [one.name for one in chosen.quantities])
-        if jobs is not None:
-            check_within("--jobs", jobs, 1, MOST_JOBS, "", "Leave it out to use all.")
         if block is not None:
             check_within("--block", block, 1, MOST_BLOCK, "", "Leave it out for the usual.")
         if scheduler is not None:
@@ -129,6 +133,8 @@ def vary(
             spreads = (*spreads, *(one for one in of_file if one.key not in typed))
             design = SCATTER_DESIGN if design is None else design
         plan = Design(axes=given.axes, spreads=spreads, sampling=sampling_from(design, seed))
+        gears = [str(one) for axis in given.axes if axis.key == GEAR_FILE for one in axis.values]
+        bring_gears_up_to_date(file if gears else None, gears, jobs=jobs)
         chosen = prepared(chosen, plan)
         logger.info("%d points: %s.", plan.size, ", ".join(plan.keys))
         with results_folder(out, f"vary {study}", overwrite=overwrite):

@@ -20,7 +20,8 @@ from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.oil_file import DescribedOil
 from gearlube_core.rough_patch.table import GreenwoodTrippFit
 
-_NAMES_OF_FILES = ("gear_set.mesh_table", "gear_set.asperity_table", "oil.file")
+GEAR_FILE = "gear_set.gear_file"
+_NAMES_OF_FILES = ("gear_set.mesh_table", GEAR_FILE, "gear_set.asperity_table", "oil.file")
 _START_SPEED = "pinion.speed_start"  # the operating point has it
 
 
@@ -89,7 +90,7 @@ class AxleVariants:
         meshes, asperities, oils = dict(self.meshes), dict(self.asperities), dict(self.oils)
         for one in [self.file, *(self.file.varied({key: text}) for key, text in changes)]:
             table, roughness, oil = (
-                one.gear_set.mesh_table,
+                one.gear_set.named,
                 one.gear_set.asperity_table,
                 one.oil.file,
             )
@@ -123,7 +124,7 @@ class AxleVariants:
         asperities, oil = file.gear_set.asperity_table, file.oil.file
         folder = self.folder
         car = file.car_axle(
-            self.meshes.get(file.gear_set.mesh_table) or file.mesh(folder),
+            self.meshes.get(file.gear_set.named) or file.mesh(folder),
             self.asperities.get(asperities or "") or file.asperities(folder),
             self.oils.get(oil or "") or file.described_oil(folder),
             notes=notes,

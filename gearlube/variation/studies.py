@@ -19,6 +19,7 @@ SHIPPED = {
     "resonance": "mohammadpour_2015",
 }
 STUDIES = tuple(SHIPPED)
+OF_AXLE = ("map", "sweep", "cycle")  # their file is an axle file
 _QUICK = ("sweep", "helical", "contact", "resonance")
 
 

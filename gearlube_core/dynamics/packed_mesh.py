@@ -140,10 +140,16 @@ def _shaft_tail(table: MeshTable) -> Array:
     if not table.shaft_error:
         return np.zeros((levels, 0))
     none = np.zeros((levels, 0, 2))
-    parts = [table.shaft_error.get(member, none) for member in MEMBERS]
+    parts = [_even(table.shaft_error.get(member, none)) for member in MEMBERS]
     head = [parts[0].shape[1], parts[1].shape[1], 1.0 / table.ratio]
     flat = [part.reshape(levels, -1) for part in parts]
     return np.concatenate([np.tile(head, (levels, 1)), *flat], axis=1)
+
+
+def _even(coefficients: Array) -> Array:
+    """Return (L, N, 2) coefficients with one more order, of nothing, where N is odd."""
+    more = coefficients.shape[1] % 2
+    return np.pad(coefficients, ((0, 0), (0, more), (0, 0)))
 
 
 def _flat(coefficients: Array) -> Array:

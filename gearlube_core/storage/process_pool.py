@@ -64,8 +64,17 @@ class ProcessPool:
         )
         try:
             yield executor
+        except KeyboardInterrupt:
+            _end_workers(executor)
+            raise
         finally:
             executor.shutdown(wait=True, cancel_futures=True)
+
+
+def _end_workers(executor: ProcessPoolExecutor) -> None:
+    """End the processes at once: nobody waits for what they still compute."""
+    for process in list((getattr(executor, "_processes", None) or {}).values()):
+        process.terminate()
 
 
 def processors() -> int:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-import os
 from pathlib import Path
 
 import numpy as np
 
 from gearlube_core.contact.solid import Solid
+from gearlube_core.storage.cache_folder import cache_folder as folder_of_part
 from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
 from gearlube_core.tooth_compliance.flank_compliance import (
     SIDES,
@@ -18,7 +18,6 @@ from gearlube_core.tooth_compliance.flank_compliance import (
 )
 from gearlube_core.tooth_compliance.tooth_geometry import ToothGeometry
 
-FOLDER_VARIABLE = "GEARLUBE_CACHE"
 _FORMAT = 1  # raise it with every change of the model that changes results
 _FIELDS = ("s", "t", "image", "elastic")
 
@@ -36,12 +35,7 @@ def compliance_key(geometry: ToothGeometry, solid: Solid, settings: Condensation
 
 def cache_folder(folder: Path | str | None = None) -> Path:
     """Return `folder`, else that of the variable GEARLUBE_CACHE, else the user's cache."""
-    chosen = folder if folder is not None else os.environ.get(FOLDER_VARIABLE)
-    if chosen:
-        return Path(chosen) / "tooth_compliance"
-    from platformdirs import user_cache_path
-
-    return user_cache_path("gearlube") / "tooth_compliance"
+    return folder_of_part("tooth_compliance", folder)
 
 
 def _flanks(

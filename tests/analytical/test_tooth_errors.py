@@ -280,7 +280,7 @@ def test_orders_of_the_turns_are_what_the_dynamics_adds_up():
     )
     tail[:2] = [one.shape[1] for one in cycle.orders().values()]
     for mesh, i in ((0, 0), (5, 3), (400, 2)):
-        found = shaft_error(tail, float(pinion[mesh, i]))[0]
+        found = shaft_error(tail, float(pinion[mesh, i]))
         assert found == pytest.approx(error[mesh, i], abs=1e-15)
     assert cycle.turns()[1] == pytest.approx(4e-7 / np.sqrt(2.0), rel=1e-9, abs=0.0)
     table = cycle_of(error).added_to(one_level())

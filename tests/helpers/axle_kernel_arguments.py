@@ -111,6 +111,7 @@ def all_cases():
     force_derivatives.force_derivatives(
         state, 0.0, 60.0, OIL, table, lossless, zeros(START_WORK), stiffness
     )
+    tail = np.array([2.0, 2.0, 0.4, 3.0, -1.0, 0.5, 0.2, 2.0, 1.0, -0.3, 0.7])
     bracket = kernels.load_bracket(33.0, 1.0, mesh.levels, mesh.levels.size)
     write_shaft = (motion, 300.0, state_of_oil, p.bearing_p, PINION_BEARINGS, (2, 1, 0))
     found = [
@@ -122,10 +123,11 @@ def all_cases():
         ),
         (kernels.blend_levels, (mesh.series, mesh.series_size, bracket, zeros(mesh.series_size))),
         (kernels.mesh_series, (series, mesh.orders, 13.0, 0.3)),
-        (kernels.shaft_error, (np.array([2.0, 1.0, 0.4, 3.0, -1.0, 0.5, 0.2, 2.0, 1.0]), 0.3)),
+        (kernels.shaft_error, (tail, 0.3)),
+        (kernels.shaft_error_rate, (tail, 0.3)),
         (
             kernels.mesh_series,
-            (np.append(series, [1.0, 0.0, 0.4, 1.0, 2.0]), mesh.orders, 13.0, 0.3),
+            (np.append(series, tail), mesh.orders, 13.0, 0.3),
         ),
         (mesh_at_load.series_size, (table,)),
         (kernels.transmission_error, (series, mesh.orders, 13.0, 0.3)),

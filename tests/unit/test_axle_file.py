@@ -152,7 +152,7 @@ GROUPS |= {f"{role}.bearing.{side}_race_diameter_mm" for role in ("pinion", "gea
 GROUPS |= {f"{role}.frusta_{one}_mm" for role in ("pinion", "gear")
            for one in ("lengths", "first_diameters", "last_diameters", "bores")}  # fmt: skip
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
-WORDS |= {"seals.material", "tolerances"}
+WORDS |= {"seals.material", "tolerances", "gear_set.gear_file", "gear_set.contact_torques_n_m"}
 NOT_PACKED = {"oil.heat_capacity_j_kg_k"}  # the axle's films take no heat away with the oil
 
 
@@ -205,7 +205,8 @@ def every_field(text):
     uncommented = re.sub(r"^# (\w+ = )", r"\1", text, flags=re.MULTILINE)
     data = tomllib.loads(uncommented)
     data["oil"] = {"name": "mohammadpour_2015"}  # its data there are another oil's, to copy
-    del data["gear_set"]["asperity_table"]  # a file that does not ship
+    for name in ("asperity_table", "gear_file", "contact_torques_n_m"):
+        del data["gear_set"][name]  # files that do not ship
     del data["pinion"]["bearing"]["rib_height_mm"]  # 0.15 of 12.7 mm, a rounding apart
     return data
 

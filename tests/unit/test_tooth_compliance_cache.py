@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
+from gearlube_core.storage.cache_folder import FOLDER_VARIABLE
 from gearlube_core.tooth_compliance import cache
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, tooth_compliance
 from tests.helpers.compliance_cases import COARSE, spiral_tooth
@@ -89,8 +90,8 @@ def test_density_of_the_material_does_not_change_the_key():
 
 
 def test_the_environment_chooses_the_folder(tmp_path, monkeypatch):
-    monkeypatch.setenv(cache.FOLDER_VARIABLE, str(tmp_path))
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
     assert cache.cache_folder() == tmp_path / "tooth_compliance"
     assert cache.cache_folder(tmp_path / "own") == tmp_path / "own" / "tooth_compliance"
-    monkeypatch.delenv(cache.FOLDER_VARIABLE)
+    monkeypatch.delenv(FOLDER_VARIABLE)
     assert "gearlube" in str(cache.cache_folder())

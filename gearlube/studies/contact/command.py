@@ -100,13 +100,19 @@ def contact(
     """
     from gearlube.studies.contact import run
     from gearlube.studies.contact.gear_solids import write_gears
-    from gearlube.studies.contact.settings import QUICK, ContactSettings, Misalignment
+    from gearlube.studies.contact.settings import (
+        QUICK,
+        ContactSettings,
+        CycleSettings,
+        Misalignment,
+    )
     from gearlube.studies.contact.summary import (
         contact_summary,
         contact_warnings,
         gear_file_warnings,
     )
     from gearlube_core.hypoid_contact.contact_table import levels_left_out
+    from gearlube_core.hypoid_contact.kept_table import KeptTable
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
     began = time.monotonic()
@@ -141,6 +147,13 @@ def contact(
             if export:
                 progress(1.0, "gears")
                 write_gears(file, out / "gears")
+        kept = None
+        if gear.endswith(".toml") and replace(cycle, torques=CycleSettings().torques) == (
+            CycleSettings()
+        ):
+            kept = KeptTable(Path(gear), cycle.torques if torques else None).keep(
+                results.mesh_table
+            )
         rows = contact_summary(results.contact)
         console.print(_table(file.name, rows))
         for sentence in [*levels_left_out(results.contact), *contact_warnings(rows)]:
@@ -148,6 +161,8 @@ def contact(
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")
+        if kept is not None:
+            logger.info("Kept for axle files whose gear_file is %s: %s", gear, kept)
 
 
 def _sensitivity_settings(

@@ -85,7 +85,7 @@ name = "{name}"
 source = "gears designed by gearlube"
 
 [gear_set]
-mesh_table = "contact/{name}.nc"      # gearlube contact {name}.toml --out contact
+gear_file = "{name}.toml"      # its loaded contact is analysed once, some minutes
 """
 
 

@@ -70,6 +70,7 @@ def drive_cycle(
     """
     from drivetrain.axle_file.axle_file import AxleFile, read_axle
     from drivetrain.sump_heat import SumpHeat
+    from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
     from gearlube.studies.drive_cycle.run import grid_change, run_cycle
@@ -83,6 +84,7 @@ def drive_cycle(
         if example:
             typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
             return
+        bring_gears_up_to_date(axle)
         settings = DriveCycleSettings(
             car=read_axle(axle),
             cycle=DriveCycle.given(cycle),

@@ -117,6 +117,7 @@ def loss_map(
     temperature.
     """
     from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
     from gearlube.studies.loss_map.exports import write_regulation_map
@@ -129,6 +130,7 @@ def loss_map(
         if example:
             typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
             return
+        bring_gears_up_to_date(axle)
         described = read_axle(axle)
         described_axle = described.axle
         if oil is not None:

@@ -139,6 +139,7 @@ def sweep(
     Finished points are kept in OUT/points: run the same command again to go on after a stop.
     """
     from drivetrain.axle_file.axle_file import AxleFile
+    from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.oil_option import oil_kelvin
     from gearlube.cli.progress_report import progress_on
@@ -168,6 +169,10 @@ def sweep(
             typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
             return
         own_axle = axle is not None
+        if jobs is not None:
+            check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")
+        if fmu is None and mesh_table is None:
+            bring_gears_up_to_date(axle, jobs=jobs)
         if oil is not None and oil.endswith(".toml"):
             if fmu is not None:
                 raise ParameterError(
@@ -219,8 +224,6 @@ def sweep(
         )
         preloads = [check_within("--preload", p, *PRELOAD_RANGE, "N") for p in preload or ()]
         of_file = given_preload(car_axle) if own_axle else ()
-        if jobs is not None:
-            check_within("--jobs", jobs, 1, run.MOST_JOBS, "", "Leave it out to use all.")
         logger.info("Preparing the axle; the first time this compiles it, about 15 s.")
         with (
             results_folder(out, "sweep", overwrite=overwrite),

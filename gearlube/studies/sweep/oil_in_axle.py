@@ -41,15 +41,21 @@ def axle_with_oil(
     file = AxleFile.given(str(axle or PAPER))
     data = file.model_dump(exclude_none=True)
     data["oil"] = {"file": "oil.toml"}
+    gears = data["gear_set"]
+    if file.gear_set.gear_file is not None:
+        table = file.table_file(Path(axle or "").parent)
+        gears["mesh_table"] = str(Path(table or "").resolve())
+        del gears["gear_file"]
+        gears.pop("contact_torques_n_m", None)
     shutil.copyfile(oil, folder / "oil.toml")
     if mesh_table is not None:
         read_mesh_table(mesh_table)
-        data["gear_set"]["mesh_table"] = str(mesh_table.resolve())
+        gears["mesh_table"] = str(mesh_table.resolve())
     for key in _TABLES:
-        named = data["gear_set"].get(key, "")
+        named = gears.get(key, "")
         if named.endswith(".nc"):
             shutil.copyfile(Path(axle or "").parent / named, folder / f"{key}.nc")
-            data["gear_set"][key] = f"{key}.nc"
+            gears[key] = f"{key}.nc"
     path = folder / "axle.toml"
     write_text(toml_text(data), path)
     return path

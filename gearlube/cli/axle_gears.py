@@ -1,0 +1,43 @@
+"""The mesh table of an axle file's gear file, brought up to date with a bar on the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from gearlube.cli.console import console
+from gearlube.cli.progress_report import progress_on
+
+
+def bring_gears_up_to_date(
+    axle: str | Path | None, others: Iterable[str] = (), *, jobs: int | None = None
+) -> None:
+    """Analyse the gear file of an axle file where its mesh table is missing or out of date.
+
+    All that reads the axle file afterwards finds the table.
+
+    Parameters
+    ----------
+    axle : path, optional
+        Axle file, or the name of a shipped one; None: nothing is done.
+    others : iterable of str
+        Gear files that stand in its place one after another.
+    jobs : int, optional
+        Processes; default: all processors.
+
+    Raises
+    ------
+    GearLubeError
+        A file is missing or wrong, or the analysis fails.
+    """
+    if axle is None:
+        return
+    from drivetrain.axle_file.axle_file import AxleFile
+
+    file = AxleFile.given(str(axle))
+    folder = Path(axle).parent
+    for one in [file, *(file.varied({"gear_set.gear_file": other}) for other in others)]:
+        if one.gear_set.gear_file is None or one.kept_table(folder).current() is not None:
+            continue
+        with progress_on(console, "contact") as progress:
+            one.table_file(folder, jobs=jobs, progress=progress)
