@@ -35,7 +35,7 @@ def blank_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
 
     References
     ----------
-    [rexs_1_4]; [iso_23509 6].
+    [fva_2022]; [iso_23509 6].
     """
     name = "".join(c if c.isalnum() or c in "_+-. " else "_" for c in stage.stage.name)
     data: dict[str, Any] = {"name": name.lstrip(". ") or stage.model.path.stem}

@@ -32,7 +32,7 @@ def helical_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
 
     References
     ----------
-    [rexs_1_4]; tip diameter from addendum and profile shift: [iso_21771].
+    [fva_2022]; tip diameter from addendum and profile shift: [iso_21771].
     """
     data: dict[str, Any] = {"name": stage.stage.name or stage.model.path.stem}
     data["source"] = stage.model.source
@@ -100,7 +100,7 @@ def _check_modules(stage: Stage, data: dict[str, Any]) -> None:
     """Raise ParameterError where normal and transverse module contradict the helix angle."""
     normal, helix = data.get("pair.normal_module_mm"), data.get("pair.helix_angle_deg")
     transverse = _alike(stage, "pair.transverse_module_mm", "transverse_module", "mm")
-    if None in (normal, helix, transverse):
+    if normal is None or helix is None or transverse is None:
         return
     wanted = normal / math.cos(helix * DEGREE)
     if abs(transverse - wanted) > _AGREE * wanted:
@@ -165,12 +165,12 @@ def _tip(
     name = f"{role}.tip_diameter_mm"
     fields = ("pair.normal_module_mm", "pair.helix_angle_deg")
     module, helix = (given.get(one, data.get(one)) for one in fields)
-    flanks = stage.flanks(gear)
-    numbers = [teeth, module, helix]
     places = ("addendum_modification_coefficient", "addendum_coefficient_basic_profile")
-    known = flanks and all(place in flanks[0].attributes for place in places)
-    if "tip_diameter" not in gear.attributes and known and None not in numbers:
-        shift, addendum = (flanks[0].value(place) for place in places)
+    flanks = stage.flanks(gear)
+    usable = bool(flanks) and all(place in flanks[0].attributes for place in places)
+    usable = usable and "tip_diameter" not in gear.attributes
+    if usable and teeth is not None and module is not None and helix is not None:
+        shift, addendum = (flanks[0].value(place) or 0.0 for place in places)
         stage.note("inferred", name, f"from {' and '.join(places)} of {flanks[0]}")
         reference = teeth * module / math.cos(helix * DEGREE)
         return float(reference + 2.0 * module * (shift + addendum))

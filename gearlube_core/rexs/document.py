@@ -11,7 +11,7 @@ from gearlube_core import __version__
 from gearlube_core.storage.atomic_file import atomic_write
 
 _VERSION = "1.4"
-_BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # [rexs_1_4] wants it
+_BYTE_ORDER_MARK = b"\xef\xbb\xbf"  # [fva_2022] wants it
 
 
 class Document:
@@ -19,7 +19,7 @@ class Document:
 
     References
     ----------
-    [rexs_1_4]: file format, and relations that a stage needs.
+    [fva_2022]: file format, and relations that a stage needs.
     """
 
     def __init__(self) -> None:

@@ -66,7 +66,7 @@ def read_rexs(
 
     References
     ----------
-    [rexs_1_4].
+    [fva_2022].
 
     Examples
     --------

@@ -77,7 +77,7 @@ class RexsModel:
 
     References
     ----------
-    [rexs_1_4]: structure of files.
+    [fva_2022]: structure of files.
     """
 
     path: Path

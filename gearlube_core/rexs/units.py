@@ -5,7 +5,7 @@ from __future__ import annotations
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import DEGREE
 
-# unit of the data base of [rexs_1_4] and how much of it one of another is
+# unit of the data base of [fva_2022] and how much of it one of another is
 _SAME = {
     "mm": {"mm": 1.0, "m": 1e3, "cm": 10.0, "mum": 1e-3, "um": 1e-3, "µm": 1e-3, "in": 25.4},
     "deg": {"deg": 1.0, "°": 1.0, "rad": 1.0 / DEGREE},
@@ -33,8 +33,8 @@ def converted(value: float, unit: str, wanted: str, what: str) -> float:
 
     Examples
     --------
-    >>> converted(1.5, "in", "mm", "face_width")
-    38.1
+    >>> converted(0.25, "m", "mm", "face_width")
+    250.0
     """
     factors = _SAME[wanted]
     if unit and unit not in factors:
