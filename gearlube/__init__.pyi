@@ -177,6 +177,11 @@ from gearlube.studies.sweep.run import run_sweep as run_sweep
 from gearlube.studies.sweep.datasets import load_sweep as load_sweep
 from gearlube.studies.sweep.report import write_sweep_report as write_sweep_report
 
+# -- Study: run-up and coast-down
+from gearlube.studies.runup.settings import RunupSettings as RunupSettings
+from gearlube.studies.runup.run import run_runup as run_runup
+from gearlube.studies.runup.run import load_runup as load_runup
+
 # -- Variation of any parameter
 from gearlube.variation.studies import point_study as point_study
 from gearlube.variation.design import Axis as Axis
