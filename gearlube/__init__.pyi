@@ -12,7 +12,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 from gearlube_core.bearings.tapered_roller_bearing import (
     TaperedRollerBearing as TaperedRollerBearing,
 )
-from drivetrain.axle_file.axle_file import read_axle as read_axle
+from drivetrain.axle_file.read_axle import read_axle as read_axle
 from drivetrain.axle_file.axle_file import CarAxle as CarAxle
 
 # -- Helical pair
