@@ -15,7 +15,7 @@ import xarray as xr
 from fmpy import extract
 from typer.testing import CliRunner
 
-from drivetrain.axle_file.axle_file import read_axle
+from drivetrain.axle_file.read_axle import read_axle
 from fmu_src import fmu_cache, identity
 from fmu_src.axle_arguments import CUSTOM_OIL, axle_parameters, start_arguments
 from fmu_src.build import build_hypoid_axle

@@ -9,8 +9,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from drivetrain.axle_file.axle_file import AxleFile, CarAxle, read_axle
+from drivetrain.axle_file.axle_file import AxleFile, CarAxle
 from drivetrain.axle_file.field_units import attribute_of
+from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import axle_parameters, start_arguments
 from fmu_src.hypoid_axle import AXLE_FILE, PAPER, car_axle_in, check_one_table
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
