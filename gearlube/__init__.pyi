@@ -43,6 +43,8 @@ from gearlube_core.oil.film_oil_data import film_oil_of as film_oil_of
 # -- Gear files and mesh tables
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile as HypoidGearFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile as HelicalGearFile
+from gearlube_core.rexs.exchange import read_rexs as read_rexs
+from gearlube_core.rexs.exchange import write_rexs as write_rexs
 from gearlube_core.mesh_table.table import MeshTable as MeshTable
 from gearlube_core.mesh_table.netcdf import read_mesh_table as read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table as shipped_mesh_table

@@ -75,6 +75,12 @@ COMMANDS = (
         command_class="ContactCommand",
     ),
     LazyCommand(
+        name="convert",
+        target="gearlube.cli.convert:convert",
+        summary="Convert a gear pair between REXS and gear files.",
+        command_class="ConvertCommand",
+    ),
+    LazyCommand(
         name="resonance",
         target="gearlube.studies.resonance.command:resonance",
         summary="Follow the resonance of the torsional hypoid pair.",

@@ -170,6 +170,7 @@ def run_sweep(
             "fmu_kind": kind,
             "axle": car_axle.name,
             "axle_source": car_axle.source,
+            "inputs_given": notes_as_text([n for n in car_axle.inputs if n.origin == "given"]),
             "inputs_assumed": notes_as_text(assumed_inputs(car_axle, settings)),
             "mesh_table": car_axle.axle.mesh.name,
             "mesh_table_source": car_axle.axle.mesh.source,
