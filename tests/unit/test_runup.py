@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from drivetrain.axle_file.axle_file import read_axle
+from drivetrain.axle_file.read_axle import read_axle
 from gearlube.studies.runup.record import record_ramp
 from gearlube.studies.runup.run import load_runup, run_runup
 from gearlube.studies.runup.settings import RunupSettings

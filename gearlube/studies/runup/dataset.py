@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
+from gearlube.studies.runup.modes import COORDINATES, RampModes, engine_orders, ramp_modes
+from gearlube.studies.runup.operating_shape import CHANNELS, loudest, operating_shape
 from gearlube.studies.runup.record import AXES, BEARINGS, DIRECTIONS, RampRecord
 from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core import __version__
@@ -65,18 +68,28 @@ def described(dataset: xr.Dataset) -> xr.Dataset:
 
 def runup_dataset(settings: RunupSettings, record: RampRecord) -> xr.Dataset:
     """Return record, losses, order tracks and waterfalls of a ramp as one dataset."""
+    names = [*record.force_names, "mesh.dte", "mesh.force"]
+    blocks = block_spectra(
+        settings, record, np.stack([record.channels[name] for name in names], axis=1)
+    )
+    modes = ramp_modes(settings, record.torques[0])
     dataset = xr.Dataset(
         {
             **_record(record),
             **_losses(record, settings),
-            **_orders(settings, record),
+            **_orders(settings, blocks),
             **_waterfalls(settings, record),
+            **_separation(settings, record),
+            **_modes(settings, modes),
+            **_shape(settings, record, modes, blocks),
         },
         coords={
             "bearing": list(BEARINGS),
             "direction": list(DIRECTIONS),
             "source": list(LOSS_SOURCES),
             "mesh_order": list(MESH_ORDERS),
+            "mode": list(modes.names),
+            "coordinate": list(COORDINATES),
         },
         attrs=_attributes(settings, record),
     )
@@ -125,16 +138,18 @@ def block_spectra(settings: RunupSettings, record: RampRecord, signals: Array) -
     )
 
 
-def _orders(settings: RunupSettings, record: RampRecord) -> dict[str, tuple[object, Array]]:
+def _places(settings: RunupSettings) -> Array:
+    """Return the bins of the mesh orders."""
     teeth = settings.car_axle.axle.mesh.pinion_teeth
-    names = [*record.force_names, "mesh.dte", "mesh.force"]
-    found = block_spectra(
-        settings, record, np.stack([record.channels[name] for name in names], axis=1)
-    )
+    return np.array([round(teeth * m * settings.revolutions) for m in MESH_ORDERS])
+
+
+def _orders(settings: RunupSettings, found: OrderBlocks) -> dict[str, tuple[object, Array]]:
+    """Return maps and tracks of the orders of forces, transmission error and mesh force."""
     amplitude = np.abs(found.amplitude)
     shape = (len(BEARINGS), len(DIRECTIONS))
     forces = amplitude[..., :-2].reshape(*amplitude.shape[:2], *shape)
-    at = np.array([round(teeth * m * settings.revolutions) for m in MESH_ORDERS])
+    at = _places(settings)
     both = ("bearing", "direction")
     single = np.float32
     return {
@@ -185,6 +200,56 @@ def _waterfalls(settings: RunupSettings, record: RampRecord) -> dict[str, tuple[
     }
 
 
+def _separation(settings: RunupSettings, record: RampRecord) -> dict[str, float]:
+    dte, backlash = record.channels["mesh.dte"], settings.car_axle.axle.backlash
+    return {"separated_fraction": float(np.mean((dte < 0.0) & (dte > -backlash)))}
+
+
+def _modes(settings: RunupSettings, modes: RampModes) -> dict[str, tuple[object, Array]]:
+    teeth = settings.car_axle.axle.mesh.pinion_teeth
+    count = range(len(modes.names))
+    critical = np.array([[modes.critical_speed(k, teeth * m) for m in MESH_ORDERS] for k in count])
+    damping = np.array([[modes.damping_at(k, v) for v in critical[k]] for k in count])
+    return {
+        "mode_speed": ("mode_speed", modes.speed),
+        "mode_frequency": (("mode_speed", "mode"), modes.frequency),
+        "mode_damping": (("mode_speed", "mode"), modes.damping_ratio),
+        "mode_shape": (("coordinate", "mode"), modes.shape),
+        "critical_speed": (("mode", "mesh_order"), critical),
+        "critical_damping": (("mode", "mesh_order"), damping),
+    }
+
+
+def _shape(
+    settings: RunupSettings, record: RampRecord, modes: RampModes, blocks: OrderBlocks
+) -> dict[str, object]:
+    """Return the motion where the forces are largest; `blocks` are the orders of `FORCES`."""
+    teeth = settings.car_axle.axle.mesh.pinion_teeth
+    tracks = np.abs(blocks.amplitude[:, _places(settings), : len(record.force_names)])
+    block, place = loudest(tracks)
+    # the turns of this block and some on either side
+    angle = record.channels["pinion.angle"]
+    turns = np.interp(blocks.time[block], record.time, angle) / (2.0 * math.pi)
+    reach = 2.0 * math.pi * (0.5 * settings.revolutions + 2.0)
+    near = np.abs(angle - 2.0 * math.pi * turns) <= reach
+    part = replace(
+        record,
+        time=record.time[near],
+        channels={name: values[near] for name, values in record.channels.items()},
+    )
+    signals = np.stack([part.channels[name] for name in CHANNELS], axis=1)
+    around = block_spectra(settings, part, signals)
+    block = int(np.argmin(np.abs(around.time - blocks.time[block])))
+    found = operating_shape(around, block, MESH_ORDERS[place], teeth, modes)
+    return {
+        "shape_amplitude": ("coordinate", np.abs(found.motion)),
+        "shape_phase": ("coordinate", np.angle(found.motion)),
+        "shape_share": ("mode", found.share),
+        "shape_speed": found.speed,
+        "shape_mesh_order": found.mesh_order,
+    }
+
+
 def _resolution(settings: RunupSettings) -> float:
     """Return the distance of frequency bins [Hz] at which the first mesh order is sharpest.
 
@@ -203,6 +268,7 @@ def _resolution(settings: RunupSettings) -> float:
 def _attributes(settings: RunupSettings, record: RampRecord) -> dict[str, object]:
     car = settings.car_axle
     axle = car.axle
+    gear, engine = engine_orders(car, max(settings.start_speed, settings.end_speed))
     return {
         "title": f"{settings.name} of a lubricated hypoid axle",
         "study": "runup",
@@ -217,5 +283,7 @@ def _attributes(settings: RunupSettings, record: RampRecord) -> dict[str, object
         "gear_teeth": int(axle.mesh.gear_teeth),
         "rolling_radius": float(car.driveline.road_load.tyre.rolling_radius),
         "ranges_left": " ".join(record.warnings),
+        "engine_gear": gear,
+        "engine_orders": np.array(engine),
         **{f"setting_{name}": value for name, value in settings.as_dict().items()},
     }

@@ -63,7 +63,7 @@ class RunupSettings:
 
     Examples
     --------
-    >>> from drivetrain.axle_file.axle_file import read_axle
+    >>> from drivetrain.axle_file.read_axle import read_axle
     >>> ramp = RunupSettings(
     ...     car_axle=read_axle("mohammadpour_2015"), start_speed=100.0, end_speed=300.0,
     ...     duration=20.0, pinion_torque=80.0,
