@@ -18,7 +18,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.spectra import OrderBlocks, order_blocks, samples_for, waterfall
 
-MESH_ORDERS = (1, 2, 3)
+MESH_ORDERS = (1, 2, 3, 4)
 HIGHEST_MESH_ORDER = 6.5  # of the order maps
 _SLICES_OF_HERTZ = 400  # frequency bins at least, up to the highest frequency
 _FINEST = 4.0  # Hz
