@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import house_style, name_levels, new_figure
-from gearlube.studies.runup.figures import levels
+from gearlube.studies.runup import levels
 from gearlube.studies.runup.figures.tracks import ORDER_LOOKS
 from gearlube_core.units import rads_to_rpm
 

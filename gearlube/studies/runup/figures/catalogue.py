@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.studies.runup.figures.campbell import campbell
+from gearlube.studies.runup.figures.charts import map_chart, track_chart
 from gearlube.studies.runup.figures.maps import frequency_map, order_map
 from gearlube.studies.runup.figures.overview import overview
 from gearlube.studies.runup.figures.shapes import mode_shapes, operating_shape
@@ -31,6 +30,7 @@ class Entry:
     title: str
     caption: str
     draw: Callable[[xr.Dataset], Any]
+    chart: Callable[[xr.Dataset], Any] | None = None  # of plotly, for the report
 
 
 CATALOGUE = (
@@ -41,6 +41,7 @@ CATALOGUE = (
         "the dynamic transmission error (below). Dotted: speeds at which a mesh order meets a "
         f"natural frequency. A crest on a dotted line is that resonance. {_ALL}",
         draw=order_tracks,
+        chart=track_chart,
     ),
     Entry(
         name="waterfall",
@@ -49,6 +50,7 @@ CATALOGUE = (
         "speed. Dotted: natural frequencies, which stay. Look where they cross. "
         f"{_ALL}",
         draw=frequency_map,
+        chart=map_chart,
     ),
     Entry(
         name="waterfall_orders",
@@ -103,8 +105,3 @@ CATALOGUE = (
         draw=overview,
     ),
 )
-
-
-def save_runup_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Draw every figure into `folder` as PNG and return the files."""
-    return save_figure_folder({one.name: one.draw(dataset) for one in CATALOGUE}, folder)

@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import house_style, name_levels, new_figure, outlined
-from gearlube.studies.runup.figures import levels
+from gearlube.studies.runup import levels
 from gearlube_core.arrays import Array
 
-_DYNAMIC_RANGE = 70.0  # dB of the colour scale
+DYNAMIC_RANGE = 70.0  # dB of the colour scale
 _MOST_ORDERS = 3.6  # mesh orders on the order axis
 _COLOURS = "viridis"
 _LIGHT = "white"
@@ -19,20 +19,29 @@ _LOWEST = 3.5  # bins above 0 Hz, where the change of the mean leaks
 _ROWS = 170  # cells of the frequency axis; a cell shows the largest line inside it
 
 
-def frequency_map(dataset: xr.Dataset) -> Any:
-    """Return the level of all bearing forces over pinion speed and frequency, with order lines."""
+def force_cells(dataset: xr.Dataset) -> tuple[Array, Array, Array]:
+    """Return pinion speeds [1/min], frequencies [Hz] and levels of all bearing forces [dB].
+
+    Shapes (slices,), (rows,), (slices, rows); slices by ascending speed.
+    """
     force = levels.level(
         levels.total_force(dataset, "bearing_force_waterfall").values, levels.FORCE
     )
     frequency = dataset["frequency"].values
-    top = _top_frequency(dataset)
-    keep = (frequency <= top) & (frequency > _LOWEST * frequency[1])
+    keep = (frequency <= _top_frequency(dataset)) & (frequency > _LOWEST * frequency[1])
     speed = levels.rpm(dataset, "slice_speed")
+    along = np.argsort(speed)
+    return speed[along], *_largest_in_cells(frequency[keep], force[along][:, keep])
+
+
+def frequency_map(dataset: xr.Dataset) -> Any:
+    """Return the level of all bearing forces over pinion speed and frequency, with order lines."""
+    top = _top_frequency(dataset)
+    speed, rows, cells = force_cells(dataset)
+    floor = cells.max() - DYNAMIC_RANGE
     with house_style():
         figure = new_figure(9.4, 5.8)
         ax = figure.subplots()
-        rows, cells = _largest_in_cells(frequency[keep], force[:, keep])
-        floor = cells.max() - _DYNAMIC_RANGE
         _picture(figure, ax, speed, rows, cells, pad=0.14)
         ends = np.array(ax.get_xlim())
         per_rpm = levels.teeth(dataset) / 60.0
@@ -111,7 +120,7 @@ def _picture(figure: Any, ax: Any, speed: Array, rows: Array, force: Array, *, p
         rows,
         force[along].T,
         cmap=_COLOURS,
-        vmin=peak - _DYNAMIC_RANGE,
+        vmin=peak - DYNAMIC_RANGE,
         vmax=peak,
         shading="nearest",
         rasterized=True,

@@ -20,7 +20,7 @@ from gearlube.plotting.style import (
     house_style,
     new_figure,
 )
-from gearlube.studies.runup.figures import levels
+from gearlube.studies.runup import levels
 
 _COLOURS = (BLUE, SKY, GREEN, PURPLE, ORANGE, VERMILLION, GREY, YELLOW)
 

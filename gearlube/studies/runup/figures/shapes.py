@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, ORANGE, VERMILLION, house_style, new_figure
-from gearlube.studies.runup.figures import levels
+from gearlube.studies.runup import levels
 from gearlube_core.arrays import Array
 from gearlube_core.units import rads_to_rpm
 

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
-from gearlube.studies.runup.figures import levels
+from gearlube.studies.runup import levels
 
 _SPEEDS = 3
 _SHOWN = 80.0  # dB

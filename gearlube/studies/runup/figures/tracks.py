@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREEN, PURPLE, VERMILLION, house_style, new_figure
-from gearlube.studies.runup.figures import levels
+from gearlube.studies.runup import levels
 from gearlube_core.arrays import Array
 
 ORDER_LOOKS = (
@@ -95,19 +95,28 @@ def _tracks(ax: Any, dataset: xr.Dataset, tracks: Array, overall: Array, referen
     ax.set_ylim(max(low, top - _SHOWN), top)
 
 
+def critical_marks(dataset: xr.Dataset) -> list[tuple[float, str, int]]:
+    """Return the critical speeds within the ramp [1/min], what meets there, and the mesh order."""
+    speeds = levels.rpm(dataset, "mode_speed")
+    critical = levels.rpm(dataset, "critical_speed")
+    return sorted(
+        (float(critical[k, i]), f"{mode}, H{order}", int(order))
+        for i, order in enumerate(dataset["mesh_order"].values[:_MARKED])
+        for k, mode in enumerate(dataset["mode"].values)
+        if speeds[0] <= critical[k, i] <= speeds[-1]
+    )
+
+
 def _mark_critical(ax: Any, dataset: xr.Dataset, *, named: bool) -> None:
     """Mark where mesh orders meet natural modes, with the order's look."""
-    speeds = levels.rpm(dataset, "mode_speed")
-    low, high = speeds[0], speeds[-1]
-    lines = []
-    for i, look in enumerate(ORDER_LOOKS[:_MARKED]):
-        for mode in dataset["mode"].values:
-            speed = float(dataset["critical_speed"].sel(mode=mode).values[i]) * 30.0 / np.pi
-            if low <= speed <= high:
-                ax.axvline(speed, color=look["color"], lw=0.8, ls=":", zorder=0)
-                lines.append((speed, f"{mode}, H{int(dataset['mesh_order'][i])}", look["color"]))
+    marks = critical_marks(dataset)
+    looks = dict(zip(dataset["mesh_order"].values.tolist(), ORDER_LOOKS, strict=False))
+    lines = [(speed, words, str(looks[order]["color"])) for speed, words, order in marks]
+    for speed, _, colour in lines:
+        ax.axvline(speed, color=colour, lw=0.8, ls=":", zorder=0)
     if named:
-        _names(ax, sorted(lines), 0.021 * (high - low))
+        low, high = levels.rpm(dataset, "mode_speed")[[0, -1]]
+        _names(ax, lines, 0.021 * (high - low))
 
 
 def _names(ax: Any, lines: list[tuple[float, str, str]], gap: float) -> None:
