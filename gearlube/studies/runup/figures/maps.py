@@ -71,7 +71,7 @@ def order_map(dataset: xr.Dataset) -> Any:
         ax = figure.subplots()
         _picture(figure, ax, speed, order[keep], force[:, keep], pad=0.08)
         ends = ax.get_xlim()
-        fine = np.linspace(*ends, 200)
+        fine = np.linspace(float(ends[0]), float(ends[1]), 200)
         _mode_curves(ax, dataset, fine, top)
         ax.set_ylim(0.0, top)
         levels.speed_axis(ax, dataset)
