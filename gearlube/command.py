@@ -22,6 +22,11 @@ COMMANDS = (
         command_class="SweepCommand",
     ),
     LazyCommand(
+        name="runup",
+        target="gearlube.studies.runup.command:runup",
+        summary="Run the axle up or down in a speed ramp: waterfall, order tracks.",
+    ),
+    LazyCommand(
         name="build-fmu",
         target="gearlube.cli.build_fmu:build_fmu",
         summary="Build the FMUs of axle, helical pair and car, for any platform.",

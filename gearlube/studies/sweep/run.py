@@ -19,7 +19,6 @@ from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
     check_operation,
     chosen_axle,
-    notes_as_text,
     settings_of,
 )
 from gearlube.studies.sweep.compile_axle import compile_axle
@@ -32,6 +31,7 @@ from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSet
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
+from gearlube_core.input_file.input_note import notes_as_text
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.result_store import DATASETS, ResultStore
