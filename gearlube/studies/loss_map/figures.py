@@ -124,7 +124,11 @@ def sensitivity(dataset: xr.Dataset) -> Any:
     with house_style():
         figure = new_figure(7.4, 0.45 * len(names) + 1.6)
         ax = figure.subplots()
-        ax.barh([_INPUT_WORDS.get(names[i], names[i].replace("_", " ")) for i in order], mean[order], color=SERIES[0])
+        ax.barh(
+            [_INPUT_WORDS.get(names[i], names[i].replace("_", " ")) for i in order],
+            mean[order],
+            color=SERIES[0],
+        )
         for row, i in enumerate(order):
             factor = words[names[i]].split(",")[0]
             ax.text(mean[i], row, f"  {mean[i]:.1f} %, {factor}", va="center", fontsize=8)
