@@ -222,11 +222,11 @@ class BearingSection(ModelSection):
             changes["preload"] = preload
         return replace(TaperedRollerBearing.mohammadpour_2015(), **changes)
 
-    def bearing_notes(self, prefix: str, made: TaperedRollerBearing, why: str) -> list[InputNote]:
+    def bearing_notes(self, prefix: str, made: object, why: str) -> list[InputNote]:
         """Return a note on every field; `made` is what `bearing` returned."""
         notes = self.notes(prefix, made, why, self._changes()[1])
         if not self.has("rib_height_mm"):
-            assumed = field_value("rib_height_mm", RIB_HEIGHT * made.roller_diameter)
+            assumed = field_value("rib_height_mm", RIB_HEIGHT * self.bearing().roller_diameter)
             why = f"{RIB_HEIGHT:g} roller diameters; no source"
             notes.append(InputNote(f"{prefix}rib_height_mm", assumed, "mm", "assumed", why))
         return notes
