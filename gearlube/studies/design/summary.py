@@ -100,6 +100,8 @@ def unmet_targets(design: Design) -> list[str]:
                 f"of the place asked for. {cure}"
             )
         if abs(length) > LENGTH_LIMIT:
+            if found.length < target.length:
+                cure = cure.replace("a longer contact.ellipse", "a shorter contact.ellipse")
             said.append(
                 f"The contact ellipse of the {side} flanks came to "
                 f"{found.length / MILLIMETRE:.1f} mm, asked {target.length / MILLIMETRE:.1f} mm. "
@@ -111,7 +113,14 @@ def unmet_targets(design: Design) -> list[str]:
 def design_warnings(design: Design, forms: dict[str, ToothForm]) -> list[str]:
     """Return what speaks against a design, one sentence each."""
     teeth = [line for form in forms.values() for line in form.report()]
-    return [*design.warnings, *unmet_targets(design), *pair_warnings(design.file), *teeth]
+    said = [one for one in design.measured.values() if isinstance(one, str)]
+    pair = [
+        # no setting is mistyped here: what would be most likely wrong in a given file is not said
+        one.partition(" Most likely wrong:")[0]
+        for one in pair_warnings(design.file)
+        if not any(one.startswith(reason) for reason in said)
+    ]
+    return [*design.warnings, *unmet_targets(design), *pair, *teeth]
 
 
 def report(design: Design, forms: dict[str, ToothForm]) -> str:
