@@ -11,7 +11,6 @@ from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_geometry.flank.flank import Role
 from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.tooth_contact.sharp_edge import sharp_edge_remark
 
 _ROLES: tuple[Role, Role] = ("pinion", "gear")
 _TOUCHES = 1e-3  # share of the torque above which a pair counts as in contact
@@ -47,12 +46,6 @@ def contact_summary(contact: xr.Dataset) -> list[ContactSummary]:
                 )
             )
     return rows
-
-
-def contact_warnings(rows: list[ContactSummary]) -> list[str]:
-    """Return warnings about the results, one sentence each."""
-    remark = sharp_edge_remark(max(row.highest_pressure for row in rows))
-    return [remark] if remark else []
 
 
 def gear_file_warnings(file: HypoidGearFile) -> list[str]:
