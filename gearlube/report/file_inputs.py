@@ -2,31 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from typing import Any, Protocol
+from collections.abc import Mapping
+from typing import Any
 
 from gearlube.report.parts import ASSUMED, GIVEN, INFERRED, Input
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_unit
 
 _WORDS = {"um": "µm", "deg": "°", "degC": "°C", "urad": "µrad"}
 
 
-class NotedFile(Protocol):
-    """A file that says which of its fields its source implies, and which were completed."""
-
-    @property
-    def inferred(self) -> Collection[str]:
-        """Dotted fields, or reasons by field."""
-
-    @property
-    def completed(self) -> Collection[str]:
-        """Dotted fields, or reasons by field."""
-
-    def model_dump(self, **options: Any) -> dict[str, Any]:
-        """Return the fields as nested dictionaries."""
-
-
-def file_inputs(file: NotedFile) -> list[Input]:
+def file_inputs(file: HypoidGearFile | HelicalGearFile) -> list[Input]:
     """Return the numbers of a gear file: given, inferred or assumed.
 
     Examples

@@ -111,6 +111,7 @@ def contact(
     )
     from gearlube.studies.contact.summary import (
         contact_summary,
+        edge_warnings,
         gear_file_warnings,
     )
     from gearlube_core.hypoid_contact.contact_table import levels_left_out
@@ -163,7 +164,7 @@ def contact(
             )
         rows = contact_summary(results.contact)
         console.print(_table(file.name, rows))
-        for sentence in levels_left_out(results.contact):
+        for sentence in [*levels_left_out(results.contact), *edge_warnings(results.contact)]:
             logger.warning("%s", sentence)
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)

@@ -52,8 +52,8 @@ def _edges(part: xr.Dataset, side: str) -> Finding:
         f"Sharp edges press into the {side} flanks from {first:g} N·m on, with up to "
         f"{quantity_text(highest, 'GPa')}.",
         "Such a pressure has no finite value, it rises with finer cells: read it as a place. Away "
-        f"from edges the pressure is at most about {quantity_text(inside, 'GPa', 2)}. Tip and end "
-        "relief in the gear file remove edge contact.",
+        f"from edges the pressure is at most about {quantity_text(inside, 'GPa', 2)}. Relief of "
+        "tips and ends in the gear file removes edge contact; the command names the edges.",
     )
 
 

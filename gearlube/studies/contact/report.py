@@ -9,7 +9,7 @@ import xarray as xr
 
 from gearlube.report.file_inputs import file_inputs
 from gearlube.report.page import write_report
-from gearlube.report.parts import Column, Figure, Report, Table
+from gearlube.report.parts import Cell, Column, Figure, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.contact.figures.catalogue import CONTACT_CATALOGUE
 from gearlube.studies.contact.figures.charts import (
@@ -90,13 +90,13 @@ def _solid(contact: xr.Dataset) -> Figure:
         title="The pair in mesh",
         caption=f"Pinion (see-through) and gear, drive flanks at {torque:g} N·m. Turn it with the "
         "mouse; the slider goes through a mesh period. Yellow: high pressure, cut at the end of "
-        "the scale where edges press. The contact runs over each tooth, and several share the load.",
+        "the scale where edges press. The contact runs over each tooth; several share the load.",
         chart=solid_view(contact),
     )
 
 
 def _table(contact: xr.Dataset) -> Table:
-    rows = [
+    rows: list[list[Cell]] = [
         [
             one.side,
             one.torque,
