@@ -50,19 +50,22 @@ def drawn_losses(
     ParameterError
         A datum leaves its limits, or the point those of the axle.
     """
-    inputs, slopes = uncertain_of(axle), []
-    place = {
-        "torques": np.array([torque]),
-        "speeds": np.array([speed]),
-        "temperatures": np.array([temperature]),
-    }
+    inputs = uncertain_of(axle)
+    slopes: list[Array] = []
     for one in inputs:
         ends = []
         for normal in (UPPER_END, -UPPER_END):
             scale = np.ones(len(LOSS_SOURCES))
             changed = changed_axle(one, axle, normal, scale)
             if changed is not axle:
-                found = axle_losses(changed, **place, angles=8, extremes=False)
+                found = axle_losses(
+                    changed,
+                    torques=np.array([torque]),
+                    speeds=np.array([speed]),
+                    temperatures=np.array([temperature]),
+                    angles=8,
+                    extremes=False,
+                )
                 scale = found.power[0, 0, 0]
             ends.append(scale)
         slopes.append(log_slope(*ends))
