@@ -109,6 +109,7 @@ def contact(
     from gearlube.studies.contact.summary import (
         contact_summary,
         contact_warnings,
+        edge_warnings,
         gear_file_warnings,
     )
     from gearlube_core.hypoid_contact.contact_table import levels_left_out
@@ -156,7 +157,9 @@ def contact(
             )
         rows = contact_summary(results.contact)
         console.print(_table(file.name, rows))
-        for sentence in [*levels_left_out(results.contact), *contact_warnings(rows)]:
+        contact = results.contact
+        remarks = [*levels_left_out(contact), *contact_warnings(rows), *edge_warnings(contact)]
+        for sentence in remarks:
             logger.warning("%s", sentence)
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)
