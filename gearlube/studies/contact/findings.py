@@ -46,21 +46,22 @@ def _edges(part: xr.Dataset, side: str) -> Finding:
             f"pressure is {quantity_text(highest, 'GPa')}.",
             f"Pressures above {1e-9 * EDGE_PRESSURE:g} GPa would be those of edges.",
         )
-    inside = 1e-9 * _inside(part)
+    middle = 1e-9 * _middle(part)
     return Finding(
         WARNING,
         f"Sharp edges press into the {side} flanks from {first:g} N·m on, with up to "
         f"{quantity_text(highest, 'GPa')}.",
-        "Such a pressure has no finite value, it rises with finer cells: read it as a place. Away "
-        f"from edges the pressure is at most about {quantity_text(inside, 'GPa', 2)}. Relief of "
-        "tips and ends in the gear file removes edge contact; the command names the edges.",
+        "Such a pressure has no finite value, it rises with finer cells: read it as a place. Where "
+        f"a pair carries most, {top:g} N·m give {quantity_text(middle, 'GPa', 2)}. Relief of tips "
+        "and ends in the gear file removes edge contact; the command names the edges.",
     )
 
 
-def _inside(part: xr.Dataset) -> float:
-    """Return the pressure [Pa] below which 97 % of the loaded cells lie at the highest torque."""
-    cells = part["pressure_map"].isel(torque=-1).values
-    return float(np.percentile(cells[cells > 0.0], 97.0)) if np.any(cells > 0.0) else float("nan")
+def _middle(part: xr.Dataset) -> float:
+    """Return the highest pressure [Pa] of a pair where it carries most, at the highest torque."""
+    state = part.isel(torque=-1)
+    most = int(np.argmax(np.nan_to_num(state["share"].values)))
+    return float(state["pressure_max"].values.ravel()[most])
 
 
 def transmission_orders(part: xr.Dataset, orders: int = 3) -> np.ndarray:
@@ -87,8 +88,8 @@ def _error(part: xr.Dataset, side: str) -> Finding:
 
 
 def _pattern(part: xr.Dataset, side: str) -> Finding:
-    cells, torque = part["pressure_map"].values > 0.0, part["torque"].values
-    along = cells.any(axis=1)
+    cells, torque = np.asarray(part["pressure_map"].values > 0.0), part["torque"].values
+    along = np.asarray(cells.any(axis=1))
     places = part["map_t"].values
     half = 0.5 * float(places[1] - places[0])
     spans = [(places[row].min() - half, places[row].max() + half) for row in along if row.any()]

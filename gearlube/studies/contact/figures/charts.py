@@ -23,9 +23,8 @@ def transmission_chart(dataset: xr.Dataset) -> Any:
         part = dataset.sel(side=side)
         for number, torque in enumerate(_spread(part["torque"].values, 5)):
             error = loaded_error(part.sel(torque=torque))
-            line = Line(
-                name=f"{torque:g} N·m", group=number, **two_periods(part["phase"].values, error)
-            )
+            x, values = two_periods(part["phase"].values, error)
+            line = Line(name=f"{torque:g} N·m", x=x, y=values, group=number)
             place = {"legendgroup": line.name, "showlegend": panel == 1, "row": panel, "col": 1}
             add_line(figure, line, number, _PERIODS, y, **place)
     return figure
@@ -74,7 +73,7 @@ def stiffness_chart(dataset: xr.Dataset) -> Any:
     return line_chart(lines, Axis("pinion torque", "N·m"), Axis("mesh stiffness", "N/µm"))
 
 
-def two_periods(phase: Array, values: Array) -> dict[str, Array]:
+def two_periods(phase: Array, values: Array) -> tuple[Array, Array]:
     """Return x and y of a periodic curve over two mesh periods."""
     x = np.concatenate([phase, phase + 1.0, [2.0]])
-    return {"x": x, "y": np.concatenate([values, values, values[:1]])}
+    return x, np.concatenate([values, values, values[:1]])

@@ -12,6 +12,7 @@ from gearlube.studies.contact.figures.flank_maps import inside_pressure
 from gearlube_core.arrays import Array, Indices
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.placement import Placement
+from gearlube_core.hypoid_geometry.flank.flank import Role
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.flank.tooth_solid import gear_solid
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -88,7 +89,7 @@ def solid_view(dataset: xr.Dataset, height: int = 560) -> Any:
     return figure
 
 
-_ROLES = ("pinion", "gear")
+_ROLES: tuple[Role, Role] = ("pinion", "gear")
 
 
 def _placed(r: Array, placement: Placement) -> Array:
@@ -193,10 +194,10 @@ def _steering(names: list[str]) -> dict[str, Any]:
     return {
         "sliders": [
             {"steps": steps, "currentvalue": {"prefix": "mesh phase "}, "pad": {"t": 0, "b": 40},
-             "x": 0.18, "len": 0.8, "y": 0.0}
+             "x": 0.0, "len": 1.0, "y": 0.0}
         ],
         "updatemenus": [
-            {"type": "buttons", "direction": "left", "buttons": buttons, "x": 0.0, "y": 0.0,
+            {"type": "buttons", "direction": "left", "buttons": buttons, "x": 0.0, "y": 1.0,
              "xanchor": "left", "yanchor": "top", "showactive": False}
         ],
         "margin": {"l": 0, "r": 0, "t": 10, "b": 90},
