@@ -76,9 +76,7 @@ def test_engine_orders_are_told_from_others(sweep):
     bins = point["frequency"].values
     lines = lines_of(point.assign(dte_spectrum=("bin", spikes(bins, (49.0, 75.0)))), DTE, 2700.0)
     assert lines.kind.tolist() == [2, 2]
-    coupled = point.assign(
-        dte_spectrum=("bin", spikes(bins, (49.0, 75.0))), crank_frequency=24.5
-    )
+    coupled = point.assign(dte_spectrum=("bin", spikes(bins, (49.0, 75.0))), crank_frequency=24.5)
     assert lines_of(coupled, DTE, 2700.0).kind.tolist() == [1, 2]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -34,7 +35,9 @@ def roller_variables(settings: RunupSettings, record: RampRecord, time: float) -
     from scipy.interpolate import CubicSpline
 
     p = settings.car_axle.axle.kernel_parameters()
-    bearings = [b for b in (p.bearing_p, p.bearing_g) if isinstance(b, BearingParameters)]
+    bearings: list[Any] = [
+        b for b in (p.bearing_p, p.bearing_g) if isinstance(b, BearingParameters)
+    ]
     if len(bearings) < len(_SHAFTS):
         return {}
     angle = record.channels["pinion.angle"]

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from drivetrain.driveline.parameters import DrivelineParameters
+from gearlube_core.errors import ParameterError
 from gearlube_core.units import kmh_to_ms
 
 
@@ -16,12 +17,17 @@ def crank_frequencies(driveline: DrivelineParameters, speeds_kmh: Sequence[float
     --------
     >>> from drivetrain.axle_file.read_axle import read_axle
     >>> car = read_axle("mohammadpour_2015").driveline
-    >>> [round(one, 1) for one in crank_frequencies(car, [40.0, 80.0])]  # gears 3 and 5
-    [21.4, 24.5]
+    >>> [round(one, 1) for one in crank_frequencies(car, [40.0, 80.0])]  # gears 2 and 5
+    [32.1, 24.5]
     """
-    box, road = driveline.gearbox, driveline.road_load
-    shaft = [road.pinion_speed(kmh_to_ms(one)) for one in speeds_kmh]
-    gears = [box.gear_for(one, driveline.engine) for one in shaft]
-    return [
-        box.ratios[gear - 1] * one / (2.0 * math.pi) for gear, one in zip(gears, shaft, strict=True)
-    ]
+    road = driveline.road_load
+    return [_crank(driveline, road.pinion_speed(kmh_to_ms(one))) for one in speeds_kmh]
+
+
+def _crank(driveline: DrivelineParameters, shaft: float) -> float:
+    """Return the crank frequency [Hz] at a propshaft speed [rad/s]; NaN where no gear suits."""
+    try:
+        gear = driveline.gearbox.gear_for(shaft, driveline.engine)
+    except ParameterError:
+        return math.nan
+    return driveline.gearbox.ratios[gear - 1] * shaft / (2.0 * math.pi)

@@ -21,6 +21,7 @@ from gearlube.studies.sweep.figures.spectrum_map import MapChannel, default_top
 from gearlube_core.arrays import Array
 
 RANGE = 60.0  # dB from the smallest to the largest bubble
+_ROUNDING = 0.01  # of 5 dB, by which a level may exceed the largest bubble
 _LARGEST = 130.0  # its area [pt^2]
 _LOWEST = 0.012  # of the frequency axis; lines below do not set the scale
 _ENGINE = tuple(range(2, 25, 2))  # orders of a four-stroke engine with four cylinders
@@ -135,7 +136,7 @@ def highest(points: dict[tuple[int, int], Lines], top: float) -> float:
         for one in points.values()
         if np.any(one.frequency > _LOWEST * top)
     ]
-    return 5.0 * float(np.ceil(max(levels, default=0.0) / 5.0))
+    return 5.0 * float(np.ceil(max(levels, default=0.0) / 5.0 - _ROUNDING))
 
 
 def _area(level: Array, peak: float) -> Array:
