@@ -75,6 +75,12 @@ COMMANDS = (
         command_class="ContactCommand",
     ),
     LazyCommand(
+        name="whine",
+        target="gearlube.studies.whine.command:whine",
+        summary="Whine orders of a hypoid pair against its settings.",
+        command_class="WhineCommand",
+    ),
+    LazyCommand(
         name="resonance",
         target="gearlube.studies.resonance.command:resonance",
         summary="Follow the resonance of the torsional hypoid pair.",
