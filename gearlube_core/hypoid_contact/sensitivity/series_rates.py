@@ -59,6 +59,11 @@ class SeriesSettings:
     misalignment : Misalignment
     loaded : LoadedSettings
     body : ToothBodySettings
+
+    Examples
+    --------
+    >>> SeriesSettings(torque=45.0).torques
+    (40.5, 49.5)
     """
 
     parameters: tuple[str, ...] = ()
