@@ -90,6 +90,9 @@ for note in paper.assumed:
   size, `interference_um` for the preload, the two race diameters for the pitch diameter, and
   `walther_a` with `walther_b` for the two viscosities: give one of each. The engine's orders have
   their three lists together.
+- `kind = "electric_motor"` in `[engine]` puts a smooth motor with one gear in the place of the
+  engine, with defaults of its own: rotor, shaft, speeds from standstill. `orders` are then those of
+  its torque ripple, in periods per revolution of the rotor, at most 24.
 - `asperity_table` takes what `gearlube roughness flow-factors` computed of
   [rough patches](rough_contact.md) in the place of the usual constants of Greenwood and Tripp's
   law. The kernels keep the law: its two products are fitted to load and area of the table between

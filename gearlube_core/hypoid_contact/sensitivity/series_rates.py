@@ -62,8 +62,8 @@ class SeriesSettings:
 
     Examples
     --------
-    >>> SeriesSettings(torque=45.0).torques
-    (40.5, 49.5)
+    >>> [round(one, 3) for one in SeriesSettings(torque=45.0).torques]
+    [40.5, 49.5]
     """
 
     parameters: tuple[str, ...] = ()
