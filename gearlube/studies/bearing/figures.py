@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
+from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
 from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
@@ -42,14 +42,14 @@ def torque_of_laws(dataset: xr.Dataset) -> Any:
                 one, colour = at.sel(law=law), SERIES[i % len(SERIES)]
                 if i == 0:
                     band = (one["torque_low"], one["torque_high"])
-                    ax.fill_between(
-                        x, *band, color=GREY, alpha=0.4, lw=0.0, label="error bar, k = 2"
-                    )
-                ax.plot(x, one["torque"], color=colour, marker="o", label=LAW_NAMES[str(law)])
+                    words = f"error bar of {LAW_NAMES[str(law)]}, k = 2"
+                    ax.fill_between(x, *band, color=GREY, alpha=0.4, lw=0.0, label=words)
+                marker, name = MARKERS[i % len(MARKERS)], LAW_NAMES[str(law)]
+                ax.plot(x, one["torque"], color=colour, marker=marker, label=name)
             ax.set(title=_title(place))
             ax.set_ylim(bottom=0.0)
         _label_outer(panels, _AXES[along])
-        panels[0].legend(loc="upper left")
+        _legend_below(figure, panels[0])
         figure.suptitle(f"{dataset.attrs['name']}, oil {dataset.attrs['oil']}", fontsize=11.5)
     return figure
 
@@ -63,15 +63,16 @@ def parts_of_first_law(dataset: xr.Dataset) -> Any:
         figure, panels = _panel_grid(len(places))
         for ax, place in zip(panels, places, strict=True):
             at = dataset.sel(law=law).sel(place)
-            ax.plot(x, _above_zero(at["torque"].values), color="black", label="total")
+            ax.plot(x, _above_zero(at["torque"].values), color=GREY, lw=5.0, label="total")
             for i, part in enumerate(dataset["part"].values):
                 torque = at["part_torque"].sel(part=part).values
                 if np.isfinite(torque).all():
                     colour = SERIES[i % len(SERIES)]
-                    ax.plot(x, _above_zero(torque), color=colour, marker="o", label=str(part))
+                    marker = MARKERS[i % len(MARKERS)]
+                    ax.plot(x, _above_zero(torque), color=colour, marker=marker, label=str(part))
             ax.set(title=_title(place), yscale="log")
         _label_outer(panels, _AXES[along])
-        panels[0].legend()
+        _legend_below(figure, panels[0])
         figure.suptitle(f"{dataset.attrs['name']}: parts, {LAW_NAMES[law]}", fontsize=11.5)
     return figure
 
@@ -100,6 +101,12 @@ def _panel_grid(count: int) -> tuple[Any, list[Any]]:
     for empty in panels[count:]:
         empty.remove()
     return figure, list(panels[:count])
+
+
+def _legend_below(figure: Any, panel: Any) -> None:
+    """Explain the lines of all panels once, where they cover nothing."""
+    handles, labels = panel.get_legend_handles_labels()
+    figure.legend(handles, labels, ncols=min(4, len(labels)), loc="outside lower center")
 
 
 def _label_outer(panels: list[Any], along: str) -> None:

@@ -25,7 +25,7 @@ _ROUNDING = 0.01  # of 5 dB, by which a level may exceed the largest bubble
 _LARGEST = 130.0  # its area [pt^2]
 _LOWEST = 0.012  # of the frequency axis; lines below do not set the scale
 _ENGINE = tuple(range(2, 25, 2))  # orders of a four-stroke engine with four cylinders
-KINDS = ("mesh orders", "engine orders", "others: turning of rollers and shafts, sidebands")
+KINDS = ("mesh orders", "engine orders", "others: sidebands, rollers, free vibration")
 COLOURS = (BLUE, ORANGE, "#8C8C8C")
 _MESH_LINES = (1, 2, 3)
 
