@@ -49,12 +49,14 @@ def bubble_chart(dataset: xr.Dataset, channel: MapChannel) -> Any:
                 col=1,
             )
     for row in range(len(preloads)):
-        for mode, frequency in bubbles.modes_below(dataset.isel(preload=row), top).items():
+        modes = bubbles.modes_below(dataset.isel(preload=row), top)
+        # names of neighbours at opposite ends, where they do not touch
+        for number, mode in enumerate(sorted(modes, key=modes.__getitem__)):
             chart.add_hline(
-                frequency,
+                modes[mode],
                 line={"dash": "dot", "width": 1.0, "color": "#808080"},
                 annotation={"text": mode, "font": {"size": 10}},
-                annotation_position="top left",
+                annotation_position=("top left", "top right")[number % 2],
                 row=row + 1,
                 col=1,
             )
