@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from drivetrain.axle_file.axle_file import read_axle
+from drivetrain.axle_file.read_axle import read_axle
 from drivetrain.steady_temperature import Cooling
 from gearlube.studies.drive_cycle.run import run_cycle
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings

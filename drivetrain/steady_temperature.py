@@ -83,7 +83,7 @@ def steady_temperature(
 
     Examples
     --------
-    >>> from drivetrain.axle_file.axle_file import read_axle
+    >>> from drivetrain.axle_file.read_axle import read_axle
     >>> car = read_axle("mohammadpour_2015")
     >>> round(steady_temperature(car, torque=60.0, speed=240.0) - 273.15)  # degC
     59

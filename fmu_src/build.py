@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from drivetrain.axle_file.axle_file import AxleFile
+from drivetrain.axle_file.read_axle import table_file
 from drivetrain.driveline.parameters import DrivelineParameters
 from fmu_src import helical_pair, hypoid_axle
 from fmu_src.archive import write_archive
@@ -207,15 +209,21 @@ def _car(axle: str | Path | None) -> DrivelineParameters | None:
     """Return the car of an axle file."""
     if axle is None:
         return None
-    resources = hypoid_axle.definition_with_axle(axle).resources
+    resources = _with_axle(axle).resources
     return hypoid_axle.car_axle_in(resources).driveline
+
+
+def _with_axle(axle: str | Path) -> Definition:
+    """Return the definition with an axle file; its gear file is analysed where that is due."""
+    table = table_file(AxleFile.given(str(axle)), Path(axle).parent)
+    return hypoid_axle.definition_with_axle(axle, table)
 
 
 def axle_definition(mesh_table: str | Path | None, axle: str | Path | None) -> Definition:
     """Return the definition of HypoidAxle.fmu with a mesh table, an axle file or neither."""
     if axle is not None:
         hypoid_axle.check_one_table(mesh_table)
-        return hypoid_axle.definition_with_axle(axle)
+        return _with_axle(axle)
     if mesh_table is None:
         return hypoid_axle.DEFINITION
     return hypoid_axle.definition_with_table(mesh_table)

@@ -96,7 +96,7 @@ def definition_with_axle(
         Axle file, or the name of a shipped one.
     mesh_table : path, optional
         Where the table of the gears is that the file names as a file; by default where the file
-        says, or the one that is kept of its gear file.
+        says. It must be given where the file names a gear file.
     asperity_table : path, optional
         The same of its asperity table.
     oil_file : path, optional
@@ -105,21 +105,17 @@ def definition_with_axle(
     Raises
     ------
     ParameterError
-        The file is missing or wrong.
+        The file is missing or wrong, or the table of its gear file is not given.
     TableError
         Its mesh table or its asperity table is missing or wrong.
-
-    Notes
-    -----
-    A gear file whose mesh table is missing or out of date is analysed first, which takes minutes.
     """
     content = _axle_content(path)
     try:
         file = parsed_axle_file(content)
         asperities = file.gear_set.asperity_table
-        table = file.table_file(Path(path).parent) if mesh_table is None else Path(mesh_table)
-        if mesh_table is not None and not file.has_own_table:
-            table = None
+        table = None
+        if file.has_own_table:
+            table = mesh_table or file.own_table(Path(path).parent)
         of_patches = None
         if asperities is not None:
             there = Path(path).parent / asperities if asperity_table is None else asperity_table

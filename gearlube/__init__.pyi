@@ -12,7 +12,7 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
 from gearlube_core.bearings.tapered_roller_bearing import (
     TaperedRollerBearing as TaperedRollerBearing,
 )
-from drivetrain.axle_file.axle_file import read_axle as read_axle
+from drivetrain.axle_file.read_axle import read_axle as read_axle
 from drivetrain.axle_file.axle_file import CarAxle as CarAxle
 
 # -- Helical pair
@@ -43,6 +43,8 @@ from gearlube_core.oil.film_oil_data import film_oil_of as film_oil_of
 # -- Gear files and mesh tables
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile as HypoidGearFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile as HelicalGearFile
+from gearlube_core.rexs.exchange import read_rexs as read_rexs
+from gearlube_core.rexs.exchange import write_rexs as write_rexs
 from gearlube_core.mesh_table.table import MeshTable as MeshTable
 from gearlube_core.mesh_table.netcdf import read_mesh_table as read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table as shipped_mesh_table
@@ -176,6 +178,11 @@ from gearlube.studies.sweep.settings import quick_sweep_settings as quick_sweep_
 from gearlube.studies.sweep.run import run_sweep as run_sweep
 from gearlube.studies.sweep.datasets import load_sweep as load_sweep
 from gearlube.studies.sweep.report import write_sweep_report as write_sweep_report
+
+# -- Study: run-up and coast-down
+from gearlube.studies.runup.settings import RunupSettings as RunupSettings
+from gearlube.studies.runup.run import run_runup as run_runup
+from gearlube.studies.runup.run import load_runup as load_runup
 
 # -- Variation of any parameter
 from gearlube.variation.studies import point_study as point_study

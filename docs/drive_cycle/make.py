@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from drivetrain.axle_file.axle_file import CarAxle, read_axle
+from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.axle_file.read_axle import read_axle
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.drive_cycle.figures import cycle_figure
 from gearlube.studies.drive_cycle.run import grid_change, run_cycle

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from drivetrain.axle_file.axle_file import CarAxle, read_axle
+from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.axle_file.read_axle import read_axle
 from gearlube.output.csv_text import csv_text
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses

@@ -30,7 +30,6 @@ from gearlube_core.dynamics.hypoid_axle.parameters import (
     mohammadpour_2015_axle,
 )
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_contact.kept_table import KeptTable
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
@@ -40,7 +39,6 @@ from gearlube_core.mesh_table.shipped import shipped_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.oil_file import DescribedOil, read_oil_file
-from gearlube_core.progress import Progress, no_progress
 from gearlube_core.rough_patch.asperity_file import asperities_from_bytes, read_asperity_content
 from gearlube_core.rough_patch.table import GreenwoodTrippFit
 
@@ -132,38 +130,30 @@ class AxleFile(InputFile):
         """Whether the mesh table is a file, not a shipped one."""
         return self.gear_set.named.endswith((".nc", ".toml"))
 
-    def kept_table(self, folder: Path = Path()) -> KeptTable:
-        """Return where the mesh table of the gear file is kept; `folder` is that of the file."""
-        return KeptTable(folder / self.gear_set.named, self.gear_set.contact_torques_n_m)
-
-    def table_file(
-        self, folder: Path = Path(), *, jobs: int | None = None, progress: Progress = no_progress
-    ) -> Path | None:
+    def own_table(self, folder: Path = Path()) -> Path | None:
         """Return the path of the mesh table; None where the file names a shipped one.
 
         Parameters
         ----------
         folder : Path
             Of the file.
-        jobs : int, optional
-            Processes of the analysis of a gear file; default: all processors.
-        progress : callable, optional
-            Called with the share of that analysis that is done [-] and a sentence.
 
         Raises
         ------
-        GearLubeError
-            The analysis of the gear file fails, see `KeptTable`.
+        ParameterError
+            The file names a gear file, whose contact is to be analysed first.
         """
+        named = self.gear_set.named
         if self.gear_set.gear_file is not None:
-            return self.kept_table(folder).up_to_date(jobs=jobs, progress=progress)
-        return folder / self.gear_set.named if self.has_own_table else None
+            raise ParameterError(
+                f"The mesh table of {named} must be given, got none. Read the axle file with "
+                "`gearlube.read_axle`, which analyses the gear file."
+            )
+        return folder / named if self.has_own_table else None
 
-    def mesh(
-        self, folder: Path = Path(), *, jobs: int | None = None, progress: Progress = no_progress
-    ) -> MeshTable:
-        """Return the mesh table; `folder` is that of the file, the others as in `table_file`."""
-        path = self.table_file(folder, jobs=jobs, progress=progress)
+    def mesh(self, folder: Path = Path()) -> MeshTable:
+        """Return the mesh table that the file names; errors as in `own_table`, and TableError."""
+        path = self.own_table(folder)
         return shipped_mesh_table(self.gear_set.named) if path is None else read_mesh_table(path)
 
     def asperities(self, folder: Path = Path()) -> GreenwoodTrippFit | None:
@@ -330,43 +320,6 @@ def _fit_notes(fit: GreenwoodTrippFit) -> list[InputNote]:
         )
         for name in ("xi_beta_sigma", "sigma_over_beta")
     ]
-
-
-def read_axle(
-    path: str | Path, *, jobs: int | None = None, progress: Progress = no_progress
-) -> CarAxle:
-    """Return axle and car of an axle file, or of a shipped one by its name.
-
-    Parameters
-    ----------
-    path : path
-    jobs : int, optional
-        Processes of the contact analysis, where the file names a gear file whose mesh table is
-        not there or out of date; default: all processors.
-    progress : callable, optional
-        Called with the share of that analysis that is done [-] and a sentence on what runs.
-
-    Raises
-    ------
-    ParameterError
-        The file or its gear file is missing or wrong; all wrong fields are named.
-    TableError
-        Its mesh table or its asperity table is missing or wrong.
-    ConvergenceError
-        The analysis of its gear file finds no equilibrium.
-
-    Examples
-    --------
-    >>> paper = read_axle("mohammadpour_2015")
-    >>> paper.driveline.road_load.vehicle.mass  # kg
-    1300.0
-    >>> paper.assumed[-1].field
-    'driveline.speed_control_frequency_hz'
-    """
-    file = AxleFile.given(str(path))
-    folder = Path(path).parent
-    mesh = file.mesh(folder, jobs=jobs, progress=progress)
-    return file.car_axle(mesh, file.asperities(folder), file.described_oil(folder))
 
 
 def parsed_axle_file(content: bytes) -> AxleFile:

@@ -28,7 +28,8 @@ def show(
     example: ExampleOption = False,
 ) -> None:
     """Check an axle file; print every input with its value, unit and where it is from."""
-    from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from drivetrain.axle_file.axle_file import AxleFile
+    from drivetrain.axle_file.read_axle import read_axle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
 
     with exit_on_error("Stopped. Run the same command again to go on."):

@@ -33,11 +33,12 @@ def bring_gears_up_to_date(
     if axle is None:
         return
     from drivetrain.axle_file.axle_file import AxleFile
+    from drivetrain.axle_file.read_axle import kept_table, table_file
 
     file = AxleFile.given(str(axle))
     folder = Path(axle).parent
     for one in [file, *(file.varied({"gear_set.gear_file": other}) for other in others)]:
-        if one.gear_set.gear_file is None or one.kept_table(folder).current() is not None:
+        if one.gear_set.gear_file is None or kept_table(one, folder).current() is not None:
             continue
         with progress_on(console, "contact") as progress:
-            one.table_file(folder, jobs=jobs, progress=progress)
+            table_file(one, folder, jobs=jobs, progress=progress)

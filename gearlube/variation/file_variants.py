@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
+from drivetrain.axle_file.read_axle import mesh_of
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.variables import HYPOID_AXLE
 from gearlube.variation.design import Point
@@ -95,7 +96,7 @@ class AxleVariants:
                 one.oil.file,
             )
             if table not in meshes:
-                meshes[table] = one.mesh(folder)
+                meshes[table] = mesh_of(one, folder)
             if roughness is not None and (fit := one.asperities(folder)) is not None:
                 asperities[roughness] = fit
             if oil is not None and (described := one.described_oil(folder)) is not None:
@@ -124,7 +125,7 @@ class AxleVariants:
         asperities, oil = file.gear_set.asperity_table, file.oil.file
         folder = self.folder
         car = file.car_axle(
-            self.meshes.get(file.gear_set.named) or file.mesh(folder),
+            self.meshes.get(file.gear_set.named) or mesh_of(file, folder),
             self.asperities.get(asperities or "") or file.asperities(folder),
             self.oils.get(oil or "") or file.described_oil(folder),
             notes=notes,

@@ -44,7 +44,7 @@ def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path):
     heel = gear.pinion.coast_flank.heel_relief_length_mm
     assert heel == pytest.approx(0.15 * gear.pinion.face_width_mm, abs=1e-6)
     axle = tomllib.loads((out / "axle.toml").read_text())
-    assert axle["gear_set"]["mesh_table"] == "contact/mine.nc"
+    assert axle["gear_set"]["gear_file"] == "mine.toml"
     report = (out / "report.md").read_text()
     for part in ("asked and found", "undercut", "blade points", "chosen: a third of the face"):
         assert part in report

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from drivetrain.axle_file.axle_file import read_axle
+from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.hypoid_axle import (
     DEFINITION,

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from drivetrain.axle_file.axle_file import read_axle
+from drivetrain.axle_file.read_axle import read_axle
 from gearlube.studies.sweep.channels import CHANNELS
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies

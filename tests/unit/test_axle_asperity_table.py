@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from drivetrain.axle_file.axle_file import read_axle
+from drivetrain.axle_file.read_axle import read_axle
 from fmu_src import identity
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
 from gearlube_core.contact.greenwood_tripp_1971 import (

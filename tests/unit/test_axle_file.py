@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from drivetrain.axle_file.axle_file import AxleFile, read_axle
+from drivetrain.axle_file.axle_file import AxleFile
+from drivetrain.axle_file.read_axle import read_axle
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.dynamics.hypoid_axle import mohammadpour_2015_axle

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from drivetrain.axle_file.axle_file import read_axle
-from fmu_src.hypoid_axle import HypoidAxle, car_axle_in, definition_with_axle
+from drivetrain.axle_file.read_axle import read_axle
+from fmu_src.build import axle_definition
+from fmu_src.hypoid_axle import HypoidAxle, car_axle_in
 from gearlube.command import app
 from gearlube.studies.sweep.oil_in_axle import axle_with_oil
 from gearlube.variation.file_variants import AxleVariants, files_named
@@ -158,7 +159,7 @@ def test_gears_that_cannot_be_are_refused(tmp_path, analysed, gears, words):
 
 def test_an_fmu_carries_the_table_and_needs_no_gear_file(tmp_path, analysed):
     axle = axle_file(tmp_path)
-    definition = definition_with_axle(axle)
+    definition = axle_definition(None, axle)
     table = (tmp_path / "gears.mesh.nc").read_bytes()
     assert definition.resources == {"axle.toml": axle.read_bytes(), "mesh_table.nc": table}
     elsewhere = tmp_path / "unpacked"

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import gearlube as gl
 from docs import oil_file as page
-from drivetrain.axle_file.axle_file import read_axle
+from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
 from fmu_src.identity import guid_of

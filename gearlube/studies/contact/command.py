@@ -78,7 +78,7 @@ def contact(
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_contact"),
     export: Annotated[
         bool,
-        typer.Option("--export", help="Also write flank points (CSV) and gears (STL, GLB)."),
+        typer.Option("--export", help="Also write flanks (CSV, STEP) and gears (STL, GLB)."),
     ] = False,
     quick: Annotated[
         bool, typer.Option("--quick", help="Few positions and torques, for a first look.")

@@ -48,9 +48,9 @@ def asked_and_found(design: Design) -> list[AskedAndFound]:
         ):
             rows.append(AskedAndFound(side, what, f"{asked:.1f}", f"{value:.1f}"))
         relieved = design.relieved[side]
-        if not isinstance(relieved, str):
-            what, value = "transmission error with relief [urad]", relieved.error / _MICRO
-            rows.insert(-2, AskedAndFound(side, what, "", f"{value:.1f}"))
+        text = "no extreme" if isinstance(relieved, str) else f"{relieved.error / _MICRO:.1f}"
+        what = "transmission error with relief [urad]"
+        rows.insert(-2, AskedAndFound(side, what, "", text))
         places = [f"s {one.s:.3f}, t {one.t:.3f}" for one in (target, found)]
         off = f"{places[1]} ({centre / MILLIMETRE:.2f} mm off)"
         rows.append(AskedAndFound(side, "mean contact", places[0], off))

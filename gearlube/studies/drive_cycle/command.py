@@ -68,7 +68,8 @@ def drive_cycle(
 
     Writes drive_cycle.nc, drive_cycle.csv, summary.csv and a figure.
     """
-    from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from drivetrain.axle_file.axle_file import AxleFile
+    from drivetrain.axle_file.read_axle import read_axle
     from drivetrain.sump_heat import SumpHeat
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console

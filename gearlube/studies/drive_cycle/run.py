@@ -59,7 +59,7 @@ def run_cycle(
     Examples
     --------
     >>> import numpy as np
-    >>> from drivetrain.axle_file.axle_file import read_axle
+    >>> from drivetrain.axle_file.read_axle import read_axle
     >>> from gearlube.studies.drive_cycle.traces import DriveCycle
     >>> cruise = DriveCycle(name="cruise", time=np.arange(60.0), speed=np.full(60, 20.0))  # m/s
     >>> found = run_cycle(DriveCycleSettings(car=read_axle("mohammadpour_2015"), cycle=cruise))

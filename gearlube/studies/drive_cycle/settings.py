@@ -70,7 +70,7 @@ class DriveCycleSettings:
 
     Examples
     --------
-    >>> from drivetrain.axle_file.axle_file import read_axle
+    >>> from drivetrain.axle_file.read_axle import read_axle
     >>> settings = DriveCycleSettings(
     ...     car=read_axle("mohammadpour_2015"), cycle=DriveCycle.named("nedc")
     ... )

@@ -116,7 +116,8 @@ def loss_map(
     Writes map.nc, map.csv, map.mat, figures, and a file for VECTO, GEM and Modelica for each oil
     temperature.
     """
-    from drivetrain.axle_file.axle_file import AxleFile, read_axle
+    from drivetrain.axle_file.axle_file import AxleFile
+    from drivetrain.axle_file.read_axle import read_axle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import logging
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from drivetrain.axle_file.axle_file import AxleFile, CarAxle, read_axle
+from drivetrain.axle_file.axle_file import AxleFile, CarAxle
 from drivetrain.axle_file.field_units import attribute_of
+from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import axle_parameters, start_arguments
 from fmu_src.hypoid_axle import AXLE_FILE, PAPER, car_axle_in, check_one_table
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, SweepSettings
@@ -137,8 +137,3 @@ def assumed_inputs(car_axle: CarAxle, settings: SweepSettings) -> list[InputNote
         )
 
     return [note for note in car_axle.assumed if not is_set(note)]
-
-
-def notes_as_text(notes: Sequence[InputNote]) -> str:
-    """Return notes as one text, for an attribute of a dataset."""
-    return json.dumps([[n.field, n.value_text, n.unit, n.origin, n.why] for n in notes])

@@ -5,7 +5,8 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from drivetrain.axle_file.axle_file import AxleFile, read_axle
+from drivetrain.axle_file.axle_file import AxleFile
+from drivetrain.axle_file.read_axle import read_axle, table_file
 from fmu_src.hypoid_axle import PAPER, check_one_table
 from gearlube.output.toml_text import toml_text
 from gearlube_core.mesh_table.netcdf import read_mesh_table
@@ -43,7 +44,7 @@ def axle_with_oil(
     data["oil"] = {"file": "oil.toml"}
     gears = data["gear_set"]
     if file.gear_set.gear_file is not None:
-        table = file.table_file(Path(axle or "").parent)
+        table = table_file(file, Path(axle or "").parent)
         gears["mesh_table"] = str(Path(table or "").resolve())
         del gears["gear_file"]
         gears.pop("contact_torques_n_m", None)

@@ -10,7 +10,7 @@ from typing import Any
 
 import xarray as xr
 
-from gearlube.studies.sweep.figures import extremes, spectrum_map
+from gearlube.studies.sweep.figures import charts, extremes, spectrum_map
 from gearlube.studies.sweep.figures.efficiency import efficiency
 from gearlube.studies.sweep.figures.film import film_over_mesh_cycle
 from gearlube.studies.sweep.figures.operation import operating_points
@@ -20,11 +20,25 @@ from gearlube.studies.sweep.figures.waveforms import roller_zone, waveforms
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """A figure, its file name and a hint for the reader; `essential` ones suit a first look."""
+    """A figure, its file name and a hint for the reader.
+
+    Parameters
+    ----------
+    name, title, caption : str
+        File name; a few words; what is drawn, and what to see in it.
+    draw : callable
+        From the dataset to a picture of matplotlib.
+    chart : callable, optional
+        From the dataset to a chart of plotly, which the report shows in place of the picture.
+    essential : bool
+        Suits a first look.
+    """
 
     name: str
+    title: str
     caption: str
     draw: Callable[[xr.Dataset], Any]
+    chart: Callable[[xr.Dataset], Any] | None = None
     essential: bool = False
 
 
@@ -41,6 +55,7 @@ _CAGE_TOP = 80.0  # Hz, shows the cage frequency, its multiples and the pinion r
 CATALOGUE = (
     Entry(
         name="operating_points",
+        title="Operating points",
         essential=True,
         caption="Mean torques that the road load asks for, and the mesh, rotation and cage "
         "frequencies against the natural frequencies. Grey bars span the preloads.",
@@ -48,74 +63,93 @@ CATALOGUE = (
     ),
     Entry(
         name="dte_map",
+        title="Spectra of the transmission error",
         essential=True,
         caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
         "figures 3 and 4). Dashed: mesh frequency and multiples; dotted: natural frequencies. With "
         "the coupled vehicle, lines below 200 Hz that do not follow the speed are engine orders.",
         draw=_map(spectrum_map.DTE),
+        chart=partial(charts.map_chart, channel=spectrum_map.DTE),
     ),
     Entry(
         name="dte_orders",
+        title="Mesh orders of the transmission error",
         caption="Amplitudes of the first three mesh orders of the transmission error.",
         draw=order_cuts,
+        chart=charts.order_chart,
     ),
     Entry(
         name="dte_extremes",
+        title="Extremes of the transmission error",
         essential=True,
         caption="Extremes of the dynamic transmission error (compare figure 5). Below zero the "
         "drive flanks separate; the strip names the kind of separation.",
         draw=_band(extremes.DTE),
+        chart=partial(charts.extremes_chart, channel=extremes.DTE),
     ),
     Entry(
         name="dte_waveforms",
+        title="Transmission error over one turn",
         caption="Dynamic transmission error over one pinion revolution.",
         draw=waveforms,
     ),
     Entry(
         name="radial_map",
+        title="Spectra of the radial displacement of the pinion",
         caption="Spectra of the radial displacement of the pinion, which excites the casing "
         "(compare figures 6 and 7).",
         draw=_map(spectrum_map.RADIAL),
+        chart=partial(charts.map_chart, channel=spectrum_map.RADIAL),
     ),
     Entry(
         name="radial_extremes",
+        title="Extremes of the radial displacement of the pinion",
         essential=True,
         caption="Extremes of the radial displacement of the pinion, sqrt(y2 + z2) from the "
         "preloaded rest position (compare figure 8).",
         draw=_band(extremes.RADIAL),
+        chart=partial(charts.extremes_chart, channel=extremes.RADIAL),
     ),
     Entry(
         name="roller_map",
+        title="Spectra of the load of one roller",
         caption="Spectra of the load of one roller (compare figures 9 and 10).",
         draw=_map(spectrum_map.ROLLER),
     ),
     Entry(
         name="roller_map_cage",
+        title="The same at low frequencies",
         caption="The same at low frequencies: cage frequency, pinion rotation and what the engine "
         "orders of the coupled vehicle modulate.",
         draw=_map(spectrum_map.ROLLER_LOW, _CAGE_TOP),
     ),
     Entry(
         name="roller_extremes",
+        title="Extremes of the load of one roller",
         essential=True,
         caption="Extremes of the load of one roller (compare figure 11). A roller that reaches "
         "zero has left its races: the preload is too low.",
         draw=_band(extremes.ROLLER),
+        chart=partial(charts.extremes_chart, channel=extremes.ROLLER),
     ),
     Entry(
         name="roller_zone",
+        title="Loaded zone of the bearing",
         caption="Loaded zone: mean and range of the load of one roller over the turns of the cage.",
         draw=roller_zone,
     ),
     Entry(
         name="efficiency",
+        title="Efficiency and losses",
         essential=True,
         caption="Efficiency of the gear mesh (flank friction only, compare figure 12) and of the "
         "axle with all modelled losses, above the losses themselves.",
         draw=efficiency,
+        chart=charts.efficiency_chart,
     ),
     Entry(
         name="film",
+        title="Films while tooth pairs pass the mesh",
         essential=True,
         caption="Load, central film thickness, film ratio and film temperature of the tooth pairs "
         "in mesh, from entry to exit, mean over the record.",

@@ -44,8 +44,8 @@ def order_cuts(dataset: xr.Dataset) -> Any:
     return figure
 
 
-def harmonic_amplitude(row: xr.Dataset, harmonic: int) -> Array:
-    """Return the amplitude [m] of mesh order `harmonic` at every speed of one preload."""
+def harmonic_amplitude(row: xr.Dataset, harmonic: int, variable: str = "dte_spectrum") -> Array:
+    """Return the amplitude of mesh order `harmonic` of a spectrum at every speed of one preload."""
     result = np.full(row.sizes["speed"], np.nan)
     target = harmonic * row["mesh_frequency"].values
     for column in range(result.size):
@@ -53,5 +53,5 @@ def harmonic_amplitude(row: xr.Dataset, harmonic: int) -> Array:
         known = np.isfinite(frequency)
         if np.isfinite(target[column]) and np.any(known):
             nearest = np.argmin(np.abs(frequency[known] - target[column]))
-            result[column] = row["dte_spectrum"].values[column][known][nearest]
+            result[column] = row[variable].values[column][known][nearest]
     return result

@@ -18,7 +18,7 @@ from gearlube.plotting.style import (
 )
 from gearlube_core.arrays import Array
 
-_DYNAMIC_RANGE = 70.0  # dB between the top and the bottom of the colour scale
+DYNAMIC_RANGE = 70.0  # dB between the top and the bottom of the colour scale
 _LOWEST_LINE = 0.02  # lines that stay below this share of the axis are left out
 _ROWS = 160  # frequency cells of a map; a cell shows the largest line inside it
 
@@ -92,14 +92,8 @@ def spectrum_map(
         natural frequencies dotted. Speeds without a result are grey.
     """
     top = highest_frequency or default_top(dataset)
-    edges = np.linspace(0.0, top, _ROWS + 1)
     speeds = dataset["speed_kmh"].values
-    levels = [
-        _decibels(dataset.isel(preload=row), channel, edges)
-        for row in range(dataset.sizes["preload"])
-    ]
-    peak = max((float(np.nanmax(x)) for x in levels if np.any(np.isfinite(x))), default=0.0)
-    peak = 5.0 * np.ceil(peak / 5.0)
+    edges, levels, peak = spectrum_levels(dataset, channel, top)
     cells = _columns(speeds)
     with house_style():
         count = len(levels)
@@ -114,7 +108,7 @@ def spectrum_map(
                     edges,
                     level[:, column : column + 1],
                     cmap="magma",
-                    vmin=peak - _DYNAMIC_RANGE,
+                    vmin=peak - DYNAMIC_RANGE,
                     vmax=peak,
                     rasterized=True,
                 )
@@ -129,6 +123,22 @@ def spectrum_map(
         bar.set_label(f"amplitude [dB re {channel.reference_text}]")
         figure.suptitle(f"{channel.title}: spectra during the speed sweep", fontsize=11.5)
     return figure
+
+
+def spectrum_levels(
+    dataset: xr.Dataset, channel: MapChannel, top: float
+) -> tuple[Array, list[Array], float]:
+    """Return the edges of frequency cells [Hz], levels [dB] for each preload, and the scale's end.
+
+    Levels are of shape (cells, speeds); the end is the largest level, rounded up to 5 dB.
+    """
+    edges = np.linspace(0.0, top, _ROWS + 1)
+    levels = [
+        _decibels(dataset.isel(preload=row), channel, edges)
+        for row in range(dataset.sizes["preload"])
+    ]
+    peak = max((float(np.nanmax(x)) for x in levels if np.any(np.isfinite(x))), default=0.0)
+    return edges, levels, 5.0 * float(np.ceil(peak / 5.0))
 
 
 def _columns(speeds: Array) -> list[tuple[float, float]]:
