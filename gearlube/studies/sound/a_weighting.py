@@ -12,11 +12,11 @@ _AT_1_KHZ = 10.0 ** (2.000 / 20.0)
 
 
 def a_weighting(frequency: Array) -> Array:
-    """Return the factor on pressure of the A-weighting [-], 1 at 1 kHz: [iec_61672_1 (E.6)].
+    """Return the factor on pressure of the A-weighting [-], 1 at 1 kHz: [iec_61672_1].
 
     Examples
     --------
-    >>> 20.0 * np.log10(a_weighting(np.array([100.0, 1000.0, 10000.0]))).round(1)
+    >>> (20.0 * np.log10(a_weighting(np.array([100.0, 1000.0, 10000.0])))).round(1)
     array([-19.1,   0. ,  -2.5])
     """
     square = np.asarray(frequency, dtype=np.float64) ** 2
@@ -30,5 +30,5 @@ def a_weighted(pressure: Array, rate: float) -> Array:
     from scipy.fft import irfft, next_fast_len, rfft
 
     size = next_fast_len(2 * pressure.size, real=True)
-    f = np.fft.rfftfreq(size, 1.0 / rate)
+    f = np.fft.rfftfreq(size, 1.0 / rate).astype(np.float64)
     return np.asarray(irfft(rfft(pressure, size) * a_weighting(f), size)[: pressure.size])

@@ -52,6 +52,6 @@ def contributions(
 
 def heard_order(contribution: Array, loudness: Array) -> Array:
     """Return the index of the order that is heard in each frame, -1 for none, shape (frames,)."""
-    best = np.argmax(contribution, axis=0)
-    top = np.max(contribution, axis=0)
+    known = np.nan_to_num(contribution)
+    best, top = np.argmax(known, axis=0), np.max(known, axis=0)
     return np.where((loudness > 0.0) & (top > AUDIBLE_SHARE * loudness), best, -1)

@@ -99,8 +99,7 @@ def _orders(
 ) -> list[str]:
     """Return a sentence on every order that both have and that differs, the loudest first."""
     teeth = int(a.attrs["pinion_teeth"])
-    same_teeth = teeth and teeth == int(b.attrs["pinion_teeth"])
-    found = []
+    found, silent = [], []
     for place, order in enumerate(a["order"].values):
         other = _match(order, place, a, b)
         if other is None:
@@ -109,25 +108,34 @@ def _orders(
             over_speed(one, one["order_level"].values[q], speeds, unit)
             for one, q in ((a, place), (b, other))
         ]
-        name = order_name(float(order), teeth)
-        if teeth and not same_teeth:
-            name = f"mesh order {place + 1}"
-        change = levels[1] - levels[0]
-        loud = float(np.nanmean(np.maximum(*levels))) if np.isfinite(change).any() else -np.inf
-        for sign in (1.0, -1.0):
-            stretch = np.isfinite(change) & (sign * change >= STEP_HEARD)
-            if np.mean(stretch) < _LEAST_SHARE:
-                continue
-            low, high = longest_range(stretch, speeds)
-            inside = stretch & (speeds >= low) & (speeds <= high)
-            if np.mean(inside) < _LEAST_SHARE:
-                continue
-            mean = float(np.mean(change[inside]))
-            where = f" between {low:.0f} and {high:.0f} {unit}" if ramp else ""
-            heard = _heard(a, place) or _heard(b, other)
-            end = "" if heard else "; it is not heard above the rest in either"
-            found.append((heard, loud, f"{name_b} is {_by(mean)} at {name}{where}{end}."))
-    return [text for _, _, text in sorted(found, key=lambda one: (not one[0], -one[1]))]
+        same = teeth and teeth == int(b.attrs["pinion_teeth"])
+        name = order_name(float(order), teeth) if same or not teeth else f"mesh order {place + 1}"
+        stretches = _stretches(levels[1] - levels[0], speeds, unit if ramp else "")
+        if not stretches:
+            continue
+        if _heard(a, place) or _heard(b, other):
+            loud = float(np.nanmax(np.fmax(*levels)))
+            found.append((loud, f"At {name} {name_b} is {' and '.join(stretches)}."))
+        else:
+            silent.append(name)
+    told = [text for _, text in sorted(found, key=lambda one: -one[0])]
+    if silent:
+        told.append(f"Also different, but not heard above the rest: {', '.join(silent)}.")
+    return told
+
+
+def _stretches(change: Array, speeds: Array, unit: str) -> list[str]:
+    """Return where B is louder and where it is quieter, the longest stretch of each."""
+    found = []
+    for sign in (1.0, -1.0):
+        above = np.isfinite(change) & (sign * np.nan_to_num(change) >= STEP_HEARD)
+        low, high = longest_range(above, speeds)
+        inside = above & (speeds >= low) & (speeds <= high)
+        if np.mean(inside) < _LEAST_SHARE:
+            continue
+        where = f" between {low:.0f} and {high:.0f} {unit}" if unit else ""
+        found.append((float(np.mean(inside)), f"{_by(float(np.mean(change[inside])))}{where}"))
+    return [text for _, text in sorted(found, key=lambda one: -one[0])]
 
 
 def _heard(dataset: xr.Dataset, place: int) -> bool:

@@ -100,14 +100,14 @@ def _single(name: str) -> str:
 
 
 def _on(time: Array, at: Array, values: Array) -> Array:
-    """Return values on the rows; what lies beyond the ends by more than a row's share is NaN."""
+    """Return values on the rows; NaN beyond the ends by more than a row."""
     known = np.isfinite(values)
     if not known.any():
         return np.full(time.size, np.nan)
     found = np.interp(time, at[known], values[known])
     if at.size > 1 and not known.all():  # an order that leaves the band
         found = np.where(np.interp(time, at, known.astype(float)) > 0.5, found, np.nan)
-    return found
+    return np.where((time < at[0] - STEP) | (time > at[-1] + STEP), np.nan, found)
 
 
 def order_name(order: float, teeth: int) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -19,9 +19,9 @@ from gearlube.plotting.style import (
 from gearlube.studies.sound.a_weighting import REFERENCE, a_weighting
 from gearlube.studies.sound.audible import AUDIBLE_SHARE
 from gearlube.studies.sound.dataset import is_ramp, order_name, speed_axis
+from gearlube.studies.sound.heard import HeardRun
 from gearlube.studies.sound.metrics import METRICS
-from gearlube.studies.sound.pressure import RATE, Pressure
-from gearlube.studies.sound.transfer_path import TransferPath
+from gearlube.studies.sound.pressure import RATE
 from gearlube_core.arrays import Array
 
 _RANGE = 60.0  # dB from the loudest to the darkest colour
@@ -30,15 +30,7 @@ _DASHES = ("-", "--")
 _TOP_ORDER = 1.15  # of the highest tracked order's frequency, end of the spectrogram
 
 
-class Heard(NamedTuple):
-    """A run with its pressure and path, as the figures need it."""
-
-    dataset: xr.Dataset
-    pressure: Pressure
-    path: TransferPath
-
-
-def spectrogram(runs: Sequence[Heard]) -> Any:
+def spectrogram(runs: Sequence[HeardRun]) -> Any:
     """Return the A-weighted spectrogram of every run, with the tracked orders as lines."""
     from scipy.signal import ShortTimeFFT
     from scipy.signal.windows import hann
@@ -74,7 +66,7 @@ def spectrogram(runs: Sequence[Heard]) -> Any:
     return figure
 
 
-def levels(runs: Sequence[Heard]) -> Any:
+def levels(runs: Sequence[HeardRun]) -> Any:
     """Return the A-weighted level of the whole sound, and the level of every tracked order."""
     with house_style():
         figure = new_figure(9.2, 5.0)
@@ -83,9 +75,7 @@ def levels(runs: Sequence[Heard]) -> Any:
             data = run.dataset
             x = _axis(data)
             name = f"{data.attrs['name']}: " if len(runs) > 1 else ""
-            ax.plot(
-                x, data["level_a"], color="black", ls=dash, lw=2.0, label=f"{name}whole, dB(A)"
-            )
+            ax.plot(x, data["level_a"], color="black", ls=dash, lw=2.0, label=f"{name}whole, dB(A)")
             for i, order in enumerate(data["order"].values):
                 label = order_name(float(order), int(data.attrs["pinion_teeth"]))
                 ax.plot(
@@ -104,7 +94,7 @@ def levels(runs: Sequence[Heard]) -> Any:
     return figure
 
 
-def metrics(runs: Sequence[Heard]) -> Any:
+def metrics(runs: Sequence[HeardRun]) -> Any:
     """Return every metric that was computed, one panel each; None without any."""
     names = [name for name in METRICS if name in runs[0].dataset]
     if not names:
@@ -131,7 +121,7 @@ def metrics(runs: Sequence[Heard]) -> Any:
     return figure
 
 
-def heard_orders(runs: Sequence[Heard]) -> Any:
+def heard_orders(runs: Sequence[HeardRun]) -> Any:
     """Return how much loudness goes with each order; None without loudness."""
     if "order_contribution" not in runs[0].dataset:
         return None
@@ -151,16 +141,14 @@ def heard_orders(runs: Sequence[Heard]) -> Any:
                     markevery=max(1, data.sizes["time"] // 12),
                     label=order_name(float(order), int(data.attrs["pinion_teeth"])),
                 )
-            ax.set(
-                ylabel="loudness lost without\nthe order [sone]", title=str(data.attrs["name"])
-            )
+            ax.set(ylabel="loudness lost without\nthe order [sone]", title=str(data.attrs["name"]))
             ax.set_ylim(bottom=0.0)
         panels[0].legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
         panels[-1].set_xlabel(_axis_label(runs[0].dataset))
     return figure
 
 
-def transfer(runs: Sequence[Heard]) -> Any:
+def transfer(runs: Sequence[HeardRun]) -> Any:
     """Return the magnitude of every path that was used."""
     path = runs[0].path
     f = path.frequency
@@ -201,7 +189,7 @@ CATALOGUE = {
 }
 
 
-def draw_all(runs: Sequence[Heard]) -> dict[str, Any]:
+def draw_all(runs: Sequence[HeardRun]) -> dict[str, Any]:
     """Return every figure by name; what there is no data for is left out."""
     drawn = {name: draw(runs) for name, draw in CATALOGUE.items()}
     return {name: figure for name, figure in drawn.items() if figure is not None}
@@ -218,7 +206,7 @@ def _axis_label(dataset: xr.Dataset) -> str:
     return f"{words} [{unit}]"
 
 
-def _top(run: Heard) -> float:
+def _top(run: HeardRun) -> float:
     fastest = float(run.dataset["pinion_speed"].max()) / (2.0 * np.pi)
     highest = float(run.dataset["order"].max()) * fastest * _TOP_ORDER
     return min(run.pressure.band[1], max(500.0, highest))

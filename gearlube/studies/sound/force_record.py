@@ -16,6 +16,7 @@ _UNITS = {
     FORCE: ("N",),
     TIME: ("s",),
     SPEED: ("rad/s", "rad s-1"),
+    "wheel_speed": ("rad/s", "rad s-1"),
     "pinion_angle": ("rad",),
     "vehicle_speed": ("m/s", "m s-1"),
 }
@@ -68,7 +69,8 @@ def read_forces(source: Path | str | xr.Dataset, name: str = "") -> ForceRecord:
     source : path or dataset
         NetCDF file with `bearing_force(time, bearing, direction)` [N], `time` [s] and
         `pinion_speed(time)` [rad/s], or a folder with one such file. `pinion_angle(time)` [rad],
-        `vehicle_speed(time)` [m/s] and the attribute `pinion_teeth` are used if they are there.
+        `vehicle_speed(time)` [m/s], or `wheel_speed(time)` [rad/s] with the attribute
+        `rolling_radius` [m], and the attribute `pinion_teeth` are used if they are there.
     name : str
         Empty: the name of the folder or file.
 
@@ -140,11 +142,19 @@ def _record(dataset: xr.Dataset, name: str, where: str) -> ForceRecord:
         force=np.ascontiguousarray(force.reshape(time.size, -1).T),
         angle=angle,
         speed=speed,
-        vehicle_speed=(
-            _values(dataset, "vehicle_speed", where) if "vehicle_speed" in dataset else None
-        ),
+        vehicle_speed=_vehicle_speed(dataset, where),
         teeth=None if teeth is None else int(teeth),
     )
+
+
+def _vehicle_speed(dataset: xr.Dataset, where: str) -> Array | None:
+    """Return the speed of the car [m/s]: given, or of wheels that roll without slip."""
+    if "vehicle_speed" in dataset:
+        return _values(dataset, "vehicle_speed", where)
+    if "wheel_speed" in dataset and "rolling_radius" in dataset.attrs:
+        radius = float(dataset.attrs["rolling_radius"])
+        return radius * _values(dataset, "wheel_speed", where)
+    return None
 
 
 def _labels(dataset: xr.Dataset, dimension: str) -> list[str]:
@@ -207,7 +217,7 @@ def _rate(time: Array, where: str) -> float:
         )
     if time[-1] - time[0] < LEAST_TIME:
         raise ParameterError(
-            f"{where} must last at least {LEAST_TIME:g} s, got {time[-1] - time[0]:.3g} s. Loudness "
-            "and roughness need time to settle: record for longer."
+            f"{where} must last at least {LEAST_TIME:g} s, got {time[-1] - time[0]:.3g} s. "
+            "Loudness and roughness need time to settle: record for longer."
         )
     return rate

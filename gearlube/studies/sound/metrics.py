@@ -1,4 +1,7 @@
-"""Psychoacoustic metrics by a package: which one computes what, and what is missing."""
+"""Psychoacoustic metrics by a package: which one computes what, and what is missing.
+
+Loudness is that of [iso_532_1], the others are those of [ecma_418_2].
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from gearlube.studies.sound.metrics import Curve
@@ -21,10 +23,11 @@ def roughness(pressure: Array, field: str) -> Curve:
     """Return the roughness of ECMA-418-2 [asper]; this package knows the free field alone."""
     from mosqito import roughness_ecma
 
-    single, value, _, _, time = roughness_ecma(pressure, RATE)
+    with np.errstate(divide="ignore"):  # it divides by modulation rates of zero
+        single, value, _, _, time = roughness_ecma(pressure, RATE)
     return Curve(
         np.asarray(time), np.asarray(value), float(single), "ECMA-418-2, free field, MoSQITo"
     )
 
 
-FUNCTIONS = {"loudness": loudness, "roughness": roughness}
+FUNCTIONS: dict[str, Callable[[Array, str], Curve]] = {"loudness": loudness, "roughness": roughness}

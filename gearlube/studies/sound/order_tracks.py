@@ -115,5 +115,3 @@ def _usual(record: ForceRecord, blocks: OrderBlocks, top: float) -> list[float]:
         if len(chosen) == _OTHERS:
             break
     return sorted(chosen)
-
-

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -38,15 +39,13 @@ def roughness(pressure: Array, field: str) -> Curve:
     """Return the roughness of ECMA-418-2 [asper]."""
     import phonometry
 
-    return _curve(
-        phonometry.roughness_ecma(pressure, RATE, field=field), "roughness", "ECMA-418-2"
-    )
+    return _curve(phonometry.roughness_ecma(pressure, RATE, field=field), "roughness", "ECMA-418-2")
 
 
 def fluctuation_strength(pressure: Array, field: str) -> Curve:
-    """Return the fluctuation strength of ECMA-418-2 [vacil]; before phonometry 3.3 of [fastl_zwicker_2007].
+    """Return the fluctuation strength of ECMA-418-2 [vacil].
 
-    The older one has one value a second.
+    Before version 3.3 the package has that of [osses_2016] alone, one value a second.
     """
     import phonometry
 
@@ -55,8 +54,8 @@ def fluctuation_strength(pressure: Array, field: str) -> Curve:
         return _curve(found, "fluctuation_strength", "ECMA-418-2")
     older = phonometry.fluctuation_strength(pressure, RATE)
     value = np.atleast_1d(np.asarray(older.time_dependent, dtype=np.float64))
-    time = (np.arange(value.size) + 0.5) * (pressure.size / RATE / value.size)
-    return Curve(time, value, float(older.fluctuation_strength), f"Fastl and Zwicker, {_NAME}")
+    time = np.asarray((np.arange(value.size) + 0.5) * (pressure.size / RATE / value.size))
+    return Curve(time, value, float(older.fluctuation_strength), f"Osses et al. 2016, {_NAME}")
 
 
 def _curve(found: Any, name: str, standard: str) -> Curve:
@@ -68,7 +67,7 @@ def _curve(found: Any, name: str, standard: str) -> Curve:
     )
 
 
-FUNCTIONS = {
+FUNCTIONS: dict[str, Callable[[Array, str], Curve]] = {
     "loudness": loudness,
     "tonality": tonality,
     "roughness": roughness,

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 
 from gearlube.studies.sound.a_weighting import a_weighting
 from gearlube.studies.sound.force_record import ForceRecord
+from gearlube.studies.sound.resample import resampled
 from gearlube.studies.sound.transfer_path import TransferPath
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
@@ -17,10 +17,10 @@ RATE = 48000  # Hz, as ISO 532-1 and ECMA-418-2 want it
 _LOWEST = 20.0  # Hz, below nobody hears
 _HIGHEST = 0.45  # of the rate of the record
 _LEAST_SIZE = 1 << 14  # of an impulse response
-_EARLY_SHARE = 1 / 8  # of an impulse response that may lie before the force
+_EARLY_SHARE = 1 / 4  # of an impulse response that may lie before the force
 LARGEST_OUTSIDE = 0.01  # of the A-weighted energy of the forces, 0.04 dB
 LARGEST_EARLY = 0.1  # of the energy of a response before the force
-_EDGE = 2.0 ** (1.0 / 12.0)  # width of the fade at the ends of the band
+_EDGE = 2.0 ** (1.0 / 12.0)  # width of the fade at the upper end of the band
 _FADE = 0.02  # s at the ends of the record
 
 
@@ -35,7 +35,8 @@ class Pressure:
     band : (float, float)
         Frequencies that it holds [Hz].
     early : float
-        Largest share of a path's energy that comes before the force [-]; 0 for a causal one.
+        Largest share of a path's energy more than 1 ms before the force [-]; small for a causal
+        path over a wide band.
     """
 
     signal: Array
@@ -54,7 +55,8 @@ def sound_pressure(
     """Return the sound pressure of a run.
 
     Forces lose their mean, are resampled to 48 kHz and convolved with the impulse responses of
-    their paths by [scipy]'s `oaconvolve`. The band ends in fades a twelfth of an octave wide.
+    their paths by `scipy.signal.oaconvolve`. Below the band the response falls by
+    12 dB per octave, at its upper end it fades within a twelfth of an octave.
 
     Parameters
     ----------
@@ -70,65 +72,65 @@ def sound_pressure(
     ParameterError
         The path does not cover the band, or its phases run backwards in time.
     """
-    from scipy.signal import oaconvolve, resample_poly
+    from scipy.signal import oaconvolve
 
     path.check_paths(record.paths)
     band = _band(record, path, band)
-    ratio = Fraction(RATE / record.rate).limit_denominator(2000)
     fade = _fade(record.force.shape[1], record.rate)
     signal: Array | None = None
     early = 0.0
     for name, force in zip(record.paths, record.force, strict=True):
-        smooth = (force - np.mean(force)) * fade
-        forces = resample_poly(smooth, ratio.numerator, ratio.denominator)
-        response, before, share = impulse_response(path, name, band)
-        early = max(early, share)
+        forces = resampled((force - np.mean(force)) * fade, RATE / record.rate)
+        response, before = impulse_response(path, name, band)
+        early = max(early, _check_causal(response, before, name, path.source))
         heard = oaconvolve(forces, response)[before : before + forces.size]
         signal = heard if signal is None else signal + heard
-    if early > LARGEST_EARLY:
-        raise ParameterError(
-            f"The responses of {path.source} must follow the force: at most "
-            f"{100 * LARGEST_EARLY:g} % of their energy may come before it, got "
-            f"{100 * early:.3g} %. Phases with the other sign (time factor exp(-i omega t)) or in "
-            "another unit look so: change the sign of the phases, or check their unit."
-        )
     assert signal is not None
     return Pressure(signal=signal, band=band, early=early)
 
 
-def impulse_response(
-    path: TransferPath, name: str, band: tuple[float, float]
-) -> tuple[Array, int, float]:
-    """Return impulse response [Pa/N per sample], samples before the force, energy share there.
-
-    The share leaves out a millisecond before the force and what the ends of the band ring.
-    """
-    low, high = path.band
+def impulse_response(path: TransferPath, name: str, band: tuple[float, float]) -> tuple[Array, int]:
+    """Return the impulse response [Pa/N per sample] and how many samples lie before the force."""
     step = float(np.min(np.diff(path.frequency)))
     # a response sampled every `step` Hz lasts 1/step at most
     size = max(_LEAST_SIZE, 1 << int(np.ceil(np.log2(RATE / step)))) if step > 0.5 else 1 << 17
-    f = np.fft.rfftfreq(size, 1.0 / RATE)
-    inside = (f >= low * (1.0 - 1e-12)) & (f <= high * (1.0 + 1e-12))
-    shape = np.zeros(f.size, dtype=np.complex128)
-    shape[inside] = path.at(name, f[inside])
-    response = np.fft.irfft(shape * _window(f, band), size)
+    f = np.fft.rfftfreq(size, 1.0 / RATE).astype(np.float64)
+    shape = path.at(name, np.clip(f, *band)) * _window(f, band)
+    response = np.fft.irfft(shape, size)
     before = int(_EARLY_SHARE * size)
-    whole = float(np.dot(response, response))
-    guard = max(int(RATE * 2.0 / band[0]), RATE // 1000)  # two periods: what a band's end rings
-    ahead = response[size // 2 : max(size - guard, size // 2 + 1)]
-    share = float(np.dot(ahead, ahead)) / whole if whole > 0.0 else 0.0
-    return np.roll(response, before), before, share
+    return np.roll(response, before), before
+
+
+def _check_causal(response: Array, before: int, name: str, source: str) -> float:
+    """Return the share of energy more than 1 ms before the force; refuse if more lies there.
+
+    The ends of the band ring alike before and after; phases that run backwards do not.
+    """
+    energy = response**2
+    whole = float(np.sum(energy))
+    if whole == 0.0:
+        return 0.0
+    early = float(np.sum(energy[: before - RATE // 1000])) / whole
+    late = float(np.sum(energy[before + RATE // 1000 :])) / whole
+    if early > LARGEST_EARLY and early > 2.0 * late:
+        raise ParameterError(
+            f"The response {name} of {source} must follow the force, got {100 * early:.3g} % of "
+            f"its energy before it and {100 * late:.3g} % after. Phases for the time factor "
+            "exp(-i omega t), or in another unit, look so: change the sign of the phases, or check "
+            "their unit."
+        )
+    return early
 
 
 def _window(f: Array, band: tuple[float, float]) -> Array:
-    """Return 1 within the band, 0 outside, with fades of a twelfth of an octave inside its ends."""
+    """Return 1 within the band, 0 above it after a fade inside, 12 dB per octave below.
+
+    A steep cut at the low end would ring for half a second.
+    """
     low, high = band
-    with np.errstate(divide="ignore"):
-        octaves = np.log2(np.maximum(f, 1e-9))
-    width = np.log2(_EDGE)
-    rise = np.clip((octaves - np.log2(low)) / width, 0.0, 1.0)
-    fall = np.clip((np.log2(high) - octaves) / width, 0.0, 1.0)
-    return np.asarray(np.sin(0.5 * np.pi * rise) ** 2 * np.sin(0.5 * np.pi * fall) ** 2)
+    octaves = np.log2(np.maximum(f, 1e-9) / high)
+    fall = np.clip(-octaves / np.log2(_EDGE), 0.0, 1.0)
+    return np.asarray(np.minimum(f / low, 1.0) ** 2 * np.sin(0.5 * np.pi * fall) ** 2)
 
 
 def _fade(size: int, rate: float) -> Array:

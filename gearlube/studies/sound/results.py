@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -13,55 +11,43 @@ import xarray as xr
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.studies.sound.dataset import is_ramp, order_name, speed_axis
-from gearlube.studies.sound.figures import Heard, draw_all
+from gearlube.studies.sound.figures import draw_all
+from gearlube.studies.sound.heard import Sound
 from gearlube.studies.sound.metrics import METRICS
+from gearlube.studies.sound.report import write_sound_report
 from gearlube.studies.sound.settings import SoundSettings
 from gearlube.studies.sound.wav import write_wav
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 
-if TYPE_CHECKING:
-    from gearlube.studies.sound.run import Sound
-
 _MOST_ROWS = 60
 
 
-def write_sound(sound: Sound, settings: SoundSettings, folder: Path) -> Sound:
+def write_sound(
+    sound: Sound, settings: SoundSettings, folder: Path, command_line: str = ""
+) -> Sound:
     """Write everything into a folder and return the sound with its files.
 
-    sound.nc (and sound_b.nc), NAME_full_scale_X_Pa.wav, summary.csv, figures/.
+    sound.nc (and sound_b.nc), NAME_full_scale_X_Pa.wav, summary.csv, figures/, report.html.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files: dict[str, Path] = {}
     rows: list[list[str]] = []
     for run, end in zip(sound.runs, ("", "_b"), strict=False):
-        name = str(run.dataset.attrs["name"])
         scaled = run.dataset.assign_attrs(wav_full_scale_pa=sound.full_scale)
         file = folder / f"sound{end}.nc"
         write_dataset(scaled, file)
-        wav = folder / wav_name(name, sound.full_scale)
-        write_wav(
-            run.pressure.signal, wav, full_scale=sound.full_scale, rate=settings.wav_rate
-        )
+        wav = folder / run.wav
+        write_wav(run.pressure.signal, wav, full_scale=sound.full_scale, rate=settings.wav_rate)
         files |= {file.name: file, wav.name: wav}
         rows += _rows(run.dataset)
     table = folder / "summary.csv"
     write_text(csv_text(_head(sound.runs[0].dataset), rows), table)
-    runs = [Heard(run.dataset, run.pressure, run.path) for run in sound.runs]
-    for path in save_figure_folder(draw_all(runs), folder / "figures"):
+    drawn = draw_all(sound.runs)
+    for path in save_figure_folder(drawn, folder / "figures"):
         files[f"figures/{path.name}"] = path
-    return replace(sound, files={**files, table.name: table})
-
-
-def wav_name(name: str, full_scale: float) -> str:
-    """Return the name of a WAV: it says the full scale.
-
-    Examples
-    --------
-    >>> wav_name("my axle", 0.5)
-    'my_axle_full_scale_0.5_Pa.wav'
-    """
-    plain = re.sub(r"[^A-Za-z0-9_.-]+", "_", name).strip("_.") or "run"
-    return f"{plain}_full_scale_{full_scale:g}_Pa.wav"
+    written = replace(sound, files={**files, table.name: table})
+    report = write_sound_report(written, drawn, folder, command_line)
+    return replace(written, files={**written.files, report.name: report})
 
 
 def _names(dataset: xr.Dataset) -> list[str]:
@@ -95,7 +81,8 @@ def _rows(dataset: xr.Dataset) -> list[list[str]]:
             for name in _names(dataset)
         ]
         orders = [
-            "" if np.isnan(level) else f"{level:.1f}" for level in dataset["order_level"].values[:, i]
+            "" if np.isnan(level) else f"{level:.1f}"
+            for level in dataset["order_level"].values[:, i]
         ]
         rows.append(
             [

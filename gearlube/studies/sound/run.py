@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,68 +12,17 @@ from gearlube.studies.sound.audible import contributions
 from gearlube.studies.sound.compare import common_speeds, difference_sentences
 from gearlube.studies.sound.dataset import sound_dataset
 from gearlube.studies.sound.force_record import ForceRecord, read_forces
+from gearlube.studies.sound.heard import HeardRun, Sound
 from gearlube.studies.sound.metrics import Curve, engine, metric_curve, missing
 from gearlube.studies.sound.order_tracks import track_orders
-from gearlube.studies.sound.pressure import Pressure, sound_pressure
+from gearlube.studies.sound.pressure import sound_pressure
 from gearlube.studies.sound.read_path import read_transfer
 from gearlube.studies.sound.results import write_sound
 from gearlube.studies.sound.settings import SoundSettings
-from gearlube.studies.sound.transfer_path import TransferPath
-from gearlube.studies.sound.wav import full_scale_for, played
+from gearlube.studies.sound.wav import full_scale_for, played, wav_name
 from gearlube.studies.sound.words import limit_sentences, sound_sentences
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress, part_of
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HeardRun:
-    """The sound of one run.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Levels, metrics and orders over time.
-    pressure : Pressure
-        At the listener.
-    path : TransferPath
-    """
-
-    dataset: xr.Dataset
-    pressure: Pressure
-    path: TransferPath
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sound:
-    """The sound of a run, and of another beside it.
-
-    Parameters
-    ----------
-    runs : tuple of HeardRun
-        One or two.
-    full_scale : float
-        Pressure at the full scale of every WAV [Pa].
-    findings : tuple of str
-        What is heard of the first run; with two, first the difference.
-    limits : tuple of str
-        What the results hold for.
-    missing : tuple of str
-        Metrics that were asked for and cannot be computed here, and why.
-    files : mapping
-        Written files by name.
-    """
-
-    runs: tuple[HeardRun, ...]
-    full_scale: float
-    findings: tuple[str, ...]
-    limits: tuple[str, ...]
-    missing: tuple[str, ...] = ()
-    files: Mapping[str, Path] = field(default_factory=dict)
-
-    @property
-    def dataset(self) -> xr.Dataset:
-        """Levels, metrics and orders of the first run."""
-        return self.runs[0].dataset
 
 
 def run_sound(
@@ -85,6 +33,7 @@ def run_sound(
     transfer: Path | str | None = None,
     names: tuple[str, ...] = (),
     folder: Path | str | None = None,
+    command_line: str = "",
     progress: Progress = no_progress,
 ) -> Sound:
     """Return the sound of a run: bearing forces through a transfer path to the ear.
@@ -102,6 +51,8 @@ def run_sound(
         What the runs are called; absent: their folders.
     folder : path, optional
         Gets sound.nc, WAV files, summary.csv, figures/ and report.html.
+    command_line : str
+        What was typed, for the report.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
 
@@ -127,8 +78,8 @@ def run_sound(
     ...     {"time": ("time", t, {"units": "s"})},
     ... )
     >>> sound = run_sound(run, SoundSettings(metrics=()))
-    >>> round(float(sound.dataset["level"].mean()), 1)  # 1e-3 Pa/N on the plateau: 37 dB
-    36.9
+    >>> round(float(sound.dataset["level"].mean()), 1)  # 1e-4 Pa/N on the plateau: 17 dB
+    16.9
     """
     settings = settings or SoundSettings()
     sources = [run] if against is None else [run, against]
@@ -144,21 +95,21 @@ def run_sound(
         heard.append(_heard(record, transfer, settings, wanted, part))
     if len(heard) == 2:
         common_speeds(heard[0].dataset, heard[1].dataset)
+    full_scale = _full_scale(heard, settings)
+    files = [wav_name(str(one.dataset.attrs["name"]), full_scale) for one in heard]
     sound = Sound(
-        runs=tuple(heard),
-        full_scale=_full_scale(heard, settings),
+        runs=tuple(replace(one, wav=name) for one, name in zip(heard, files, strict=True)),
+        full_scale=full_scale,
         findings=tuple(_findings(heard)),
         limits=tuple(limit_sentences(heard[0].dataset)),
         missing=tuple(left_out),
     )
     if folder is None:
         return sound
-    return write_sound(sound, settings, Path(folder))
+    return write_sound(sound, settings, Path(folder), command_line)
 
 
 def _told_apart(records: list[ForceRecord]) -> list[ForceRecord]:
-    from dataclasses import replace
-
     if len(records) == 2 and records[0].name == records[1].name:
         return [
             replace(one, name=f"{one.name} {letter}")

@@ -13,7 +13,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.errors import FileError, ParameterError, why
 
 _HEADING = re.compile(r"^\s*(?P<what>.+?)\s*\[(?P<unit>[^\]]*)\]\s*$")
-_PARTS = {
+_PARTS: dict[str, dict[str, float | None]] = {
     "real": {"Pa/N": 1.0},
     "imag": {"Pa/N": 1.0},
     "magnitude": {"Pa/N": 1.0, "dB re 20 uPa/N": None, "dB re 1 Pa/N": None},

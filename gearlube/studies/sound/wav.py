@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
+import re
 from pathlib import Path
 
 import numpy as np
 
 from gearlube.studies.sound.pressure import RATE
+from gearlube.studies.sound.resample import resampled
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
 from gearlube_core.storage.atomic_file import atomic_write
@@ -35,12 +36,19 @@ def full_scale_for(peak: float) -> float:
 
 def played(pressure: Array, rate: int) -> Array:
     """Return a pressure at 48 kHz resampled to the rate of the WAV [Pa]."""
-    if rate == RATE:
-        return pressure
-    from scipy.signal import resample_poly
+    return resampled(pressure, rate / RATE)
 
-    ratio = Fraction(rate, RATE)
-    return np.asarray(resample_poly(pressure, ratio.numerator, ratio.denominator))
+
+def wav_name(name: str, full_scale: float) -> str:
+    """Return the name of a WAV: it says the full scale.
+
+    Examples
+    --------
+    >>> wav_name("my axle", 0.5)
+    'my_axle_full_scale_0.5_Pa.wav'
+    """
+    plain = re.sub(r"[^A-Za-z0-9_.-]+", "_", name).strip("_.") or "run"
+    return f"{plain}_full_scale_{full_scale:g}_Pa.wav"
 
 
 def write_wav(pressure: Array, file: Path, *, full_scale: float, rate: int = RATE) -> None:

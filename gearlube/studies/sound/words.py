@@ -8,7 +8,9 @@ import xarray as xr
 from gearlube.studies.sound.audible import heard_order
 from gearlube.studies.sound.dataset import is_ramp, order_name, speed_axis
 from gearlube.studies.sound.metrics import METRICS
-from gearlube_core.arrays import Array
+from gearlube_core.arrays import Array, Flags
+
+_ALWAYS = 0.95  # of the time
 
 
 def sound_sentences(dataset: xr.Dataset) -> list[str]:
@@ -61,12 +63,15 @@ def _heard(dataset: xr.Dataset) -> str:
     heard = heard_order(contribution, dataset["steady_loudness"].values)
     teeth = int(dataset.attrs["pinion_teeth"])
     names = [order_name(float(q), teeth) for q in dataset["order"].values]
-    shares = [float(np.mean(heard == q)) for q in range(len(names))]
+    known = np.isfinite(dataset["steady_loudness"].values)
+    shares = [float(np.mean(heard[known] == q)) for q in range(len(names))]
     best = int(np.argmax(shares))
     if shares[best] == 0.0:
         return "No order of those tracked is heard above the rest."
     when = f" for {100.0 * shares[best]:.0f} % of the time"
     where = _range(dataset, heard == best)
+    if shares[best] > _ALWAYS:
+        when, where = " all the way", ""
     most = float(np.nanmax(contribution[best]))
     text = (
         f"One hears {names[best]} most{when}{where}: without it the loudness would fall by up to "
@@ -87,15 +92,15 @@ def _where(dataset: xr.Dataset, at: int) -> str:
     return f"at {speed[at]:.0f} {unit}"
 
 
-def _range(dataset: xr.Dataset, chosen: Array) -> str:
+def _range(dataset: xr.Dataset, chosen: Flags) -> str:
     if not is_ramp(dataset):
         return ""
     speed, unit, _ = speed_axis(dataset)
-    ends = longest_range(np.asarray(chosen, dtype=bool), speed)
+    ends = longest_range(chosen, speed)
     return f", longest between {ends[0]:.0f} and {ends[1]:.0f} {unit}"
 
 
-def longest_range(chosen: Array, speed: Array) -> tuple[float, float]:
+def longest_range(chosen: Flags, speed: Array) -> tuple[float, float]:
     """Return lowest and highest speed of the longest unbroken stretch of chosen rows.
 
     Examples
