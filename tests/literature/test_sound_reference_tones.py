@@ -16,7 +16,7 @@ TURN = 2.0 * np.pi
 
 
 def tone(level: float, duration: float, rate: float = 0.0) -> np.ndarray:
-    """Return a tone of 1 kHz at `level` [dB re 20 uPa], fully modulated at `rate` [Hz]; 0: steady."""
+    """Return a tone of 1 kHz at a level [dB re 20 uPa], modulated at `rate` [Hz] if above 0."""
     time = np.arange(round(duration * RATE)) / RATE
     wave = np.sin(TURN * 1000.0 * time)
     if rate:

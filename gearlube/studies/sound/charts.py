@@ -5,39 +5,42 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from gearlube.report.charts import Axis, Line, add_line, line_chart, panels
-from gearlube.studies.sound.dataset import is_ramp, order_name, speed_axis
+from gearlube.studies.sound.dataset import (
+    is_ramp,
+    level_names,
+    level_range,
+    level_values,
+    speed_axis,
+)
 from gearlube.studies.sound.metrics import METRICS
 from gearlube_core.arrays import Array
 
-_RANGE = 60.0  # dB below the loudest
-
 
 def level_chart(datasets: Sequence[xr.Dataset]) -> Any:
-    """Return the level of the whole sound and of every order; dashed: the second run."""
-    lines = []
-    for dash, one in enumerate(datasets):
-        x = _along(one)
-        before = f"{one.attrs['name']}: " if len(datasets) > 1 else ""
-        lines.append(
-            Line(
-                name=f"{before}whole, dB(A)",
-                x=x,
-                y=one["level_a"].values,
-                group=len(one["order"]),
-                dash=dash,
-            )
-        )
-        for i, order in enumerate(one["order"].values):
-            name = order_name(float(order), int(one.attrs["pinion_teeth"]))
-            level = one["order_level"].values[i]
-            lines.append(Line(name=f"{before}{name}", x=x, y=level, group=i, dash=dash))
-    chart = line_chart(lines, _axis(datasets[0]), Axis("sound pressure level", "dB"), height=480)
-    high = max(float(np.max(one["level"].values)) for one in datasets)
-    chart.update_yaxes(range=[high - _RANGE, high + 4.0])
+    """Return the level of the whole sound and of every order; two runs: a panel for each."""
+    x, y = _axis(datasets[0]), Axis("level", "dB")
+    names, ends = level_names(datasets[0]), level_range(datasets)
+    if len(datasets) == 1:
+        values = [level_values(datasets[0], i) for i in range(len(names))]
+        lines = [
+            Line(name=name, x=_along(datasets[0]), y=one)
+            for name, one in zip(names, values, strict=True)
+            if one is not None
+        ]
+        chart = line_chart(lines, x, y, height=460)
+    else:
+        chart = panels(names, x, [y] * len(names), height=210)
+        for i in range(len(names)):
+            for j, one in enumerate(datasets):
+                level = level_values(one, i)
+                if level is not None:
+                    run = str(one.attrs["name"])
+                    line = Line(name=run, x=_along(one), y=level, group=j, dash=j)
+                    add_line(chart, line, j, x, y, row=i + 1, col=1, showlegend=i == 0)
+    chart.update_yaxes(range=list(ends))
     return chart
 
 

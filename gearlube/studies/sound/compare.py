@@ -66,7 +66,7 @@ def difference_sentences(a: xr.Dataset, b: xr.Dataset) -> list[str]:
     name_a, name_b = str(a.attrs["name"]), str(b.attrs["name"])
     found = []
     if "loudness" in a and "loudness" in b:
-        found.append(_loudness(a, b, name_b))
+        found.append(_loudness(a, b, name_b) + (_most_different(a, b, speeds, unit) * ramp))
     found += _orders(a, b, speeds, unit, name_b, ramp)
     mean = float(b.attrs["level_a_mean_db"]) - float(a.attrs["level_a_mean_db"])
     if abs(mean) >= STEP_HEARD:
@@ -92,6 +92,19 @@ def _loudness(a: xr.Dataset, b: xr.Dataset, name_b: str) -> str:
         return f"{name_b} is about as loud: {first:.3g} and {second:.3g} sone (N5)."
     way = "rises" if second > first else "falls"
     return f"With {name_b} the loudness {way} from {first:.3g} to {second:.3g} sone (N5)."
+
+
+def _most_different(a: xr.Dataset, b: xr.Dataset, speeds: Array, unit: str) -> str:
+    """Return where the loudness of two ramps differs most, "" if nowhere by a step of 1 dB."""
+    first, second = (over_speed(one, one["loudness"].values, speeds, unit) for one in (a, b))
+    change = np.nan_to_num(np.abs(second - first))
+    at = int(np.argmax(change))
+    if change[at] < _LEAST_CHANGE * max(first[at], second[at]):
+        return ""
+    return (
+        f" The difference is largest at {speeds[at]:.0f} {unit}: {first[at]:.2g} and "
+        f"{second[at]:.2g} sone."
+    )
 
 
 def _orders(

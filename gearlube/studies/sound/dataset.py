@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -134,3 +134,28 @@ def is_ramp(dataset: xr.Dataset) -> bool:
     """Return whether the speed changes by more than 5 % in the run."""
     speed = dataset["pinion_speed"].values
     return bool(np.ptp(speed) > 0.05 * np.mean(speed))
+
+
+_RANGE = 60.0  # dB below the loudest, the most that is drawn
+
+
+def level_names(dataset: xr.Dataset) -> list[str]:
+    """Return what the levels of a run are: the whole sound and the tracked orders."""
+    teeth = int(dataset.attrs["pinion_teeth"])
+    return ["whole sound, A-weighted", *(order_name(float(q), teeth) for q in dataset["order"])]
+
+
+def level_values(dataset: xr.Dataset, i: int) -> Array | None:
+    """Return level `i` of `level_names` over time [dB]; None where the run has fewer orders."""
+    if i == 0:
+        return np.asarray(dataset["level_a"].values)
+    orders = dataset["order_level"].values
+    return np.asarray(orders[i - 1]) if i <= orders.shape[0] else None
+
+
+def level_range(datasets: Sequence[xr.Dataset]) -> tuple[float, float]:
+    """Return the ends of an axis that shows the levels of all runs [dB]."""
+    high = max(float(np.nanmax(one["order_level"].values)) for one in datasets)
+    high = max(high, *(float(one["level_a"].max()) for one in datasets))
+    low = min(float(np.nanpercentile(one["order_level"].values, 2.0)) for one in datasets)
+    return max(high - _RANGE, low - 5.0), high + 4.0

@@ -18,7 +18,14 @@ from gearlube.plotting.style import (
 )
 from gearlube.studies.sound.a_weighting import REFERENCE, a_weighting
 from gearlube.studies.sound.audible import AUDIBLE_SHARE
-from gearlube.studies.sound.dataset import is_ramp, order_name, speed_axis
+from gearlube.studies.sound.dataset import (
+    is_ramp,
+    level_names,
+    level_range,
+    level_values,
+    order_name,
+    speed_axis,
+)
 from gearlube.studies.sound.heard import HeardRun
 from gearlube.studies.sound.metrics import METRICS
 from gearlube.studies.sound.pressure import RATE
@@ -67,30 +74,42 @@ def spectrogram(runs: Sequence[HeardRun]) -> Any:
 
 
 def levels(runs: Sequence[HeardRun]) -> Any:
-    """Return the A-weighted level of the whole sound, and the level of every tracked order."""
+    """Return the A-weighted level of the whole sound, and the level of every tracked order.
+
+    One run: all in one panel. Two runs: a panel for each, with both runs.
+    """
+    names = level_names(runs[0].dataset)
+    apart = len(runs) > 1
+    rows = -(-len(names) // 2) if apart else 1
     with house_style():
-        figure = new_figure(9.2, 5.0)
-        ax = figure.subplots()
-        for run, dash in zip(runs, _DASHES, strict=False):
-            data = run.dataset
-            x = _axis(data)
-            name = f"{data.attrs['name']}: " if len(runs) > 1 else ""
-            ax.plot(x, data["level_a"], color="black", ls=dash, lw=2.0, label=f"{name}whole, dB(A)")
-            for i, order in enumerate(data["order"].values):
-                label = order_name(float(order), int(data.attrs["pinion_teeth"]))
-                ax.plot(
-                    x,
-                    data["order_level"].values[i],
-                    color=SERIES[i % len(SERIES)],
-                    ls=dash,
-                    marker=MARKERS[i % len(MARKERS)],
-                    markevery=max(1, data.sizes["time"] // 12),
-                    label=f"{name}{label}, dB",
-                )
-        ax.set(xlabel=_axis_label(runs[0].dataset), ylabel="sound pressure level re 20 µPa [dB]")
-        high = max(float(np.nanmax(run.dataset["level"].values)) for run in runs)
-        ax.set_ylim(high - _RANGE, high + 4.0)
-        ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+        figure = new_figure(10.0, 1.0 + 2.3 * rows) if apart else new_figure(9.2, 5.0)
+        shape = (rows, 2) if apart else (1, 1)
+        panels = figure.subplots(*shape, squeeze=False, sharex=True, sharey=True).ravel()
+        for i, name in enumerate(names):
+            ax = panels[i if apart else 0]
+            for j, run in enumerate(runs):
+                values = level_values(run.dataset, i)
+                if values is None:
+                    continue
+                look = {"color": SERIES[j], "ls": _DASHES[j], "label": run.dataset.attrs["name"]}
+                if not apart:
+                    look = {"color": ("black", *SERIES)[i % 7], "label": name}
+                    look |= {"marker": ("", *MARKERS)[i % 7], "lw": 2.0 if i == 0 else 1.4}
+                every = max(1, run.dataset.sizes["time"] // 12)
+                ax.plot(_axis(run.dataset), values, markevery=every, **look)
+            if apart:
+                ax.set_title(name)
+        for ax in panels[len(names) :]:
+            ax.set_visible(False)
+        for ax in panels[max(0, len(names) - 2) : len(names)]:
+            ax.set_xlabel(_axis_label(runs[0].dataset))
+            ax.tick_params(labelbottom=True)
+        panels[0].set_ylim(*level_range([run.dataset for run in runs]))
+        figure.supylabel("sound pressure level re 20 µPa [dB]", fontsize=10)
+        if apart:
+            panels[0].legend(loc="upper left")
+        else:
+            panels[0].legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure
 
 
@@ -170,10 +189,11 @@ def transfer(runs: Sequence[HeardRun]) -> Any:
         low, high = runs[0].pressure.band
         ax.axvspan(low, high, color=GREY, alpha=0.25, lw=0.0, label="band that is used")
         largest = max(float(size.max()) for size in sizes.values())
+        smallest = min(float(size[size > 0.0].min(initial=largest)) for size in sizes.values())
         ax.set(
             xlabel="frequency [Hz]",
             ylabel="pressure per force [Pa/N]",
-            ylim=(1e-4 * largest, 3.0 * largest),
+            ylim=(max(1e-4 * largest, 0.3 * smallest), 3.0 * largest),
             title="Generic path, not measured" if same else path.source,
         )
         ax.legend(loc="lower left", ncols=2)

@@ -16,7 +16,7 @@ from gearlube.studies.sound.heard import Sound
 from gearlube.studies.sound.metrics import METRICS
 from gearlube.studies.sound.report import write_sound_report
 from gearlube.studies.sound.settings import SoundSettings
-from gearlube.studies.sound.wav import write_wav
+from gearlube.studies.sound.wav import OWN_WAV, write_wav
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 
 _MOST_ROWS = 60
@@ -30,6 +30,8 @@ def write_sound(
     sound.nc (and sound_b.nc), NAME_full_scale_X_Pa.wav, summary.csv, figures/, report.html.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob(OWN_WAV):
+        old.unlink()
     files: dict[str, Path] = {}
     rows: list[list[str]] = []
     for run, end in zip(sound.runs, ("", "_b"), strict=False):

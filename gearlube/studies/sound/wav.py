@@ -14,6 +14,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.storage.atomic_file import atomic_write
 
 _LARGEST = 32767  # of 16 bits
+OWN_WAV = "*_full_scale_*_Pa.wav"  # what a study writes, see `wav_name`
 _STEPS = (1.0, 2.0, 5.0)
 
 
