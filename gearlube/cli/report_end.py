@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import shlex
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -23,3 +25,8 @@ def tell_findings(findings: Sequence[Finding], report: Path) -> None:
         elif number < _MOST:
             _LOGGER.info("%s", one.headline)
     _LOGGER.info("Report: %s", report)
+
+
+def command_line() -> str:
+    """Return the command as it was typed, for the report."""
+    return shlex.join(["gearlube", *sys.argv[1:]])

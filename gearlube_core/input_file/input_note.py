@@ -29,7 +29,7 @@ class InputNote(NamedTuple):
 
 def _text(value: Any) -> str:
     if isinstance(value, tuple | list):
-        return ", ".join(_text(one) for one in value)
+        return ", ".join(_text(one) for one in value) or "none"
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 

@@ -60,6 +60,16 @@ def drive_cycle(
             "--check-grid", help="Compute once more with a map twice as fine; tell the change."
         ),
     ] = False,
+    draws: Annotated[
+        int, typer.Option(help="Samples of the uncertain data for the error bars; 0: none.")
+    ] = 60,
+    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    calibrated_bearings: Annotated[
+        bool,
+        typer.Option(
+            "--calibrated-bearings", help="f0 and f1 of the file are from measured torques."
+        ),
+    ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_cycle"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -98,6 +108,9 @@ def drive_cycle(
                 conductance_at_rest=conductance_at_rest,
                 conductance_at_100_kmh=conductance_at_100,
             ),
+            draws=draws,
+            seed=seed,
+            calibrated_bearings=calibrated_bearings,
         )
         with results_folder(out, "cycle", overwrite=overwrite):
             with progress_on(console, "cycle") as progress:
@@ -111,6 +124,19 @@ def drive_cycle(
         oil = dataset["oil_temperature"].values
         logger.info("Lost %.1f kJ (%.1f Wh)%s.", lost, lost / 3.6, share)
         logger.info("Oil from %.1f to %.1f degC.", oil[0], oil[-1])
+        if "efficiency_low" in dataset:
+            bounds = [
+                float(dataset[f"{name}_{end}"])
+                for name in ("energy_lost", "efficiency", "end_temperature")
+                for end in ("low", "high")
+            ]
+            logger.info(
+                "95 %% of the draws: %.0f to %.0f kJ lost, efficiency %.1f to %.1f %%, oil at the "
+                "end %.0f to %.0f degC.",
+                *bounds[:2],
+                *(100.0 * share for share in bounds[2:4]),
+                *bounds[4:],
+            )
         logger.warning("Not modelled: %s.", dataset.attrs["not_modelled"])
         if left := range_sentence(dataset):
             logger.warning("%s", left)

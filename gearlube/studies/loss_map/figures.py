@@ -13,6 +13,7 @@ from gearlube.plotting.loss_words import SOURCE_WORDS
 from gearlube.plotting.style import GREY, SERIES, YELLOW, house_style, new_figure
 
 _COLOURS = (*SERIES, GREY, YELLOW)  # of the sources, in their order
+_INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
 _MOST_PANELS = 6
 _LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
@@ -123,7 +124,11 @@ def sensitivity(dataset: xr.Dataset) -> Any:
     with house_style():
         figure = new_figure(7.4, 0.45 * len(names) + 1.6)
         ax = figure.subplots()
-        ax.barh([names[i].replace("_", " ") for i in order], mean[order], color=SERIES[0])
+        ax.barh(
+            [_INPUT_WORDS.get(names[i], names[i].replace("_", " ")) for i in order],
+            mean[order],
+            color=SERIES[0],
+        )
         for row, i in enumerate(order):
             factor = words[names[i]].split(",")[0]
             ax.text(mean[i], row, f"  {mean[i]:.1f} %, {factor}", va="center", fontsize=8)

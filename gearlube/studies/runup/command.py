@@ -90,6 +90,12 @@ def runup(
     quick: Annotated[
         bool, typer.Option("--quick", help="A ramp of 10 s, for a first look.")
     ] = False,
+    animate: Annotated[
+        bool,
+        typer.Option(
+            "--animate", help="Also animate all roller loads over a turn (GIF), about a minute."
+        ),
+    ] = False,
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
@@ -103,6 +109,7 @@ def runup(
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
     from gearlube.cli.report_end import tell_findings
+    from gearlube.studies.runup.figures.rollers import animate_rollers
     from gearlube.studies.runup.findings import findings
     from gearlube.studies.runup.report import write_runup_report
     from gearlube.studies.runup.run import run_runup
@@ -151,6 +158,8 @@ def runup(
             write_text(summary_csv(datasets), out / "summary.csv")
             command_line = shlex.join(["gearlube", *sys.argv[1:]])
             report = write_runup_report(datasets, out, command_line)
+            for dataset in datasets if animate else ():
+                animate_rollers(dataset, out, progress)
         logger.info("%.3g s.", time.monotonic() - began)
         tell_findings([one for dataset in datasets for one in findings(dataset)], report)
 

@@ -12,6 +12,7 @@ import xarray as xr
 from gearlube.studies.runup.modes import COORDINATES, RampModes, engine_orders, ramp_modes
 from gearlube.studies.runup.operating_shape import CHANNELS, loudest, operating_shape
 from gearlube.studies.runup.record import AXES, BEARINGS, DIRECTIONS, RampRecord
+from gearlube.studies.runup.rollers import roller_variables
 from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
@@ -83,6 +84,7 @@ def runup_dataset(settings: RunupSettings, record: RampRecord) -> xr.Dataset:
             **_separation(settings, record),
             **_modes(settings, modes),
             **_shape(settings, record, modes, blocks),
+            **roller_variables(settings, record, _loudest_time(settings, record, blocks)),
         },
         coords={
             "bearing": list(BEARINGS),
@@ -219,6 +221,12 @@ def _modes(settings: RunupSettings, modes: RampModes) -> dict[str, tuple[object,
         "critical_speed": (("mode", "mesh_order"), critical),
         "critical_damping": (("mode", "mesh_order"), damping),
     }
+
+
+def _loudest_time(settings: RunupSettings, record: RampRecord, blocks: OrderBlocks) -> float:
+    """Return the time [s] at which a mesh order of the bearing forces is largest."""
+    tracks = np.abs(blocks.amplitude[:, _places(settings), : len(record.force_names)])
+    return float(blocks.time[loudest(tracks)[0]])
 
 
 def _shape(

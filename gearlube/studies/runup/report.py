@@ -58,7 +58,10 @@ def write_runup_report(
     """
     folder = Path(folder)
     drawn = {
-        _name(dataset, one.name): one.draw(dataset) for dataset in datasets for one in CATALOGUE
+        _name(dataset, one.name): one.draw(dataset)
+        for dataset in datasets
+        for one in CATALOGUE
+        if one.needs in dataset.variables
     }
     save_figure_folder(drawn, folder / "figures")
     return write_report(runup_report(datasets, drawn, command_line), folder)
@@ -120,6 +123,8 @@ def _figures(dataset: xr.Dataset, drawn: dict[str, Any], before: str) -> list[Fi
     found = []
     for one in CATALOGUE:
         name = _name(dataset, one.name)
+        if name not in drawn:
+            continue
         chart = None if one.chart is None else one.chart(dataset)
         found.append(
             Figure(

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from gearlube_core.arrays import Array
+from gearlube_core.hypoid_geometry.flank.export import MIRROR
 from gearlube_core.hypoid_geometry.flank.flank import Flank
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.storage.atomic_file import write_text
@@ -99,6 +100,11 @@ def tooth_surfaces(tooth: Tooth) -> dict[str, SplineSurface]:
         lowest = max(0.0, float(np.max(limit.s)) + _MARGIN)
         found[f"{flank.role} {side} flank"] = flank_surface(flank, lowest, angle)
     return found
+
+
+def mirror_image(surface: SplineSurface) -> SplineSurface:
+    """Return a surface of the pair of the other hand, y -> -y."""
+    return SplineSurface(surface.points * MIRROR, surface.rows, surface.columns)
 
 
 def write_step(surfaces: Mapping[str, SplineSurface], path: str | Path) -> Path:
