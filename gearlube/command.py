@@ -80,6 +80,12 @@ COMMANDS = (
         command_class="ContactCommand",
     ),
     LazyCommand(
+        name="whine",
+        target="gearlube.studies.whine.command:whine",
+        summary="Whine orders of a hypoid pair against its settings.",
+        command_class="WhineCommand",
+    ),
+    LazyCommand(
         name="convert",
         target="gearlube.cli.convert:convert",
         summary="Convert a gear pair between REXS and gear files.",
