@@ -41,6 +41,7 @@ def level_chart(datasets: Sequence[xr.Dataset]) -> Any:
                     line = Line(name=run, x=_along(one), y=level, group=j, dash=j)
                     add_line(chart, line, j, x, y, row=i + 1, col=1, showlegend=i == 0)
     chart.update_yaxes(range=list(ends))
+    chart.update_layout(showlegend=True)
     return chart
 
 
@@ -65,6 +66,7 @@ def metric_chart(datasets: Sequence[xr.Dataset]) -> Any:
                 first = row == 1 and len(datasets) > 1
                 add_line(figure, line, i, x, axis, row=row, col=1, showlegend=first)
         figure.update_yaxes(rangemode="tozero", row=row, col=1)
+    figure.update_layout(showlegend=len(datasets) > 1)
     return figure
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from gearlube.studies.sound.audible import heard_order
+from gearlube.studies.sound.audible import AUDIBLE_SHARE
 from gearlube.studies.sound.dataset import is_ramp, order_name, speed_axis
 from gearlube.studies.sound.metrics import METRICS
 from gearlube.studies.sound.words import longest_range
@@ -18,7 +18,7 @@ _FAINT = 20.0  # dB
 _LEAST_SHARE = 0.05  # of the common speeds
 _LEAST_CHANGE = 0.07  # of loudness: 1 dB
 # smallest differences of the other metrics that are named; a tenth of their unit sounds
-_NAMED = {"tonality": 0.05, "roughness": 0.1, "fluctuation_strength": 0.1}
+_NAMED = {"tonality": 0.1, "roughness": 0.1, "fluctuation_strength": 0.1}
 
 
 def common_speeds(a: xr.Dataset, b: xr.Dataset) -> Array:
@@ -155,8 +155,8 @@ def _heard(dataset: xr.Dataset, place: int) -> bool:
     """Return whether an order is heard anywhere; without loudness, whether it is above 20 dB."""
     if "order_contribution" not in dataset:
         return bool(np.nanmax(dataset["order_level"].values[place]) > _FAINT)
-    heard = heard_order(dataset["order_contribution"].values, dataset["steady_loudness"].values)
-    return bool(np.any(heard == place))
+    contribution = np.nan_to_num(dataset["order_contribution"].values[place])
+    return bool(np.any(contribution > AUDIBLE_SHARE * dataset["steady_loudness"].values))
 
 
 def _match(order: float, place: int, a: xr.Dataset, b: xr.Dataset) -> int | None:

@@ -38,11 +38,13 @@ _TITLES = {
     ),
     "levels": (
         "Levels over speed",
-        "Black: the whole sound in dB(A). Colours: the mesh orders alone, unweighted.",
+        "The whole sound in dB(A), and the orders alone, unweighted. Two runs: solid the first, "
+        "dashed the second.",
     ),
     "metrics": (
         "Loudness and more over speed",
-        "Twice the sone is twice as loud. The first tenths of a second of a run build up.",
+        "Twice the sone is twice as loud. Two runs: solid the first, dashed the second. The first "
+        "tenths of a second of a run build up.",
     ),
     "heard_orders": (
         "Which order one hears",
