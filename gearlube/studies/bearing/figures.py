@@ -32,8 +32,8 @@ _MOST_PANELS = 4
 
 def torque_of_laws(dataset: xr.Dataset) -> Any:
     """Return the torque of every law along the longest axis, with the error bar of the first."""
-    along, places = _panels(dataset)
-    x = _shown(along, dataset[along].values)
+    along, places = drawn_places(dataset)
+    x = axis_values(along, dataset[along].values)
     with house_style():
         figure = new_figure(4.6 * len(places), 4.4)
         panels = figure.subplots(1, len(places), squeeze=False, sharey=True)[0]
@@ -47,7 +47,7 @@ def torque_of_laws(dataset: xr.Dataset) -> Any:
                         x, *band, color=GREY, alpha=0.4, lw=0.0, label="error bar, k = 2"
                     )
                 ax.plot(x, one["torque"], color=colour, marker="o", label=LAW_NAMES[str(law)])
-            ax.set(xlabel=_AXES[along], title=_title(place))
+            ax.set(xlabel=_AXES[along], title=place_words(place))
             ax.set_ylim(bottom=0.0)
         panels[0].set_ylabel("friction torque [N·m]")
         panels[0].legend(loc="upper left")
@@ -57,9 +57,9 @@ def torque_of_laws(dataset: xr.Dataset) -> Any:
 
 def parts_of_first_law(dataset: xr.Dataset) -> Any:
     """Return the parts of the torque of the first law along the longest axis, logarithmic."""
-    along, places = _panels(dataset)
+    along, places = drawn_places(dataset)
     law = str(dataset["law"].values[0])
-    x = _shown(along, dataset[along].values)
+    x = axis_values(along, dataset[along].values)
     with house_style():
         figure = new_figure(4.6 * len(places), 4.4)
         panels = figure.subplots(1, len(places), squeeze=False, sharey=True)[0]
@@ -71,7 +71,7 @@ def parts_of_first_law(dataset: xr.Dataset) -> Any:
                 if np.isfinite(torque).all():
                     colour = SERIES[i % len(SERIES)]
                     ax.plot(x, _above_zero(torque), color=colour, marker="o", label=str(part))
-            ax.set(xlabel=_AXES[along], title=_title(place), yscale="log")
+            ax.set(xlabel=_AXES[along], title=place_words(place), yscale="log")
         panels[0].set_ylabel("friction torque [N·m]")
         panels[0].legend()
         figure.suptitle(f"{dataset.attrs['name']}: parts, {LAW_NAMES[law]}", fontsize=11.5)
@@ -93,7 +93,7 @@ def save_bearing_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
     return files
 
 
-def _panels(dataset: xr.Dataset) -> tuple[str, list[dict[str, float]]]:
+def drawn_places(dataset: xr.Dataset) -> tuple[str, list[dict[str, float]]]:
     """Return the longest axis, and the places on the others that are drawn."""
     along = max(_AXES, key=lambda name: dataset.sizes[name])
     others = [name for name in _AXES if name != along]
@@ -112,13 +112,15 @@ def _above_zero(values: Any) -> Any:
     return np.where(values > 0.0, values, np.nan)
 
 
-def _shown(name: str, values: Any) -> Any:
+def axis_values(name: str, values: Any) -> Any:
+    """Return values of a condition in the units of figures: rpm, N, degC."""
     if name == "speed":
         return rads_to_rpm(values)
     return kelvin_to_celsius(values) if name == "temperature" else values
 
 
-def _title(place: dict[str, float]) -> str:
+def place_words(place: dict[str, float]) -> str:
+    """Return the conditions of a place with units."""
     words = {
         "speed": lambda v: f"{rads_to_rpm(v):.4g} rpm",
         "axial_load": lambda v: f"{v:g} N axial",
