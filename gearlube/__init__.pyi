@@ -128,6 +128,11 @@ from gearlube_core.hypoid_contact.sensitivity.analysis import (
 from gearlube.studies.contact.sensitivity import run_sensitivity as run_sensitivity
 from gearlube.studies.contact.sensitivity import sensitivity_rows as sensitivity_rows
 
+# -- Study: whine of a hypoid pair against its settings
+from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings as SeriesSettings
+from gearlube.studies.whine.run import WhineSettings as WhineSettings
+from gearlube.studies.whine.run import run_whine as run_whine
+
 # -- Study: friction of a bearing
 from gearlube_core.bearings.bearing_file import BearingFile as BearingFile
 from gearlube_core.bearings.losses.geometry import BearingGeometry as BearingGeometry

@@ -22,6 +22,11 @@ COMMANDS = (
         command_class="SweepCommand",
     ),
     LazyCommand(
+        name="runup",
+        target="gearlube.studies.runup.command:runup",
+        summary="Run the axle up or down in a speed ramp: waterfall, order tracks.",
+    ),
+    LazyCommand(
         name="build-fmu",
         target="gearlube.cli.build_fmu:build_fmu",
         summary="Build the FMUs of axle, helical pair and car, for any platform.",
@@ -73,6 +78,12 @@ COMMANDS = (
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",
         command_class="ContactCommand",
+    ),
+    LazyCommand(
+        name="whine",
+        target="gearlube.studies.whine.command:whine",
+        summary="Whine orders of a hypoid pair against its settings.",
+        command_class="WhineCommand",
     ),
     LazyCommand(
         name="convert",

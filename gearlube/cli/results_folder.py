@@ -33,6 +33,8 @@ _RESULTS = frozenset(
         "geometry.nc",
         "bearing.nc",
         "map.nc",
+        "runup.nc",
+        "coastdown.nc",
         "drive_cycle.nc",
         "results.zarr",
     }

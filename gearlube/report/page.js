@@ -42,7 +42,8 @@
   };
   for (const plot of plots) {
     const chart = report.charts[plot.dataset.figure];
-    await Plotly.newPlot(plot, chart.data, {...chart.layout, template: look()}, config);
+    const layout = {...chart.layout, template: look()};
+    await Plotly.newPlot(plot, {data: chart.data, layout, config, frames: chart.frames || []});
   }
   document.body.dataset.drawn = "yes";
   dark.addEventListener("change", () => {

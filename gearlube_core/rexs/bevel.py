@@ -45,6 +45,7 @@ def blank_data(stage: Stage, given: dict[str, Any]) -> dict[str, Any]:
         teeth = stage.required(f"pair.{role}_teeth", place, given=given)
         data[f"pair.{role}_teeth"] = None if teeth is None else round(teeth)
     data["pair.offset_mm"] = _offset(stage)
+    data["pair.pinion_hand"] = _hand(stage)
     for field, place in (
         ("pair.face_width_mm", (stage.gear, "face_width", "mm")),
         ("cutter.radius_mm", (stage.stage, "cutter_radius", "mm")),
@@ -75,13 +76,22 @@ def _check_shafts(stage: Stage) -> None:
             f"shaft_angle of {stage.stage} must be 90 deg, got {angle:g} deg. Other angles of the "
             "shafts are not modelled"
         )
-    hand = stage.pinion.word("spiral_angle_pitch_direction")
-    stage.gear.word("spiral_angle_pitch_direction")
-    if hand == "left":
-        stage.note(
-            "left out", "hand", "the pinion is left-handed; blank files describe the mirror image, "
-            "which is the same but for the signs of axial and radial forces",
-        )  # fmt: skip
+
+
+def _hand(stage: Stage) -> str:
+    """Return the hand of the pinion."""
+    hands = [one.word("spiral_angle_pitch_direction") for one in (stage.pinion, stage.gear)]
+    if hands[0] and hands[0] == hands[1]:
+        raise ParameterError(
+            "spiral_angle_pitch_direction of pinion and gear must be left and right, got "
+            f"{hands[0]} of both. Correct one"
+        )
+    if hands[0] not in ("left", "right"):
+        reason = "spiral_angle_pitch_direction of the pinion is absent: taken as right"
+        stage.note("lacking", "pair.pinion_hand", reason)
+        return "right"
+    stage.note("taken", "pair.pinion_hand", f"spiral_angle_pitch_direction of {stage.pinion}")
+    return hands[0]
 
 
 def _offset(stage: Stage) -> float:

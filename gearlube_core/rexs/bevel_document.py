@@ -12,7 +12,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.rexs.document import Document
 from gearlube_core.units import DEGREE, MILLIMETRE
 
-_HANDS = {"pinion": "right", "gear": "left"}  # docs/conventions.md
+_OTHER = {"right": "left", "left": "right"}
 _CONE = (
     "teeth", "face_width_mm", "outer_cone_distance_mm", "pitch_angle_deg", "spiral_angle_deg",
     "pitch_apex_mm", "face_apex_mm",
@@ -37,7 +37,7 @@ def write_blank(file: BlankFile, document: Document) -> set[str]:
         drive=file.cutter.drive_pressure_angle_deg * DEGREE,
         coast=file.cutter.coast_pressure_angle_deg * DEGREE,
     )
-    _write(DesignedBlank.from_file(file).blank, cutter, document)
+    _write(DesignedBlank.from_file(file).blank, cutter, file.pair.pinion_hand, document)
     return {"name", "method"} | {
         f"{section}.{key}"
         for section in ("pair", "cutter", "depth")
@@ -57,7 +57,7 @@ def write_hypoid(file: HypoidGearFile, document: Document) -> set[str]:
         coast=(blades.concave_flank_blade_angle_deg + blades.concave_flank_angle_correction_deg)
         * DEGREE,
     )
-    _write(file.blank(), cutter, document)
+    _write(file.blank(), cutter, file.pair.pinion_hand, document)
     members = {f"{role}.{key}" for role in ("pinion", "gear") for key in _CONE}
     flanks = ("convex", "concave")
     blade = {
@@ -66,10 +66,10 @@ def write_hypoid(file: HypoidGearFile, document: Document) -> set[str]:
         *(f"gear.cutter.{curve}_flank_blade_angle_deg" for curve in flanks),
         *(f"gear.cutter.{curve}_flank_angle_correction_deg" for curve in flanks),
     }
-    return {"name", "pair.offset_mm", "pair.clearance_mm", *members, *blade}
+    return {"name", "pair.offset_mm", "pair.pinion_hand", "pair.clearance_mm", *members, *blade}
 
 
-def _write(blank: HypoidBlank, cutter: _Cutter, document: Document) -> None:
+def _write(blank: HypoidBlank, cutter: _Cutter, hand: str, document: Document) -> None:
     stage = document.component("bevel_stage", blank.name)
     document.value(stage, "shaft_angle", "deg", SHAFT_ANGLE / DEGREE)
     document.value(stage, "hypoid_offset", "mm", blank.offset / MILLIMETRE)
@@ -79,12 +79,12 @@ def _write(blank: HypoidBlank, cutter: _Cutter, document: Document) -> None:
         name = f"{cutter.kind}_pressure_angle_{side}"
         document.value(stage, name, "deg", getattr(cutter, side) / DEGREE)
     gears = []
-    for role, hand in _HANDS.items():
+    for role, own in (("pinion", hand), ("gear", _OTHER[hand])):
         gear = document.component("bevel_gear", role)
         document.value(gear, "number_of_teeth", "none", getattr(blank, role).teeth)
         for name, (unit, value) in member_attributes(blank, role).items():
             document.value(gear, name, unit, value)
-        document.value(gear, "spiral_angle_pitch_direction", "none", hand)
+        document.value(gear, "spiral_angle_pitch_direction", "none", own)
         gears.append(gear)
     document.stage(stage, *gears)
 

@@ -147,6 +147,16 @@ def test_a_blank_comes_back(tmp_path):
     assert back.depth.clearance_factor == pytest.approx(file.depth.clearance_factor, abs=1e-9)
 
 
+def test_the_hand_comes_back(tmp_path):
+    file = BlankFile.named("hypoid_13_42").varied({"pair.pinion_hand": "left"})
+    write_rexs(file, tmp_path / "pair.rexs")
+    hands = etree.parse(tmp_path / "pair.rexs").findall(
+        ".//attribute[@id='spiral_angle_pitch_direction']"
+    )
+    assert [one.text for one in hands] == ["left", "right"]
+    assert read_rexs(tmp_path / "pair.rexs").file.pair.pinion_hand == "left"
+
+
 def test_every_field_of_a_gear_file_is_written_or_named(tmp_path):
     left_out = write_rexs(HypoidGearFile.named("mohammadpour_2015"), tmp_path / "pair.rexs")
     named = {note.what: note.why for note in left_out}

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.box import SIMPLE
 from rich.table import Table
 
 from gearlube.cli.console import console
@@ -159,11 +160,12 @@ def bearing(
 
 
 def _table(name: str, law: str, rows: list[BearingRow]) -> Table:
-    table = Table(title=f"{name}: friction torque [N.m] by {law}")
+    table = Table(title=f"{name}: friction torque [N.m] by {law}", box=SIMPLE, padding=0)
     parts = list(rows[0].parts) if rows else []
     headings = ["rpm", "axial N", "radial N", "degC", *parts, "total", "loss W"]
     for heading in headings:
-        table.add_column(heading, justify="right")
+        shown = heading.replace(" ", "\n")
+        table.add_column(shown, justify="right", no_wrap=True)
     for row in rows:
         table.add_row(
             f"{rads_to_rpm(row.speed):.4g}",

@@ -60,6 +60,16 @@ def drive_cycle(
             "--check-grid", help="Compute once more with a map twice as fine; tell the change."
         ),
     ] = False,
+    draws: Annotated[
+        int, typer.Option(help="Samples of the uncertain data for the error bars; 0: none.")
+    ] = 60,
+    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    calibrated_bearings: Annotated[
+        bool,
+        typer.Option(
+            "--calibrated-bearings", help="f0 and f1 of the file are from measured torques."
+        ),
+    ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_cycle"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -100,6 +110,9 @@ def drive_cycle(
                 conductance_at_rest=conductance_at_rest,
                 conductance_at_100_kmh=conductance_at_100,
             ),
+            draws=draws,
+            seed=seed,
+            calibrated_bearings=calibrated_bearings,
         )
         with results_folder(out, "cycle", overwrite=overwrite):
             with progress_on(console, "cycle") as progress:

@@ -31,12 +31,18 @@ def cycle_figure(dataset: xr.Dataset) -> Any:
         below.set_xlabel("time [s]")
         below.set_xlim(float(dataset["time"][0]), float(dataset["time"][-1]))
         lost, share = float(dataset["energy_lost"].sum()), float(dataset["efficiency"])
+        words = [f"{lost:.0f} kJ", f"{100.0 * share:.1f} %"]
+        if "efficiency_low" in dataset:
+            ends = [float(dataset[f"energy_lost_{end}"]) for end in ("low", "high")]
+            shares = [100.0 * float(dataset[f"efficiency_{end}"]) for end in ("low", "high")]
+            words[0] += f" ({ends[0]:.0f} to {ends[1]:.0f})"
+            words[1] += f" ({shares[0]:.1f} to {shares[1]:.1f})"
         figure.suptitle(
-            f"{dataset.attrs['cycle']}: {lost:.0f} kJ lost in the axle, efficiency "
-            f"{100.0 * share:.1f} %"
+            f"{dataset.attrs['cycle']}: {words[0]} lost in the axle, efficiency {words[1]}"
         )
+        drawn = "In brackets: 95 % of the draws. " if "efficiency_low" in dataset else ""
         figure.supxlabel(
-            f"Not modelled: {dataset.attrs['not_modelled']}.", fontsize=8.5, color="#555555"
+            f"{drawn}Not modelled: {dataset.attrs['not_modelled']}.", fontsize=8.5, color="#555555"
         )
     return figure
 

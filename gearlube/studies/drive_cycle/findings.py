@@ -11,6 +11,7 @@ from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.drive_cycle.tables import range_sentence
 
 _NAMED, _LEAST_SHARE = 3, 0.005  # sources of loss that are told, if they are not smaller
+_DRAWN = "efficiency_low"  # a variable of cycles with draws of all uncertain data
 _WH = 1.0 / 3.6  # Wh in a kJ
 
 
@@ -30,9 +31,11 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
     oil = dataset["oil_temperature"].values
     return [
         Number("energy lost in the axle", float(dataset["energy_lost"].sum()), "kJ", 4),
-        Number("the same", _WH * float(dataset["energy_lost"].sum()), "Wh", 4),
-        Number("low end of it, by heat data", float(dataset["energy_lost_low"]), "kJ", 4),
-        Number("high end of it, by heat data", float(dataset["energy_lost_high"]), "kJ", 4),
+        Number(
+            "energy lost in the axle, in Wh", _WH * float(dataset["energy_lost"].sum()), "Wh", 4
+        ),
+        Number("energy lost in the axle, low end", float(dataset["energy_lost_low"]), "kJ", 4),
+        Number("energy lost in the axle, high end", float(dataset["energy_lost_high"]), "kJ", 4),
         Number("energy into the axle", float(dataset["energy_in"]), "kJ", 4),
         Number("efficiency over the cycle", 100.0 * float(dataset["efficiency"]), "%", 4),
         Number("oil at the end", float(oil[-1]), "°C"),
@@ -60,18 +63,31 @@ def _lost(dataset: xr.Dataset) -> Finding:
         NOTE,
         f"The axle loses {quantity_text(lost, 'kJ')} ({quantity_text(_WH * lost, 'Wh')}) in the "
         f"cycle{share}{': ' + parts if parts else ''}.",
-        f"With heat capacity and conductances at the ends of their assumed intervals it is "
-        f"{number_text(low)} to {quantity_text(high, 'kJ')}.",
+        f"{_whose(dataset)} it is {number_text(low)} to {quantity_text(high, 'kJ')}.",
     )
+
+
+def _whose(dataset: xr.Dataset) -> str:
+    """Return what the ends of the energy and of the last temperature hold."""
+    if _DRAWN in dataset:
+        return "With the uncertain data of axle and heat (95 % of the draws)"
+    return "With heat capacity and conductances at the ends of their assumed intervals"
 
 
 def _temperature(dataset: xr.Dataset) -> Finding:
     oil = dataset["oil_temperature"].values
-    low, high = (float(dataset[f"oil_temperature_{end}"].values[-1]) for end in ("low", "high"))
+    low, high = (
+        float(
+            dataset[f"end_temperature_{end}"]
+            if _DRAWN in dataset
+            else dataset[f"oil_temperature_{end}"].values[-1]
+        )
+        for end in ("low", "high")
+    )
     return Finding(
         NOTE,
         f"The oil goes from {oil[0]:.0f} to {oil[-1]:.0f} °C.",
-        f"By the assumed heat data it ends between {low:.0f} and {high:.0f} °C; air is at "
+        f"{_whose(dataset)} it ends between {low:.0f} and {high:.0f} °C; air is at "
         f"{dataset.attrs['air_temperature_degc']:g} °C.",
     )
 

@@ -35,7 +35,9 @@ _RPM = 0.104719755119660  # rad/s
 class MapCommand(MultiValueCommand):
     """A command whose options for the grid take several values."""
 
-    multi_value = frozenset({"--torques", "--speeds", "--temperatures"})
+    multi_value = frozenset(
+        {"--torques", "--speeds", "--speeds-rpm", "--temperatures", "--oil-temperatures"}
+    )
 
 
 def loss_map(
@@ -53,11 +55,21 @@ def loss_map(
     ] = None,
     speeds: Annotated[
         list[str] | None,
-        typer.Option(help="Pinion speeds [rpm]. Default: 250:5000:250.", metavar="RANGE..."),
+        typer.Option(
+            "--speeds",
+            "--speeds-rpm",
+            help="Pinion speeds [rpm]. Default: 250:5000:250.",
+            metavar="RANGE...",
+        ),
     ] = None,
     temperatures: Annotated[
         list[str] | None,
-        typer.Option(help="Oil temperatures [degC]. Default: 40 60 80 100.", metavar="RANGE..."),
+        typer.Option(
+            "--temperatures",
+            "--oil-temperatures",
+            help="Oil temperatures [degC]. Default: 40 60 80 100.",
+            metavar="RANGE...",
+        ),
     ] = None,
     oil: Annotated[
         str | None,

@@ -14,6 +14,7 @@ from gearlube.plotting.style import GREY, SERIES, YELLOW, house_style, new_figur
 from gearlube.studies.loss_map.findings import mean_swings
 
 _COLOURS = (*SERIES, GREY, YELLOW)  # of the sources, in their order
+_INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
 _MOST_PANELS = 6
 LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
@@ -122,7 +123,8 @@ def sensitivity(dataset: xr.Dataset) -> Any:
     with house_style():
         figure = new_figure(7.4, 0.45 * len(names) + 1.6)
         ax = figure.subplots()
-        ax.barh([name.replace("_", " ") for name in names], mean, color=SERIES[0])
+        labels = [_INPUT_WORDS.get(name, name.replace("_", " ")) for name in names]
+        ax.barh(labels, mean, color=SERIES[0])
         for row, name in enumerate(names):
             factor = words[name].split(",")[0]
             ax.text(mean[row], row, f"  {mean[row]:.1f} %, {factor}", va="center", fontsize=8)

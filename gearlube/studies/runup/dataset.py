@@ -12,13 +12,15 @@ import xarray as xr
 from gearlube.studies.runup.modes import COORDINATES, RampModes, engine_orders, ramp_modes
 from gearlube.studies.runup.operating_shape import CHANNELS, loudest, operating_shape
 from gearlube.studies.runup.record import AXES, BEARINGS, DIRECTIONS, RampRecord
+from gearlube.studies.runup.rollers import roller_variables
 from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from gearlube_core.input_file.input_note import notes_as_text
 from gearlube_core.spectra import OrderBlocks, order_blocks, samples_for, waterfall
 
-MESH_ORDERS = (1, 2, 3)
+MESH_ORDERS = (1, 2, 3, 4)
 HIGHEST_MESH_ORDER = 6.5  # of the order maps
 _SLICES_OF_HERTZ = 400  # frequency bins at least, up to the highest frequency
 _FINEST = 4.0  # Hz
@@ -82,6 +84,7 @@ def runup_dataset(settings: RunupSettings, record: RampRecord) -> xr.Dataset:
             **_separation(settings, record),
             **_modes(settings, modes),
             **_shape(settings, record, modes, blocks),
+            **roller_variables(settings, record, _loudest_time(settings, record, blocks)),
         },
         coords={
             "bearing": list(BEARINGS),
@@ -220,6 +223,12 @@ def _modes(settings: RunupSettings, modes: RampModes) -> dict[str, tuple[object,
     }
 
 
+def _loudest_time(settings: RunupSettings, record: RampRecord, blocks: OrderBlocks) -> float:
+    """Return the time [s] at which a mesh order of the bearing forces is largest."""
+    tracks = np.abs(blocks.amplitude[:, _places(settings), : len(record.force_names)])
+    return float(blocks.time[loudest(tracks)[0]])
+
+
 def _shape(
     settings: RunupSettings, record: RampRecord, modes: RampModes, blocks: OrderBlocks
 ) -> dict[str, object]:
@@ -282,7 +291,9 @@ def _attributes(settings: RunupSettings, record: RampRecord) -> dict[str, object
         "pinion_teeth": int(axle.mesh.pinion_teeth),
         "gear_teeth": int(axle.mesh.gear_teeth),
         "rolling_radius": float(car.driveline.road_load.tyre.rolling_radius),
-        "ranges_left": " ".join(record.warnings),
+        "ranges_left": "\n".join(record.warnings),
+        "inputs_given": notes_as_text([n for n in car.inputs if n.origin == "given"]),
+        "inputs_assumed": notes_as_text(car.assumed),
         "engine_gear": gear,
         "engine_orders": np.array(engine),
         **{f"setting_{name}": value for name, value in settings.as_dict().items()},

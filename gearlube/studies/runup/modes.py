@@ -84,8 +84,8 @@ def ramp_modes(settings: RunupSettings, torque: Array) -> RampModes:
     torque : array
         On the pinion [N m] at equal times of the ramp, shape (n,).
     """
-    ends = sorted((settings.start_speed, settings.end_speed))
-    speeds = np.linspace(*ends, _NODES)
+    low, high = sorted((settings.start_speed, settings.end_speed))
+    speeds = np.linspace(low, high, _NODES)
     given = np.linspace(settings.start_speed, settings.end_speed, torque.size)
     order = np.argsort(given)
     torques = np.interp(speeds, given[order], torque[order])

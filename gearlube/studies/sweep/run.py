@@ -19,11 +19,11 @@ from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
     check_operation,
     chosen_axle,
-    notes_as_text,
     settings_of,
 )
 from gearlube.studies.sweep.compile_axle import compile_axle
 from gearlube.studies.sweep.datasets import merge, save
+from gearlube.studies.sweep.engine_lines import crank_frequencies
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.provenance import code_version
@@ -32,6 +32,7 @@ from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSet
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
+from gearlube_core.input_file.input_note import notes_as_text
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.result_store import DATASETS, ResultStore
@@ -183,6 +184,9 @@ def run_sweep(
     )
     if mode_frequency is not None:
         sweep["mode_frequency"] = mode_frequency
+    if settings.driver == "vehicle":
+        crank = crank_frequencies(car_axle.driveline, speeds)
+        sweep["crank_frequency"] = ("speed", crank)
     described(sweep)
     if folder is not None:
         save(sweep, folder)
