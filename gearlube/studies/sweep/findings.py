@@ -69,7 +69,7 @@ def _whine(dataset: xr.Dataset) -> list[Finding]:
     if near is not None:
         off = top.frequency / near[1] - 1.0
         detail += (
-            f" It lies {100.0 * abs(off):.0f} % {'above' if off > 0.0 else 'below'} the nearest "
+            f" The peak lies {100.0 * abs(off):.0f} % {'above' if off > 0.0 else 'below'} the nearest "
             f"natural frequency, '{near[0]}' at {near[1]:.0f} Hz."
         )
         if abs(off) < NEAR:
