@@ -97,6 +97,11 @@ COMMANDS = (
         summary="Follow the resonance of the torsional hypoid pair.",
     ),
     LazyCommand(
+        name="sound",
+        target="gearlube.studies.sound.command:sound",
+        summary="Make a run-up audible: WAV, loudness, which order one hears.",
+    ),
+    LazyCommand(
         name="helical",
         target="gearlube.studies.helical.command:helical",
         summary="Study a helical or spur pair: contact, vibration, stability.",
