@@ -68,9 +68,10 @@ def _whine(dataset: xr.Dataset) -> list[Finding]:
     detail = f"The others: {words}." if words else ""
     if near is not None:
         off = top.frequency / near[1] - 1.0
+        side = "above" if off > 0.0 else "below"
         detail += (
-            f" The peak lies {100.0 * abs(off):.0f} % {'above' if off > 0.0 else 'below'} the nearest "
-            f"natural frequency, '{near[0]}' at {near[1]:.0f} Hz."
+            f" The peak lies {100.0 * abs(off):.0f} % {side} the nearest natural frequency, "
+            f"'{near[0]}' at {near[1]:.0f} Hz."
         )
         if abs(off) < NEAR:
             detail += " So the peak is a resonance, or close to one."
