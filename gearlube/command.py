@@ -59,6 +59,11 @@ COMMANDS = (
         command_class="VaryCommand",
     ),
     LazyCommand(
+        name="compare",
+        target="gearlube.cli.compare:compare",
+        summary="Compare two runs of one study: numbers, curves, inputs.",
+    ),
+    LazyCommand(
         name="design",
         target="gearlube.studies.design.command:design",
         summary="Design a hypoid or bevel pair: from a blank to machine settings.",
