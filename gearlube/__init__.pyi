@@ -188,6 +188,8 @@ from gearlube.studies.sweep.report import write_sweep_report as write_sweep_repo
 from gearlube.studies.runup.settings import RunupSettings as RunupSettings
 from gearlube.studies.runup.run import run_runup as run_runup
 from gearlube.studies.runup.run import load_runup as load_runup
+from gearlube.studies.sound.settings import SoundSettings as SoundSettings
+from gearlube.studies.sound.run import run_sound as run_sound
 
 # -- Variation of any parameter
 from gearlube.variation.studies import point_study as point_study

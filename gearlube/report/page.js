@@ -20,7 +20,7 @@
   const PRINTED = 700, LOWER = 0.82;  // width of a page [px]; two figures fit on it
   const axis = (rule) => ({
     gridcolor: rule, zerolinecolor: rule, linecolor: rule, ticks: "outside", tickcolor: rule,
-    automargin: true, title: {standoff: 8},
+    automargin: true, exponentformat: "power", title: {standoff: 8},
   });
   const template = (text, page, rule) => ({layout: {
     font: {color: text, family: 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif', size: 13},

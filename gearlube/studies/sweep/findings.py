@@ -18,6 +18,7 @@ NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
 _FULL_FILM, _MIXED = 3.0, 1.0  # film ratios between full film, mixed and mostly dry contact
 _CLOSED = 1e-3  # of the input, below which the energy balance is called closed
 _NAMED = 3  # crossings and losses that are told one by one
+_LEAST_SHARE = 0.005  # of the loss, of a source that is told
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -67,9 +68,10 @@ def _whine(dataset: xr.Dataset) -> list[Finding]:
     detail = f"The others: {words}." if words else ""
     if near is not None:
         off = top.frequency / near[1] - 1.0
+        side = "above" if off > 0.0 else "below"
         detail += (
-            f" It lies {100.0 * abs(off):.0f} % {'above' if off > 0.0 else 'below'} the nearest "
-            f"natural frequency, '{near[0]}' at {near[1]:.0f} Hz."
+            f" The peak lies {100.0 * abs(off):.0f} % {side} the nearest natural frequency, "
+            f"'{near[0]}' at {near[1]:.0f} Hz."
         )
         if abs(off) < NEAR:
             detail += " So the peak is a resonance, or close to one."
@@ -190,7 +192,9 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
     order = np.argsort(loss)[::-1]
     names = [source_words(str(one)) for one in dataset["source"].values]
     parts = ", ".join(
-        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %" for i in order[:_NAMED] if loss[i] > 0.0
+        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %"
+        for i in order[:_NAMED]
+        if loss[i] > _LEAST_SHARE * loss.sum()
     )
     efficiency = dataset["efficiency_axle"]
     losing = {

@@ -18,6 +18,7 @@ from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
 from gearlube.cli.results_folder import results_folder
+from gearlube_core.checks import check_within
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
     from gearlube.studies.whine.run import WhineRow
@@ -83,6 +84,7 @@ def whine(
     began = time.monotonic()
     with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
         file = HypoidGearFile.given(gear)
+        check_within("--positions", positions, 7, 400, "", "Three mesh orders need seven.")
         rpm = numbers_from(
             "--speeds-rpm",
             speeds_rpm or ("500:6000:100",),

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import preload_label
 from gearlube.report.charts import (
-    COLOURS,
     Axis,
     Line,
     add_line,
+    add_stack,
     line_chart,
     mark_level,
     panels,
@@ -85,21 +86,17 @@ def efficiency_chart(dataset: xr.Dataset) -> Any:
             )
             add_line(chart, line, row, SPEED, percent, **place)
     top = 1.05 * float(dataset["loss"].sum("source").max())
-    for row, label, one in rows:
+    for row, _, one in rows:
         place = {"row": row + 2, "col": 1}
-        for number, (source, (words, _)) in enumerate(SOURCES.items()):
-            if not modelled(dataset, source):
-                continue
-            chart.add_bar(
-                x=one["speed_kmh"].values,
-                y=one["loss"].sel(source=source).values,
-                name=words,
-                legendgroup=source,
-                showlegend=row == 0,
-                marker_color=COLOURS[number % len(COLOURS)],
-                hovertemplate=f"%{{y:.4g}} W at %{{x:g}} km/h<extra>{words}, {label}</extra>",
-                **place,
-            )
+        kept = [modelled(dataset, source) for source in SOURCES]
+        parts = np.array(
+            [
+                one["loss"].sel(source=source).values if has else np.zeros(one.sizes["speed"])
+                for source, has in zip(SOURCES, kept, strict=True)
+            ]
+        )
+        names = [words for words, _ in SOURCES.values()]
+        speed = one["speed_kmh"].values
+        add_stack(chart, names, speed, parts, SPEED, power, kept=kept, bars=True, **place)
         chart.update_yaxes(range=[0.0, top], **place)
-    chart.update_layout(barmode="stack")
     return chart
