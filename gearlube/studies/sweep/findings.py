@@ -119,7 +119,7 @@ def _resonance(dataset: xr.Dataset) -> list[Finding]:
     if not all_of_them:
         return []
     low, high = (float(dataset["speed_kmh"].values[i]) for i in (0, -1))
-    span = f"between {low:g} and {high:g} km/h"
+    span = f"between {low:g} and {high:g} km/h" if high > low else f"at {low:g} km/h"
     first = [one for one in all_of_them if one.preload == all_of_them[0].preload]
     inside = [one for one in first if one.margin == 0.0]
     if not inside:
@@ -208,7 +208,7 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
             f"The largest loss is {quantity_text(float(total.values[row, column]), 'W')} at "
             f"{float(point['speed_kmh']):g} km/h and preload {float(point['preload']):g} N: "
             f"{parts}.",
-            f"The efficiency of the axle lies between {100.0 * _least(efficiency):.1f} and "
+            f"The efficiency of the axle is {100.0 * _least(efficiency):.1f} to "
             f"{100.0 * _most(efficiency):.1f} %. Not modelled: "
             f"{', '.join(not_modelled(losing))}.",
         )
