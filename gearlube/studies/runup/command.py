@@ -62,6 +62,13 @@ def runup(
             metavar="TORQUE",
         ),
     ] = None,
+    engine_orders: Annotated[
+        bool,
+        typer.Option(
+            "--engine-orders",
+            help="Run the whole car: engine with its orders, driveline and tyres, in one gear.",
+        ),
+    ] = False,
     coast_down: Annotated[
         bool, typer.Option("--coast-down", help="Afterwards come back down at the same rate.")
     ] = False,
@@ -113,6 +120,7 @@ def runup(
     from gearlube.studies.runup.findings import findings
     from gearlube.studies.runup.report import write_runup_report
     from gearlube.studies.runup.run import run_runup
+    from gearlube.studies.runup.settings import BENCH, VEHICLE
     from gearlube.studies.runup.summary import summary_csv
     from gearlube_core.progress import part_of
     from gearlube_core.storage.atomic_file import write_text
@@ -131,6 +139,7 @@ def runup(
             rate=rate,
             duration=duration or (_QUICK_DURATION if quick else _DURATION),
             torque=torque,
+            driver=VEHICLE if engine_orders else BENCH,
             oil_temperature=oil_temperature,
             order_resolution=order_resolution or (_QUICK_RESOLUTION if quick else 0.25),
         )
@@ -221,6 +230,7 @@ def _settings(
     rate: float | None,
     duration: float,
     torque: float | None,
+    driver: str,
     oil_temperature: float,
     order_resolution: float,
 ) -> RunupSettings:
@@ -244,6 +254,7 @@ def _settings(
         end_speed=speeds[1],
         duration=duration,
         pinion_torque=torque,
+        driver=driver,
         oil_temperature=oil_kelvin(oil_temperature, car.axle.oil),
         order_resolution=order_resolution,
     )

@@ -277,7 +277,7 @@ def _resolution(settings: RunupSettings) -> float:
 def _attributes(settings: RunupSettings, record: RampRecord) -> dict[str, object]:
     car = settings.car_axle
     axle = car.axle
-    gear, engine = engine_orders(car, max(settings.start_speed, settings.end_speed))
+    gear, engine = engine_orders(settings)
     return {
         "title": f"{settings.name} of a lubricated hypoid axle",
         "study": "runup",

@@ -26,8 +26,8 @@ _DPI = 130
 _LIMITS = (
     "The axle has 8 degrees of freedom; housing and shafts do not bend. Forces are those of the "
     "bearings on the shafts; noise of the housing is not in them.",
-    "The torque on the pinion is smooth: engine orders are drawn in the Campbell diagram, they do "
-    "not act.",
+    "On the bench the torque on the pinion is smooth; with `--engine-orders` those of the engine "
+    "act, in one gear.",
     "Natural frequencies are undamped, at the mean mesh stiffness, along the ramp's torque.",
     "Teeth are all alike unless the mesh table has errors of single teeth, so between the mesh "
     "orders there is no noise floor as in a measurement.",
@@ -193,7 +193,8 @@ def tables(dataset: xr.Dataset, before: str = "") -> list[Table]:
 
 
 def _settings(dataset: xr.Dataset, before: str) -> list[Input]:
-    found = []
+    driver = str(dataset.attrs.get("setting_driver", "bench"))
+    found = [Input(f"{before or 'ramp: '}driver", driver, "", GIVEN, "setting")]
     for name, words, unit, converted in _INPUTS:
         value = float(dataset.attrs[f"setting_{name}"])
         label = f"{before or 'ramp: '}{words}"

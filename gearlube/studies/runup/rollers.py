@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -34,8 +35,10 @@ def roller_variables(settings: RunupSettings, record: RampRecord, time: float) -
     from scipy.interpolate import CubicSpline
 
     p = settings.car_axle.axle.kernel_parameters()
-    bearings = (p.bearing_p, p.bearing_g)
-    if not all(isinstance(one, BearingParameters) for one in bearings):
+    bearings: list[Any] = [
+        b for b in (p.bearing_p, p.bearing_g) if isinstance(b, BearingParameters)
+    ]
+    if len(bearings) < len(_SHAFTS):
         return {}
     angle = record.channels["pinion.angle"]
     turn = 2.0 * math.pi
@@ -63,12 +66,9 @@ def roller_variables(settings: RunupSettings, record: RampRecord, time: float) -
         number = int(bearing.n_rollers)
         rollers = np.zeros(number)
         for k in range(count):
-            motion = ShaftMotion(
-                *(float(one(at[k])) for one in motions),
-                *(float(one(at[k], 1)) for one in motions),
-                float(cage[k]),
-                float(turning[k]),
-            )
+            r1, r2, axial = (float(one(at[k])) for one in motions)
+            v1, v2, v_axial = (float(one(at[k], 1)) for one in motions)
+            motion = ShaftMotion(r1, r2, axial, v1, v2, v_axial, float(cage[k]), float(turning[k]))
             f_ref = reference_frequency(p.mesh, float(speed_at[k]))
             for end, side in enumerate((1.0, -1.0)):
                 roller_loads(motion, f_ref, oil.eta0, oil.alpha, bearing, side, rollers)

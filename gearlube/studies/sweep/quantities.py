@@ -25,6 +25,7 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "wheel_torque": ("N m", "mean load torque on the wheel gear"),
     "mesh_frequency": ("Hz", "mean tooth mesh frequency"),
     "pinion_frequency": ("Hz", "mean rotation frequency of the pinion"),
+    "crank_frequency": ("Hz", "rotation frequency of the crankshaft in the gear of this speed"),
     "wheel_frequency": ("Hz", "mean rotation frequency of the wheel gear"),
     "pinion_cage_frequency": ("Hz", "mean rotation frequency of the pinion bearing cage"),
     "wheel_cage_frequency": ("Hz", "mean rotation frequency of the wheel bearing cage"),
