@@ -194,7 +194,7 @@ def _steering(names: list[str]) -> dict[str, Any]:
     return {
         "sliders": [
             {"steps": steps, "currentvalue": {"prefix": "mesh phase "}, "pad": {"t": 0, "b": 40},
-             "x": 0.0, "len": 1.0, "y": 0.0}
+             "x": 0.03, "len": 0.92, "y": 0.0}
         ],
         "updatemenus": [
             {"type": "buttons", "direction": "left", "buttons": buttons, "x": 0.0, "y": 1.0,
