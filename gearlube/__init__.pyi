@@ -128,6 +128,11 @@ from gearlube_core.hypoid_contact.sensitivity.analysis import (
 from gearlube.studies.contact.sensitivity import run_sensitivity as run_sensitivity
 from gearlube.studies.contact.sensitivity import sensitivity_rows as sensitivity_rows
 
+# -- Study: whine of a hypoid pair against its settings
+from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings as SeriesSettings
+from gearlube.studies.whine.run import WhineSettings as WhineSettings
+from gearlube.studies.whine.run import run_whine as run_whine
+
 # -- Study: friction of a bearing
 from gearlube_core.bearings.bearing_file import BearingFile as BearingFile
 from gearlube_core.bearings.losses.geometry import BearingGeometry as BearingGeometry
@@ -183,6 +188,8 @@ from gearlube.studies.sweep.report import write_sweep_report as write_sweep_repo
 from gearlube.studies.runup.settings import RunupSettings as RunupSettings
 from gearlube.studies.runup.run import run_runup as run_runup
 from gearlube.studies.runup.run import load_runup as load_runup
+from gearlube.studies.sound.settings import SoundSettings as SoundSettings
+from gearlube.studies.sound.run import run_sound as run_sound
 
 # -- Variation of any parameter
 from gearlube.variation.studies import point_study as point_study

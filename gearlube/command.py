@@ -59,6 +59,11 @@ COMMANDS = (
         command_class="VaryCommand",
     ),
     LazyCommand(
+        name="compare",
+        target="gearlube.cli.compare:compare",
+        summary="Compare two runs of one study: numbers, curves, inputs.",
+    ),
+    LazyCommand(
         name="design",
         target="gearlube.studies.design.command:design",
         summary="Design a hypoid or bevel pair: from a blank to machine settings.",
@@ -80,6 +85,12 @@ COMMANDS = (
         command_class="ContactCommand",
     ),
     LazyCommand(
+        name="whine",
+        target="gearlube.studies.whine.command:whine",
+        summary="Whine orders of a hypoid pair against its settings.",
+        command_class="WhineCommand",
+    ),
+    LazyCommand(
         name="convert",
         target="gearlube.cli.convert:convert",
         summary="Convert a gear pair between REXS and gear files.",
@@ -89,6 +100,11 @@ COMMANDS = (
         name="resonance",
         target="gearlube.studies.resonance.command:resonance",
         summary="Follow the resonance of the torsional hypoid pair.",
+    ),
+    LazyCommand(
+        name="sound",
+        target="gearlube.studies.sound.command:sound",
+        summary="Make a run-up audible: WAV, loudness, which order one hears.",
     ),
     LazyCommand(
         name="helical",

@@ -33,6 +33,7 @@ _RESULTS = frozenset(
         "geometry.nc",
         "bearing.nc",
         "map.nc",
+        "sound.nc",
         "runup.nc",
         "coastdown.nc",
         "drive_cycle.nc",

@@ -140,26 +140,54 @@ def stack_chart(
 ) -> Any:
     """Return parts that add up, of shape (parts, len(x)): as areas, or as bars."""
     figure = empty_chart(x_axis, y_axis, height)
-    for row, (name, values) in enumerate(zip(names, parts, strict=True)):
-        colour = COLOURS[row % len(COLOURS)]
-        hover = f"%{{y:.4g}} {y_axis.unit} at %{{x}} {x_axis.unit}<extra>{name}</extra>"
-        where = list(x) if isinstance(x[0], str) else _small(x)
+    add_stack(figure, names, x, parts, x_axis, y_axis, bars=bars)
+    return figure
+
+
+def add_stack(
+    figure: Any,
+    names: Sequence[str],
+    x: Sequence[float] | Sequence[str] | Array,
+    parts: Array,
+    x_axis: Axis,
+    y_axis: Axis,
+    *,
+    kept: Sequence[bool] | Array | None = None,
+    bars: bool = False,
+    **place: Any,
+) -> None:
+    """Add parts that add up to a chart, or to its panel row=, col=.
+
+    A part has the same colour in every panel, and stands in the legend once; `kept` says which
+    parts are drawn.
+    """
+    already = {one.legendgroup for one in figure.data}
+    where = list(x) if isinstance(x[0], str) else _small(x)
+    for number, (name, values) in enumerate(zip(names, parts, strict=True)):
+        if kept is not None and not kept[number]:
+            continue
+        shared: dict[str, Any] = {
+            "x": where,
+            "y": _small(np.nan_to_num(values)),
+            "name": name,
+            "legendgroup": name,
+            "showlegend": name not in already,
+            "hovertemplate": f"%{{y:.4g}} {y_axis.unit} at %{{x}} {x_axis.unit}"
+            f"<extra>{name}</extra>",
+            **place,
+        }
+        colour = COLOURS[number % len(COLOURS)]
         if bars:
-            figure.add_bar(
-                x=where, y=_small(values), name=name, marker_color=colour, hovertemplate=hover
-            )
+            figure.add_bar(marker_color=colour, **shared)
         else:
             figure.add_scatter(
-                x=where,
-                y=_small(np.nan_to_num(values)),
-                name=name,
-                stackgroup="all",
+                stackgroup=f"all {place.get('row', 1)}",
                 mode="lines",
                 line={"width": 0.5, "color": colour},
-                hovertemplate=hover,
+                fillcolor=colour,
+                **shared,
             )
     figure.update_layout(barmode="stack", showlegend=True)
-    return figure
 
 
 def heat_map(

@@ -17,10 +17,10 @@
   code.textContent = await new Response(stream).text();
   document.head.append(code);
 
-  const PRINTED = 700, LOWER = 0.82;  // width of a page [px]; two figures fit on it
+  const PRINTED = 700, LOWER = 0.82, HIGHEST = 880;  // width of a page [px]; two figures fit on it
   const axis = (rule) => ({
     gridcolor: rule, zerolinecolor: rule, linecolor: rule, ticks: "outside", tickcolor: rule,
-    automargin: true, title: {standoff: 8},
+    automargin: true, exponentformat: "power", title: {standoff: 8},
   });
   const template = (text, page, rule) => ({layout: {
     font: {color: text, family: 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif', size: 13},
@@ -39,10 +39,12 @@
   const config = {
     responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"],
     toImageButtonOptions: {scale: 2},
+    displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false,
   };
   for (const plot of plots) {
     const chart = report.charts[plot.dataset.figure];
-    await Plotly.newPlot(plot, chart.data, {...chart.layout, template: look()}, config);
+    const layout = {...chart.layout, template: look()};
+    await Plotly.newPlot(plot, {data: chart.data, layout, config, frames: chart.frames || []});
   }
   document.body.dataset.drawn = "yes";
   dark.addEventListener("change", () => {
@@ -53,7 +55,7 @@
   addEventListener("beforeprint", () => {
     folded.forEach((part) => { part.open = true; });
     plots.forEach((plot) => {
-      const height = LOWER * heights.get(plot);
+      const height = Math.min(LOWER * heights.get(plot), HIGHEST);
       Object.assign(plot.style, {width: `${PRINTED}px`, height: `${height}px`});
       Plotly.relayout(plot, {template: LIGHT, width: PRINTED, height});
     });

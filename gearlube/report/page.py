@@ -67,6 +67,10 @@ def report_html(report: Report, made: str = "") -> str:
         data=as_json(as_data(report, made)) if drawn or report.numbers else "",
         plotly=_plotly() if drawn else "",
         plotly_size=f"{len(_plotly()) / 1e6:.1f} MB" if drawn else "",
+        recordings=[
+            {"title": r.title, "caption": r.caption, "wav": base64.b64encode(r.wav).decode("ascii")}
+            for r in report.recordings
+        ],
         figures=[_figure(number, one) for number, one in enumerate(report.figures, 1)],
         numbers=[(n.name, number_text(n.value, n.digits), n.unit) for n in report.numbers],
         tables=[_table(one) for one in report.tables],

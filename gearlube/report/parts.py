@@ -146,6 +146,25 @@ class Figure:
 
 
 @dataclass(frozen=True, slots=True)
+class Recording:
+    """A sound to listen to on the page.
+
+    Parameters
+    ----------
+    title : str
+        A few words.
+    caption : str
+        What is heard, and the pressure of its full scale.
+    wav : bytes
+        A WAV file.
+    """
+
+    title: str
+    caption: str
+    wav: bytes
+
+
+@dataclass(frozen=True, slots=True)
 class Input:
     """An input of the study: what, value, unit, "given", "inferred" or "assumed", and why."""
 
@@ -168,6 +187,7 @@ class Report:
         What was studied; what was run, in one sentence.
     findings : sequence of Finding
         The most important first; the page shows warnings before all others.
+    recordings : sequence of Recording
     numbers : sequence of Number
     figures : sequence of Figure
     tables : sequence of Table
@@ -184,6 +204,7 @@ class Report:
     title: str
     subtitle: str = ""
     findings: Sequence[Finding] = ()
+    recordings: Sequence[Recording] = ()
     numbers: Sequence[Number] = ()
     figures: Sequence[Figure] = ()
     tables: Sequence[Table] = ()

@@ -50,6 +50,7 @@ def _chart(figure: Figure) -> dict[str, Any]:
         "caption": figure.caption,
         "data": list(whole["data"]),
         "layout": layout,
+        "frames": list(whole.get("frames", [])),
     }
 
 

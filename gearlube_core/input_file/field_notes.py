@@ -108,10 +108,13 @@ def sentence(
     field = ".".join(str(part) for part in error["loc"])
     kind, note = error["type"], notes.get(field)
     if kind == "value_error":
-        return f"{f'{field}: ' if field else ''}{error['ctx']['error']}."
+        said = str(error["ctx"]["error"])
+        return f"{f'{field}: ' if field else ''}{said}{'' if said.endswith('?') else '.'}"
     if kind == "missing":
         needed = [n for n, one in notes.items() if n.startswith(f"{field}.") and not one.default]
         what = note.meaning if note else f"a section with {', '.join(needed)}" if needed else ""
+        if note and note.limits:
+            what = f"{what} ({note.limits}{f' {note.unit}' if note.unit else ''})"
         return f"{field} is missing{f': {what}' if what else ''}."
     if kind == "extra_forbidden":
         for word, why in unmodelled.items():

@@ -11,7 +11,8 @@ import xarray as xr
 from gearlube.plotting.style import cell_edges
 from gearlube.report.page import report_html
 from gearlube.studies.sweep.datasets import merge
-from gearlube.studies.sweep.figures import CATALOGUE, spectrum_map
+from gearlube.studies.sweep.figures import CATALOGUE, spectrum_bubbles
+from gearlube.studies.sweep.figures.bubbles import all_lines, highest, lines_of
 from gearlube.studies.sweep.figures.order_cuts import harmonic_amplitude
 from gearlube.studies.sweep.figures.spectrum_map import DTE, default_top
 from gearlube.studies.sweep.point import failed_point, summarise
@@ -42,7 +43,7 @@ def test_figure_is_drawn_with_labelled_axes_although_a_point_failed(sweep, entry
     figure.savefig(tmp_path / "figure.png", dpi=50)
     assert (tmp_path / "figure.png").stat().st_size > 3000
     labels = [ax.get_xlabel() + ax.get_ylabel() for ax in figure.axes]
-    assert any(labels) or entry.name == "roller_zone"  # polar axes are named in the title
+    assert any(labels)
     assert figure.get_suptitle()
 
 
@@ -53,15 +54,37 @@ def test_figure_of_a_single_point_is_drawn_without_pyplot(sweep, entry, tmp_path
     assert "matplotlib.pyplot" not in sys.modules
 
 
-def test_map_shows_the_mesh_line_at_its_level_and_leaves_failed_speeds_empty(sweep):
-    figure = spectrum_map(sweep, DTE)
-    columns = [
-        mesh.get_array() for mesh in figure.axes[0].collections if mesh.get_array() is not None
-    ]
-    # 1 um over the reference of 1 nm is 60 dB; resampling loses less than 1e-3 dB.
-    assert max(float(np.ma.max(c)) for c in columns) == pytest.approx(60.0, abs=1e-2)
-    failed = [mesh.get_array() for mesh in figure.axes[1].collections][1]
-    assert np.all(np.ma.getmaskarray(np.ma.masked_invalid(failed)))
+def test_bubbles_show_mesh_lines_at_their_level_and_leave_failed_speeds_empty(sweep):
+    points = all_lines(sweep, DTE, 2700.0)
+    lines = points[0, 1]
+    mesh = float(sweep["mesh_frequency"][0, 1])
+    found = dict(zip(np.round(lines.frequency / mesh, 3), lines.level, strict=True))
+    # 1 um over the reference of 1 nm is 60 dB; resampling loses less than 1e-2 dB
+    assert found[1.0] == pytest.approx(20.0 * math.log10(stand_in.MESH_DTE / 1e-9), abs=1e-2)
+    assert found[2.0] == pytest.approx(20.0 * math.log10(stand_in.SECOND_DTE / 1e-9), abs=2e-2)
+    assert set(lines.kind[np.isin(np.round(lines.frequency / mesh, 3), (1.0, 2.0))]) == {0}
+    assert points[1, 1].frequency.size == 0  # 60 km/h, 6000 N failed
+    assert highest(points, 2700.0) == 60.0
+    figure = spectrum_bubbles(sweep, DTE)
+    drawn = np.concatenate([one.get_offsets() for one in figure.axes[1].collections])
+    assert 60.0 not in drawn[:, 0]
+    assert 100.0 in drawn[:, 0]
+
+
+def test_engine_orders_are_told_from_others(sweep):
+    point = sweep.isel(preload=0, speed=2)
+    bins = point["frequency"].values
+    lines = lines_of(point.assign(dte_spectrum=("bin", spikes(bins, (49.0, 75.0)))), DTE, 2700.0)
+    assert lines.kind.tolist() == [2, 2]
+    coupled = point.assign(dte_spectrum=("bin", spikes(bins, (49.0, 75.0))), crank_frequency=24.5)
+    assert lines_of(coupled, DTE, 2700.0).kind.tolist() == [1, 2]
+
+
+def spikes(bins, frequencies):
+    values = np.zeros(bins.size)
+    for one in frequencies:
+        values[int(np.nanargmin(np.abs(bins - one)))] = 1e-7
+    return values
 
 
 def test_frequency_axis_ends_above_the_highest_mode_and_within_the_spectra(sweep):

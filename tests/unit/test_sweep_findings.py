@@ -80,7 +80,7 @@ def test_loss_and_its_largest_parts(sweep):
     one = found(sweep, "largest loss")
     assert "42.0 W" in one.headline
     assert "bearing drag 48 %" in one.headline  # 20 of 42 W
-    assert "97.9 and 97.9 %" in one.detail  # 1 - 42 / 2000
+    assert "97.9 to 97.9 %" in one.detail  # 1 - 42 / 2000
     assert "windage" in one.detail
     assert "churning" not in one.detail
 

@@ -11,7 +11,7 @@ from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_geometry.flank.flank import Role
 from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.tooth_contact.sharp_edge import edges_that_carry, sharp_edge_remark
+from gearlube_core.tooth_contact.sharp_edge import edges_that_carry
 
 _ROLES: tuple[Role, Role] = ("pinion", "gear")
 _TOUCHES = 1e-3  # share of the torque above which a pair counts as in contact
@@ -47,12 +47,6 @@ def contact_summary(contact: xr.Dataset) -> list[ContactSummary]:
                 )
             )
     return rows
-
-
-def contact_warnings(rows: list[ContactSummary]) -> list[str]:
-    """Return warnings about the results, one sentence each."""
-    remark = sharp_edge_remark(max(row.highest_pressure for row in rows))
-    return [remark] if remark else []
 
 
 def edge_warnings(contact: xr.Dataset) -> list[str]:

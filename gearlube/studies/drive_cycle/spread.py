@@ -12,11 +12,16 @@ from gearlube.studies.drive_cycle.loss_field import LossesAlong, at_temperatures
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings, LossGrid
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
-from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain, changed_axle, uncertain_of
+from gearlube_core.dynamics.hypoid_axle.uncertain import (
+    UPPER_END,
+    Uncertain,
+    changed_axle,
+    log_slope,
+    uncertain_of,
+)
 from gearlube_core.progress import Progress, no_progress
 
 _BOUNDS = 2.5, 97.5  # percent
-_STEP = 2.0  # standard deviations of one input alone
 _KJ = 1e-3
 
 
@@ -44,7 +49,7 @@ def check_inputs(settings: DriveCycleSettings) -> None:
     """Raise ParameterError where an uncertain datum leaves its limits; nothing is computed."""
     if settings.draws:
         for one in uncertain_inputs(settings):
-            for normal in (_STEP, -_STEP):
+            for normal in (UPPER_END, -UPPER_END):
                 changed_axle(one, settings.car.axle, normal, np.ones(len(LOSS_SOURCES)))
 
 
@@ -118,7 +123,7 @@ def _slopes(
     for i, one in enumerate(inputs):
         progress(i / len(inputs), f"error bars, {one.words}")
         ends = []
-        for normal in (_STEP, -_STEP):
+        for normal in (UPPER_END, -UPPER_END):
             scale = np.ones(len(LOSS_SOURCES))
             axle = changed_axle(one, settings.car.axle, normal, scale)
             if one.changed is None:
@@ -126,10 +131,7 @@ def _slopes(
                 continue
             changed = replace(settings, car=replace(settings.car, axle=axle), grid=coarse)
             ends.append(losses_along(changed, demand).power)
-        upper, lower = ends
-        both = (upper > 0.0) & (lower > 0.0)
-        ratio = np.divide(upper, lower, out=np.ones_like(upper), where=both)
-        slopes.append(np.log(ratio) / (2.0 * _STEP))
+        slopes.append(log_slope(*ends))
     return slopes
 
 

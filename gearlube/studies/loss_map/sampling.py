@@ -10,12 +10,11 @@ from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
-from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle
+from gearlube_core.dynamics.hypoid_axle.uncertain import UPPER_END, changed_axle
 from gearlube_core.progress import Progress, no_progress
 
 _ANGLES = 8  # within 4e-4 of 256, far below any spread
 _BOUNDS = (2.5, 97.5)  # percent
-_STEP = 2.0  # standard deviations, of one input alone
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +68,7 @@ def _rows(settings: LossMapSettings) -> Array:
     count = len(settings.uncertain)
     rng = np.random.default_rng(settings.seed)
     normals = rng.standard_normal((settings.draws, count))
-    return np.concatenate([np.eye(count) * _STEP, np.eye(count) * -_STEP, normals])
+    return np.concatenate([np.eye(count) * UPPER_END, np.eye(count) * -UPPER_END, normals])
 
 
 def _drawn(settings: LossMapSettings, row: Array) -> tuple[HypoidAxleParameters, Array]:

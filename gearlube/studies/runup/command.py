@@ -62,6 +62,13 @@ def runup(
             metavar="TORQUE",
         ),
     ] = None,
+    engine_orders: Annotated[
+        bool,
+        typer.Option(
+            "--engine-orders",
+            help="Run the whole car: engine with its orders, driveline and tyres, in one gear.",
+        ),
+    ] = False,
     coast_down: Annotated[
         bool, typer.Option("--coast-down", help="Afterwards come back down at the same rate.")
     ] = False,
@@ -90,6 +97,12 @@ def runup(
     quick: Annotated[
         bool, typer.Option("--quick", help="A ramp of 10 s, for a first look.")
     ] = False,
+    animate: Annotated[
+        bool,
+        typer.Option(
+            "--animate", help="Also animate all roller loads over a turn (GIF), about a minute."
+        ),
+    ] = False,
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
@@ -103,9 +116,11 @@ def runup(
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
     from gearlube.cli.report_end import tell_findings
+    from gearlube.studies.runup.figures.rollers import animate_rollers
     from gearlube.studies.runup.findings import findings
     from gearlube.studies.runup.report import write_runup_report
     from gearlube.studies.runup.run import run_runup
+    from gearlube.studies.runup.settings import BENCH, VEHICLE
     from gearlube.studies.runup.summary import summary_csv
     from gearlube_core.progress import part_of
     from gearlube_core.storage.atomic_file import write_text
@@ -124,6 +139,7 @@ def runup(
             rate=rate,
             duration=duration or (_QUICK_DURATION if quick else _DURATION),
             torque=torque,
+            driver=VEHICLE if engine_orders else BENCH,
             oil_temperature=oil_temperature,
             order_resolution=order_resolution or (_QUICK_RESOLUTION if quick else 0.25),
         )
@@ -151,6 +167,8 @@ def runup(
             write_text(summary_csv(datasets), out / "summary.csv")
             command_line = shlex.join(["gearlube", *sys.argv[1:]])
             report = write_runup_report(datasets, out, command_line)
+            for dataset in datasets if animate else ():
+                animate_rollers(dataset, out, progress)
         logger.info("%.3g s.", time.monotonic() - began)
         tell_findings([one for dataset in datasets for one in findings(dataset)], report)
 
@@ -212,6 +230,7 @@ def _settings(
     rate: float | None,
     duration: float,
     torque: float | None,
+    driver: str,
     oil_temperature: float,
     order_resolution: float,
 ) -> RunupSettings:
@@ -235,6 +254,7 @@ def _settings(
         end_speed=speeds[1],
         duration=duration,
         pinion_torque=torque,
+        driver=driver,
         oil_temperature=oil_kelvin(oil_temperature, car.axle.oil),
         order_resolution=order_resolution,
     )

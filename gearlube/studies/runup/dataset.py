@@ -12,6 +12,7 @@ import xarray as xr
 from gearlube.studies.runup.modes import COORDINATES, RampModes, engine_orders, ramp_modes
 from gearlube.studies.runup.operating_shape import CHANNELS, loudest, operating_shape
 from gearlube.studies.runup.record import AXES, BEARINGS, DIRECTIONS, RampRecord
+from gearlube.studies.runup.rollers import roller_variables
 from gearlube.studies.runup.settings import RunupSettings
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
@@ -83,6 +84,7 @@ def runup_dataset(settings: RunupSettings, record: RampRecord) -> xr.Dataset:
             **_separation(settings, record),
             **_modes(settings, modes),
             **_shape(settings, record, modes, blocks),
+            **roller_variables(settings, record, _loudest_time(settings, record, blocks)),
         },
         coords={
             "bearing": list(BEARINGS),
@@ -221,6 +223,12 @@ def _modes(settings: RunupSettings, modes: RampModes) -> dict[str, tuple[object,
     }
 
 
+def _loudest_time(settings: RunupSettings, record: RampRecord, blocks: OrderBlocks) -> float:
+    """Return the time [s] at which a mesh order of the bearing forces is largest."""
+    tracks = np.abs(blocks.amplitude[:, _places(settings), : len(record.force_names)])
+    return float(blocks.time[loudest(tracks)[0]])
+
+
 def _shape(
     settings: RunupSettings, record: RampRecord, modes: RampModes, blocks: OrderBlocks
 ) -> dict[str, object]:
@@ -269,7 +277,7 @@ def _resolution(settings: RunupSettings) -> float:
 def _attributes(settings: RunupSettings, record: RampRecord) -> dict[str, object]:
     car = settings.car_axle
     axle = car.axle
-    gear, engine = engine_orders(car, max(settings.start_speed, settings.end_speed))
+    gear, engine = engine_orders(settings)
     return {
         "title": f"{settings.name} of a lubricated hypoid axle",
         "study": "runup",

@@ -14,6 +14,7 @@ from gearlube.studies.runup.peaks import Critical, Peak, critical_speeds, mean_l
 NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
 _MARKED = 3  # mesh orders whose critical speeds are told
 _NAMED = 3  # critical speeds and losses that are told one by one
+_SMALL = 0.005  # of the loss, below which a part is not told
 _NARROW = 0.15  # of a speed: a margin below it is worth a warning
 
 
@@ -167,7 +168,7 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
     parts = ", ".join(
         f"{source_words(names[i])} {100.0 * loss[i] / loss.sum():.0f} %"
         for i in largest
-        if loss[i] > 0.0
+        if loss[i] > _SMALL * loss.sum()
     )
     losing = {name for name, one in zip(names, loss, strict=True) if one > 0.0}
     return [
@@ -183,11 +184,12 @@ def _ranges(dataset: xr.Dataset) -> list[Finding]:
     left = str(dataset.attrs["ranges_left"])
     if not left:
         return [Finding(GOOD, "Nothing left the range of a formula or table.")]
+    count = len(left.splitlines())
     return [
         Finding(
             WARNING,
-            f"{len(left.splitlines())} quantities left the range of a formula or table; what is "
-            "computed there is extrapolated.",
+            f"{count} {'quantity' if count == 1 else 'quantities'} left the range of a formula or "
+            "table; what is computed there is extrapolated.",
             left.replace("\n", " "),
         )
     ]

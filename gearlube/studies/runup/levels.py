@@ -66,7 +66,11 @@ def speed_axis(ax: Any, dataset: xr.Dataset, *, label: bool = True, top: bool = 
 
 
 def heading(dataset: xr.Dataset) -> str:
-    """Return "run-up, 80 N m" or "coast-down, road load and inertia of the car"."""
+    """Return what ran, "run-up, 80 N m at the pinion"."""
     torque = float(dataset.attrs["setting_pinion_torque"])
-    words = "torque that the car needs" if np.isnan(torque) else f"{torque:g} N m at the pinion"
+    words = f"{torque:g} N m at the pinion"
+    if dataset.attrs.get("setting_driver") == "vehicle":
+        words = f"car with engine, gear {dataset.attrs['engine_gear']}"
+    elif np.isnan(torque):
+        words = "torque that the car needs"
     return f"{dataset.attrs['ramp']}, {words}"

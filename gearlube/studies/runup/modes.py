@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivetrain.axle_file.axle_file import CarAxle
-from gearlube.studies.runup.settings import RunupSettings
+from drivetrain.ramp_vehicle import gear_for_ramp
+from gearlube.studies.runup.settings import VEHICLE, RunupSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.linearise import AxleMode, named_modes
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
@@ -137,11 +137,18 @@ def _matched(before: list[AxleMode], modes: list[AxleMode], mass: Array) -> list
     return [modes[j] for j in columns]
 
 
-def engine_orders(car: CarAxle, pinion_speed: float) -> tuple[int, tuple[float, ...]]:
-    """Return gear and engine orders in cycles per pinion revolution; gear 0 without an engine."""
-    box, engine = car.driveline.gearbox, car.driveline.engine
+def engine_orders(settings: RunupSettings) -> tuple[int, tuple[float, ...]]:
+    """Return gear and engine orders in cycles per pinion revolution; gear 0 without an engine.
+
+    The gear is that of the ramp, without the engine's orders in it that of the faster end.
+    """
+    car = settings.car_axle.driveline
     try:
-        gear = box.gear_for(pinion_speed, engine)
+        if settings.driver == VEHICLE:
+            gear = gear_for_ramp(car, settings.ramp)
+        else:
+            fast = max(settings.start_speed, settings.end_speed)
+            gear = car.gearbox.gear_for(fast, car.engine)
     except ParameterError:
         return 0, ()
-    return gear, tuple(one.order * box.ratios[gear - 1] for one in engine.orders)
+    return gear, tuple(one.order * car.gearbox.ratios[gear - 1] for one in car.engine.orders)

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+from drivetrain.ramp_vehicle import RampVehicle
 from drivetrain.speed_ramp import RampHold
-from gearlube.studies.runup.settings import RunupSettings
+from gearlube.studies.runup.settings import VEHICLE, RunupSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
@@ -30,12 +31,14 @@ _OF_SHAFT = ((1, 2), (3, 4))  # bearings that carry it
 MOTION = (
     "pinion.angle",
     "pinion.speed",
+    "wheel.angle",
     "wheel.speed",
     "mesh.dte",
     "mesh.force",
     *(f"pinion.displacement.{axis}" for axis in "xyz"),
     *(f"wheel.displacement.{axis}" for axis in "xyz"),
 )
+_SHAFTS = 4  # of these, what a driver takes
 FORCES = tuple(f"bearing.{one}.{direction}" for one in BEARINGS for direction in DIRECTIONS)
 ENERGIES = ("energy.pinion_work", *(f"energy.{source}" for source in LOSS_SOURCES))
 _PART = 2.0  # s of the record that are kept together
@@ -132,12 +135,12 @@ def record_ramp(
     steps = math.ceil(settings.duration * settings.sample_rate)
     size = round(_PART * settings.sample_rate)
     parts = [min(size, steps - at) for at in range(0, steps, size)]
-    store = ResultStore(folder, ARRAYS)
+    store, whole = ResultStore(folder, ARRAYS), settings.key()
     found: list[Record] = []
     settled = False
     with deferred_interrupts() as interrupt:
         for i, length in enumerate(parts):
-            key = f"{settings.key()}_{i}"
+            key = f"{whole}_{i}"
             part = store.read(key)
             if part is None:
                 if not settled and not found:
@@ -164,28 +167,29 @@ def record_ramp(
     return _joined(found, h, warned, torques)
 
 
-def _driver(settings: RunupSettings, torques: tuple[Array, Array]) -> RampHold:
+def _driver(settings: RunupSettings, torques: tuple[Array, Array]) -> RampHold | RampVehicle:
     axle, ratio = settings.car_axle.axle, settings.car_axle.axle.mesh.ratio
     teeth = axle.mesh.pinion_teeth
     mesh_period = 2.0 * math.pi / (teeth * settings.start_speed)
+    lead = max(settings.settling_time, _MOST_SETTLING * mesh_period)
+    if settings.driver == VEHICLE:
+        return RampVehicle(settings.car_axle.driveline, settings.ramp, torques[1], lead)
     return RampHold(
         settings.ramp,
         ratio=ratio,
         pinion_torque=torques[0],
         loss_torque=torques[1],
         axle_inertia=axle.pinion_inertia + axle.gear_inertia / ratio**2,
-        lead=max(settings.settling_time, _MOST_SETTLING * mesh_period),
+        lead=lead,
     )
 
 
-def _settle(axle: HypoidAxle, driver: RampHold, settings: RunupSettings) -> None:
+def _settle(axle: HypoidAxle, driver: RampHold | RampVehicle, settings: RunupSettings) -> None:
     h = 1.0 / settings.sample_rate
-    angle, speed, wheel = (
-        _column(axle, f"{n}") for n in ("pinion.angle", "pinion.speed", "wheel.speed")
-    )
+    columns = np.array([_column(axle, name) for name in MOTION[:_SHAFTS]])
     out = axle.outputs
     while driver.time < -0.5 * h:
-        torques = driver.step(h, float(out[angle]), float(out[speed]), 0.0, float(out[wheel]))
+        torques = driver.step(h, *out[columns].tolist())
         axle.step(h, *torques, settings.oil_temperature)
 
 
@@ -195,7 +199,7 @@ def _column(axle: HypoidAxle, name: str) -> int:
 
 def _march(
     axle: HypoidAxle,
-    driver: RampHold,
+    driver: RampHold | RampVehicle,
     oil_temperature: float,
     h: float,
     length: int,
@@ -225,7 +229,7 @@ def _march(
                         name, f"{sentence} First at t = {max(0.0, driver.time):.3g} s."
                     )
         row = values[i]
-        torques = held(h, float(row[0]), float(row[1]), 0.0, float(row[2]))
+        torques = held(h, *row[:_SHAFTS].tolist())
         step(h, *torques, oil_temperature)
     motion = values[:, : len(MOTION)]
     both = values[:, len(MOTION) :]

@@ -26,8 +26,8 @@ _DPI = 130
 _LIMITS = (
     "The axle has 8 degrees of freedom; housing and shafts do not bend. Forces are those of the "
     "bearings on the shafts; noise of the housing is not in them.",
-    "The torque on the pinion is smooth: engine orders are drawn in the Campbell diagram, they do "
-    "not act.",
+    "On the bench the torque on the pinion is smooth; with `--engine-orders` those of the engine "
+    "act, in one gear.",
     "Natural frequencies are undamped, at the mean mesh stiffness, along the ramp's torque.",
     "Teeth are all alike unless the mesh table has errors of single teeth, so between the mesh "
     "orders there is no noise floor as in a measurement.",
@@ -58,7 +58,10 @@ def write_runup_report(
     """
     folder = Path(folder)
     drawn = {
-        _name(dataset, one.name): one.draw(dataset) for dataset in datasets for one in CATALOGUE
+        _name(dataset, one.name): one.draw(dataset)
+        for dataset in datasets
+        for one in CATALOGUE
+        if one.needs in dataset.variables
     }
     save_figure_folder(drawn, folder / "figures")
     return write_report(runup_report(datasets, drawn, command_line), folder)
@@ -120,6 +123,8 @@ def _figures(dataset: xr.Dataset, drawn: dict[str, Any], before: str) -> list[Fi
     found = []
     for one in CATALOGUE:
         name = _name(dataset, one.name)
+        if name not in drawn:
+            continue
         chart = None if one.chart is None else one.chart(dataset)
         found.append(
             Figure(
@@ -188,7 +193,8 @@ def tables(dataset: xr.Dataset, before: str = "") -> list[Table]:
 
 
 def _settings(dataset: xr.Dataset, before: str) -> list[Input]:
-    found = []
+    driver = str(dataset.attrs.get("setting_driver", "bench"))
+    found = [Input(f"{before or 'ramp: '}driver", driver, "", GIVEN, "setting")]
     for name, words, unit, converted in _INPUTS:
         value = float(dataset.attrs[f"setting_{name}"])
         label = f"{before or 'ramp: '}{words}"

@@ -5,21 +5,25 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import sys
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.ramp_vehicle import gear_for_ramp
 from drivetrain.speed_ramp import SpeedRamp
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_finite, check_within
+from gearlube_core.checks import check_finite, check_option, check_within
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin, rads_to_rpm
 
+BENCH, VEHICLE = "bench", "vehicle"
+DRIVERS = (BENCH, VEHICLE)
 SPEEDS = (5.0, 2000.0)  # of the pinion [rad/s]
 LONGEST = 600.0  # s
 LARGEST_CHANGE = 0.25  # of the speed within a block of revolutions
@@ -43,6 +47,9 @@ class RunupSettings:
     pinion_torque : float, optional
         Constant torque on the pinion from outside [N m]; below 0 the wheels drive. None: what the
         car needs for its road load and for its acceleration in the ramp.
+    driver : str
+        "bench": smooth torque on the pinion, the wheel holds the ramp; "vehicle": engine with its
+        orders, driveline and tyres in one gear, with the torque that the car needs.
     oil_temperature : float
         [K]
     order_resolution : float
@@ -77,6 +84,7 @@ class RunupSettings:
     end_speed: float
     duration: float
     pinion_torque: float | None = None
+    driver: str = "bench"
     oil_temperature: float = celsius_to_kelvin(80.0)
     order_resolution: float = 0.25
     highest_frequency: float = 4000.0
@@ -99,8 +107,16 @@ class RunupSettings:
         )
         check_within("settling_time", self.settling_time, 0.0, 60.0, "s")
         self.car_axle.axle.oil.check_temperature(self.oil_temperature, "oil_temperature")
+        check_option("driver", self.driver, DRIVERS)
         if self.pinion_torque is not None:
             check_finite("pinion_torque", self.pinion_torque, "N m")
+            if self.driver == VEHICLE:
+                raise ParameterError(
+                    "pinion_torque must be left out with the driver 'vehicle', whose engine gives "
+                    f"it, got {self.pinion_torque:g} N m. Leave it out, or take 'bench'."
+                )
+        if self.driver == VEHICLE:
+            gear_for_ramp(self.car_axle.driveline, self.ramp)
         self._check_rate()
         self._check_torque()
 
@@ -212,6 +228,7 @@ class RunupSettings:
             "end_speed": self.end_speed,
             "duration": self.duration,
             "pinion_torque": math.nan if self.pinion_torque is None else self.pinion_torque,
+            "driver": self.driver,
             "oil_temperature": self.oil_temperature,
             "order_resolution": 1.0 / self.revolutions,
             "highest_frequency": self.highest_frequency,
@@ -221,7 +238,9 @@ class RunupSettings:
 
     def key(self) -> str:
         """Return a hash of everything that the record depends on."""
-        everything = json.dumps([self.as_dict(), repr(self.car_axle.axle), __version__])
+        with np.printoptions(threshold=sys.maxsize):
+            axle, car = repr(self.car_axle.axle), repr(self.car_axle.driveline)
+        everything = json.dumps([self.as_dict(), axle, car, __version__])
         return hashlib.sha256(everything.encode()).hexdigest()[:20]
 
 

@@ -18,6 +18,7 @@ NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
 _FULL_FILM, _MIXED = 3.0, 1.0  # film ratios between full film, mixed and mostly dry contact
 _CLOSED = 1e-3  # of the input, below which the energy balance is called closed
 _NAMED = 3  # crossings and losses that are told one by one
+_LEAST_SHARE = 0.005  # of the loss, of a source that is told
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -67,9 +68,10 @@ def _whine(dataset: xr.Dataset) -> list[Finding]:
     detail = f"The others: {words}." if words else ""
     if near is not None:
         off = top.frequency / near[1] - 1.0
+        side = "above" if off > 0.0 else "below"
         detail += (
-            f" It lies {100.0 * abs(off):.0f} % {'above' if off > 0.0 else 'below'} the nearest "
-            f"natural frequency, '{near[0]}' at {near[1]:.0f} Hz."
+            f" The peak lies {100.0 * abs(off):.0f} % {side} the nearest natural frequency, "
+            f"'{near[0]}' at {near[1]:.0f} Hz."
         )
         if abs(off) < NEAR:
             detail += " So the peak is a resonance, or close to one."
@@ -117,7 +119,7 @@ def _resonance(dataset: xr.Dataset) -> list[Finding]:
     if not all_of_them:
         return []
     low, high = (float(dataset["speed_kmh"].values[i]) for i in (0, -1))
-    span = f"between {low:g} and {high:g} km/h"
+    span = f"between {low:g} and {high:g} km/h" if high > low else f"at {low:g} km/h"
     first = [one for one in all_of_them if one.preload == all_of_them[0].preload]
     inside = [one for one in first if one.margin == 0.0]
     if not inside:
@@ -190,7 +192,9 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
     order = np.argsort(loss)[::-1]
     names = [source_words(str(one)) for one in dataset["source"].values]
     parts = ", ".join(
-        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %" for i in order[:_NAMED] if loss[i] > 0.0
+        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %"
+        for i in order[:_NAMED]
+        if loss[i] > _LEAST_SHARE * loss.sum()
     )
     efficiency = dataset["efficiency_axle"]
     losing = {
@@ -204,7 +208,7 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
             f"The largest loss is {quantity_text(float(total.values[row, column]), 'W')} at "
             f"{float(point['speed_kmh']):g} km/h and preload {float(point['preload']):g} N: "
             f"{parts}.",
-            f"The efficiency of the axle lies between {100.0 * _least(efficiency):.1f} and "
+            f"The efficiency of the axle is {100.0 * _least(efficiency):.1f} to "
             f"{100.0 * _most(efficiency):.1f} %. Not modelled: "
             f"{', '.join(not_modelled(losing))}.",
         )

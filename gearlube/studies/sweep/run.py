@@ -23,6 +23,7 @@ from gearlube.studies.sweep.axle_in_fmu import (
 )
 from gearlube.studies.sweep.compile_axle import compile_axle
 from gearlube.studies.sweep.datasets import merge, save
+from gearlube.studies.sweep.engine_lines import crank_frequencies
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.provenance import code_version
@@ -183,6 +184,9 @@ def run_sweep(
     )
     if mode_frequency is not None:
         sweep["mode_frequency"] = mode_frequency
+    if settings.driver == "vehicle":
+        crank = crank_frequencies(car_axle.driveline, speeds)
+        sweep["crank_frequency"] = ("speed", crank)
     described(sweep)
     if folder is not None:
         save(sweep, folder)

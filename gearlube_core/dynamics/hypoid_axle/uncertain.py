@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS
@@ -15,6 +17,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin
 
 MOST_DRAWS = 10_000
+UPPER_END = 2.0  # standard deviations of one input alone
 _REFERENCE = celsius_to_kelvin(40.0), celsius_to_kelvin(100.0)
 
 
@@ -159,6 +162,16 @@ def uncertain_of(
         factor, why = own.get(one.name, (None, ""))
         found.append(one if factor is None else replace(one, factor=factor, why=why))
     return tuple(found)
+
+
+def log_slope(upper: Array, lower: Array) -> Array:
+    """Return d ln(loss) by the standard normal of an input, from the losses at +-UPPER_END.
+
+    0 where a loss is not above 0.
+    """
+    both = (upper > 0.0) & (lower > 0.0)
+    ratio = np.divide(upper, lower, out=np.ones_like(upper), where=both)
+    return np.asarray(np.log(ratio) / (2.0 * UPPER_END))
 
 
 def changed_axle(

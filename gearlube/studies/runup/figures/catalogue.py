@@ -12,6 +12,7 @@ from gearlube.studies.runup.figures.campbell import campbell
 from gearlube.studies.runup.figures.charts import map_chart, track_chart
 from gearlube.studies.runup.figures.maps import frequency_map, order_map
 from gearlube.studies.runup.figures.overview import overview
+from gearlube.studies.runup.figures.rollers import roller_loads
 from gearlube.studies.runup.figures.shapes import mode_shapes, operating_shape
 from gearlube.studies.runup.figures.spectra import bearing_spectra
 from gearlube.studies.runup.figures.tracks import bearing_tracks, order_tracks
@@ -31,6 +32,7 @@ class Entry:
     caption: str
     draw: Callable[[xr.Dataset], Any]
     chart: Callable[[xr.Dataset], Any] | None = None  # of plotly, for the report
+    needs: str = "time"  # drawn where the dataset has this variable
 
 
 CATALOGUE = (
@@ -96,6 +98,15 @@ CATALOGUE = (
         caption="Order spectra at three speeds of the ramp. Mesh orders above. Lines "
         "between them would come from errors of single teeth, from rollers or from the engine.",
         draw=bearing_spectra,
+    ),
+    Entry(
+        name="roller_loads",
+        title="Loads of the rollers",
+        caption="Load of every roller where the bearing forces are largest, as bars outwards from "
+        "a ring; black marks: the largest of each over one turn of the pinion. Each bearing has "
+        "its own scale. A roller without a bar carries nothing. `--animate` shows the turn.",
+        draw=roller_loads,
+        needs="roller_load",
     ),
     Entry(
         name="overview",

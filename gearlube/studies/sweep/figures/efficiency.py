@@ -69,6 +69,10 @@ def _efficiencies(ax: Any, dataset: xr.Dataset) -> None:
             ls=(0, (5, 2)),
             **look,
         )
+        if "efficiency_axle_low" in dataset:
+            low, high = (100.0 * dataset[f"efficiency_axle_{one}"][row] for one in ("low", "high"))
+            words = "95 % of the draws of uncertain data" if row == 0 else None
+            ax.fill_between(speed, low, high, color=look["color"], alpha=0.15, lw=0.0, label=words)
     ax.set_ylabel("efficiency [%]")
     ax.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0), handlelength=2.6)
 
