@@ -21,7 +21,7 @@ def file_inputs(file: HypoidGearFile | HelicalGearFile) -> list[Input]:
     >>> from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
     >>> found = file_inputs(HypoidGearFile.named("mohammadpour_2015"))
     >>> found[0].name, found[0].value, found[0].unit
-    ('pair.shaft_angle_deg', '90', '°')
+    ('pair.offset_mm', '24', 'mm')
     """
     found = []
     for field, value in _numbers(file.model_dump(exclude_none=True)):

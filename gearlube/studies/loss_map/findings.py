@@ -258,8 +258,8 @@ def _ranges(dataset: xr.Dataset) -> list[Finding]:
 
 
 def _least(values: xr.DataArray | Array) -> float:
-    return float(np.nanmin(np.asarray(values)))
+    return float(np.fmin.reduce(np.asarray(values), axis=None))  # without nan
 
 
 def _most(values: xr.DataArray | Array) -> float:
-    return float(np.nanmax(np.asarray(values)))
+    return float(np.fmax.reduce(np.asarray(values), axis=None))

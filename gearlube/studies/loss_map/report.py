@@ -107,7 +107,7 @@ def contour_chart(dataset: xr.Dataset, name: str, colour: Axis, factor: float = 
     values = factor * dataset[name]
     degrees = some_temperatures(dataset)
     chart = panels([f"oil {t:g} °C" for t in degrees], SPEED, [TORQUE] * len(degrees), height=330)
-    limits = float(np.nanmin(values.values)), float(np.nanmax(values.values))
+    low, high = (float(pick.reduce(values.values, axis=None)) for pick in (np.fmin, np.fmax))
     for row, degree in enumerate(degrees, 1):
         one = values.sel(temperature=degree).transpose("torque", "speed")
         add_map(
@@ -116,7 +116,7 @@ def contour_chart(dataset: xr.Dataset, name: str, colour: Axis, factor: float = 
             one["torque"].values,
             one.values,
             (SPEED, TORQUE, colour),
-            limits=limits,
+            limits=(low, high),
             contours=True,
             bar=row == 1,
             row=row,
