@@ -8,6 +8,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -53,9 +54,10 @@ def main() -> None:
     )
     timed("map with steady temperatures", lambda: run_loss_map(cooled))
     timed("grid of heavy-duty axle tests, 259 points", lambda: regulation_map(plain))
-    cold = DriveCycleSettings(car=car, cycle=DriveCycle.named("nedc"))
+    cold = DriveCycleSettings(car=car, cycle=DriveCycle.named("nedc"), draws=0)
     timed("NEDC from 23 degC", lambda: run_cycle(cold))
-    finer = DriveCycleSettings(car=car, cycle=DriveCycle.named("nedc"), grid=cold.grid.finer)
+    timed("NEDC with error bars", lambda: run_cycle(replace(cold, draws=60)))
+    finer = replace(cold, grid=cold.grid.finer)
     timed("NEDC with a map twice as fine", lambda: run_cycle(finer))
 
 

@@ -125,9 +125,13 @@ TAIL = """
    print(*tooth_form(file, "pinion").report(), sep="\\n")
    ```
 
-5. Take it elsewhere: `write_flank_csv` (points, normals, curvatures), and `write_solid` with
-   `tooth_solid` or `gear_solid` for STL and GLB (`gearlube_core/hypoid_geometry/flank/export.py`).
-   These are the flanks as cut: reliefs and crowns are left out.
+5. Take it elsewhere: `gearlube contact my_gear.toml --export` writes the flanks as points (CSV) and
+   as exact surfaces (STEP), teeth and gears as triangles (STL, GLB). In Python: `write_flank_csv`
+   and `write_solid` in `gearlube_core/hypoid_geometry/flank/export.py`, `write_step` in
+   `step_file.py`. These are the flanks as cut: reliefs and crowns are left out. A STEP file has
+   both flanks of one tooth as bicubic B-splines, within 0.01 um of the flank, from where the flank
+   is sound over the whole face up to the tip. Bodies are not in it: roots and blanks belong to the
+   CAD model, and a library that could build them (Open CASCADE) takes 380 MB.
 
 ## Relieve the edges
 

@@ -64,7 +64,14 @@ the highest W^2 of all torques and errors least.
 | `pressure` | highest pressure of all phases and errors |
 | `loss` | sliding power of the normal forces over the pinion's power, mean over phases and errors |
 | `sensitivity` | how far errors move the mesh orders, complex numbers; root mean square |
+| `force_swing` | mesh orders of the normal force over its mean, rms over errors; of hypoid pairs |
 | `edge_share` | largest part of the load in a border along tip, toe and heel of either flank |
+
+`force_swing` needs a word. The arm of the mesh force about the pinion's axis swings with the mesh.
+At constant torque so does the force, and bearings feel it though the transmission error does not
+show it. A hypoid pair with less error and no such limit can shake its bearings more than before, at
+low speeds above all; [optimise.md](optimise.md) has an example. A helical pair's force keeps its
+arm.
 
 All but `edge_share` are relative to the pair as it is. The loss is that at one coefficient of
 friction: oil and film are not in it. The root of a flank has no border; of a helical pair both ends

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("gearlube_core", "drivetrain", "gearlube", "fmu_src")
-_KEY = r"[a-z]+(?:_[a-z]+)*_(?:1[5-9]|20)\d\d|(?:iso|astm)_[a-z0-9_]*\d"
+_KEY = r"[a-z]+(?:_[a-z]+)*_(?:1[5-9]|20)\d\d|(?:iso|astm|iec|ecma)_[a-z0-9_]*\d"
 _TAG = re.compile(rf"\[({_KEY})(?: ([^\]\n]+))?\]")
 _ENTRY = re.compile(r"^@\w+\{(\w+),", re.MULTILINE)
 _DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)

@@ -1,13 +1,17 @@
-"""A four-cylinder four-stroke engine with its torque orders, and the gearbox behind it."""
+"""What drives the propshaft: engine or electric motor with its torque orders, and a gearbox."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal, get_args
 
-from gearlube_core.checks import check_finite, check_positive, check_within
+from gearlube_core.checks import check_finite, check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import rads_to_rpm, rpm_to_rads
+
+EngineKind = Literal["combustion", "electric_motor"]
+LARGEST_ORDER = 24  # 6 periods for each of four pole pairs
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,7 +33,8 @@ class TorqueOrder:
     phase: float
 
     def __post_init__(self) -> None:
-        check_within("order", self.order, 1, 24, "", "Orders are counted per crank revolution.")
+        cure = "Orders are counted per revolution."
+        check_within("order", self.order, 1, LARGEST_ORDER, "", cure)
         check_within("amplitude", self.amplitude, 0.0, 10.0, "", "It is relative to the mean.")
         check_finite("phase", self.phase, "rad")
 
@@ -47,7 +52,7 @@ IDEAL_OTTO_ORDERS = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Engine:
-    """Engine with a dual-mass flywheel.
+    """Engine with a dual-mass flywheel, or electric motor with its shaft.
 
     T(theta) = T_mean [1 + sum a_k cos(k theta + phase_k)]
 
@@ -65,6 +70,8 @@ class Engine:
         The same, viscous [N m s/rad].
     idle_speed_rpm, highest_speed_rpm : float
         Range of crank speed [1/min].
+    kind : {"combustion", "electric_motor"}
+        Of an electric motor the crank is the rotor, and the flywheel its shaft up to the gearbox.
 
     Notes
     -----
@@ -80,8 +87,28 @@ class Engine:
     flywheel_damping: float = 0.85
     idle_speed_rpm: float = 800.0
     highest_speed_rpm: float = 6000.0
+    kind: EngineKind = "combustion"
+
+    @classmethod
+    def electric_motor(cls) -> Engine:
+        """Return a smooth electric motor; its numbers are assumed, no source gives them.
+
+        A steel rotor of 150 mm, 130 mm long, with a hole of 80 mm; a shaft of 30 mm, 150 mm long;
+        damping of 2 % in its mode. It runs from standstill to 16,000 rpm.
+        """
+        return cls(
+            orders=(),
+            primary_inertia=0.05,
+            secondary_inertia=0.01,
+            flywheel_stiffness=42e3,
+            flywheel_damping=0.75,
+            idle_speed_rpm=1.0,
+            highest_speed_rpm=16000.0,
+            kind="electric_motor",
+        )
 
     def __post_init__(self) -> None:
+        check_option("kind", self.kind, get_args(EngineKind))
         check_positive("primary_inertia", self.primary_inertia, "kg m2")
         check_positive("secondary_inertia", self.secondary_inertia, "kg m2")
         check_positive("flywheel_stiffness", self.flywheel_stiffness, "N m/rad")
@@ -97,7 +124,7 @@ class Engine:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gearbox:
-    """Manual gearbox and the rule for choosing a gear.
+    """Gearbox and the rule for choosing a gear.
 
     Parameters
     ----------

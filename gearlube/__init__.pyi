@@ -43,6 +43,8 @@ from gearlube_core.oil.film_oil_data import film_oil_of as film_oil_of
 # -- Gear files and mesh tables
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile as HypoidGearFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile as HelicalGearFile
+from gearlube_core.rexs.exchange import read_rexs as read_rexs
+from gearlube_core.rexs.exchange import write_rexs as write_rexs
 from gearlube_core.mesh_table.table import MeshTable as MeshTable
 from gearlube_core.mesh_table.netcdf import read_mesh_table as read_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table as shipped_mesh_table
@@ -126,6 +128,11 @@ from gearlube_core.hypoid_contact.sensitivity.analysis import (
 from gearlube.studies.contact.sensitivity import run_sensitivity as run_sensitivity
 from gearlube.studies.contact.sensitivity import sensitivity_rows as sensitivity_rows
 
+# -- Study: whine of a hypoid pair against its settings
+from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings as SeriesSettings
+from gearlube.studies.whine.run import WhineSettings as WhineSettings
+from gearlube.studies.whine.run import run_whine as run_whine
+
 # -- Study: friction of a bearing
 from gearlube_core.bearings.bearing_file import BearingFile as BearingFile
 from gearlube_core.bearings.losses.geometry import BearingGeometry as BearingGeometry
@@ -176,6 +183,13 @@ from gearlube.studies.sweep.settings import quick_sweep_settings as quick_sweep_
 from gearlube.studies.sweep.run import run_sweep as run_sweep
 from gearlube.studies.sweep.datasets import load_sweep as load_sweep
 from gearlube.studies.sweep.report import write_sweep_report as write_sweep_report
+
+# -- Study: run-up and coast-down
+from gearlube.studies.runup.settings import RunupSettings as RunupSettings
+from gearlube.studies.runup.run import run_runup as run_runup
+from gearlube.studies.runup.run import load_runup as load_runup
+from gearlube.studies.sound.settings import SoundSettings as SoundSettings
+from gearlube.studies.sound.run import run_sound as run_sound
 
 # -- Variation of any parameter
 from gearlube.variation.studies import point_study as point_study

@@ -22,6 +22,11 @@ COMMANDS = (
         command_class="SweepCommand",
     ),
     LazyCommand(
+        name="runup",
+        target="gearlube.studies.runup.command:runup",
+        summary="Run the axle up or down in a speed ramp: waterfall, order tracks.",
+    ),
+    LazyCommand(
         name="build-fmu",
         target="gearlube.cli.build_fmu:build_fmu",
         summary="Build the FMUs of axle, helical pair and car, for any platform.",
@@ -54,6 +59,11 @@ COMMANDS = (
         command_class="VaryCommand",
     ),
     LazyCommand(
+        name="compare",
+        target="gearlube.cli.compare:compare",
+        summary="Compare two runs of one study: numbers, curves, inputs.",
+    ),
+    LazyCommand(
         name="design",
         target="gearlube.studies.design.command:design",
         summary="Design a hypoid or bevel pair: from a blank to machine settings.",
@@ -75,9 +85,26 @@ COMMANDS = (
         command_class="ContactCommand",
     ),
     LazyCommand(
+        name="whine",
+        target="gearlube.studies.whine.command:whine",
+        summary="Whine orders of a hypoid pair against its settings.",
+        command_class="WhineCommand",
+    ),
+    LazyCommand(
+        name="convert",
+        target="gearlube.cli.convert:convert",
+        summary="Convert a gear pair between REXS and gear files.",
+        command_class="ConvertCommand",
+    ),
+    LazyCommand(
         name="resonance",
         target="gearlube.studies.resonance.command:resonance",
         summary="Follow the resonance of the torsional hypoid pair.",
+    ),
+    LazyCommand(
+        name="sound",
+        target="gearlube.studies.sound.command:sound",
+        summary="Make a run-up audible: WAV, loudness, which order one hears.",
     ),
     LazyCommand(
         name="helical",

@@ -24,6 +24,11 @@ from gearlube_core.storage.atomic_file import write_text
 ROOT = Path(__file__).resolve().parents[2]
 IMAGES = ROOT / "docs" / "images"
 NUMBERS = Path(__file__).parent / "numbers.csv"
+_DRAWN = (
+    ("lost in all", "energy_lost", 1.0, "kJ"),
+    ("efficiency", "efficiency", 100.0, "%"),
+    ("oil at the end", "end_temperature", 1.0, "degC"),
+)
 VAN = ROOT / "examples" / "my_axle.toml"
 
 
@@ -43,6 +48,11 @@ def _rows(name: str, car: CarAxle, cycle: str) -> list[tuple[str, str, str, str,
         ("lost in all", float(energy.sum()), "kJ"),
         ("put in", float(found["energy_in"]), "kJ"),
         ("efficiency", 100.0 * float(found["efficiency"]), "%"),
+        *(
+            (f"{words}, {end} of 95 % of draws", scale * float(found[f"{name}_{end}"]), unit)
+            for words, name, scale, unit in _DRAWN
+            for end in ("low", "high")
+        ),
         ("oil at the end", float(oil[-1]), "degC"),
         ("lowest oil at the end, assumed data", float(found["oil_temperature_low"][-1]), "degC"),
         ("highest oil at the end, assumed data", float(found["oil_temperature_high"][-1]), "degC"),

@@ -1,6 +1,6 @@
 """Losses of the shipped axles against published ranges: python -m docs.loss_map.claims.
 
-Half a minute. Writes docs/loss_map/claims.csv and the table of docs/loss_map.md between its marks.
+A minute. Writes docs/loss_map/claims.csv and the table of docs/loss_map.md between its marks.
 Over cycles it takes the numbers of docs/drive_cycle.
 """
 
@@ -17,6 +17,7 @@ from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.output.csv_text import csv_text
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.storage.atomic_file import write_text
 from gearlube_core.units import celsius_to_kelvin, kmh_to_ms
@@ -27,6 +28,13 @@ CYCLES = ROOT / "docs" / "drive_cycle" / "numbers.csv"
 BEGIN, END = "<!-- claims: python -m docs.loss_map.claims -->\n", "<!-- end of claims -->\n"
 BEGIN_MIXED = "<!-- mixed friction: python -m docs.loss_map.claims -->\n"
 END_MIXED = "<!-- end of mixed friction -->\n"
+BEGIN_OTHER = "<!-- other laws: python -m docs.loss_map.claims -->\n"
+END_OTHER = "<!-- end of other laws -->\n"
+_OTHER = (
+    "efficiency at 100 km/h, 15 kW, 40 °C [%]",
+    "least of the map, 40 to 100 °C [%]",
+    "bearings, of the loss at 3.5 kW [%]",
+)
 SHARE = "zhou_hoeprich_1991"  # of `friction`
 _MIXED_DEGC = (40.0, 60.0, 80.0, 100.0, 120.0)
 HEAD = ("claim", "source", "paper's axle", "van", "verdict")
@@ -272,6 +280,25 @@ def _between(page: str, begin: str, end: str, table: str) -> str:
     return before + begin + table + end + rest.split(end)[1]
 
 
+def other_laws(cars: list[CarAxle]) -> list[tuple[str, ...]]:
+    """Return rows for what the claims that do not hold are by each law of bearing drag."""
+    rows = []
+    for law in TORQUE_LOSSES[1:]:
+        for friction in ("consistent", SHARE) if law == "palmgren" else ("consistent",):
+            cells = []
+            for car in cars:
+                made = replace(
+                    car, axle=replace(car.axle, bearing_torque_loss=law, friction=friction)
+                )
+                cold, light = cruise(made, 100.0, 15e3, 40.0), cruise(made, 50.0, 3.5e3, 40.0)
+                share_of = 100.0 * light["bearing_torque"] / sum(light.values())
+                least = min(share(made, np.min, one) for one in (40.0, 70.0, 100.0))
+                cells.append((100.0 - sum(cold.values()), least, share_of))
+            shown = [f"{a:.1f}, {b:.1f}" for a, b in zip(*cells, strict=True)]
+            rows.append((law, friction, *shown))
+    return rows
+
+
 def main() -> None:
     """Compute all claims; write the table and the page."""
     cars = [read_axle("mohammadpour_2015"), read_axle(ROOT / "examples" / "my_axle.toml")]
@@ -280,6 +307,8 @@ def main() -> None:
     page = _between(PAGE.read_text(encoding="utf-8"), BEGIN, END, _table(HEAD, rows))
     head = ("axle", "at the pinion", "`friction`", *(f"{one:g} °C" for one in _MIXED_DEGC))
     page = _between(page, BEGIN_MIXED, END_MIXED, _table(head, mixed(cars)))
+    head = ("bearing drag", "`friction`", *_OTHER)
+    page = _between(page, BEGIN_OTHER, END_OTHER, _table(head, other_laws(cars)))
     write_text(page, PAGE)
 
 

@@ -11,14 +11,9 @@ from pydantic import Field, model_validator
 
 from drivetrain.axle_file.axle_sections import GearSet, ModelOptions, Steel
 from drivetrain.axle_file.bearing_section import BearingSection
-from drivetrain.axle_file.car_sections import (
-    DrivelineSection,
-    EngineSection,
-    GearboxSection,
-    TyreSection,
-    VehicleSection,
-)
+from drivetrain.axle_file.car_sections import DrivelineSection, TyreSection, VehicleSection
 from drivetrain.axle_file.drag_sections import Housing, Seals
+from drivetrain.axle_file.engine_section import EngineSection, GearboxSection
 from drivetrain.axle_file.member_section import Member
 from drivetrain.axle_file.oil_section import OilSection
 from drivetrain.driveline.parameters import DrivelineParameters
@@ -252,8 +247,9 @@ class AxleFile(InputFile):
             tyre=self.tyre.tyre(),
             final_drive=FinalDrive(pinion_teeth=mesh.pinion_teeth, gear_teeth=mesh.gear_teeth),
         )
+        engine = self.engine.engine()
         base = DrivelineParameters(
-            road_load=road, engine=self.engine.engine(), gearbox=self.gearbox.gearbox()
+            road_load=road, engine=engine, gearbox=self.gearbox.gearbox(engine.kind)
         )
         return replace(base, **self.driveline.changes(base))
 

@@ -9,7 +9,9 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
+from drivetrain.axle_file.field_units import field_value
 from drivetrain.axle_file.model_section import ModelSection
+from gearlube_core.bearings.losses.rib import RIB_HEIGHT
 from gearlube_core.bearings.roller_stiffness import palmgren_roller_stiffness
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.errors import ParameterError
@@ -222,4 +224,9 @@ class BearingSection(ModelSection):
 
     def bearing_notes(self, prefix: str, made: object, why: str) -> list[InputNote]:
         """Return a note on every field; `made` is what `bearing` returned."""
-        return self.notes(prefix, made, why, self._changes()[1])
+        notes = self.notes(prefix, made, why, self._changes()[1])
+        if not self.has("rib_height_mm"):
+            assumed = field_value("rib_height_mm", RIB_HEIGHT * self.bearing().roller_diameter)
+            why = f"{RIB_HEIGHT:g} roller diameters; no source"
+            notes.append(InputNote(f"{prefix}rib_height_mm", assumed, "mm", "assumed", why))
+        return notes

@@ -1,4 +1,4 @@
-"""The sections of the axle file on the car: vehicle, tyre, engine, gearbox, driveline."""
+"""The sections of the axle file on the car: vehicle, tyre, driveline."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
-from drivetrain.axle_file.field_units import field_value, si_value
 from drivetrain.axle_file.model_section import ModelSection
-from drivetrain.engine import Engine, Gearbox, TorqueOrder
 from drivetrain.tyre import CIRCUMFERENCE_FACTOR, Tyre
 from drivetrain.vehicle import Vehicle, mohammadpour_2015_vehicle
 from gearlube_core.errors import ParameterError
@@ -25,27 +23,19 @@ AirDensity = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False)]
 Grade = Annotated[float, Field(ge=-0.5, le=0.5, allow_inf_nan=False)]
 Gravity = Annotated[float, Field(ge=1.0, le=30.0, allow_inf_nan=False)]
 Radius = Annotated[float, Field(ge=100.0, le=1000.0, allow_inf_nan=False)]
-Ratio = Annotated[float, Field(ge=0.3, le=20.0, allow_inf_nan=False)]
-Ratios = Annotated[tuple[Ratio, ...], Field(strict=False, min_length=1)]
-Speed = Annotated[float, Field(gt=0.0, le=2e4, allow_inf_nan=False)]
 Inertia = Annotated[float, Field(ge=1e-4, le=100.0, allow_inf_nan=False)]
 Stiffness = Annotated[float, Field(ge=1.0, le=1e8, allow_inf_nan=False)]
 Damping = Annotated[float, Field(ge=0.0, le=1e4, allow_inf_nan=False)]
 SlipStiffness = Annotated[float, Field(ge=1e3, le=1e8, allow_inf_nan=False)]
 Relaxation = Annotated[float, Field(ge=10.0, le=5000.0, allow_inf_nan=False)]
 Bandwidth = Annotated[float, Field(ge=0.0, le=0.5, allow_inf_nan=False)]
-Orders = Annotated[tuple[Annotated[int, Field(ge=1, le=24)], ...], Field(strict=False)]
-Amplitude = Annotated[float, Field(ge=0.0, le=10.0, allow_inf_nan=False)]
-Amplitudes = Annotated[tuple[Amplitude, ...], Field(strict=False)]
-Phase = Annotated[float, Field(ge=-360.0, le=360.0, allow_inf_nan=False)]
-Phases = Annotated[tuple[Phase, ...], Field(strict=False)]
 
 TYRE_SIZE = "195/65R16"  # [mohammadpour_2015 Table A3]
 _PAPER = "Mohammadpour et al. 2015, Table A3"
-_CAR = "size found in passenger cars; no source"
 
 
-def _or_problem(build: Any) -> list[str]:
+def or_problem(build: Any) -> list[str]:
+    """Return why a model cannot be built, nothing where it can."""
     try:
         build()
     except ParameterError as reason:
@@ -77,7 +67,7 @@ class VehicleSection(ModelSection):
             raise ValueError(
                 "drag_area_m2 and frontal_area_m2 with drag_coefficient say the same; give one"
             )
-        if problems := _or_problem(self.vehicle):
+        if problems := or_problem(self.vehicle):
             raise ValueError(problems[0])
         return self
 
@@ -117,7 +107,7 @@ class TyreSection(ModelSection):
     def _check_tyre(self) -> TyreSection:
         if self.has("size") and (self.has("rolling_radius_mm") or self.has("unladen_radius_mm")):
             raise ValueError("size and the radii say the same; give one")
-        if problems := _or_problem(self.tyre):
+        if problems := or_problem(self.tyre):
             raise ValueError(problems[0])
         return self
 
@@ -144,102 +134,6 @@ class TyreSection(ModelSection):
         if not radii and not self.has("size"):
             notes.insert(0, InputNote(f"{prefix}size", TYRE_SIZE, "", "assumed", _PAPER))
         return notes
-
-
-class GearboxSection(ModelSection):
-    """The gearbox between engine and propshaft."""
-
-    ratios: Ratios | None = Field(
-        default=None, description="Input speed over output speed, first gear first, falling"
-    )
-    lowest_cruising_speed_rpm: Speed | None = Field(
-        default=None, description="The highest gear that keeps the engine above this speed is used"
-    )
-
-    @model_validator(mode="after")
-    def _check_gearbox(self) -> GearboxSection:
-        if problems := _or_problem(self.gearbox):
-            raise ValueError(problems[0].removeprefix("In SI units: "))
-        return self
-
-    def gearbox(self) -> Gearbox:
-        """Return the gearbox."""
-        return replace(Gearbox(), **self.changes(Gearbox()))
-
-    def gearbox_notes(self, prefix: str, made: Gearbox) -> list[InputNote]:
-        """Return a note on every field; `made` is what `gearbox` returned."""
-        return self.notes(prefix, made, _CAR)
-
-
-class EngineSection(ModelSection):
-    """The engine with its dual-mass flywheel."""
-
-    orders: Orders | None = Field(
-        default=None, description="Torque orders: periods per crank revolution; []: a smooth engine"
-    )
-    order_amplitudes: Amplitudes | None = Field(
-        default=None, description="Of the orders, over the mean torque"
-    )
-    order_phases_deg: Phases | None = Field(
-        default=None, description="Of the orders, at the firing dead centre of cylinder 1"
-    )
-    primary_inertia_kg_m2: Inertia | None = Field(
-        default=None, description="Crankshaft and primary flywheel mass"
-    )
-    secondary_inertia_kg_m2: Inertia | None = Field(
-        default=None, description="Secondary flywheel mass, clutch and gearbox input shaft"
-    )
-    flywheel_stiffness_n_m_per_rad: Stiffness | None = Field(
-        default=None, description="Arc springs of the flywheel"
-    )
-    flywheel_damping_n_m_s_per_rad: Damping | None = Field(
-        default=None, description="Of the same springs, viscous"
-    )
-    idle_speed_rpm: Speed | None = Field(default=None, description="Lowest speed of the crank")
-    highest_speed_rpm: Speed | None = Field(default=None, description="Highest speed of the crank")
-
-    @model_validator(mode="after")
-    def _check_engine(self) -> EngineSection:
-        lists = (self.orders, self.order_amplitudes, self.order_phases_deg)
-        if len({None if one is None else len(one) for one in lists}) > 1:
-            sizes = [0 if one is None else len(one) for one in lists]
-            raise ValueError(
-                "orders, order_amplitudes and order_phases_deg must have the same number of "
-                f"entries, got {sizes[0]}, {sizes[1]} and {sizes[2]}"
-            )
-        if problems := _or_problem(self.engine):
-            raise ValueError(problems[0])
-        return self
-
-    def engine(self) -> Engine:
-        """Return the engine."""
-        changes = self.changes(Engine())
-        if self.orders is not None:
-            phases = si_value("order_phases_deg", self.order_phases_deg)
-            parts = zip(self.orders, self.order_amplitudes or (), phases, strict=True)
-            changes["orders"] = tuple(
-                TorqueOrder(order=k, amplitude=a, phase=phase) for k, a, phase in parts
-            )
-        return replace(Engine(), **changes)
-
-    def engine_notes(self, prefix: str, made: Engine) -> list[InputNote]:
-        """Return a note on every field; `made` is what `engine` returned."""
-        notes = self.notes(prefix, made, _CAR)
-        if self.orders is not None:
-            return notes
-        lists = {
-            "orders": tuple(one.order for one in made.orders),
-            "order_amplitudes": tuple(one.amplitude for one in made.orders),
-            "order_phases_deg": tuple(
-                field_value("order_phases_deg", one.phase) for one in made.orders
-            ),
-        }
-        why = "four cylinders, ideal Otto cycle"
-        of_orders = [
-            InputNote(prefix + key, value, "deg" if key.endswith("deg") else "", "assumed", why)
-            for key, value in lists.items()
-        ]
-        return of_orders + [note for note in notes if note.field != f"{prefix}orders"]
 
 
 class DrivelineSection(ModelSection):

@@ -41,20 +41,28 @@ class Driveline:
         Requested vehicle speed [m/s].
     axle_power_loss : float
         Known power loss of the axle [W]; the speed controller finds the rest.
+    gear : int, optional
+        Counted from 1; by default the gearbox chooses it for the requested speed.
 
     Notes
     -----
-    The gear is chosen for the requested speed and does not change. The driveline starts in its
+    The gear does not change. The driveline starts in its
     periodic steady state, computed from the engine orders and a rigid axle.
     """
 
     def __init__(
-        self, parameters: DrivelineParameters, speed: float, axle_power_loss: float = 0.0
+        self,
+        parameters: DrivelineParameters,
+        speed: float,
+        axle_power_loss: float = 0.0,
+        gear: int | None = None,
     ) -> None:
         check_within("axle_power_loss", axle_power_loss, 0.0, 1e6, "W", "A loss is positive.")
         road = parameters.road_load
         self.parameters = parameters
-        self.gear = parameters.gearbox.gear_for(road.pinion_speed(speed), parameters.engine)
+        if gear is None:
+            gear = parameters.gearbox.gear_for(road.pinion_speed(speed), parameters.engine)
+        self.gear = int(check_within("gear", gear, 1, len(parameters.gearbox.ratios)))
         self.gear_ratio = parameters.gearbox.ratios[self.gear - 1]
         self.equations = driveline_equations(parameters, self.gear_ratio)
         self.steady = steady_state(parameters, self.gear_ratio, speed, axle_power_loss)
@@ -107,6 +115,11 @@ class Driveline:
     def request_speed(self, speed: float) -> None:
         """Set the target of the speed controller to `speed` [m/s], in the same gear."""
         self._inputs[0] = check_within("speed", speed, 0.0, 120.0, "m/s", "Speeds are forward.")
+
+    def request(self, speed: float, engine_torque: float) -> None:
+        """Set the target of the speed controller [m/s] and the mean engine torque there [N m]."""
+        self._inputs[0] = speed
+        self._inputs[1] = engine_torque
 
     def step(
         self,

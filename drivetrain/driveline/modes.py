@@ -71,15 +71,19 @@ def driveline_modes(
     eigenvalues, vectors = np.linalg.eig(jacobian)
     a, engine = parameters, parameters.engine
     axle = pinion_inertia + gear_inertia / a.axle_ratio**2
+    motor = engine.kind == "electric_motor"
     inertias = {
-        "crankshaft": (INDEX["crank_speed"] - 1, engine.primary_inertia),
+        "rotor" if motor else "crankshaft": (INDEX["crank_speed"] - 1, engine.primary_inertia),
         "gearbox": (INDEX["gearbox_speed"] - 1, a.gearbox_input_inertia(steady.gear_ratio)),
         "axle": (len(jacobian) - 1, axle),
         "wheels": (INDEX["hub_speed"] - 1, 2.0 * a.wheel_inertia),
         "vehicle": (INDEX["vehicle_speed"] - 1, a.translating_mass),
     }
     springs = {
-        "flywheel springs": (INDEX["flywheel_twist"] - 1, engine.flywheel_stiffness),
+        "motor shaft" if motor else "flywheel springs": (
+            INDEX["flywheel_twist"] - 1,
+            engine.flywheel_stiffness,
+        ),
         "propshaft": (INDEX["propshaft_twist"] - 1, a.propshaft_stiffness),
         "half-shafts": (INDEX["half_shaft_twist"] - 1, a.half_shaft_stiffness),
         "tyres": (INDEX["tyre_deflection"] - 1, a.tyre_stiffness),

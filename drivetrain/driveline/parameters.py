@@ -139,12 +139,22 @@ class DrivelineParameters:
         characteristic polynomial (s + w)^2.
         """
         w = 2.0 * math.pi * self.speed_control_frequency
-        per_metre = self.axle_ratio / self.rolling_radius
+        mass = self.moved_mass(gear_ratio)
+        total = gear_ratio * self.axle_ratio / self.rolling_radius
+        return 2.0 * w * mass / total, w**2 * mass / total
+
+    def moved_mass(self, gear_ratio: float) -> float:
+        """Return the mass that accelerates with the car, turning parts but the axle included [kg].
+
+        Parameters
+        ----------
+        gear_ratio : float
+            Crank speed over propshaft speed [-].
+        """
         crank = self.engine.primary_inertia + self.gearbox_input_inertia(gear_ratio)
-        total = gear_ratio * per_metre
-        mass = (
+        total = gear_ratio * (self.axle_ratio / self.rolling_radius)
+        return (
             self.translating_mass
             + 2.0 * self.wheel_inertia / self.rolling_radius**2
             + crank * total**2
         )
-        return 2.0 * w * mass / total, w**2 * mass / total

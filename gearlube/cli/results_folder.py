@@ -33,6 +33,9 @@ _RESULTS = frozenset(
         "geometry.nc",
         "bearing.nc",
         "map.nc",
+        "sound.nc",
+        "runup.nc",
+        "coastdown.nc",
         "drive_cycle.nc",
         "results.zarr",
     }

@@ -90,15 +90,17 @@ def vary(
 ) -> None:
     """Vary any parameter of an axle, bearing or gear pair in a study: a grid, or samples.
 
-    Writes results.zarr, points.csv, summary.csv, sensitivity.csv and figures. Finished blocks of
-    points are kept: run the same command again to go on after a stop.
+    Writes results.zarr, points.csv, summary.csv, sensitivity.csv, report.html and figures. Finished
+    blocks of points are kept: run the same command again to go on after a stop.
     """
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
+    from gearlube.cli.report_end import finish_with_report
     from gearlube.variation.design import Design
     from gearlube.variation.figures import save_variation_figures
     from gearlube.variation.file_variants import GEAR_FILE
+    from gearlube.variation.report import variation_report
     from gearlube.variation.run import MOST_BLOCK, MOST_JOBS, run_variation
     from gearlube.variation.studies import OF_AXLE, point_study, prepared
     from gearlube.variation.studies import scatter as scatter_of_study
@@ -151,14 +153,9 @@ def vary(
                 )
             results, summary = write_summary(out, limits)
             save_variation_figures(results, summary, out / "figures")
-        for name in limits:
-            share = summary["share_above"].sel(limited=name)
-            logger.info(
-                "%s is above %g at %.4g %% of the points.",
-                name, limits[name], 100.0 * float(share.mean()),
-            )  # fmt: skip
         logger.info("%d points computed in %.1f s.", done.computed, done.seconds)
         logger.info("Results: %s, %s, %s", done.store.path, out / "summary.csv", out / "figures")
+        finish_with_report(variation_report(results, summary), out, done.seconds)
         failures = int(summary["failed"].sum())
         exit_if_failed(f"{failures} points failed; points.csv says why." if failures else "")
 

@@ -68,6 +68,8 @@ def _shown(results: xr.Dataset) -> list[str]:
 
 def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
     """Return histograms of the shown quantities, up to six combinations of the axes in each."""
+    from matplotlib.ticker import MaxNLocator
+
     over = gridded(results)[_shown(results)].load()
     with house_style():
         figure, panels = _panels(results, len(_shown(results)))
@@ -89,6 +91,8 @@ def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
                         ax.axvline(end, color=SERIES[i], linestyle=":", linewidth=1.1)
             ax.set_xlabel(_about(results, name))
             ax.set_ylabel("points")
+            ax.xaxis.set_major_locator(MaxNLocator(4))
+            ax.yaxis.set_major_locator(MaxNLocator(6, integer=True))
         if panels[0].get_legend_handles_labels()[1]:
             panels[0].legend()
     return figure

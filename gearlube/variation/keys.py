@@ -48,8 +48,9 @@ def _short(key: Key) -> str:
     """Return a key without the ending that says its unit."""
     ending = field_unit(key.name)[1]
     if key.origin == "operand":
-        unit = key.unit.lower().replace(".", "_").replace("/", "_")
-        ending = f"_{unit}" if key.name.endswith(f"_{unit}") else ending
+        unit = key.unit.lower().replace(".", "_")
+        endings = f"_{unit.replace('/', '_')}", f"_{unit.replace('/', '')}"  # m_s, kmh
+        ending = next((one for one in endings if key.name.endswith(one)), ending)
     return key.name.removesuffix(ending) if key.origin != "fmu" else key.name
 
 

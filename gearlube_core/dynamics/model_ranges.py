@@ -29,7 +29,7 @@ def model_ranges(
     """
     described = (
         (
-            "torque of the mesh data, or carried by the teeth,",
+            "torque of the mesh data or carried by the teeth",
             torque,
             "N.m",
             f"The data of the end hold, up to {TORQUE_MARGIN:g} times its torque. {torque_cure}",

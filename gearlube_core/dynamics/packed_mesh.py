@@ -89,19 +89,7 @@ def pack_mesh(
     pressure : {"elliptical", "circular"}
         Mean pressure of a flank: that of Hertz' ellipse, or `circular_pressure_coefficient`.
     """
-    levels = table.torque.size
-    orders = table.orders
-    series = np.empty((levels, 2 * orders + 1, N_SERIES))
-    for column, key in enumerate(PACKED_SERIES):
-        series[:, :, column] = _flat(table.series[key])
-    if stiffness == "tangent":
-        series[:, :, K_M] = _flat(table.series["k_t"])
-        series[:, :, E] += _flat(_later_start(table))
-    if radii == "mean":
-        series[:, 1:, R_P] = 0.0
-    if radii != "paper":
-        series[:, :, R_G] = table.ratio * series[:, :, R_P]
-    nodes = table.nodes
+    levels, nodes = table.torque.size, table.nodes
     windows = np.empty((levels, nodes + 1, N_CHANNELS))
     data = table.windows
     for level in range(levels):
@@ -127,11 +115,27 @@ def pack_mesh(
     windows[:, nodes] = windows[:, 0]
     return PackedMesh(
         np.ascontiguousarray(table.torque),
-        np.concatenate([series.reshape(levels, -1), _shaft_tail(table)], axis=1).ravel(),
+        pack_series(table, radii, stiffness),
         windows.ravel(),
-        orders,
+        table.orders,
         nodes,
     )
+
+
+def pack_series(table: MeshTable, radii: str, stiffness: str) -> Array:
+    """Return `series` of `PackedMesh`, the part without windows; arguments as in `pack_mesh`."""
+    levels = table.torque.size
+    series = np.empty((levels, 2 * table.orders + 1, N_SERIES))
+    for column, key in enumerate(PACKED_SERIES):
+        series[:, :, column] = _flat(table.series[key])
+    if stiffness == "tangent":
+        series[:, :, K_M] = _flat(table.series["k_t"])
+        series[:, :, E] += _flat(_later_start(table))
+    if radii == "mean":
+        series[:, 1:, R_P] = 0.0
+    if radii != "paper":
+        series[:, :, R_G] = table.ratio * series[:, :, R_P]
+    return np.concatenate([series.reshape(levels, -1), _shaft_tail(table)], axis=1).ravel()
 
 
 def _shaft_tail(table: MeshTable) -> Array:

@@ -17,10 +17,10 @@ class Evaluation:
 
     Parameters
     ----------
-    rotation, pressure, sliding, edge_share : ndarray of shape (J, S, N)
-        As in `LoadedMeasures`: [rad], [Pa], [-], [-].
-    rotation_rate, pressure_rate, sliding_rate, edge_share_rate : ndarray of shape (J, S, N, P)
-        Per unit of each parameter; P is 0 where rates were not asked.
+    rotation, pressure, sliding, edge_share, force : ndarray of shape (J, S, N)
+        As in `LoadedMeasures`: [rad], [Pa], [-], [-], [N].
+    rotation_rate, pressure_rate, sliding_rate, edge_share_rate, force_rate
+        Of shape (J, S, N, P), per unit of each parameter; P is 0 where rates were not asked.
     settings_used : ndarray of shape (3,) or (0,)
         Parts of what the check of a gear file leaves machine settings, -1 to 1: slopes between the
         flanks of the other side, depth of the pinion's cut; empty where no setting may change.
@@ -31,10 +31,12 @@ class Evaluation:
     pressure: Array
     sliding: Array
     edge_share: Array
+    force: Array
     rotation_rate: Array
     pressure_rate: Array
     sliding_rate: Array
     edge_share_rate: Array
+    force_rate: Array
     settings_used: Array
     settings_used_rate: Array
 
@@ -49,9 +51,10 @@ class Evaluation:
 
         `other`: `settings_used` and its rates.
         """
-        values = np.array([one for one, _ in rows]).reshape(*shape, 4)
-        rates = np.array([one for _, one in rows]).reshape(*shape, 4, -1)
-        parts = [values[..., k] for k in range(4)] + [rates[..., k, :] for k in range(4)]
+        count = len(LoadedMeasures._fields)
+        values = np.array([one for one, _ in rows]).reshape(*shape, count)
+        rates = np.array([one for _, one in rows]).reshape(*shape, count, -1)
+        parts = [values[..., k] for k in range(count)] + [rates[..., k, :] for k in range(count)]
         none = np.empty(0), np.empty((0, rates.shape[-1]))
         return cls(*[*parts, *(other or none)])
 
@@ -71,10 +74,22 @@ class Evaluation:
 
         Linear in the error, so their rates are those of the error likewise. Amplitudes: abs.
         """
-        count = self.rotation.shape[-1]
-        angle = np.outer(orders, np.arange(count)) * (2.0 * np.pi / count)
-        wave = np.exp(-1j * angle) * (2.0 / count)
-        return self.rotation @ wave.T, np.einsum("kn,jsnp->jskp", wave, self.rotation_rate)
+        return _orders(self.rotation, self.rotation_rate, orders)
+
+    def swing(self, orders: tuple[int, ...]) -> tuple[Array, Array]:
+        """Return the mesh orders of the force over its mean (J,) [-], and their rates (J, P).
+
+        Root of the sum of squares of the orders, root mean square over errors. At one torque the
+        force swings as its arm about the pinion's axis does: what the bearings feel and the
+        transmission error does not show.
+        """
+        mean, mean_rate = self.force.mean(axis=2), self.force_rate.mean(axis=2)
+        part = self.force / mean[..., None]
+        rate = self.force_rate - part[..., None] * mean_rate[:, :, None]
+        values, rates = _orders(part, rate / mean[..., None, None], orders)
+        found = np.sqrt((np.abs(values) ** 2).sum(axis=2).mean(axis=1))
+        turned = np.real(np.einsum("jsk,jskp->jp", np.conj(values), rates)) / values.shape[1]
+        return found, turned / np.maximum(found, 1e-12)[:, None]
 
     def whine(self, orders: tuple[int, ...]) -> Array:
         """Return the root of the sum of squares of the mesh orders (J, S) [rad]."""
@@ -105,3 +120,11 @@ class Evaluation:
     def largest_edge_share(self) -> Array:
         """Over errors and phases (J,) [-]."""
         return np.asarray(self.edge_share.max(axis=(1, 2)))
+
+
+def _orders(values: Array, rates: Array, orders: tuple[int, ...]) -> tuple[Array, Array]:
+    """Return the mesh orders (J, S, K) of values (J, S, N), and their rates (J, S, K, P)."""
+    count = values.shape[-1]
+    angle = np.outer(orders, np.arange(count)) * (2.0 * np.pi / count)
+    wave = np.exp(-1j * angle) * (2.0 / count)
+    return values @ wave.T, np.einsum("kn,jsnp->jskp", wave, rates)

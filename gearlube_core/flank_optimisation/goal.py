@@ -79,6 +79,10 @@ class Goal:
             add(found.mean_sliding / most, found.sliding_rate.mean(axis=(1, 2)) / most[:, None])
         if limits.edge_share is not None:
             add(found.edge_share / limits.edge_share, found.edge_share_rate / limits.edge_share)
+        if limits.force_swing is not None:
+            swing, rate = found.swing(self.orders)
+            most = limits.force_swing * self.before.swing(self.orders)[0]
+            add(swing / most, rate / most[:, None])
         if self.most_square is not None:
             square, rate = self.squares(found)
             add(square.mean() / self.most_square, rate.mean(axis=(0, 1)) / self.most_square)

@@ -32,7 +32,7 @@ from gearlube_core.storage.process_pool import single_threaded
 from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
-_FORMAT = 3  # raise with every change of the model that changes results
+_FORMAT = 4  # raise with every change of the model that changes results
 OTHER_SLOPE = 4e-3  # rad, of flanks that do not carry; gear files are refused beyond 10 mrad
 PLANE = 0.05e-3  # m, pinion cutter's plane from mid-depth; gear files are refused beyond 0.1 mm
 HELICAL_CELLS = HelicalLoaded(strips=HelicalStrips(cells_across=13, cells_along=22))

@@ -54,6 +54,7 @@ class LoadedMeasures(NamedTuple):
     pressure: float | Array  # in the cell that carries most [Pa]
     sliding: float | Array  # sliding power of the normal forces over the pinion's power [-]
     edge_share: float | Array  # part of the normal forces within the border of the flanks [-]
+    force: float | Array  # sum of the normal forces [N]
 
 
 @dataclass(slots=True)
@@ -120,11 +121,13 @@ class HeldPosition:
                 float(forces[highest] / area[highest]),
                 float(forces @ slide) / self.torque,
                 share,
+                total,
             ),
             LoadedMeasures(
                 turn,
                 rates[:, highest] / area[highest],
                 rates @ slide / self.torque,
                 (rates @ edge - share * rates.sum(axis=1)) / total,
+                rates.sum(axis=1),
             ),
         )

@@ -181,7 +181,7 @@ def plain_measures(
         for line in state.lines
     )
     pressure = max(float(line.pressure.max()) for line in state.lines)
-    return LoadedMeasures(state.rotation, pressure, slide / torque, edge / total)
+    return LoadedMeasures(state.rotation, pressure, slide / torque, edge / total, total)
 
 
 def sliding_arm(modified: ModifiedPair, strip: LineStrip) -> Array:

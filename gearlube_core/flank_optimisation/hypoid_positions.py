@@ -226,7 +226,7 @@ def plain_measures(
         edge += float(forces @ _at_edge(_places(pair, strip, there), edge_band))
         total += float(forces.sum())
         pressure = max(pressure, float(one.pressure.max()))
-    return LoadedMeasures(state.rotation, pressure, slide / torque, edge / total)
+    return LoadedMeasures(state.rotation, pressure, slide / torque, edge / total, total)
 
 
 def side_slopes(file: HypoidGearFile, side: Side) -> Array:

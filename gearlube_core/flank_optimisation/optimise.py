@@ -209,6 +209,7 @@ def _tightened(
         "pressure": after.highest_pressure / before.highest_pressure,
         "loss": after.mean_sliding / before.mean_sliding,
         "edge_share": after.largest_edge_share,
+        "force_swing": after.swing(orders)[0] / np.maximum(before.swing(orders)[0], 1e-12),
         "sensitivity": after.spread(orders) / spread if spread.all() else np.zeros(1),
     }
     changed = {}

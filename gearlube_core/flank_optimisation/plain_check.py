@@ -23,7 +23,7 @@ from gearlube_core.storage.result_store import Record
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import compute_positions
 
-_FORMAT = 1  # raise with every change of the model that changes results
+_FORMAT = 2  # raise with every change of the model that changes results
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -107,6 +107,11 @@ class Problem:
             the range of a field.
         """
         file = read_gear_file(given.gear)
+        if given.limits.force_swing is not None and isinstance(file, HelicalGearFile):
+            raise ParameterError(
+                f"limits.force_swing must be of a hypoid pair, got {file.name}, a helical one: its "
+                "force keeps its arm. Leave it out."
+            )
         allowed = {**_free_settings(file, given), **given.parameters}
         names = tuple(allowed)
         for name in names:

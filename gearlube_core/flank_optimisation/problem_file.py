@@ -96,6 +96,11 @@ class Limits(Section):
     sensitivity: Times | None = Field(
         default=1.0, description="How far errors move the mesh orders, times that before"
     )
+    force_swing: Times | None = Field(
+        default=None,
+        description="Mesh orders of the mesh force at constant torque, times that before; of a "
+        "hypoid pair; absent: no limit",
+    )
     edge_share: Share | None = Field(
         default=None,
         description="Largest part of the load in the border of the flanks; absent: no limit",

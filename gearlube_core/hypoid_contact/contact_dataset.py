@@ -59,6 +59,11 @@ _UNITS: dict[str, tuple[tuple[str, ...], str, str]] = {
     "friction_arm_g": (_PAIR_DIMS, "m", "arm of friction about the gear axis"),
     "xi": ((*_PAIR_DIMS, "axis"), "1", "direction of the pinion's sliding over the gear"),
     "pressure_map": (("side", "torque", "map_s", "map_t"), "Pa", "highest pressure over the mesh"),
+    "pressure_cells": (
+        ("side", "phase", "torque", "map_s", "map_t"),
+        "Pa",
+        "highest pressure at a mesh phase, all pairs on one flank",
+    ),
     "error": (("side", "fine_phase"), "rad", "unloaded transmission error, the gear lags"),
     "e": (("side", "fine_phase"), "m", "the same along the line of action"),
     "path_s": (("side", "path_phase"), "1", "unloaded path of contact, root 0 to tip 1"),
@@ -157,6 +162,7 @@ def side_contact(pair: FlankPair, cycle: Record, settings: CycleSettings) -> dic
         "gear_s": cycle["gear_position"][..., 0],
         "gear_t": cycle["gear_position"][..., 1],
         "pressure_map": cycle["pressure_map"].max(axis=0),
+        "pressure_cells": cycle["pressure_map"].astype(np.float32),
         **_pair_kinematics(pair, cycle, settings),
         **unloaded,
     }

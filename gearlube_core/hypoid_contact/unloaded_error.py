@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -118,14 +120,25 @@ def unloaded_error(pair: FlankPair, count: int = 65) -> UnloadedError:
         return float(two[1] - two[0])
 
     ends = extreme - pair.gear_pitch, extreme
-    values = [difference(a) for a in ends]
-    if not values[0] * values[1] < 0.0:
+    handover = _zero(difference, ends, 1e-13)
+    if handover is None:
         raise _edge_error(pair, "has no place where two neighbouring pairs hand over")
-    handover = brentq(difference, *ends, xtol=1e-13)
     path = contact_path(pair, handover + np.linspace(0.0, 1.0, count) * pair.gear_pitch)
     if not path.inside.all():
         raise _edge_error(pair, "leaves the teeth before the next pair takes over")
     return UnloadedError(path, path_kinematics(path), extreme, error)
+
+
+def _zero(
+    function: Callable[[float], float], ends: tuple[float, float], xtol: float
+) -> float | None:
+    """Return a zero between two places; None without, and where the path is lost on the way."""
+    if not function(ends[0]) * function(ends[1]) < 0.0:
+        return None
+    try:
+        return float(brentq(function, *ends, xtol=xtol))
+    except ValueError:  # a NaN: no contact there
+        return None
 
 
 def contact_ratio(pair: FlankPair) -> ContactRatio:
@@ -144,13 +157,19 @@ def contact_ratio(pair: FlankPair) -> ContactRatio:
 
 
 def _edge_angle(pair: FlankPair, inner: float, outer: float) -> float:
-    """Return the gear angle [rad] at which the path crosses a tooth's edge."""
+    """Return the gear angle [rad] at which the path crosses a tooth's edge.
+
+    `inner` where the flank itself ends there, or where a path of its own, without the neighbours
+    that the search of a whole path starts from, is not found on the teeth.
+    """
 
     def margin(angle: float) -> float:
-        return float(_margin(contact_path(pair, np.array([angle])))[0])
+        found = float(_margin(contact_path(pair, np.array([angle])))[0])
+        return -1.0 if math.isnan(found) else found
 
-    if not margin(outer) < 0.0:
-        return inner  # the flank itself ends here
+    alone = float(_margin(contact_path(pair, np.array([outer])))[0])
+    if not alone < 0.0 <= margin(inner):
+        return inner
     return float(brentq(margin, inner, outer, xtol=1e-12))
 
 
@@ -180,9 +199,9 @@ def _extreme(path: ContactPath) -> tuple[float, float]:
     order = np.where(path.inside, pair.touching_sign * path.transmission_error, np.inf)
     lowest = float(path.gear_angle[int(np.argmin(order))])
     ends = lowest - _step(pair), lowest + _step(pair)
-    if not mismatch(ends[0]) * mismatch(ends[1]) < 0.0:
+    angle = _zero(mismatch, ends, 1e-14)
+    if angle is None:
         raise _edge_error(pair, "has no extreme of the transmission error on the teeth")
-    angle = float(brentq(mismatch, *ends, xtol=1e-14))
     return angle, float(contact_path(pair, np.array([angle])).transmission_error[0])
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import string
+from collections.abc import Mapping
 from typing import Annotated, ClassVar
 
 from pydantic import Field, model_validator
@@ -15,6 +16,7 @@ from gearlube_core.hypoid_design.blank_sections import (
     BlankRelief,
     WantedContact,
 )
+from gearlube_core.hypoid_geometry.gear_file_sections import UNMODELLED
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
 from gearlube_core.input_file.input_note import InputNote
@@ -50,6 +52,7 @@ class BlankFile(InputFile):
 
     package: ClassVar[str] = "gearlube_core.hypoid_design"
     title: ClassVar[str] = "blank file"
+    unmodelled: ClassVar[Mapping[str, str]] = UNMODELLED
 
     name: Text = Field(description="What reports and the designed gear file call the pair")
     method: Method | None = Field(
@@ -101,7 +104,8 @@ class BlankFile(InputFile):
         if not 2.0 * pair.offset_mm < size:
             raise ValueError(
                 f"pair.offset_mm must be below half the gear's diameter, {0.5 * size:g} mm, got "
-                f"{pair.offset_mm:g} mm"
+                f"{pair.offset_mm:g} mm. Reduce it; or is the diameter in inches? {size:g} in is "
+                f"{25.4 * size:g} mm"
             )
         return self
 
@@ -139,6 +143,8 @@ class BlankFile(InputFile):
             value = getattr(place, key)
             if key in place.model_fields_set and value is not None:
                 found.append(InputNote(name, value, note.unit, "given", ""))
+            elif name == "pair.pinion_hand":
+                found.append(InputNote(name, value, "", "assumed", "left is its mirror image"))
             elif name in chosen:
                 found.append(InputNote(name, chosen[name][0], "", "assumed", chosen[name][1]))
             elif value is not None:

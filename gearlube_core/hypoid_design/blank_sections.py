@@ -28,6 +28,10 @@ class BlankPair(Section):
     pinion_teeth: int = Field(ge=3, le=100, description="Number of teeth of the pinion")
     gear_teeth: int = Field(ge=3, le=400, description="Number of teeth of the gear")
     offset_mm: Offset = Field(description="Distance of the axes (pinion offset); 0: bevel gears")
+    pinion_hand: Literal["right", "left"] = Field(
+        default="right",
+        description="Hand of the pinion's teeth; left: the mirror image, offset to the other side",
+    )
     face_width_mm: Length = Field(description="Face width of the gear along its pitch cone")
     outer_pitch_diameter_mm: Length | None = Field(
         default=None, description="Of the gear at the heel; methods 0, 1 and 3"

@@ -265,6 +265,7 @@ def _far(target: FlankTarget, found: Measured, designed: DesignedBlank) -> float
 def named_file(designed: DesignedBlank, file: HypoidGearFile) -> HypoidGearFile:
     """Return the gear file with the origin of every number: the blank implied, the rest chosen."""
     data = file.model_dump(exclude_defaults=True)
+    data["pair"]["pinion_hand"] = designed.file.pair.pinion_hand
     for role in ("pinion", "gear"):
         data[role] |= {f"{side}_flank": one for side in SIDES if (one := relief(designed, role))}
     implied, chosen = [], []

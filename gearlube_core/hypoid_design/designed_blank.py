@@ -244,8 +244,8 @@ def _member(cones: PitchCones, face: FaceWidth, addendum: float, role: str) -> M
 
 
 def _angle(name: str, value: float) -> InputNote:
-    return InputNote(name, value / DEGREE, "deg", "inferred", _FROM)
+    return InputNote(name, round(value / DEGREE, 9) + 0.0, "deg", "inferred", _FROM)
 
 
 def _length(name: str, value: float) -> InputNote:
-    return InputNote(name, value / MILLIMETRE, "mm", "inferred", _FROM)
+    return InputNote(name, round(value / MILLIMETRE, 9) + 0.0, "mm", "inferred", _FROM)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -17,6 +18,7 @@ from gearlube_core.hypoid_geometry.flank.correction import (
 )
 from gearlube_core.hypoid_geometry.gear_file_sections import (
     RELIEFS,
+    UNMODELLED,
     FlankRelief,
     Gear,
     Member,
@@ -49,6 +51,7 @@ class HypoidGearFile(InputFile):
     """
 
     package: ClassVar[str] = "gearlube_core.hypoid_geometry"
+    unmodelled: ClassVar[Mapping[str, str]] = UNMODELLED
 
     name: Text = Field(description="What reports and plots call the pair")
     source: Text = Field(description="Where the numbers are from")

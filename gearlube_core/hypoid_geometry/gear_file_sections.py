@@ -40,6 +40,14 @@ RELIEFS = (  # amount and extent of the relief of each edge
     ("toe_relief_um", "toe_relief_length_mm"),
     ("heel_relief_um", "heel_relief_length_mm"),
 )
+UNMODELLED = {  # words in fields that neither gear files nor blank files have
+    "duplex": "both flanks of the pinion are cut in one set-up, with helical motion as in duplex "
+    "helical; duplex taper is not modelled",
+    "taper": "teeth are equally deep from toe to heel; tapered depth is not modelled",
+    "shaft_angle": "the axes stand at 90 deg; other angles are not modelled",
+    "hand": 'the hand is pair.pinion_hand, "left" or "right"',
+    "thickness": "teeth and slots are equally wide at the middle of the working depth",
+}
 _LEAST_RELIEF, _MOST_RELIEF = 0.5, 500.0  # um
 _STEEPEST = 0.1  # amount over extent: the removal stays along the normal
 
@@ -288,6 +296,11 @@ class Pair(Section):
     """How the members stand to each other; axes at 90 degrees."""
 
     offset_mm: PairOffset = Field(description="Distance of the axes (pinion offset)")
+    pinion_hand: Literal["right", "left"] = Field(
+        default="right",
+        description="Hand of the pinion's teeth; left: the pair is the mirror image of what is "
+        "computed, in exported files and measured points",
+    )
     clearance_mm: Clearance | None = Field(
         None,
         description="Between the top of one member and the root of the other; absent: an eighth of "

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import cache
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
@@ -96,17 +98,28 @@ def field_notes(model: type[BaseModel]) -> dict[str, FieldNote]:
     return dict(_walk(schema, schema.get("$defs", {}), ""))
 
 
-def sentence(error: Any, notes: dict[str, FieldNote]) -> str:
-    """Return a pydantic error as a sentence: field, allowed value, given value."""
+def sentence(
+    error: Any, notes: dict[str, FieldNote], unmodelled: Mapping[str, str] = MappingProxyType({})
+) -> str:
+    """Return a pydantic error as a sentence: field, allowed value, given value.
+
+    `unmodelled` says of words in unknown fields why there is no such field.
+    """
     field = ".".join(str(part) for part in error["loc"])
     kind, note = error["type"], notes.get(field)
     if kind == "value_error":
-        return f"{f'{field}: ' if field else ''}{error['ctx']['error']}."
+        said = str(error["ctx"]["error"])
+        return f"{f'{field}: ' if field else ''}{said}{'' if said.endswith('?') else '.'}"
     if kind == "missing":
         needed = [n for n, one in notes.items() if n.startswith(f"{field}.") and not one.default]
         what = note.meaning if note else f"a section with {', '.join(needed)}" if needed else ""
+        if note and note.limits:
+            what = f"{what} ({note.limits}{f' {note.unit}' if note.unit else ''})"
         return f"{field} is missing{f': {what}' if what else ''}."
     if kind == "extra_forbidden":
+        for word, why in unmodelled.items():
+            if word in field:
+                return f"{field} is not a field of this file: {why}."
         near = get_close_matches(field, notes, n=1)
         return f"{field} is not a field of this file" + (f"; is it {near[0]}?" if near else ".")
     if note is None:

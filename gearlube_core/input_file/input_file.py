@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -24,6 +25,7 @@ class InputFile(Section):
 
     package: ClassVar[str]  # whose folder data/ holds the shipped files
     title: ClassVar[str] = "gear file"  # what errors call such a file
+    unmodelled: ClassVar[Mapping[str, str]] = {}  # words in unknown fields, and what to say of them
     prefix: ClassVar[str] = ""  # of the shipped files of this kind, not part of their names
 
     @classmethod
@@ -67,7 +69,7 @@ class InputFile(Section):
             return cls.model_validate(data)
         except ValidationError as reason:
             notes = field_notes(cls)
-            lines = [sentence(error, notes) for error in reason.errors()]
+            lines = [sentence(error, notes, cls.unmodelled) for error in reason.errors()]
             raise ParameterError(
                 f"{where} has {len(lines)} wrong field(s). " + " ".join(lines)
             ) from None

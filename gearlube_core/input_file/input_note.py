@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple
 
 Origin = Literal["given", "inferred", "assumed"]
@@ -27,5 +29,10 @@ class InputNote(NamedTuple):
 
 def _text(value: Any) -> str:
     if isinstance(value, tuple | list):
-        return ", ".join(_text(one) for one in value)
+        return ", ".join(_text(one) for one in value) or "none"
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def notes_as_text(notes: Sequence[InputNote]) -> str:
+    """Return notes as one text, for an attribute of a dataset."""
+    return json.dumps([[n.field, n.value_text, n.unit, n.origin, n.why] for n in notes])

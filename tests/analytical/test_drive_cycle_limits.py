@@ -25,7 +25,7 @@ STILL = gl.SumpHeat(capacity=1e8)  # its temperature does not change
 
 
 def settings(cycle, **changed):
-    usual = {"start_temperature": WARM, "air_temperature": WARM, "heat": STILL}
+    usual = {"start_temperature": WARM, "air_temperature": WARM, "heat": STILL, "draws": 0}
     return gl.DriveCycleSettings(car=CAR, cycle=cycle, **(usual | changed))
 
 
@@ -360,6 +360,7 @@ def test_energy_from_a_cold_start_hardly_changes_with_a_finer_map(car, degc):
         cycle=gl.DriveCycle.named("nedc"),
         start_temperature=cold,
         air_temperature=cold,
+        draws=0,
     )
     coarse = gl.run_cycle(one)
     finer = gl.run_cycle(replace(one, grid=one.grid.finer))

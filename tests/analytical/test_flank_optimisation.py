@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearlube_core.errors import ParameterError
 from gearlube_core.flank_optimisation.goal import Goal
 from gearlube_core.flank_optimisation.held_model import HELICAL_CELLS, HeldModel, differences
 from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
@@ -75,6 +76,28 @@ def test_aim_and_limits_have_the_rates_of_differences(model, here, loss):
             # one cell of a hundred may change between the ends
             assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
     assert goal.used(here)[0].size == 6 * 3 + 1 + 6 * 3 + 1 + 1
+
+
+def test_the_swing_of_the_force_has_the_rates_of_differences(here):
+    # a made-up force of eight phases: mean and orders by hand
+    phase = 2.0 * np.pi * np.arange(8) / 8.0
+    rate = np.stack([np.cos(phase), 20.0 + 3.0 * np.sin(2.0 * phase)], axis=-1)[None, None]
+
+    def at(first, second):
+        force = 1000.0 + 30.0 * np.cos(phase) + first * rate[0, 0, :, 0]
+        force = force + 40.0 * np.sin(2.0 * phase) + second * rate[0, 0, :, 1]
+        return replace(here, force=force[None, None], force_rate=rate)
+
+    swing, rates = at(0.0, 0.0).swing((1, 2))
+    assert swing[0] == pytest.approx(50.0 / 1000.0)  # of 30 and 40
+    for k, step in enumerate(([1e-3, 0.0], [0.0, 1e-3])):
+        high, low = at(*step).swing((1, 2))[0], at(*(-np.array(step))).swing((1, 2))[0]
+        assert rates[0, k] == pytest.approx((high - low)[0] / 2e-3, rel=1e-6)
+
+
+def test_the_swing_of_the_force_is_no_limit_of_a_helical_pair():
+    with pytest.raises(ParameterError, match="force_swing"):
+        problem({"gear.flank.crown_um": {"low": 0.0, "high": 20.0}}, limits={"force_swing": 1.0})
 
 
 def test_a_slope_of_one_gear_is_met_by_that_of_the_other():

@@ -8,7 +8,12 @@ from gearlube_core.hypoid_contact.contact_path import contact_migration, contact
 from gearlube_core.hypoid_contact.ease_off import ease_off
 from gearlube_core.hypoid_contact.placed_flank import placed_sample
 from gearlube_core.hypoid_contact.searched_transmission_error import searched_transmission_error
-from gearlube_core.hypoid_contact.unloaded_error import unloaded_error
+from gearlube_core.hypoid_contact.unloaded_error import (
+    _edge_angle,
+    _zero,
+    contact_ratio,
+    unloaded_error,
+)
 from tests.helpers.contact_cases import SIDES, angles_on_teeth, displaced, shipped_pair
 
 RATIO = 36.0 / 13.0
@@ -160,3 +165,18 @@ def test_ease_off_is_zero_on_the_path_of_contact_at_the_error_extreme(side):
     assert -0.05 * MICRORADIAN < excess < 50.0 * MICRORADIAN
     gap = ease.normal_gap()
     assert np.nanmin(gap) == 0.0
+
+
+def test_the_path_ends_where_a_search_of_its_own_finds_it_off_the_teeth():
+    """Searched alone, a position near an edge may lie on another branch; then there is no root."""
+    pair = shipped_pair("drive")
+    whole = contact_ratio(pair)
+    inside, beyond = whole.leaving - 0.05 * pair.gear_pitch, whole.leaving + 0.05 * pair.gear_pitch
+    assert _edge_angle(pair, inside, beyond) == pytest.approx(whole.leaving, abs=1e-9)
+    assert _edge_angle(pair, beyond, beyond + 0.05 * pair.gear_pitch) == beyond
+
+
+def test_a_path_that_is_lost_on_the_way_has_no_zero():
+    assert _zero(lambda x: x - 0.3, (0.0, 1.0), 1e-14) == pytest.approx(0.3, abs=1e-13)
+    assert _zero(lambda x: x + 0.3, (0.0, 1.0), 1e-14) is None
+    assert _zero(lambda x: x - 0.3 if x in (0.0, 1.0) else np.nan, (0.0, 1.0), 1e-14) is None

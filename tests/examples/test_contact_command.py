@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
+from gearlube.report.stored import read_report
 from gearlube.studies.contact import run as contact_run
 from gearlube.studies.contact import sensitivity
 from gearlube.studies.contact.figures import CONTACT_CATALOGUE
@@ -96,6 +97,10 @@ def test_quick_run_goes_on_after_a_stop_and_writes_table_dataset_and_figures(coa
     assert len(loaded) == len(set(loaded)) == 8
     assert not set(before) & set(loaded[3:])
 
+    data = read_report(coarse)
+    assert data["findings"]
+    turning = data["charts"]["solid_view"]["frames"]
+    assert [len(one["data"]) for one in turning] == [3] * len(turning)
     figures = {path.stem for path in (coarse / "figures").glob("*.png")}
     assert figures == set(CONTACT_CATALOGUE)
     dataset = xr.load_dataset(coarse / "contact.nc", engine="scipy")

@@ -105,7 +105,15 @@ def all_cases():
     work = zeros(integrate.work_size(mesh.series_size, mesh.nodes))
     lossless = without_losses(p)
     at_rest = start.RestProblem(
-        state, inputs, mesh_data, state_of_oil, lossless, zeros(1), zeros(rhs.SCRATCH), zeros(N_ODE)
+        state,
+        inputs,
+        mesh_data,
+        state_of_oil,
+        lossless,
+        zeros(1),
+        np.linspace(-50.0, 40.0, start.N_FREE),
+        zeros(rhs.SCRATCH),
+        zeros(N_ODE),
     )
     stiffness = zeros(force_derivatives.N_COORDINATES**2)
     force_derivatives.force_derivatives(
@@ -201,6 +209,19 @@ def all_cases():
         *(
             (start.rest, (zeros(N_STATE), 145.0, torque, OIL, table, lossless, zeros(START_WORK)))
             for torque in (60.0, -60.0)
+        ),
+        (
+            start.rest_under,
+            (
+                zeros(N_STATE),
+                145.0,
+                60.0,
+                OIL,
+                table,
+                lossless,
+                np.linspace(-50.0, 40.0, start.N_FREE),
+                zeros(START_WORK),
+            ),
         ),
         *((force_derivatives._rate_place, (j,)) for j in range(8)),
         *((force_derivatives.mass_of, (j, p)) for j in range(8)),

@@ -94,6 +94,7 @@ NUMBERS = {
         "driveline.gearbox.lowest_cruising_speed_rpm",
         1700.0,
     ),
+    "engine.kind": ("electric_motor", "driveline.engine.kind", "electric_motor"),
     "engine.primary_inertia_kg_m2": (0.2, "driveline.engine.primary_inertia", 0.2),
     "engine.secondary_inertia_kg_m2": (0.05, "driveline.engine.secondary_inertia", 0.05),
     "engine.flywheel_stiffness_n_m_per_rad": (500.0, "driveline.engine.flywheel_stiffness", 500.0),
@@ -302,6 +303,26 @@ def test_the_engine_has_the_orders_of_the_file():
     assert engine.torque(100.0, math.pi / 12) == pytest.approx(expected, rel=1e-12)
     none = {key: [] for key in (*lists, "engine.order_phases_deg")}
     assert car_axle(none).driveline.engine.orders == ()
+
+
+def test_an_electric_motor_is_smooth_has_one_gear_and_runs_from_standstill():
+    made = car_axle({"engine.kind": "electric_motor", "engine.primary_inertia_kg_m2": 0.08})
+    engine, gearbox = made.driveline.engine, made.driveline.gearbox
+    assert (engine.orders, engine.primary_inertia, gearbox.ratios) == ((), 0.08, (1.0,))
+    assert engine.torque(100.0, 0.3) == 100.0
+    assert gearbox.gear_for(0.2, engine) == gearbox.gear_for(1500.0, engine) == 1  # rad/s
+    names = {note.field: note for note in made.inputs}
+    assert (names["engine.orders"].value_text, names["engine.orders"].origin) == ("none", "assumed")
+    geared = {"engine.kind": "electric_motor", "gearbox.ratios": [9.0, 3.0]}
+    assert car_axle(geared).driveline.gearbox.ratios == (9.0, 3.0)
+
+
+def test_the_assumed_height_of_the_rib_is_told():
+    notes = {note.field: note for note in car_axle({}).assumed}
+    # 0.15 of the paper's rollers of 12.7 mm
+    assert notes["pinion.bearing.rib_height_mm"].value == pytest.approx(1.905, rel=1e-12)
+    given = car_axle({"pinion.bearing.rib_height_mm": 2.5})
+    assert "pinion.bearing.rib_height_mm" not in {note.field for note in given.assumed}
 
 
 def test_a_mesh_table_lies_beside_the_file_and_gives_the_final_drive(tmp_path, monkeypatch):

@@ -49,6 +49,7 @@ def with_scipy(axle, torque):
         lubricant_state(p.oil, OIL),
         p,
         np.zeros(1),
+        np.zeros(6),
         np.zeros(SCRATCH),
         np.zeros(N_ODE),
     )

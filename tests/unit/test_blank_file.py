@@ -95,3 +95,17 @@ def test_a_tooth_without_height_has_the_pitch_thickness_as_topland():
     flat = SAMPLE.varied({"depth.depth_factor": 1.0, "depth.gear_addendum_factor": 0.0})
     one = DesignedBlank.from_file(flat)
     assert section_tooth(one, "gear").topland == pytest.approx(one.gear_thickness, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("field", "words"),
+    [
+        ("cutter.duplex", "cut in one set-up"),
+        ("depth.taper", "equally deep"),
+        ("pair.shaft_angle_deg", "90 deg"),
+        ("pair.hand", "pair.pinion_hand"),
+    ],
+)
+def test_what_is_not_modelled_is_said(field, words):
+    with pytest.raises(ParameterError, match=rf"{field} is not a field of this file: .*{words}"):
+        BlankFile.named("hypoid_13_42").varied({field: 1.0})

@@ -243,7 +243,7 @@ def out(tmp_path_factory):
         [
             "cycle",
             *("--cycle", str(written(folder, text)), "--out", str(folder / "out")),
-            *("--start-temperature", "100", "--air-temperature", "90"),
+            *("--start-temperature", "100", "--air-temperature", "90", "--draws", "8"),
         ],
     )
     assert ended.exit_code == 0, ended.output
@@ -287,11 +287,11 @@ def test_the_figure_says_what_is_not_modelled(out):
 
 def test_assumed_heat_makes_a_band_and_given_heat_none():
     cycle = trace(speed=STEADY)
-    assumed = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=cycle))
+    assumed = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=cycle, draws=0))
     width = assumed["oil_temperature_high"] - assumed["oil_temperature_low"]
     assert float(width[-1]) > 0.0
     heat = gl.SumpHeat(capacity=17e3, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
-    given = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=cycle, heat=heat))
+    given = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=cycle, heat=heat, draws=0))
     assert (
         given["oil_temperature_high"].values.tolist()
         == given["oil_temperature_low"].values.tolist()
@@ -306,3 +306,53 @@ def test_the_command_refuses_an_unknown_cycle_and_leaves_no_folder(tmp_path, cap
     assert ended.exit_code == 2
     assert "one of nedc, wltc, ftp75, got 'artemis'" in caplog.text
     assert not folder.exists()
+
+
+def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
+    """Each draw computed again: the axle changed, its map anew, its sources scaled."""
+    from dataclasses import replace
+
+    from gearlube.studies.drive_cycle.demand import demand_of
+    from gearlube.studies.drive_cycle.loss_field import at_temperatures, losses_along
+    from gearlube.studies.drive_cycle.spread import uncertain_inputs
+
+    draws = 24
+    heat = gl.SumpHeat(capacity=1e7, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
+    settings = gl.DriveCycleSettings(
+        car=CAR,
+        cycle=trace(speed=np.linspace(5.0, 25.0, 30)),
+        heat=heat,  # given, and so large that the oil stays at 60 degC
+        start_temperature=333.15,
+        air_temperature=333.15,
+        grid=gl.LossGrid(torques=8, speeds=6, temperature_step=45.0),
+        draws=draws,
+        seed=3,
+    )
+    found = gl.run_cycle(settings)
+    rng, lost = np.random.default_rng(3), []
+    demand, inputs = demand_of(settings), uncertain_inputs(settings)
+    for _ in range(draws):
+        normals = rng.standard_normal(len(inputs))
+        rng.uniform(size=2)  # heat data, that are given here
+        axle, factors = CAR.axle, dict.fromkeys(found["source"].values.tolist(), 1.0)
+        for one, normal in zip(inputs, normals, strict=True):
+            by = one.factor ** (0.5 * normal)
+            if one.changed is not None:
+                axle = one.changed(axle, by)
+            for source in one.sources:
+                factors[source] *= by
+        drawn = losses_along(replace(settings, car=replace(CAR, axle=axle)), demand)
+        power = at_temperatures(drawn.power, drawn.temperatures, np.full(29, 333.15))
+        lost.append(1e-3 * demand.steps @ power @ np.array(list(factors.values())))
+    low, high = np.percentile(lost, (2.5, 97.5))
+    # losses are no exact powers of the data: the Eyring stress within a factor of 2
+    assert float(found["energy_lost_low"]) == pytest.approx(low, rel=0.02)
+    assert float(found["energy_lost_high"]) == pytest.approx(high, rel=0.02)
+    assert low < 0.85 * found["energy_lost"].sum() < high
+    efficiency = [float(found[f"efficiency{end}"]) for end in ("_low", "", "_high")]
+    assert efficiency == sorted(efficiency)
+
+
+def test_without_draws_there_is_no_error_bar_of_the_efficiency():
+    found = gl.run_cycle(gl.DriveCycleSettings(car=CAR, cycle=trace(speed=STEADY[:5]), draws=0))
+    assert "efficiency_low" not in found

@@ -6,7 +6,11 @@ import numpy as np
 import pytest
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.hypoid_geometry.flank.export import write_flank_csv, write_solid
+from gearlube_core.hypoid_geometry.flank.export import (
+    mirror_image,
+    write_flank_csv,
+    write_solid,
+)
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.flank.tooth_solid import gear_solid, tooth_solid
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -37,6 +41,26 @@ def test_flank_file_holds_points_normals_and_curvatures_in_millimetres(gear, tmp
     k = np.linalg.eigvalsh(sample.curvature).reshape(-1, 2) * 1e-3
     np.testing.assert_allclose(table[:, 8], k[:, 0] * k[:, 1], rtol=1e-7)
     np.testing.assert_allclose(table[:, 9], 0.5 * (k[:, 0] + k[:, 1]), rtol=1e-7)
+
+
+def test_a_pair_of_the_other_hand_is_exported_as_the_mirror_image(gear, tmp_path):
+    tables = [
+        np.loadtxt(
+            write_flank_csv(gear.drive, tmp_path / "flank.csv", 4, 5, mirrored=mirrored),
+            delimiter=",",
+            skiprows=3,
+        )
+        for mirrored in (False, True)
+    ]
+    signs = np.ones(10)
+    signs[[3, 6]] = -1.0  # y and the y of the normal
+    np.testing.assert_array_equal(tables[1], signs * tables[0])
+    solid = mirror_image(tooth_solid(gear, 6, 9))
+    read = trimesh.load(write_solid(solid, tmp_path / "tooth.stl"), force="mesh")
+    own = trimesh.load(write_solid(tooth_solid(gear, 6, 9), tmp_path / "own.stl"), force="mesh")
+    # faces still look outward: a volume above zero, and the same
+    assert read.volume == pytest.approx(own.volume, rel=1e-6)
+    np.testing.assert_allclose(read.bounds[:, 1], -own.bounds[::-1, 1])
 
 
 def test_undercut_places_are_left_out_of_the_flank_file(tmp_path):

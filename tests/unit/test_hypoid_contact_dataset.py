@@ -124,6 +124,8 @@ def test_arms_stiffness_and_direction_are_those_of_the_mesh_force(side):
     np.testing.assert_array_equal(data["gear_s"], cycle["gear_position"][..., 0])
     np.testing.assert_array_equal(data["gear_t"], cycle["gear_position"][..., 1])
     np.testing.assert_array_equal(data["pressure_map"], cycle["pressure_map"].max(axis=0))
+    # kept with 32 bits: seven digits
+    np.testing.assert_allclose(data["pressure_cells"], cycle["pressure_map"], rtol=1e-7)
 
 
 @pytest.mark.parametrize("side", SIDES)

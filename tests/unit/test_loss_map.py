@@ -17,12 +17,12 @@ from typer.testing import CliRunner
 import gearlube as gl
 from gearlube.command import COMMANDS, command_line
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_table
-from gearlube.studies.loss_map.settings import UNCERTAIN
 from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 
 AXLE = replace(
@@ -296,3 +296,32 @@ def test_the_command_writes_a_map_and_says_what_it_lacks(tmp_path, caplog):
     assert "at least 4 points, got 3" in caplog.text  # of a .vtlm file; the others are there
     assert (out / "gem_40degC.csv").exists()
     assert not list(out.glob("*.vtlm"))
+
+
+def test_a_point_drawn_by_power_laws_has_the_bars_of_the_map():
+    """`drawn_losses` of a sweep: the same draws as the map's, that computes the axle anew."""
+    from gearlube_core.dynamics.hypoid_axle.loss_draws import drawn_losses
+
+    axle = mohammadpour_2015_axle()
+    for torque, speed, temperature in ((60.0, 200.0, 333.15), (300.0, 60.0, 368.15)):
+        settings = gl.LossMapSettings(
+            axle=axle,
+            torques=np.array([torque]),
+            speeds=np.array([speed]),
+            temperatures=np.array([temperature]),
+            draws=100,
+        )
+        one = gl.run_loss_map(settings).squeeze()
+        found = drawn_losses(
+            axle,
+            one["loss"].values,
+            torque=torque,
+            speed=speed,
+            temperature=temperature,
+            draws=100,
+            seed=settings.seed,
+        )
+        low, high = np.percentile(found, (2.5, 97.5)) / speed
+        # no exact power laws: the Eyring stress is drawn within a factor of 2
+        assert low == pytest.approx(float(one["loss_torque_low"]), rel=0.02)
+        assert high == pytest.approx(float(one["loss_torque_high"]), rel=0.02)

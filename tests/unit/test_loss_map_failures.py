@@ -128,7 +128,7 @@ def test_a_map_of_failures_alone_keeps_its_table_and_no_file_of_an_earlier_map(
     assert "4 points failed; map.csv says why" in caplog.text
     for name in ("vecto_40degC.vtlm", "gem_40degC.csv", "lossy_gear_40degC.mo"):
         assert f"No {name}" in caplog.text
-    assert {one.suffix for one in out.iterdir()} == {".nc", ".csv", ".mat", ".json"}
+    assert {one.suffix for one in out.iterdir()} == {".nc", ".csv", ".mat", ".json", ".html"}
     assert not (out / "gem_55degC.csv").exists()
     with (out / "map.csv").open() as file:
         assert all(row["reason"].startswith(REASON) for row in csv.DictReader(file))

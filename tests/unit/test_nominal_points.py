@@ -56,7 +56,7 @@ def test_points_are_found_on_their_flank_after_a_rotation_and_a_shift(csv, role,
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda p: p * [1.0, -1.0, 1.0], "Their mirror image fits: the hand is the other one"),
+        (lambda p: p * [1.0, -1.0, 1.0], "Their mirror image fits: set pair.pinion_hand to left"),
         (lambda p: p * [1.0, -1.0, -1.0], "They fit with z the other way round"),
         (lambda p: p / 25.4, "They fit as inches"),
         (lambda p: points(side="coast"), "They fit the coast flank"),
@@ -65,6 +65,14 @@ def test_points_are_found_on_their_flank_after_a_rotation_and_a_shift(csv, role,
 def test_wrong_points_are_named(csv, change, words):
     with pytest.raises(ParameterError, match=words):
         check_nominal_points(csv(change(points())), FILE)
+
+
+def test_points_of_a_left_handed_pair_are_those_of_the_mirror_image(csv):
+    left = FILE.varied({"pair.pinion_hand": "left"})
+    found = check_nominal_points(csv(points() * [1.0, -1.0, 1.0]), left)["gear", "drive"]
+    np.testing.assert_allclose(found.s, S, atol=1e-5)
+    with pytest.raises(ParameterError, match=r"set pair\.pinion_hand to right"):
+        check_nominal_points(csv(points()), left)
 
 
 def test_points_of_other_machine_settings_are_refused_with_how_far_they_are_off(csv):

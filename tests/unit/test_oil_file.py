@@ -16,7 +16,7 @@ from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
 from fmu_src.identity import guid_of
 from gearlube.command import app
-from gearlube.studies.loss_map.settings import UNCERTAIN
+from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.mesh_table.shipped import shipped_mesh_table

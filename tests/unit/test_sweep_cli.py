@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 from gearlube import command as cli
 from gearlube.cli.multi_value_options import repeat_flags
 from gearlube.cli.ranges import numbers_from
+from gearlube.studies.sweep import findings as sweep_findings
 from gearlube.studies.sweep import report as sweep_report
 from gearlube.studies.sweep import run as sweep_run
 from gearlube_core import __version__
@@ -38,6 +39,7 @@ def calls(monkeypatch):
 
     monkeypatch.setattr(sweep_run, "run_sweep", run_sweep)
     monkeypatch.setattr(sweep_report, "write_sweep_report", lambda dataset, out, entries: out)
+    monkeypatch.setattr(sweep_findings, "findings", lambda dataset: [])
     return seen
 
 

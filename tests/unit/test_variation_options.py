@@ -6,6 +6,7 @@ from gearlube.cli.multi_value_options import repeat_flags
 from gearlube.variation.command import VaryCommand
 from gearlube.variation.design import Axis, Sampling, Spread
 from gearlube.variation.file_variants import axle_keys
+from gearlube.variation.keys import Key, understood
 from gearlube.variation.points.losses import _OPERANDS
 from gearlube.variation.vary_option import limits_from, sampling_from, varied_from
 from gearlube_core.errors import ParameterError
@@ -92,3 +93,9 @@ def test_a_wrong_design_text_is_refused(text):
 def test_a_wrong_limit_is_refused(text):
     with pytest.raises(ParameterError, match="--limit"):
         limits_from([text], ["loss", "efficiency"])
+
+
+@pytest.mark.parametrize(("unit", "name"), [("km/h", "kmh"), ("m/s", "m_s"), ("N.m", "n_m")])
+def test_the_unit_of_an_operating_condition_may_be_left_out(unit, name):
+    key = Key(f"vehicle.speed_{name}", "number", unit, "Of the vehicle", "operand")
+    assert understood("vehicle.speed", {key.name: key}) is key

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.box import SIMPLE
 from rich.table import Table
 
 from gearlube.cli.console import console
@@ -84,15 +85,15 @@ def bearing(
 ) -> None:
     """Friction of a tapered roller bearing: torque and power loss, each part on its own line.
 
-    Writes bearing.nc, bearing.csv and figures. Conditions given here replace those of the file.
+    Writes bearing.nc, bearing.csv, report.html and figures. Conditions given here replace those of
+    the file.
     """
+    from gearlube.cli.report_end import finish_with_report
+    from gearlube.report.inputs import file_inputs
+    from gearlube.studies.bearing.report import bearing_report
     from gearlube.studies.bearing.run import run_bearing
     from gearlube.studies.bearing.settings import DEFAULT_LAWS, BearingSettings
-    from gearlube.studies.bearing.summary import (
-        bearing_summary,
-        bearing_warnings,
-        error_sentences,
-    )
+    from gearlube.studies.bearing.summary import bearing_summary
     from gearlube_core.bearings.bearing_file import BearingFile
     from gearlube_core.bearings.losses.laws import CATALOGUE_LAWS, LAWS
     from gearlube_core.bearings.losses.loss import LARGEST_SPEED_FACTOR, LossModel
@@ -151,21 +152,20 @@ def bearing(
             progress_on(console, "bearing") as progress,
         ):
             dataset = run_bearing(given, settings, oil=lubricant, folder=out, progress=progress)
-        for sentence in error_sentences(dataset):
-            logger.info("%s", sentence)
         console.print(_table(given.name, laws[0], bearing_summary(dataset)))
-        for sentence in bearing_warnings(dataset):
-            logger.warning("%s", sentence)
-        logger.info("Computed in %.1f s.", time.monotonic() - began)
+        seconds = time.monotonic() - began
+        logger.info("Computed in %.1f s.", seconds)
         logger.info("Results: %s, %s, %s", out / "bearing.nc", out / "bearing.csv", out / "figures")
+        finish_with_report(bearing_report(dataset, file_inputs(given)), out, seconds)
 
 
 def _table(name: str, law: str, rows: list[BearingRow]) -> Table:
-    table = Table(title=f"{name}: friction torque [N.m] by {law}")
+    table = Table(title=f"{name}: friction torque [N.m] by {law}", box=SIMPLE, padding=0)
     parts = list(rows[0].parts) if rows else []
     headings = ["rpm", "axial N", "radial N", "degC", *parts, "total", "loss W"]
     for heading in headings:
-        table.add_column(heading, justify="right")
+        shown = heading.replace(" ", "\n")
+        table.add_column(shown, justify="right", no_wrap=True)
     for row in rows:
         table.add_row(
             f"{rads_to_rpm(row.speed):.4g}",

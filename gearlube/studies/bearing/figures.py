@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
+from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
 from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
@@ -32,48 +32,47 @@ _MOST_PANELS = 4
 
 def torque_of_laws(dataset: xr.Dataset) -> Any:
     """Return the torque of every law along the longest axis, with the error bar of the first."""
-    along, places = _panels(dataset)
-    x = _shown(along, dataset[along].values)
+    along, places = drawn_places(dataset)
+    x = axis_values(along, dataset[along].values)
     with house_style():
-        figure = new_figure(4.6 * len(places), 4.4)
-        panels = figure.subplots(1, len(places), squeeze=False, sharey=True)[0]
+        figure, panels = _panel_grid(len(places))
         for ax, place in zip(panels, places, strict=True):
             at = dataset.sel(place)
             for i, law in enumerate(dataset["law"].values):
                 one, colour = at.sel(law=law), SERIES[i % len(SERIES)]
                 if i == 0:
                     band = (one["torque_low"], one["torque_high"])
-                    ax.fill_between(
-                        x, *band, color=GREY, alpha=0.4, lw=0.0, label="error bar, k = 2"
-                    )
-                ax.plot(x, one["torque"], color=colour, marker="o", label=LAW_NAMES[str(law)])
-            ax.set(xlabel=_AXES[along], title=_title(place))
+                    words = f"error bar of {LAW_NAMES[str(law)]}, k = 2"
+                    ax.fill_between(x, *band, color=GREY, alpha=0.4, lw=0.0, label=words)
+                marker, name = MARKERS[i % len(MARKERS)], LAW_NAMES[str(law)]
+                ax.plot(x, one["torque"], color=colour, marker=marker, label=name)
+            ax.set(title=place_words(place))
             ax.set_ylim(bottom=0.0)
-        panels[0].set_ylabel("friction torque [N·m]")
-        panels[0].legend(loc="upper left")
+        _label_outer(panels, _AXES[along])
+        _legend_below(figure, panels[0])
         figure.suptitle(f"{dataset.attrs['name']}, oil {dataset.attrs['oil']}", fontsize=11.5)
     return figure
 
 
 def parts_of_first_law(dataset: xr.Dataset) -> Any:
     """Return the parts of the torque of the first law along the longest axis, logarithmic."""
-    along, places = _panels(dataset)
+    along, places = drawn_places(dataset)
     law = str(dataset["law"].values[0])
-    x = _shown(along, dataset[along].values)
+    x = axis_values(along, dataset[along].values)
     with house_style():
-        figure = new_figure(4.6 * len(places), 4.4)
-        panels = figure.subplots(1, len(places), squeeze=False, sharey=True)[0]
+        figure, panels = _panel_grid(len(places))
         for ax, place in zip(panels, places, strict=True):
             at = dataset.sel(law=law).sel(place)
-            ax.plot(x, _above_zero(at["torque"].values), color="black", label="total")
+            ax.plot(x, _above_zero(at["torque"].values), color=GREY, lw=5.0, label="total")
             for i, part in enumerate(dataset["part"].values):
                 torque = at["part_torque"].sel(part=part).values
                 if np.isfinite(torque).all():
                     colour = SERIES[i % len(SERIES)]
-                    ax.plot(x, _above_zero(torque), color=colour, marker="o", label=str(part))
-            ax.set(xlabel=_AXES[along], title=_title(place), yscale="log")
-        panels[0].set_ylabel("friction torque [N·m]")
-        panels[0].legend()
+                    marker = MARKERS[i % len(MARKERS)]
+                    ax.plot(x, _above_zero(torque), color=colour, marker=marker, label=str(part))
+            ax.set(title=place_words(place), yscale="log")
+        _label_outer(panels, _AXES[along])
+        _legend_below(figure, panels[0])
         figure.suptitle(f"{dataset.attrs['name']}: parts, {LAW_NAMES[law]}", fontsize=11.5)
     return figure
 
@@ -93,7 +92,34 @@ def save_bearing_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
     return files
 
 
-def _panels(dataset: xr.Dataset) -> tuple[str, list[dict[str, float]]]:
+def _panel_grid(count: int) -> tuple[Any, list[Any]]:
+    """Return a figure with `count` panels, at most two beside each other, and the panels."""
+    columns = min(count, 2)
+    rows = -(-count // columns)
+    figure = new_figure(4.6 * columns, 0.4 + 3.7 * rows)
+    panels = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True).ravel()
+    for empty in panels[count:]:
+        empty.remove()
+    return figure, list(panels[:count])
+
+
+def _legend_below(figure: Any, panel: Any) -> None:
+    """Explain the lines of all panels once, where they cover nothing."""
+    handles, labels = panel.get_legend_handles_labels()
+    figure.legend(handles, labels, ncols=min(4, len(labels)), loc="outside lower center")
+
+
+def _label_outer(panels: list[Any], along: str) -> None:
+    """Label the axes at the left and at the bottom."""
+    for i, ax in enumerate(panels):
+        if i % 2 == 0:
+            ax.set_ylabel("friction torque [N·m]")
+        if i + 2 >= len(panels):
+            ax.set_xlabel(along)
+            ax.tick_params(labelbottom=True)
+
+
+def drawn_places(dataset: xr.Dataset) -> tuple[str, list[dict[str, float]]]:
     """Return the longest axis, and the places on the others that are drawn."""
     along = max(_AXES, key=lambda name: dataset.sizes[name])
     others = [name for name in _AXES if name != along]
@@ -112,13 +138,15 @@ def _above_zero(values: Any) -> Any:
     return np.where(values > 0.0, values, np.nan)
 
 
-def _shown(name: str, values: Any) -> Any:
+def axis_values(name: str, values: Any) -> Any:
+    """Return values of a condition in the units of figures: rpm, N, degC."""
     if name == "speed":
         return rads_to_rpm(values)
     return kelvin_to_celsius(values) if name == "temperature" else values
 
 
-def _title(place: dict[str, float]) -> str:
+def place_words(place: dict[str, float]) -> str:
+    """Return the conditions of a place with units."""
     words = {
         "speed": lambda v: f"{rads_to_rpm(v):.4g} rpm",
         "axial_load": lambda v: f"{v:g} N axial",

@@ -16,6 +16,7 @@ from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -78,7 +79,7 @@ def contact(
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_contact"),
     export: Annotated[
         bool,
-        typer.Option("--export", help="Also write flank points (CSV) and gears (STL, GLB)."),
+        typer.Option("--export", help="Also write flanks (CSV, STEP) and gears (STL, GLB)."),
     ] = False,
     quick: Annotated[
         bool, typer.Option("--quick", help="Few positions and torques, for a first look.")
@@ -93,12 +94,14 @@ def contact(
     ] = False,
     overwrite: OverwriteOption = False,
 ) -> None:
-    """Analyse the tooth contact of a hypoid pair; write its mesh table, contact.nc and figures.
+    """Analyse the tooth contact of a hypoid pair; write its mesh table, data and report.
 
     With --sensitivity: sensitivity.nc, sensitivity.csv and figures/sensitivity.png. Finished
     positions are kept in OUT: run the same command again to go on after a stop.
     """
+    from gearlube.report.stored import PAGE
     from gearlube.studies.contact import run
+    from gearlube.studies.contact.findings import findings
     from gearlube.studies.contact.gear_solids import write_gears
     from gearlube.studies.contact.settings import (
         QUICK,
@@ -108,7 +111,7 @@ def contact(
     )
     from gearlube.studies.contact.summary import (
         contact_summary,
-        contact_warnings,
+        edge_warnings,
         gear_file_warnings,
     )
     from gearlube_core.hypoid_contact.contact_table import levels_left_out
@@ -142,7 +145,12 @@ def contact(
             progress_on(console, "contact", 2 * cycle.positions) as progress,
         ):
             results = run.run_contact(
-                file, replace(usual, cycle=cycle), folder=out, jobs=jobs, progress=progress
+                file,
+                replace(usual, cycle=cycle),
+                folder=out,
+                jobs=jobs,
+                progress=progress,
+                command_line=command_line(),
             )
             if export:
                 progress(1.0, "gears")
@@ -156,11 +164,12 @@ def contact(
             )
         rows = contact_summary(results.contact)
         console.print(_table(file.name, rows))
-        for sentence in [*levels_left_out(results.contact), *contact_warnings(rows)]:
+        for sentence in [*levels_left_out(results.contact), *edge_warnings(results.contact)]:
             logger.warning("%s", sentence)
         table = out / f"{file.name}.nc"
         logger.info("Analysed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s (mesh table), %s, %s", table, out / "contact.nc", out / "figures")
+        tell_findings(findings(results.contact), out / PAGE)
         if kept is not None:
             logger.info("Kept for axle files whose gear_file is %s: %s", gear, kept)
 

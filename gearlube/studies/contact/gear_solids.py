@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
-from gearlube_core.hypoid_geometry.flank.export import write_flank_csv, write_solid
+from gearlube_core.hypoid_geometry.flank import export, step_file
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role
 from gearlube_core.hypoid_geometry.flank.tooth import Tooth
 from gearlube_core.hypoid_geometry.flank.tooth_solid import gear_solid, tooth_solid
@@ -15,16 +15,22 @@ ROLES: tuple[Role, Role] = ("pinion", "gear")
 
 
 def write_gears(file: HypoidGearFile, folder: Path) -> list[Path]:
-    """Write each flank as CSV, each tooth and gear as STL and GLB; return the files."""
+    """Write each flank as CSV, those of a tooth as STEP, each tooth and gear as STL and GLB.
+
+    All are of the hand of the file: with a left-handed pinion they are mirrored, y -> -y.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    files = []
+    mirrored, files = file.pair.pinion_hand == "left", []
     for role in ROLES:
         tooth = Tooth.from_file(file, role)
-        files += [
-            write_flank_csv(Flank.from_file(file, role, side), folder / f"{role}_{side}.csv")
-            for side in SIDES
-        ]
-        for suffix in ("stl", "glb"):
-            files.append(write_solid(tooth_solid(tooth), folder / f"{role}_tooth.{suffix}"))
-            files.append(write_solid(gear_solid(tooth), folder / f"{role}.{suffix}"))
+        for side in SIDES:
+            flank, path = Flank.from_file(file, role, side), folder / f"{role}_{side}.csv"
+            files.append(export.write_flank_csv(flank, path, mirrored=mirrored))
+        surfaces = step_file.tooth_surfaces(tooth)
+        if mirrored:
+            surfaces = {name: step_file.mirror_image(one) for name, one in surfaces.items()}
+        files.append(step_file.write_step(surfaces, folder / f"{role}_flanks.step"))
+        for name, solid in ((f"{role}_tooth", tooth_solid(tooth)), (role, gear_solid(tooth))):
+            one = export.mirror_image(solid) if mirrored else solid
+            files += [export.write_solid(one, folder / f"{name}.{kind}") for kind in export.FORMATS]
     return files

@@ -8,6 +8,7 @@ from pathlib import Path
 import xarray as xr
 
 from gearlube.studies.contact.figures import save_contact_figures
+from gearlube.studies.contact.report import write_contact_report
 from gearlube_core.hypoid_contact.analysis import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.contact_table import contact_table
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -42,6 +43,7 @@ def run_contact(
     folder: Path | None = None,
     jobs: int | None = None,
     progress: Progress = no_progress,
+    command_line: str = "",
 ) -> ContactResults:
     """Return the tooth contact of a gear file, unloaded and loaded.
 
@@ -50,12 +52,14 @@ def run_contact(
     file : HypoidGearFile
     settings : ContactSettings
     folder : Path, optional
-        Gets contact.nc, figures/ and the mesh table as NAME.nc. Finished positions are kept there
-        in `positions`: the same call goes on after a stop.
+        Gets contact.nc, report.html, figures/ and the mesh table as NAME.nc. Finished positions
+        are kept there in `positions`: the same call goes on after a stop.
     jobs : int, optional
         Processes; default: all processors.
     progress : callable, optional
         Called with the share of positions that is done [-] and a sentence on what runs.
+    command_line : str
+        Kept in the report.
 
     Raises
     ------
@@ -80,6 +84,7 @@ def run_contact(
         progress(1.0, "figures")
         write_dataset(dataset, folder / "contact.nc")
         save_contact_figures(dataset, folder / "figures")
+        write_contact_report(dataset, folder, command_line)
     results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
     if folder is not None:
         write_mesh_table(results.mesh_table, folder / f"{file.name}.nc")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from rich.table import Table
 
-from gearlube.studies.contact.figures.sensitivity import parameter_words, tolerance_words
+from gearlube.plotting.parameter_words import parameter_words, tolerance_words
 from gearlube.studies.contact.sensitivity import SensitivityRow
 
 _COLUMNS = (

@@ -11,7 +11,7 @@ from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
 from gearlube_core.hypoid_geometry.flank.flank import Role
 from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.tooth_contact.sharp_edge import sharp_edge_remark
+from gearlube_core.tooth_contact.sharp_edge import edges_that_carry
 
 _ROLES: tuple[Role, Role] = ("pinion", "gear")
 _TOUCHES = 1e-3  # share of the torque above which a pair counts as in contact
@@ -49,10 +49,28 @@ def contact_summary(contact: xr.Dataset) -> list[ContactSummary]:
     return rows
 
 
-def contact_warnings(rows: list[ContactSummary]) -> list[str]:
-    """Return warnings about the results, one sentence each."""
-    remark = sharp_edge_remark(max(row.highest_pressure for row in rows))
-    return [remark] if remark else []
+def edge_warnings(contact: xr.Dataset) -> list[str]:
+    """Return at which edges the highest pressure lies, each from the least torque on."""
+    said: dict[tuple[str, str], str] = {}
+    for side in SIDES:
+        for torque in contact["torque"].values:
+            found = contact["pressure_map"].sel(side=side, torque=torque).values
+            for edge, pressure in edges_that_carry(found).items():
+                said.setdefault(
+                    (side, edge),
+                    f"{side} flanks: from {torque:g} N.m on a sharp edge carries, at the {edge}, "
+                    f"with {1e-9 * pressure:.2f} GPa that rises with finer cells. More relief there"
+                    f" ({_CURES[edge].format(side=side)}) removes it.",
+                )
+    return list(said.values())
+
+
+_CURES = {
+    "gear tip": "gear.{side}_flank.tip_relief_um",
+    "pinion tip": "pinion.{side}_flank.tip_relief_um",
+    "toe": "toe_relief_um of both {side} flanks",
+    "heel": "heel_relief_um of both {side} flanks",
+}
 
 
 def gear_file_warnings(file: HypoidGearFile) -> list[str]:

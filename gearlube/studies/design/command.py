@@ -57,6 +57,7 @@ def design(
         logger.info("Designed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s, %s, %s", gear, out / "report.md", out / "figures")
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
+        logger.info("Quieter: gearlube optimise hypoid --example, with gear = %s", gear)
         logger.info("Then: gearlube map %s, once you have completed it", out / "axle.toml")
 
 

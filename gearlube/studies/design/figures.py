@@ -48,7 +48,8 @@ def contact_patterns(dataset: xr.Dataset) -> Any:
         axes[-1].set_xlabel("toe  -  face width  -  heel")
         figure.colorbar(filled, ax=axes, label="ease-off [µm]", format="%.0f")
         figure.suptitle(
-            "Gear flank: ease-off, path (black), pattern at 6.35 µm (red), asked (white)",
+            "Gear flank: ease-off, path (black), pattern at 6.35 µm (red), asked (white dot)\n"
+            "White: out of reach of the pinion, on a grid of 21 x 41 points",
             fontsize=11.5,
         )
     return figure

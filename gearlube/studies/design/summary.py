@@ -48,9 +48,9 @@ def asked_and_found(design: Design) -> list[AskedAndFound]:
         ):
             rows.append(AskedAndFound(side, what, f"{asked:.1f}", f"{value:.1f}"))
         relieved = design.relieved[side]
-        if not isinstance(relieved, str):
-            what, value = "transmission error with relief [urad]", relieved.error / _MICRO
-            rows.insert(-2, AskedAndFound(side, what, "", f"{value:.1f}"))
+        text = "no extreme" if isinstance(relieved, str) else f"{relieved.error / _MICRO:.1f}"
+        what = "transmission error with relief [urad]"
+        rows.insert(-2, AskedAndFound(side, what, "", text))
         places = [f"s {one.s:.3f}, t {one.t:.3f}" for one in (target, found)]
         off = f"{places[1]} ({centre / MILLIMETRE:.2f} mm off)"
         rows.append(AskedAndFound(side, "mean contact", places[0], off))
@@ -100,6 +100,8 @@ def unmet_targets(design: Design) -> list[str]:
                 f"of the place asked for. {cure}"
             )
         if abs(length) > LENGTH_LIMIT:
+            if found.length < target.length:
+                cure = cure.replace("a longer contact.ellipse", "a shorter contact.ellipse")
             said.append(
                 f"The contact ellipse of the {side} flanks came to "
                 f"{found.length / MILLIMETRE:.1f} mm, asked {target.length / MILLIMETRE:.1f} mm. "
@@ -111,7 +113,14 @@ def unmet_targets(design: Design) -> list[str]:
 def design_warnings(design: Design, forms: dict[str, ToothForm]) -> list[str]:
     """Return what speaks against a design, one sentence each."""
     teeth = [line for form in forms.values() for line in form.report()]
-    return [*design.warnings, *unmet_targets(design), *pair_warnings(design.file), *teeth]
+    said = [one for one in design.measured.values() if isinstance(one, str)]
+    pair = [
+        # no setting is mistyped here: what would be most likely wrong in a given file is not said
+        one.partition(" Most likely wrong:")[0]
+        for one in pair_warnings(design.file)
+        if not any(one.startswith(reason) for reason in said)
+    ]
+    return [*design.warnings, *unmet_targets(design), *pair, *teeth]
 
 
 def report(design: Design, forms: dict[str, ToothForm]) -> str:

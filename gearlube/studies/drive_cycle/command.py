@@ -60,13 +60,23 @@ def drive_cycle(
             "--check-grid", help="Compute once more with a map twice as fine; tell the change."
         ),
     ] = False,
+    draws: Annotated[
+        int, typer.Option(help="Samples of the uncertain data for the error bars; 0: none.")
+    ] = 60,
+    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    calibrated_bearings: Annotated[
+        bool,
+        typer.Option(
+            "--calibrated-bearings", help="f0 and f1 of the file are from measured torques."
+        ),
+    ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_cycle"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
     """Drive a car over a cycle: energy lost in its axle by source, and the oil temperature.
 
-    Writes drive_cycle.nc, drive_cycle.csv, summary.csv and a figure.
+    Writes drive_cycle.nc, drive_cycle.csv, summary.csv, report.html and a figure.
     """
     from drivetrain.axle_file.axle_file import AxleFile
     from drivetrain.axle_file.read_axle import read_axle
@@ -74,9 +84,11 @@ def drive_cycle(
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
+    from gearlube.cli.report_end import finish_with_report
+    from gearlube.report.inputs import noted_inputs
+    from gearlube.studies.drive_cycle.report import cycle_report
     from gearlube.studies.drive_cycle.run import grid_change, run_cycle
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
-    from gearlube.studies.drive_cycle.tables import range_sentence
     from gearlube.studies.drive_cycle.traces import DriveCycle
     from gearlube_core.units import celsius_to_kelvin
 
@@ -98,6 +110,9 @@ def drive_cycle(
                 conductance_at_rest=conductance_at_rest,
                 conductance_at_100_kmh=conductance_at_100,
             ),
+            draws=draws,
+            seed=seed,
+            calibrated_bearings=calibrated_bearings,
         )
         with results_folder(out, "cycle", overwrite=overwrite):
             with progress_on(console, "cycle") as progress:
@@ -106,15 +121,10 @@ def drive_cycle(
                 with progress_on(console, "finer map") as progress:
                     change = grid_change(settings, dataset, progress)
                 logger.info("A map twice as fine changes the energy by %+.2f %%.", 100.0 * change)
-        lost, put_in = float(dataset["energy_lost"].sum()), float(dataset["energy_in"])
-        share = f", {100.0 * lost / put_in:.1f} % of what goes in" if put_in > 0.0 else ""
-        oil = dataset["oil_temperature"].values
-        logger.info("Lost %.1f kJ (%.1f Wh)%s.", lost, lost / 3.6, share)
-        logger.info("Oil from %.1f to %.1f degC.", oil[0], oil[-1])
-        logger.warning("Not modelled: %s.", dataset.attrs["not_modelled"])
-        if left := range_sentence(dataset):
-            logger.warning("%s", left)
-        logger.info("Computed in %.1f s.", time.monotonic() - began)
+        seconds = time.monotonic() - began
+        logger.info("Computed in %.1f s.", seconds)
         logger.info(
             "Results: %s, %s, %s", out / "drive_cycle.nc", out / "summary.csv", out / "figures"
         )
+        report = cycle_report(dataset, noted_inputs(settings.car.inputs))
+        finish_with_report(report, out, seconds)

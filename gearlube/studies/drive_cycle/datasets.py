@@ -8,8 +8,9 @@ import xarray as xr
 from drivetrain.sump_heat import Warming
 from gearlube.plotting.loss_words import not_modelled
 from gearlube.studies.drive_cycle.demand import Demand
-from gearlube.studies.drive_cycle.loss_field import LossesAlong
+from gearlube.studies.drive_cycle.loss_field import LossesAlong, at_temperatures
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+from gearlube.studies.drive_cycle.spread import CycleSpread, uncertain_inputs
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
@@ -24,6 +25,7 @@ def cycle_dataset(
     losses: LossesAlong,
     warming: Warming,
     others: list[Warming],
+    spread: CycleSpread | None = None,
 ) -> xr.Dataset:
     """Return a cycle over time: demand, losses by source and oil temperature, and the energies.
 
@@ -31,6 +33,8 @@ def cycle_dataset(
     ----------
     others
         Temperatures with capacity and conductances at the ends of their intervals.
+    spread
+        Error bars; None: those of the heat data alone, and none of the efficiency.
     """
     ratio = settings.car.driveline.road_load.final_drive.ratio
     power = at_temperatures(losses.power, losses.temperatures, warming.mean)
@@ -51,6 +55,9 @@ def cycle_dataset(
             for one in (warming, *others)
         ]
     )
+    if spread is not None:
+        ends = np.array(spread.lost)
+    whose = "fastest and slowest warming" if spread is None else "95 % of draws"
     energy_in = _energy(np.maximum(put_in, 0.0) + np.maximum(-given_out, 0.0), demand)
     step, time = ("step",), ("time",)
     variables = {
@@ -85,8 +92,8 @@ def cycle_dataset(
         "energy_in": ((), energy_in, "kJ", "energy into the axle, from either side"),
         "energy_in_pinion": ((), _energy(np.maximum(put_in, 0.0), demand), "kJ", "by the pinion"),
         "energy_lost": (("source",), lost, "kJ", "energy lost"),
-        "energy_lost_low": ((), ends.min(), "kJ", "energy lost in all, fastest warming"),
-        "energy_lost_high": ((), ends.max(), "kJ", "energy lost in all, slowest warming"),
+        "energy_lost_low": ((), ends.min(), "kJ", f"energy lost in all, low: {whose}"),
+        "energy_lost_high": ((), ends.max(), "kJ", f"energy lost in all, high: {whose}"),
         "energy_brakes": ((), _energy(demand.brakes, demand), "kJ", "to the friction brakes"),
         "efficiency": (
             (),
@@ -95,6 +102,15 @@ def cycle_dataset(
             "efficiency of the axle over the cycle",
         ),
     }
+    if spread is not None:
+        bounds = {
+            "efficiency": (spread.efficiency, "1"),
+            "end_temperature": (np.subtract(spread.end_temperature, ZERO_CELSIUS), "degC"),
+        }
+        for name, (pair, unit) in bounds.items():
+            for end, value in zip(("low", "high"), pair, strict=True):
+                about = f"{name.replace('_', ' ')}, {end}: 95 % of draws"
+                variables[f"{name}_{end}"] = ((), float(value), unit, about)
     middle = 0.5 * (settings.cycle.time[1:] + settings.cycle.time[:-1])
     coordinates = {
         "time": ("time", np.array(settings.cycle.time), _about("s", "time")),
@@ -114,15 +130,6 @@ def cycle_dataset(
         coords=coordinates,
         attrs=_attributes(settings, lost, outside),
     )
-
-
-def at_temperatures(values: Array, nodes: Array, temperatures: Array) -> Array:
-    """Return values (n, k, ...) at a temperature for each of n steps, linear between k nodes."""
-    cell = np.searchsorted(nodes[1:-1], temperatures)
-    share = (temperatures - nodes[cell]) / (nodes[cell + 1] - nodes[cell])
-    share = share.reshape(-1, *(1,) * (values.ndim - 2))
-    rows = np.arange(len(temperatures))
-    return np.asarray((1.0 - share) * values[rows, cell] + share * values[rows, cell + 1])
 
 
 def _share(outside: Array, weights: Array) -> Array:
@@ -157,5 +164,11 @@ def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> di
         "capacity_j_k": heat.capacity,
         "conductance_at_rest_w_k": heat.conductance_at_rest,
         "conductance_at_100_kmh_w_k": heat.conductance_at_100_kmh,
+        "draws": settings.draws,
+        "seed": settings.seed,
+        "uncertain": "; ".join(
+            f"{one.name}: factor {one.factor:g} (k = 2), {one.why}"
+            for one in uncertain_inputs(settings)
+        ),
         "band": "capacity and conductances at the ends of their assumed intervals",
     }

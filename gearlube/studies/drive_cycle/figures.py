@@ -11,7 +11,7 @@ import xarray as xr
 from gearlube.plotting.loss_words import source_words
 from gearlube.plotting.style import BLUE, SERIES, VERMILLION, house_style, new_figure
 
-_LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn
+LEAST_SHARE = 0.002  # of the energy lost, below which a source is not drawn
 
 
 def save_cycle_figures(dataset: xr.Dataset, folder: Path) -> None:
@@ -31,12 +31,18 @@ def cycle_figure(dataset: xr.Dataset) -> Any:
         below.set_xlabel("time [s]")
         below.set_xlim(float(dataset["time"][0]), float(dataset["time"][-1]))
         lost, share = float(dataset["energy_lost"].sum()), float(dataset["efficiency"])
+        words = [f"{lost:.0f} kJ", f"{100.0 * share:.1f} %"]
+        if "efficiency_low" in dataset:
+            ends = [float(dataset[f"energy_lost_{end}"]) for end in ("low", "high")]
+            shares = [100.0 * float(dataset[f"efficiency_{end}"]) for end in ("low", "high")]
+            words[0] += f" ({ends[0]:.0f} to {ends[1]:.0f})"
+            words[1] += f" ({shares[0]:.1f} to {shares[1]:.1f})"
         figure.suptitle(
-            f"{dataset.attrs['cycle']}: {lost:.0f} kJ lost in the axle, efficiency "
-            f"{100.0 * share:.1f} %"
+            f"{dataset.attrs['cycle']}: {words[0]} lost in the axle, efficiency {words[1]}"
         )
+        drawn = "In brackets: 95 % of the draws. " if "efficiency_low" in dataset else ""
         figure.supxlabel(
-            f"Not modelled: {dataset.attrs['not_modelled']}.", fontsize=8.5, color="#555555"
+            f"{drawn}Not modelled: {dataset.attrs['not_modelled']}.", fontsize=8.5, color="#555555"
         )
     return figure
 
@@ -56,7 +62,7 @@ def _demand(ax: Any, dataset: xr.Dataset) -> None:
 def _losses(ax: Any, dataset: xr.Dataset) -> None:
     energy = dataset["energy_lost"].values
     names = [str(one) for one in dataset["source"].values]
-    drawn = [i for i in range(len(names)) if energy[i] > _LEAST_SHARE * energy.sum()]
+    drawn = [i for i in range(len(names)) if energy[i] > LEAST_SHARE * energy.sum()]
     ax.stackplot(
         dataset["step"].values,
         dataset["loss"].values.T[drawn],

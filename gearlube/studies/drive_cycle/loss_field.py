@@ -162,3 +162,12 @@ def _check_map(status: Array, temperatures: Array, speeds: Array, torques: Array
         f"without. The first is at {temperatures[i]:.1f} K, {speeds[j]:.4g} rad/s and "
         f"{torques[k]:.4g} N.m: {FAILURES[int(status[i, j, k])]}"
     )
+
+
+def at_temperatures(values: Array, nodes: Array, temperatures: Array) -> Array:
+    """Return values (n, k, ...) at a temperature for each of n steps, linear between k nodes."""
+    cell = np.searchsorted(nodes[1:-1], temperatures)
+    share = (temperatures - nodes[cell]) / (nodes[cell + 1] - nodes[cell])
+    share = share.reshape(-1, *(1,) * (values.ndim - 2))
+    rows = np.arange(len(temperatures))
+    return np.asarray((1.0 - share) * values[rows, cell] + share * values[rows, cell + 1])

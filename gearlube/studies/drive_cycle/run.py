@@ -15,12 +15,13 @@ from gearlube.studies.drive_cycle.demand import demand_of
 from gearlube.studies.drive_cycle.figures import save_cycle_figures
 from gearlube.studies.drive_cycle.loss_field import losses_along
 from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+from gearlube.studies.drive_cycle.spread import check_inputs, cycle_spread
 from gearlube.studies.drive_cycle.tables import SUMMARY_HEAD, series_rows, summary_rows
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 
-_OF_MAP = 0.9  # share of the work
+_OF_MAP, _OF_SPREAD = 0.3, 0.95  # shares of the work at which map and error bars are done
 
 
 def run_cycle(
@@ -44,7 +45,8 @@ def run_cycle(
     -------
     xr.Dataset
         Over the steps of the trace torques, speeds and `loss` by source [W]; at its rows
-        `oil_temperature` [degC]; `energy_in`, `energy_lost` by source [kJ], `efficiency`.
+        `oil_temperature` [degC]; `energy_in`, `energy_lost` by source [kJ], `efficiency`, and the
+        bounds of 95 % of the draws.
 
     Raises
     ------
@@ -66,8 +68,11 @@ def run_cycle(
     >>> found.sizes["step"], found["oil_temperature"].dims
     (59, ('time',))
     """
+    check_inputs(settings)
     demand = demand_of(settings)
-    losses = losses_along(settings, demand, part_of(progress, 0.0, _OF_MAP))
+    losses = losses_along(
+        settings, demand, part_of(progress, 0.0, _OF_MAP if settings.draws else _OF_SPREAD)
+    )
     total = losses.power.sum(axis=-1)
 
     def warmed(heat: SumpHeat) -> Warming:
@@ -84,7 +89,11 @@ def run_cycle(
     warming = warmed(settings.heat)
     _check_oil(settings, warming.temperature)
     others = [warmed(one) for one in settings.heat.corners]
-    dataset = cycle_dataset(settings, demand, losses, warming, others)
+    spread = None
+    if settings.draws:
+        bars = part_of(progress, _OF_MAP, _OF_SPREAD)
+        spread = cycle_spread(settings, demand, losses, bars)
+    dataset = cycle_dataset(settings, demand, losses, warming, others, spread)
     if folder is not None:
         progress(1.0, "files and figures")
         folder.mkdir(parents=True, exist_ok=True)
@@ -99,7 +108,7 @@ def grid_change(
     settings: DriveCycleSettings, dataset: xr.Dataset, progress: Progress = no_progress
 ) -> float:
     """Return by what share the energy lost changes with a map twice as fine [-]."""
-    finer = run_cycle(replace(settings, grid=settings.grid.finer), progress=progress)
+    finer = run_cycle(replace(settings, grid=settings.grid.finer, draws=0), progress=progress)
     return float(finer["energy_lost"].sum() / dataset["energy_lost"].sum()) - 1.0
 
 

@@ -8,6 +8,7 @@ from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.sump_heat import SumpHeat
 from gearlube.studies.drive_cycle.traces import DriveCycle
 from gearlube_core.checks import check_within
+from gearlube_core.dynamics.hypoid_axle.uncertain import MOST_DRAWS, uncertain_of
 from gearlube_core.units import celsius_to_kelvin
 
 COAST_TORQUE = 30.0  # N.m at the pinion; assumed, 0 to 60 for a car of 1.3 t
@@ -67,6 +68,11 @@ class DriveCycleSettings:
         Drag of engine and gearbox with closed throttle, at the pinion [N.m]; assumed.
     heat : SumpHeat
     grid : LossGrid
+    draws : int
+        Samples of the uncertain data, 0 to 10000; 0: no error bars but those of the heat data.
+    seed : int
+    calibrated_bearings : bool
+        f0 and f1 of Palmgren's law are from measured torques of these bearings.
 
     Examples
     --------
@@ -86,6 +92,9 @@ class DriveCycleSettings:
     coast_torque: float = COAST_TORQUE
     heat: SumpHeat = field(default_factory=SumpHeat)
     grid: LossGrid = field(default_factory=LossGrid)
+    draws: int = 60
+    seed: int = 1
+    calibrated_bearings: bool = False
 
     def __post_init__(self) -> None:
         oil = self.car.axle.oil
@@ -93,3 +102,6 @@ class DriveCycleSettings:
             oil.check_temperature(getattr(self, name), name)
         check_within("regeneration", self.regeneration, 0.0, 1.0, "", "A half is 0.5.")
         check_within("coast_torque", self.coast_torque, 0.0, 1e4, "N.m", "30 N.m is usual.")
+        check_within("draws", self.draws, 0, MOST_DRAWS, "", "60 are usual.")
+        check_within("seed", self.seed, 0, 2**32 - 1, "", "Any whole number.")
+        uncertain_of(self.car.axle, calibrated_bearings=self.calibrated_bearings)

@@ -44,7 +44,8 @@ def _series(dataset: xr.Dataset) -> Iterator[tuple[str, ...]]:
 def summary_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
     """Return energies in kJ and Wh, efficiency and the temperature at the end.
 
-    Low and high are those of the assumed heat capacity and conductances alone.
+    Low and high hold 95 % of the draws of all uncertain data; without draws they are those of
+    the assumed heat capacity and conductances alone.
     """
     lost = dataset["energy_lost"]
     rows = [
@@ -60,11 +61,16 @@ def summary_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
     for source in lost["source"].values:
         rows += _energy(f"lost by {source_words(str(source))}", lost.sel(source=source))
     rows += _energy("energy to the friction brakes", dataset["energy_brakes"])
-    end = [
-        float(dataset[name][-1])
-        for name in ("oil_temperature", "oil_temperature_low", "oil_temperature_high")
+    drawn = "efficiency_low" in dataset
+    end = [float(dataset["oil_temperature"][-1])]
+    end += [
+        float(dataset[f"end_temperature_{one}"] if drawn else dataset[f"oil_temperature_{one}"][-1])
+        for one in ("low", "high")
     ]
-    rows.append(("efficiency", f"{float(dataset['efficiency']):.6g}", "1", "", ""))
+    bars = [
+        f"{float(dataset[f'efficiency_{one}']):.6g}" if drawn else "" for one in ("low", "high")
+    ]
+    rows.append(("efficiency", f"{float(dataset['efficiency']):.6g}", "1", *bars))
     rows.append(
         ("oil temperature at the end", f"{end[0]:.5g}", "degC", *(f"{t:.5g}" for t in end[1:]))
     )

@@ -17,6 +17,7 @@ from gearlube.cli.exit_codes import FAILED, INTERRUPTED, exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import (
+    ExampleOption,
     HelicalGearArgument,
     JobsOption,
     OilTemperatureOption,
@@ -127,6 +128,7 @@ def helical(
         bool, typer.Option("--quick", help="Few points and coarse teeth, for a first look.")
     ] = False,
     overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
 ) -> None:
     """Study a helical or spur pair; write NetCDF datasets, summary.csv and figures.
 
@@ -142,6 +144,9 @@ def helical(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped while results were written; {out} may be incomplete."):
+        if example:
+            typer.echo(HelicalGearFile.shipped_text("he_2007"), nl=False)
+            return
         file = HelicalGearFile.given(gear)
         if jobs is not None:
             check_within("--jobs", jobs, 1, 1024)

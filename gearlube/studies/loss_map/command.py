@@ -22,8 +22,6 @@ from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from drivetrain.driveline.parameters import DrivelineParameters
     from drivetrain.steady_temperature import Cooling
     from drivetrain.sump_heat import SumpHeat
@@ -37,7 +35,9 @@ _RPM = 0.104719755119660  # rad/s
 class MapCommand(MultiValueCommand):
     """A command whose options for the grid take several values."""
 
-    multi_value = frozenset({"--torques", "--speeds", "--temperatures"})
+    multi_value = frozenset(
+        {"--torques", "--speeds", "--speeds-rpm", "--temperatures", "--oil-temperatures"}
+    )
 
 
 def loss_map(
@@ -55,11 +55,21 @@ def loss_map(
     ] = None,
     speeds: Annotated[
         list[str] | None,
-        typer.Option(help="Pinion speeds [rpm]. Default: 250:5000:250.", metavar="RANGE..."),
+        typer.Option(
+            "--speeds",
+            "--speeds-rpm",
+            help="Pinion speeds [rpm]. Default: 250:5000:250.",
+            metavar="RANGE...",
+        ),
     ] = None,
     temperatures: Annotated[
         list[str] | None,
-        typer.Option(help="Oil temperatures [degC]. Default: 40 60 80 100.", metavar="RANGE..."),
+        typer.Option(
+            "--temperatures",
+            "--oil-temperatures",
+            help="Oil temperatures [degC]. Default: 40 60 80 100.",
+            metavar="RANGE...",
+        ),
     ] = None,
     oil: Annotated[
         str | None,
@@ -113,15 +123,18 @@ def loss_map(
 ) -> None:
     """Map the losses of an axle over torque, speed and oil temperature, with error bars.
 
-    Writes map.nc, map.csv, map.mat, figures, and a file for VECTO, GEM and Modelica for each oil
-    temperature.
+    Writes map.nc, map.csv, map.mat, report.html, figures, and a file for VECTO, GEM and Modelica
+    for each oil temperature.
     """
     from drivetrain.axle_file.axle_file import AxleFile
     from drivetrain.axle_file.read_axle import read_axle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on
+    from gearlube.cli.report_end import finish_with_report
+    from gearlube.report.inputs import noted_inputs
     from gearlube.studies.loss_map.exports import write_regulation_map
+    from gearlube.studies.loss_map.report import loss_map_report
     from gearlube.studies.loss_map.run import run_loss_map
     from gearlube.studies.loss_map.settings import LossMapSettings
     from gearlube_core.oil.oil_file import read_oil
@@ -160,33 +173,12 @@ def loss_map(
             for raised, wanted in ((False, regulation_grid), (True, regulation_raised)):
                 if wanted:
                     write_regulation_map(settings, out, raised=raised, progress=progress)
-        for sentence in remarks(dataset):
-            logger.warning("%s", sentence)
-        points = dataset["status"].size
-        logger.info("%d points in %.1f s.", points, time.monotonic() - began)
+        seconds = time.monotonic() - began
+        logger.info("%d points in %.1f s.", dataset["status"].size, seconds)
         logger.info("Results: %s, %s, %s", out / "map.nc", out / "map.csv", out / "figures")
+        finish_with_report(loss_map_report(dataset, noted_inputs(described.inputs)), out, seconds)
         failures = int((dataset["status"] != 0).sum())
         exit_if_failed(f"{failures} points failed; map.csv says why." if failures else "")
-
-
-def remarks(dataset: xr.Dataset) -> list[str]:
-    """Return what a reader of the map must know."""
-    said = [f"Not modelled: {dataset.attrs['not_modelled']}."]
-    if dataset.attrs["ranges_left"]:
-        share = 100.0 * float((dataset["range_exceeded"] > 0).mean())
-        said.append(
-            f"{share:.0f} % of the points are outside a range: {dataset.attrs['ranges_left']}. "
-            "The column range_exceeded says which."
-        )
-    if "steady_temperature" in dataset:
-        steady = dataset["steady_temperature"]
-        missing = int(steady.isnull().sum())
-        if missing:
-            said.append(
-                f"{missing} of {steady.size} torques and speeds come to no rest within the data "
-                "of the oil; their steady temperature is empty."
-            )
-    return said
 
 
 def _cooling(

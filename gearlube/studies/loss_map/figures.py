@@ -11,10 +11,12 @@ import xarray as xr
 from gearlube.plotting.figure_folder import save_figure_folder
 from gearlube.plotting.loss_words import SOURCE_WORDS
 from gearlube.plotting.style import GREY, SERIES, YELLOW, house_style, new_figure
+from gearlube.studies.loss_map.findings import mean_swings
 
 _COLOURS = (*SERIES, GREY, YELLOW)  # of the sources, in their order
+_INPUT_WORDS = {"eyring_stress": "Eyring stress", "alpha": "pressure-viscosity coefficient"}
 _MOST_PANELS = 6
-_LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
+LEAST_SHARE = 0.005  # of the largest loss, below which a source is not drawn
 
 
 def save_loss_map_figures(dataset: xr.Dataset, folder: Path) -> None:
@@ -38,7 +40,7 @@ def loss_contours(dataset: xr.Dataset) -> Any:
     """Return the loss torque over speed and torque of the pinion, a panel for each temperature."""
     from matplotlib.ticker import MaxNLocator
 
-    temperatures = _some(dataset["temperature"].values)
+    temperatures = some_temperatures(dataset)
     loss = dataset["loss_torque"]
     levels = MaxNLocator(12).tick_values(0.0, float(np.nanmax(loss.values)))
     columns = min(2, len(temperatures))
@@ -74,8 +76,7 @@ def loss_contours(dataset: xr.Dataset) -> Any:
 def loss_split(dataset: xr.Dataset) -> Any:
     """Return the losses by source over torque at three speeds, at a middle temperature."""
     temperature = dataset["temperature"].values[dataset.sizes["temperature"] // 2]
-    count = dataset.sizes["speed"]
-    chosen = sorted({round(share * (count - 1)) for share in (0.15, 0.5, 1.0)})
+    chosen = shown_speeds(dataset)
     with house_style():
         figure = new_figure(3.5 * len(chosen) + 1.6, 4.4)
         panels = np.atleast_1d(figure.subplots(1, len(chosen)))
@@ -97,7 +98,7 @@ def _split(ax: Any, one: xr.Dataset) -> None:
     loss = one["loss"].transpose("source", "torque").values
     largest = np.nanmax(loss.sum(axis=0))
     names = [str(name) for name in one["source"].values]
-    drawn = [i for i in range(len(names)) if np.nanmax(loss[i]) > _LEAST_SHARE * largest]
+    drawn = [i for i in range(len(names)) if np.nanmax(loss[i]) > LEAST_SHARE * largest]
     ax.stackplot(
         torque,
         np.nan_to_num(loss[drawn]),
@@ -115,25 +116,33 @@ def _split(ax: Any, one: xr.Dataset) -> None:
 
 def sensitivity(dataset: xr.Dataset) -> Any:
     """Return which uncertain input moves the loss most, as a mean over the map."""
-    share = dataset["swing"] / dataset["loss_torque"]
-    mean = 100.0 * share.mean([d for d in share.dims if d != "input"]).values
+    swings = mean_swings(dataset)
     words = dict(part.split(": ", 1) for part in dataset.attrs["uncertain"].split("; "))
-    names = [str(one) for one in dataset["input"].values]
-    order = np.argsort(mean)
+    names = list(swings)[::-1]  # the largest on top
+    mean = 100.0 * np.array([swings[name] for name in names])
     with house_style():
         figure = new_figure(7.4, 0.45 * len(names) + 1.6)
         ax = figure.subplots()
-        ax.barh([names[i].replace("_", " ") for i in order], mean[order], color=SERIES[0])
-        for row, i in enumerate(order):
-            factor = words[names[i]].split(",")[0]
-            ax.text(mean[i], row, f"  {mean[i]:.1f} %, {factor}", va="center", fontsize=8)
+        labels = [_INPUT_WORDS.get(name, name.replace("_", " ")) for name in names]
+        ax.barh(labels, mean, color=SERIES[0])
+        for row, name in enumerate(names):
+            factor = words[name].split(",")[0]
+            ax.text(mean[row], row, f"  {mean[row]:.1f} %, {factor}", va="center", fontsize=8)
         ax.set_xlim(0.0, 1.45 * mean.max())
         ax.set_xlabel("mean change of the loss torque by one input alone [%]")
         ax.grid(visible=False, axis="y")
     return figure
 
 
-def _some(values: np.ndarray) -> list[float]:
+def shown_speeds(dataset: xr.Dataset) -> list[int]:
+    """Return the places of a low, a middle and the highest speed."""
+    last = dataset.sizes["speed"] - 1
+    return sorted({round(share * last) for share in (0.15, 0.5, 1.0)})
+
+
+def some_temperatures(dataset: xr.Dataset) -> list[float]:
+    """Return up to six temperatures, the ends among them."""
+    values = dataset["temperature"].values
     if values.size <= _MOST_PANELS:
         return [float(one) for one in values]
     chosen = np.linspace(0, values.size - 1, _MOST_PANELS).astype(int)

@@ -1,4 +1,8 @@
-"""The loss map on the grid of heavy-duty axle tests: speeds and torques of the wheels."""
+"""The loss map on the grid of heavy-duty axle tests: speeds and torques of the wheels.
+
+[european_commission_2017] could not be read where it sets grid, oil temperature and what is added
+for uncertainty; docs/loss_map.md says where they are from.
+"""
 
 from __future__ import annotations
 

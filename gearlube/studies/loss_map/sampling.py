@@ -6,16 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlube.studies.loss_map.settings import LossMapSettings, Uncertain
+from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
-from gearlube_core.errors import ParameterError
+from gearlube_core.dynamics.hypoid_axle.uncertain import UPPER_END, changed_axle
 from gearlube_core.progress import Progress, no_progress
 
 _ANGLES = 8  # within 4e-4 of 256, far below any spread
 _BOUNDS = (2.5, 97.5)  # percent
-_STEP = 2.0  # standard deviations, of one input alone
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +68,7 @@ def _rows(settings: LossMapSettings) -> Array:
     count = len(settings.uncertain)
     rng = np.random.default_rng(settings.seed)
     normals = rng.standard_normal((settings.draws, count))
-    return np.concatenate([np.eye(count) * _STEP, np.eye(count) * -_STEP, normals])
+    return np.concatenate([np.eye(count) * UPPER_END, np.eye(count) * -UPPER_END, normals])
 
 
 def _drawn(settings: LossMapSettings, row: Array) -> tuple[HypoidAxleParameters, Array]:
@@ -79,14 +78,7 @@ def _drawn(settings: LossMapSettings, row: Array) -> tuple[HypoidAxleParameters,
     """
     axle, scale = settings.axle, np.ones(len(LOSS_SOURCES))
     for one, normal in zip(settings.uncertain, row, strict=True):
-        try:
-            axle = _changed(one, axle, float(normal), scale)
-        except ParameterError as error:
-            raise ParameterError(
-                f"The error bars draw the {one.words} at {one.multiplier(float(normal)):.3g} times "
-                f"its value, and must stay within its limits: {error} Take a value farther from "
-                "its limit, or --draws 0 (draws = 0) for no error bars."
-            ) from error
+        axle = changed_axle(one, axle, float(normal), scale)
     return axle, scale
 
 
@@ -102,17 +94,3 @@ def _power(settings: LossMapSettings, axle: HypoidAxleParameters) -> Array:
         extremes=False,
     )
     return found.power
-
-
-def _changed(
-    one: Uncertain, axle: HypoidAxleParameters, normal: float, scale: Array
-) -> HypoidAxleParameters:
-    """Return the axle with one uncertain input changed, or change the scale of its sources."""
-    by = one.multiplier(normal)
-    if normal == 0.0:
-        return axle
-    if one.changed is not None:
-        return one.changed(axle, by)
-    for source in one.sources:
-        scale[LOSS_SOURCES.index(source)] *= by
-    return axle

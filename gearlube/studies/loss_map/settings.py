@@ -1,168 +1,21 @@
-"""What a loss map is computed for, and how uncertain its inputs are."""
+"""What a loss map is computed for."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from drivetrain.steady_temperature import Cooling
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_axle.bearing_drag import BEARING_LAWS
 from gearlube_core.dynamics.hypoid_axle.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.hypoid_axle.uncertain import MOST_DRAWS, Uncertain, uncertain_of
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import celsius_to_kelvin
 
 MOST_POINTS = 200_000
-MOST_DRAWS = 10_000
-_REFERENCE = celsius_to_kelvin(40.0), celsius_to_kelvin(100.0)
-
-
-@dataclass(frozen=True, slots=True)
-class Uncertain:
-    """An input or a law that is known to a factor.
-
-    Parameters
-    ----------
-    name
-        Key.
-    words
-        What it is, for figures and tables.
-    factor
-        The true value lies between value/factor and value * factor with 95 % (k = 2); the
-        logarithm is normal.
-    why
-        Where the factor is from.
-    changed
-        Returns the axle with the input times a number; None: the factor scales `sources`.
-    sources
-        Losses that are scaled, see `losses.LOSS_SOURCES`.
-    """
-
-    name: str
-    words: str
-    factor: float
-    why: str
-    changed: Callable[[HypoidAxleParameters, float], HypoidAxleParameters] | None = None
-    sources: tuple[str, ...] = ()
-
-    def multiplier(self, normal: float) -> float:
-        """Return the number to multiply with at a standard normal `normal`."""
-        return math.exp(0.5 * normal * math.log(self.factor))
-
-
-def _viscosity(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
-    oil = axle.oil
-    low, high = (by * oil.dynamic_viscosity(t) / oil.density for t in _REFERENCE)
-    return replace(
-        axle,
-        oil=oil.with_two_viscosities(low, _REFERENCE[0], high, _REFERENCE[1], name=oil.name),
-    )
-
-
-def _eyring(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
-    return replace(axle, oil=replace(axle.oil, eyring_stress=axle.oil.eyring_stress * by))
-
-
-def _alpha(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
-    return replace(axle, oil=replace(axle.oil, alpha=axle.oil.alpha * by))
-
-
-def _roughness(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
-    return replace(axle, roughness_rms=axle.roughness_rms * by)
-
-
-_NOT_MEASURED = "state of lubrication not known, no torque measured"
-_MEASURED = "drag calibrated with measured torques of the bearings"
-
-UNCERTAIN = (
-    Uncertain("viscosity", "oil viscosity", 1.08, "batches of one reference oil", _viscosity),
-    Uncertain("eyring_stress", "Eyring stress of the oil", 2.0, "2 to 5 MPa in use", _eyring),
-    Uncertain("alpha", "pressure-viscosity coefficient", 1.15, "between methods", _alpha),
-    Uncertain("roughness", "roughness of the flanks", 1.4, "new against run in", _roughness),
-    Uncertain(
-        "flank_friction",
-        "law of flank friction",
-        1.2,
-        "assumed, laws of traction among each other",
-        None,
-        ("friction_viscous", "friction_boundary"),
-    ),
-    Uncertain(
-        "bearing_drag",
-        "law of bearing drag",
-        UNCALIBRATED["palmgren"],
-        _NOT_MEASURED,
-        None,
-        ("bearing_torque",),
-    ),
-    Uncertain(
-        "churning",
-        "law and immersion of the churning",
-        3.0,
-        "laws among each other, and oil thrown off",
-        None,
-        ("churning",),
-    ),
-    Uncertain("seals", "torque of the seals", 2.0, "seals among each other", None, ("seals",)),
-    Uncertain(
-        "flank_rolling",
-        "law of the rolling of the flanks",
-        2.0,
-        "assumed, laws of rolling among each other, and inlet heating",
-        None,
-        ("friction_rolling",),
-    ),
-)
-
-
-def uncertain_of(
-    axle: HypoidAxleParameters, *, calibrated_bearings: bool = False
-) -> tuple[Uncertain, ...]:
-    """Return the usual uncertain data, with the factors of an axle's oil and bearing law.
-
-    Parameters
-    ----------
-    axle
-        Its oil has factors of its own; the factor of the bearing drag is that of its law, from
-        the table that `bearing_loss` takes as well.
-    calibrated_bearings
-        f0 and f1 of Palmgren's law are from measured torques of these bearings.
-
-    Raises
-    ------
-    ParameterError
-        Calibrated bearings with another law: only Palmgren's has factors to calibrate.
-
-    Examples
-    --------
-    >>> from dataclasses import replace
-    >>> from gearlube_core.dynamics.hypoid_axle.parameters import mohammadpour_2015_axle
-    >>> axle = replace(mohammadpour_2015_axle(), bearing_torque_loss="biboulet_houpert_2010")
-    >>> {one.name: one.factor for one in uncertain_of(axle)}["bearing_drag"]
-    3.0
-    """
-    oil, law = axle.oil, axle.bearing_torque_loss
-    if calibrated_bearings and law not in ("palmgren", "palmgren_loaded"):
-        raise ParameterError(
-            "Calibrated bearings must have the law palmgren or palmgren_loaded, whose f0 and f1 "
-            f"hold the measured torque, got {law}. Leave the calibration out, or take palmgren."
-        )
-    of_oil = f"of {oil.name}".replace(";", ",")
-    own = {"alpha": (oil.alpha_factor, of_oil), "eyring_stress": (oil.eyring_stress_factor, of_oil)}
-    if calibrated_bearings:
-        own["bearing_drag"] = (CALIBRATED, _MEASURED)
-    elif law in BEARING_LAWS:
-        own["bearing_drag"] = (UNCALIBRATED[BEARING_LAWS[law]], _NOT_MEASURED)
-    found = []
-    for one in UNCERTAIN:
-        factor, why = own.get(one.name, (None, ""))
-        found.append(one if factor is None else replace(one, factor=factor, why=why))
-    return tuple(found)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

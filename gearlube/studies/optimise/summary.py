@@ -54,7 +54,7 @@ EDGE = "largest share of load in the border"
 
 def measure_rows(found: Optimised, after: Evaluation | None = None) -> list[MeasureRow]:
     """Return all measures by the plain analysis, torque by torque; `after`: of another design."""
-    given, limits = found.problem.given, found.problem.given.limits
+    problem, given, limits = found.problem, found.problem.given, found.problem.given.limits
     pair = found.before, after or found.better.checked
     rows = []
     for j, torque in enumerate(given.torques_n_m):
@@ -67,7 +67,7 @@ def measure_rows(found: Optimised, after: Evaluation | None = None) -> list[Meas
             add(f"mesh order {order}", "urad", [one[0, k] / _MICRO for one in amplitude])
         whine = [one.whine(given.orders)[j] / _MICRO for one in pair]
         add("all orders", "urad", [one[0] for one in whine])
-        if len(found.problem.scenarios) > 1:
+        if len(problem.scenarios) > 1:
             add("all orders, root mean square over errors", "urad", [_rms(one) for one in whine])
             add("all orders, worst error", "urad", [one.max() for one in whine])
             spread = [one.spread(given.orders)[j] / _MICRO for one in pair]
@@ -81,6 +81,9 @@ def measure_rows(found: Optimised, after: Evaluation | None = None) -> list[Meas
             [p.mean_sliding[j] for p in pair],
             limits.loss,
         )
+        if problem.is_hypoid:
+            swing = [one.swing(given.orders)[0][j] for one in pair]
+            add("mesh orders of the force over its mean", "1", swing, limits.force_swing)
         add(EDGE, "1", [one.largest_edge_share[j] for one in pair], limits.edge_share)
     return rows
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import logging
 from collections.abc import Sequence
 from dataclasses import replace
@@ -138,8 +137,3 @@ def assumed_inputs(car_axle: CarAxle, settings: SweepSettings) -> list[InputNote
         )
 
     return [note for note in car_axle.assumed if not is_set(note)]
-
-
-def notes_as_text(notes: Sequence[InputNote]) -> str:
-    """Return notes as one text, for an attribute of a dataset."""
-    return json.dumps([[n.field, n.value_text, n.unit, n.origin, n.why] for n in notes])

@@ -144,9 +144,11 @@ def sweep(
     from gearlube.cli.oil_option import oil_kelvin
     from gearlube.cli.progress_report import progress_on
     from gearlube.cli.ranges import numbers_from
+    from gearlube.cli.report_end import tell_findings
     from gearlube.studies.sweep import run
     from gearlube.studies.sweep.axle_in_fmu import chosen_axle, given_preload, settings_of
     from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
+    from gearlube.studies.sweep.findings import findings
     from gearlube.studies.sweep.oil_in_axle import axle_with_oil
     from gearlube.studies.sweep.report import write_sweep_report
     from gearlube.studies.sweep.settings import (
@@ -246,6 +248,7 @@ def sweep(
             report = write_sweep_report(dataset, out, ESSENTIAL if quick else CATALOGUE)
         computed = dataset.attrs["computed_points"]
         logger.info("%d points computed in %.1f s.", computed, dataset.attrs["wall_time"])
-        logger.info("Results: %s, %s, %s", report, out / "sweep.nc", out / "summary.csv")
+        logger.info("Results: %s, %s", out / "sweep.nc", out / "summary.csv")
+        tell_findings(findings(dataset), report)
         failures = int((dataset["status"] == 0).sum())
         exit_if_failed(f"{failures} points failed; the report says why." if failures else "")

@@ -16,6 +16,7 @@ from gearlube.studies.sweep.axle_in_fmu import car_axle_at, car_axle_of
 from gearlube.studies.sweep.axle_loss import LOSS_CHANNELS, measured_loss
 from gearlube.studies.sweep.channels import AXES, BEARINGS, CHANNELS, FLANKS, LOSSES
 from gearlube.studies.sweep.curves import mesh_cycle, roller_zone, spectra, waves
+from gearlube.studies.sweep.error_bars import with_error_bars
 from gearlube.studies.sweep.fmu_axle import FmuAxle
 from gearlube.studies.sweep.oil_at_rest import oil_at_rest
 from gearlube.studies.sweep.operating_point import operation
@@ -61,7 +62,8 @@ def run_point(
     try:
         with unpacked(Path(fmu)) as directory:
             recording = _simulate(directory, speed_kmh, preload, settings)
-        return summarise(recording, speed_kmh, preload, settings)
+            axle = car_axle_at(car_axle_of(directory), settings, preload).axle
+        return with_error_bars(summarise(recording, speed_kmh, preload, settings), axle)
     except GearLubeError as error:
         return failed_point(speed_kmh, preload, str(error))
 

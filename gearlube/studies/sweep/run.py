@@ -19,11 +19,11 @@ from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
     check_operation,
     chosen_axle,
-    notes_as_text,
     settings_of,
 )
 from gearlube.studies.sweep.compile_axle import compile_axle
 from gearlube.studies.sweep.datasets import merge, save
+from gearlube.studies.sweep.engine_lines import crank_frequencies
 from gearlube.studies.sweep.natural_frequencies import natural_frequencies
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.provenance import code_version
@@ -32,6 +32,7 @@ from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSet
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core.checks import check_within
 from gearlube_core.errors import InterruptedRunError, ParameterError
+from gearlube_core.input_file.input_note import notes_as_text
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.result_store import DATASETS, ResultStore
@@ -170,6 +171,7 @@ def run_sweep(
             "fmu_kind": kind,
             "axle": car_axle.name,
             "axle_source": car_axle.source,
+            "inputs_given": notes_as_text([n for n in car_axle.inputs if n.origin == "given"]),
             "inputs_assumed": notes_as_text(assumed_inputs(car_axle, settings)),
             "mesh_table": car_axle.axle.mesh.name,
             "mesh_table_source": car_axle.axle.mesh.source,
@@ -182,6 +184,9 @@ def run_sweep(
     )
     if mode_frequency is not None:
         sweep["mode_frequency"] = mode_frequency
+    if settings.driver == "vehicle":
+        crank = crank_frequencies(car_axle.driveline, speeds)
+        sweep["crank_frequency"] = ("speed", crank)
     described(sweep)
     if folder is not None:
         save(sweep, folder)

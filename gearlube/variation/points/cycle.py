@@ -95,6 +95,7 @@ class CyclePoint(AxlePoint):
 
     def _settings(self, point: Point) -> DriveCycleSettings:
         return DriveCycleSettings(
+            draws=0,
             car=self.axle.car_axle(point),
             cycle=self._cycle(value(point, CYCLE)),
             start_temperature=celsius_to_kelvin(value(point, START)),

@@ -101,17 +101,38 @@ def linearise(axle: AxleInState, oil_temperature: float, torque: float) -> Linea
     return LinearAxle(np.diag(masses), matrix(1.0, p), stiffness, matrix(0.0, p) - stiffness)
 
 
-def modes(axle: AxleInState, oil_temperature: float, torque: float) -> dict[str, float]:
-    """Return the natural frequencies [Hz] of the axle by name.
+@dataclass(frozen=True, slots=True)
+class AxleMode:
+    """One natural mode of the axle.
 
-    A mode is named after the coordinate that carries most of its kinetic energy: `pinion axial`,
-    `pinion radial 1`, `gear axial`, `gear radial 1`, ..., `mesh`.
+    Parameters
+    ----------
+    name : str
+        After the coordinate that carries most of its kinetic energy: `pinion axial`,
+        `pinion radial 1`, `gear axial`, `gear radial 1`, ..., `mesh`.
+    frequency : float
+        Undamped natural frequency [Hz].
+    damping_ratio : float
+        Of critical damping [-].
+    shape : ndarray of shape (8,)
+        In the order of COORDINATES [rad], [m], of modal mass 1 kg: shape.M.shape = 1.
+    """
+
+    name: str
+    frequency: float
+    damping_ratio: float
+    shape: Array
+
+
+def named_modes(axle: AxleInState, oil_temperature: float, torque: float) -> tuple[AxleMode, ...]:
+    """Return the natural modes of the axle, lowest frequency first.
 
     Parameters as in `linearise`.
     """
     linear = linearise(axle, oil_temperature, torque)
-    frequencies, _, shapes = linear.modes()
+    frequencies, ratios, shapes = linear.modes()
     energy = np.abs(shapes) ** 2 * np.diag(linear.mass)[:, None]
+    shapes = shapes / np.sqrt(energy.sum(axis=0))
     energy /= energy.sum(axis=0)
     groups = {
         "mesh": energy[0] + energy[1],
@@ -121,13 +142,20 @@ def modes(axle: AxleInState, oil_temperature: float, torque: float) -> dict[str,
         "gear radial": energy[5] + energy[6],
     }
     names = list(groups)
-    table = np.array([groups[name] for name in names])
-    result: dict[str, float] = {}
-    counts: dict[str, int] = {}
+    largest = np.argmax(np.array([groups[name] for name in names]), axis=0)
+    found = []
     for m, frequency in enumerate(frequencies):
-        name = names[int(np.argmax(table[:, m]))]
-        counts[name] = counts.get(name, 0) + 1
-        result[f"{name} {counts[name]}"] = float(frequency)
-    return {
-        (name[:-2] if counts[name[:-2]] == 1 else name): value for name, value in result.items()
-    }
+        same = np.flatnonzero(largest == largest[m])
+        name = names[int(largest[m])]
+        if same.size > 1:
+            name += f" {int(np.searchsorted(same, m)) + 1}"
+        found.append(AxleMode(name, float(frequency), float(ratios[m]), shapes[:, m]))
+    return tuple(found)
+
+
+def modes(axle: AxleInState, oil_temperature: float, torque: float) -> dict[str, float]:
+    """Return the natural frequencies [Hz] of the axle by the names of `AxleMode`.
+
+    Parameters as in `linearise`.
+    """
+    return {one.name: one.frequency for one in named_modes(axle, oil_temperature, torque)}

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftBearings
+from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN
 from gearlube_core.dynamics.hypoid_axle.flank_outputs import (
     FILM_RATIO,
     LOAD,
@@ -30,7 +31,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
 )
 from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, RANGES, write_outputs
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
-from gearlube_core.dynamics.hypoid_axle.start import REST_WORK, rest
+from gearlube_core.dynamics.hypoid_axle.start import N_FREE, REST_WORK, rest_under
 from gearlube_core.dynamics.hypoid_axle.state import (
     LOAD_TORQUE,
     MICRO,
@@ -42,6 +43,8 @@ from gearlube_core.dynamics.hypoid_axle.state import (
     U_G,
     U_P,
     UM,
+    V_G,
+    V_P,
     W_G,
     W_P,
     X,
@@ -66,7 +69,8 @@ _LEAST_TORQUE = 1e-3  # N.m, of which this share is taken at least
 _AT_SLOPE = SCRATCH
 _AT_MEAN = _AT_SLOPE + N_ODE
 _AT_REST = _AT_MEAN + N_ODE
-_AT_SERIES = _AT_REST + REST_WORK
+_AT_PUSH = _AT_REST + REST_WORK
+_AT_SERIES = _AT_PUSH + N_FREE
 
 
 def cycle_work(n_orders: int, n_nodes: int) -> int:
@@ -164,13 +168,24 @@ def mesh_cycle(
     data = MeshAtLoad(work[_AT_SERIES:at_window], table.n_orders, work[at_window:], table.n_nodes)
     mean = work[_AT_MEAN:_AT_REST]
     oil = lubricant_state(p.oil, oil_temperature)
+    # drag that takes the load of each roller feels the last hundredth of a micrometre
+    rests = _RESTS + 1 if p.drag > PALMGREN else _RESTS
+    push = work[_AT_PUSH:_AT_SERIES]
+    for i in range(N_FREE):
+        push[i] = 0.0
+    for i in range(N_ODE):
+        mean[i] = 0.0
     carried = torque
     missing = math.inf
     inputs = StepInputs(torque, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for balance in range(_MOST_BALANCES):
-        if balance < _RESTS:
-            status, worst = rest(
-                s, speed, carried, oil_temperature, table, lossless, work[_AT_REST:_AT_SERIES]
+        if balance < rests:
+            # after the first time under the mean of what friction and the varying mesh push with
+            for i in range(3):
+                push[i] += p.m_p * mean[V_P + i]
+                push[3 + i] += p.m_g * mean[V_G + i]
+            status, worst = rest_under(
+                s, speed, carried, oil_temperature, table, lossless, push, work[_AT_REST:_AT_PUSH]
             )
             if status != OK:
                 return status, worst

@@ -46,7 +46,8 @@ _AT_SERIES = _AT_SLOPE + N_ODE
 _AT_STATE = _AT_SERIES + N_SERIES
 _AT_U = _AT_STATE + N_STATE
 _AT_SOFT = _AT_U + 3 * N_FREE
-_AT_NEWTON = _AT_SOFT + 1
+_AT_PUSH = _AT_SOFT + 1
+_AT_NEWTON = _AT_PUSH + N_FREE
 REST_WORK = _AT_NEWTON + newton_work_size(N_FREE)
 
 
@@ -59,6 +60,7 @@ class RestProblem(NamedTuple):
     oil: LubricantState
     p: AxleParameters
     soft: Array  # stiffness of springs on every displacement [N/um], shape (1,)
+    push: Array  # further forces on pinion and gear [N], shape (N_FREE,)
     scratch: Array  # shape (SCRATCH,)
     slope: Array  # shape (N_ODE,)
 
@@ -96,22 +98,25 @@ def rest_forces(u: Array, problem: Any, out: Array) -> None:
     for i in range(3):
         out[i] = problem.p.m_p * problem.slope[V_P + i] - problem.soft[0] * u[i]
         out[3 + i] = problem.p.m_g * problem.slope[V_G + i] - problem.soft[0] * u[3 + i]
+    for i in range(N_FREE):
+        out[i] += problem.push[i]
 
 
 _displacements = damped_newton(rest_forces)
 
 
 @kernel
-def rest(
+def rest_under(
     s: Array,
     speed: float,
     torque: float,
     oil_temperature: float,
     mesh: MeshLevels,
     p: AxleParameters,
+    push: Array,
     work: Array,
 ) -> tuple[int, float]:
-    """Write the static equilibrium under the pinion torque into `s`, turning.
+    """Write the static equilibrium under the pinion torque and further forces into `s`, turning.
 
     Parameters
     ----------
@@ -126,6 +131,8 @@ def rest(
     mesh : MeshLevels
     p : AxleParameters
         Without losses, see `kernel_parameters.without_losses`: at rest they play no part.
+    push : ndarray of shape (N_FREE,)
+        Further forces on pinion and gear, x y z of each [N].
     work : ndarray of shape (>= REST_WORK,)
 
     Returns
@@ -155,7 +162,7 @@ def rest(
         scale[i] = _SCALE
     at_load = MeshAtLoad(series, 0, mesh.windows, mesh.n_nodes)
     inputs = StepInputs(torque, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    problem = RestProblem(at_rest, inputs, at_load, oil, p, soft, scratch, slope)
+    problem = RestProblem(at_rest, inputs, at_load, oil, p, soft, push, scratch, slope)
     limit = _LARGEST_ERROR * max(abs(torque / series[R_P]), _LEAST_FORCE)
     worst = math.inf
     for attempt in range(_SOFTENINGS + 2):
@@ -180,3 +187,20 @@ def rest(
     s[W_P] = speed
     s[W_G] = speed / p.ratio
     return (OK if worst <= limit else NO_EQUILIBRIUM), worst
+
+
+@kernel
+def rest(
+    s: Array,
+    speed: float,
+    torque: float,
+    oil_temperature: float,
+    mesh: MeshLevels,
+    p: AxleParameters,
+    work: Array,
+) -> tuple[int, float]:
+    """Write the static equilibrium under the pinion torque into `s`, turning; see `rest_under`."""
+    push = work[_AT_PUSH:_AT_NEWTON]
+    for i in range(N_FREE):
+        push[i] = 0.0
+    return rest_under(s, speed, torque, oil_temperature, mesh, p, push, work)

@@ -21,12 +21,18 @@ _COLUMNS = (
 )
 
 
-def write_flank_csv(flank: Flank, path: str | Path, m: int = 21, n: int = 41) -> Path:
+MIRROR = np.array([1.0, -1.0, 1.0])  # from a right-handed pinion's pair to a left-handed one's
+
+
+def write_flank_csv(
+    flank: Flank, path: str | Path, m: int = 21, n: int = 41, *, mirrored: bool = False
+) -> Path:
     """Write a flank's points, outward normals and curvatures to a CSV file; return the path.
 
     m rows from root to tip times n columns from toe to heel, one line each, the face position
     running fastest. Lengths in millimetres, fixed frame of the pair, member at rotation zero.
     Lines of places without a flank (undercut) are left out. Comment lines start with #.
+    `mirrored` gives the flank of the pair of the other hand, y -> -y.
     """
     rows, columns = int(check_within("m", m, 2, 2000)), int(check_within("n", n, 2, 2000))
     s, t = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1, columns), indexing="ij")
@@ -35,7 +41,9 @@ def write_flank_csv(flank: Flank, path: str | Path, m: int = 21, n: int = 41) ->
     curvature = sample.curvature[sound]
     gauss = np.linalg.det(curvature) * MILLIMETRE**2
     mean = 0.5 * np.trace(curvature, axis1=-2, axis2=-1) * MILLIMETRE
-    place = [s[sound], t[sound], *(sample.r[sound] / MILLIMETRE).T, *sample.normal[sound].T]
+    sign = MIRROR if mirrored else np.ones(3)
+    points, normals = sign * sample.r[sound] / MILLIMETRE, sign * sample.normal[sound]
+    place = [s[sound], t[sound], *points.T, *normals.T]
     table = np.stack([*place, gauss, mean], axis=-1)
     header = (
         f"# {flank.role} {flank.side} flank, {rows} rows (s: 0 root cone, 1 tip) by {columns} "
@@ -48,6 +56,11 @@ def write_flank_csv(flank: Flank, path: str | Path, m: int = 21, n: int = 41) ->
         file.write(header)
         np.savetxt(file, table, fmt="%.9g", delimiter=",")
     return Path(path)
+
+
+def mirror_image(solid: Solid) -> Solid:
+    """Return a solid of the pair of the other hand, y -> -y; its faces still look outward."""
+    return Solid(solid.vertices * MIRROR, solid.faces[:, ::-1])
 
 
 def write_solid(solid: Solid, path: str | Path) -> Path:

@@ -11,6 +11,7 @@ from scipy.optimize import least_squares
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_geometry.flank.export import MIRROR
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.csv_rows import read_rows
@@ -109,6 +110,8 @@ def check_nominal_points(
     places = {}
     for (role, side), points in _read(path).items():
         flank = Flank.from_file(file, role, side)
+        if file.pair.pinion_hand == "left":
+            points = points * MIRROR
         fit = fit_points(flank, points)
         worst = math.inf if fit is None else float(np.max(np.abs(fit.distance)))
         if fit is None or worst > FURTHEST:
@@ -132,13 +135,17 @@ def check_nominal_points(
 def _cause(file: HypoidGearFile, flank: Flank, points: Array) -> str:
     """Return what explains points that do not lie on a flank."""
     other: Side = "coast" if flank.side == "drive" else "drive"
-    mirrored, backwards = points * [1.0, -1.0, 1.0], points * [1.0, -1.0, -1.0]
+    mirrored, backwards = points * MIRROR, points * [1.0, -1.0, -1.0]
+    hand = "left" if file.pair.pinion_hand == "right" else "right"
     for one, what in (
         (
             fit_points(Flank.from_file(file, flank.role, other), points),
             f"They fit the {other} flank",
         ),
-        (fit_points(flank, mirrored), "Their mirror image fits: the hand is the other one"),
+        (
+            fit_points(flank, mirrored),
+            f"Their mirror image fits: set pair.pinion_hand to {hand} in the gear file",
+        ),
         (fit_points(flank, backwards), "They fit with z the other way round"),
         (fit_points(flank, points * 25.4), "They fit as inches"),
         (fit_points(flank, points * 1e-3), "They fit as micrometres"),

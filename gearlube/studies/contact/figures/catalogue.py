@@ -6,6 +6,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from gearlube.report.pictures import Picture, save_pictures
 from gearlube.studies.contact.figures.flank_maps import ease_off_map, pressure_maps
 from gearlube.studies.contact.figures.mesh_period import (
     stiffness_against_torque,
@@ -15,22 +16,53 @@ from gearlube.studies.contact.figures.mesh_period import (
 from gearlube.studies.contact.figures.pair_cycle import contact_properties, load_shares
 
 CONTACT_CATALOGUE = {
-    "ease_off": ease_off_map,
-    "transmission_error": transmission_errors,
-    "load_share": load_shares,
-    "stiffness": stiffness_and_radii,
-    "stiffness_torque": stiffness_against_torque,
-    "pressure": pressure_maps,
-    "contact_properties": contact_properties,
+    "pressure": Picture(
+        pressure_maps,
+        "Contact pattern and pressure on the gear tooth",
+        "Highest pressure at each place of the gear tooth while it passes through the mesh, for "
+        "each side and torque. A pattern inside the outline is sound; blue lines at tip or root "
+        "are sharp edges that press into the flank, there tip relief helps.",
+    ),
+    "ease_off": Picture(
+        ease_off_map,
+        "Contact pattern without load",
+        "Gap between the flank and one that would roll without error, with the path of contact "
+        "and the pattern of a marking test. Compare the red outline with the pattern of your "
+        "testing machine.",
+    ),
+    "transmission_error": Picture(
+        transmission_errors,
+        "Transmission error",
+        "Static error over two mesh periods along the line of action, for some torques. The swing "
+        "of a curve excites the whine at its torque; the torque with the least swing is quietest.",
+    ),
+    "load_share": Picture(
+        load_shares,
+        "A tooth pair from entry to exit",
+        "Share of the torque that one pair carries, and its highest pressure. Humps of pressure at "
+        "entry or exit are contacts of edges.",
+    ),
+    "stiffness": Picture(
+        stiffness_and_radii,
+        "Mesh stiffness and contact radii",
+        "Over two mesh periods, for some torques. Secant: force over closing; tangent: its slope, "
+        "on which vibration lives.",
+    ),
+    "stiffness_torque": Picture(
+        stiffness_against_torque,
+        "Mesh stiffness over torque",
+        "Means over the mesh, bands from least to largest, and how many pairs carry. Both grow "
+        "with the torque, as the contact spreads.",
+    ),
+    "contact_properties": Picture(
+        contact_properties,
+        "Curvature and motion in the contact",
+        "At the centre of force of one pair from entry to exit: relative radii, entrainment and "
+        "sliding per pinion speed. Films form from the entrainment, heat from the sliding.",
+    ),
 }
 
 
 def save_contact_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
     """Draw every figure into `directory` as PNG and return the files."""
-    directory.mkdir(parents=True, exist_ok=True)
-    files = []
-    for name, draw in CONTACT_CATALOGUE.items():
-        path = directory / f"{name}.png"
-        draw(dataset).savefig(path, dpi=150)
-        files.append(path)
-    return files
+    return save_pictures(CONTACT_CATALOGUE, directory, dataset)

@@ -1,4 +1,4 @@
-"""Maps on the gear flank: ease-off, unloaded contact path and pattern, pressure under load."""
+"""Maps on the drawn gear tooth: ease-off, unloaded path and pattern, pressure under load."""
 
 from __future__ import annotations
 
@@ -7,87 +7,107 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import VERMILLION, house_style, new_figure
+from gearlube.plotting.drawn_tooth import DrawnTooth
+from gearlube.plotting.style import SKY, VERMILLION, house_style, new_figure
+from gearlube_core.arrays import Array
+from gearlube_core.hypoid_contact.contact_pattern import MARKING_COMPOUND
+from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
-_MARKING = 6.35e-6  # m, customary thickness of marking compound
 _SIDES = {"drive": "drive side", "coast": "coast side"}
+_INSIDE = 97.0  # percent of the loaded cells that the colours of the pressure span
 
 
 def ease_off_map(dataset: xr.Dataset) -> Any:
-    """Return ease-off, path of contact and marked pattern on the gear flank, both sides."""
+    """Return ease-off, path of contact and marked pattern on the drawn gear tooth, both sides."""
+    from matplotlib.ticker import MaxNLocator
+
+    tooth = DrawnTooth.of_dataset(dataset)
     with house_style():
         figure = new_figure(9.6, 6.4)
-        axes = figure.subplots(2, 1, sharex=True)
+        axes = figure.subplots(2, 1)
         top = float(np.nanpercentile(1e6 * dataset["ease_off"].values, 97))
-        levels = np.linspace(0.0, top, 13)
+        levels = MaxNLocator(12).tick_values(0.0, top)
         for ax, side in zip(axes, _SIDES, strict=True):
             part = dataset.sel(side=side)
+            places = tooth.along(part["ease_t"]), tooth.up(part["ease_s"])
             filled = ax.contourf(
-                part["ease_t"],
-                part["ease_s"],
-                1e6 * part["ease_off"],
-                levels=levels,
-                cmap="viridis_r",
-                extend="max",
+                *places, 1e6 * part["ease_off"], levels=levels, cmap="viridis_r", extend="max"
             )
             ax.contour(
-                part["ease_t"],
-                part["ease_s"],
+                *places,
                 part["closest"].fillna(1.0),
-                levels=[_MARKING],
+                levels=[MARKING_COMPOUND],
                 colors=VERMILLION,
-                linewidths=1.8,
+                linewidths=2.0,
             )
-            ax.plot(part["path_t"], part["path_s"], color="black", lw=1.8)
-            ax.set_title(
-                f"{_SIDES[side]}: path over {float(part['path_contact_ratio']):.2f} pitches"
-            )
-            _flank_axes(ax)
-        figure.colorbar(filled, ax=axes, label="ease-off [µm]")
+            ax.plot(tooth.along(part["path_t"]), tooth.up(part["path_s"]), color="black", lw=1.8)
+            ratio = float(part["path_contact_ratio"])
+            tooth.draw(ax, f"{_SIDES[side]}: the path lasts {ratio:.2f} mesh periods")
+        axes[0].set_xlabel("")
+        figure.colorbar(filled, ax=axes, label="ease-off [µm]", ticks=levels[::2], format="%.0f")
         figure.suptitle(
-            "Gear flank: ease-off, path of contact (black), pattern at 6.35 µm (red)",
-            fontsize=11.5,
+            "Gear tooth without load: gap to the conjugate flank (colours), path of contact "
+            "(black),\npattern that 6.35 µm of marking compound show (red). White: the pinion "
+            "does not reach it",
+            fontsize=10.5,
         )
     return figure
 
 
 def pressure_maps(dataset: xr.Dataset) -> Any:
-    """Return maps of the highest pressure at each point of the gear flank, per side and torque."""
+    """Return the highest pressure at each point of the drawn gear tooth, per side and torque.
+
+    Colours span the pressures inside the flanks. Those of sharp edges are far above: they have one
+    colour of their own.
+    """
+    import matplotlib
+
+    tooth = DrawnTooth.of_dataset(dataset)
     torques = _spread(dataset["torque"].values, 4)
+    top = inside_pressure(dataset)
+    colours = matplotlib.colormaps["magma_r"].with_extremes(over=SKY)
     with house_style():
-        figure = new_figure(10.5, 8.6)
-        axes = figure.subplots(len(torques), 2, sharex=True, sharey=True, squeeze=False)
-        top = 1e-9 * float(np.nanpercentile(dataset["pressure_map"].values, 99.5))
+        figure = new_figure(10.5, 1.1 + 1.5 * len(torques))
+        axes = figure.subplots(len(torques), 2, squeeze=False)
         for row, torque in zip(axes, torques, strict=True):
             for ax, side in zip(row, _SIDES, strict=True):
                 part = dataset.sel(side=side, torque=torque)
                 values = 1e-9 * part["pressure_map"].values
                 image = ax.pcolormesh(
-                    part["map_t"],
-                    part["map_s"],
+                    tooth.along(part["map_t"]),
+                    tooth.up(part["map_s"]),
                     np.where(values > 0.0, values, np.nan),
                     vmin=0.0,
                     vmax=top,
-                    cmap="magma_r",
+                    cmap=colours,
                 )
-                ax.set_title(
-                    f"{_SIDES[side]}, {torque:g} N·m: up to {np.nanmax(values):.2f} GPa",
-                    fontsize=9.5,
-                )
-                _flank_axes(ax)
+                tooth.draw(ax, f"{_SIDES[side]}, {torque:g} N·m: {_highest(values, top)}")
         for ax in axes[:-1].ravel():
             ax.set_xlabel("")
         for ax in axes[:, 1]:
             ax.set_ylabel("")
-        figure.colorbar(image, ax=axes, label="highest pressure over the mesh [GPa]", extend="max")
-        figure.suptitle("Gear flank: pressure under load", fontsize=11.5)
+        figure.colorbar(
+            image, ax=axes, label="highest pressure over the mesh [GPa]", extend="max", shrink=0.7
+        )
+        figure.suptitle(
+            "Gear tooth under load: contact pattern and pressure. Blue: above the scale, "
+            "pressed by the edge of a tip",
+            fontsize=10.5,
+        )
     return figure
 
 
-def _flank_axes(ax: Any) -> None:
-    ax.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0), xlabel="toe  –  face width  –  heel")
-    ax.set_ylabel("root  –  tip")
-    ax.grid(visible=False)
+def inside_pressure(dataset: xr.Dataset) -> float:
+    """Return the pressure [GPa] up to which the colours of a map go: that inside the flanks."""
+    values = dataset["pressure_map"].values
+    inside = values[(values > 0.0) & (values < EDGE_PRESSURE)]
+    return float(np.ceil(1e-8 * np.percentile(inside, _INSIDE))) / 10.0 if inside.size else 1.0
+
+
+def _highest(values: Array, top: float) -> str:
+    """Return "up to 0.87 GPa"; where an edge presses, what the flank inside of it has."""
+    highest = float(np.nanmax(values, initial=0.0))
+    return f"up to {highest:.2f} GPa" + (" at an edge" if highest > top else "")
 
 
 def _spread(values: Any, count: int) -> list[float]:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.parameter_words import parameter_words, tolerance_words
 from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
@@ -17,31 +18,6 @@ _PANELS = (
     ("s", 1e2, "centre of force, root to tip\n[% of the height]"),
     ("t", 1e2, "centre of force, toe to heel\n[% of the face]"),
 )
-_WORDS = {
-    "misalignment.pinion_offset": "misalignment E (offset)",
-    "misalignment.pinion_axial": "misalignment P (pinion)",
-    "misalignment.gear_axial": "misalignment G (gear)",
-    "misalignment.shaft_angle": "misalignment Σ (shaft angle)",
-}
-
-
-def parameter_words(name: str) -> str:
-    """Return a parameter's name as labels show it: without unit and section."""
-    if name in _WORDS:
-        return _WORDS[name]
-    role, *_, field = name.split(".")
-    for unit in ("_mm_per_rad", "_mm", "_deg", "_um"):
-        field = field.removesuffix(unit)
-    return f"{role}: {field.replace('_', ' ')}"
-
-
-def tolerance_words(tolerance: float, unit: str) -> str:
-    """Return a tolerance as labels show it, lengths in mm and angles in degrees."""
-    if unit == "m":
-        return f"{1e3 * tolerance:.3g} mm"
-    if unit == "rad":
-        return f"{np.degrees(tolerance):.3g} deg"
-    return f"{tolerance:.3g}" + ("" if unit == "1" else f" {unit}")
 
 
 def sensitivity_figure(dataset: xr.Dataset) -> Any:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.animation import save_animation
 from gearlube.studies.films.figures.rough import loaded_film, rough_frame
 from gearlube_core.errors import ParameterError
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import atomic_write
 
 FEWEST = 2  # films
 
@@ -48,8 +47,6 @@ def save_rough_animation(
     --------
     >>> save_rough_animation(frames, "film.gif")  # doctest: +SKIP
     """
-    from PIL import Image
-
     count = frames.sizes.get("time", 1)
     if count < FEWEST:
         raise ParameterError(
@@ -62,28 +59,14 @@ def save_rough_animation(
         loaded_film(film, pressure)
         for film, pressure in zip(at["film"].values, at["pressure"].values, strict=True)
     )
-    # colours are those of the picture with the highest pressure, so that none of them flickers
+    # colours are those of the picture with the highest pressure
     first = int(np.argmax(at["pressure"].max(("x", "y")).values))
-    palette = None
-    pictures = {}
-    for done, k in enumerate([first, *(k for k in range(count) if k != first)], 1):
-        buffer = BytesIO()
-        figure = rough_frame(frames.isel(time=k), highest, thickest)
-        figure.savefig(buffer, format="png", dpi=dots_per_inch)
-        buffer.seek(0)
-        picture = Image.open(buffer).convert("RGB")
-        if palette is None:
-            palette = picture.quantize(256)
-        pictures[k] = picture.quantize(palette=palette, dither=Image.Dither.NONE)
-        progress(done / count, f"animation, picture {done} of {count}")
-    path = Path(path)
-    with atomic_write(path) as partial:
-        pictures[0].save(
-            partial,
-            format="GIF",
-            save_all=True,
-            append_images=[pictures[k] for k in range(1, count)],
-            duration=round(1000 / per_second),
-            loop=0,
-        )
-    return path
+    return save_animation(
+        lambda k: rough_frame(frames.isel(time=k), highest, thickest),
+        count,
+        path,
+        first=first,
+        per_second=per_second,
+        dots_per_inch=dots_per_inch,
+        progress=progress,
+    )

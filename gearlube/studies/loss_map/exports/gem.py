@@ -1,4 +1,4 @@
-"""The map of one temperature as rows of an axle test, 40 CFR 1037.560."""
+"""The map of one temperature as rows of an axle test, [epa_2016]."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
+from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
 from gearlube.studies.resonance.figures.response_curves import COLOURS
 from gearlube.studies.resonance.settings import MODELS
 
@@ -88,56 +88,55 @@ def _shared_legend(figure: Any, axes: Any) -> None:
 
 
 def spectra(cycle: xr.Dataset) -> Any:
-    """Return the amplitudes of mesh orders of both dry models.
+    """Return the amplitudes of mesh orders of both dry models, on one scale.
 
     Compare [karagiannis_2012 fig. 10] [karagiannis_2012 fig. 12].
     """
     frequencies = _frequencies(cycle)
     with house_style():
-        figure = new_figure(9.6, 2.5 * len(frequencies) + 0.8)
-        axes = np.atleast_1d(figure.subplots(len(frequencies), 1, sharex=True))
+        figure = new_figure(3.2 * len(frequencies) + 0.8, 4.4)
+        axes = np.atleast_1d(figure.subplots(1, len(frequencies), sharey=True))
         for ax, relative in zip(axes, frequencies, strict=True):
-            _bars(ax, _at(cycle, relative, _DRY))
-            _end_of_table(ax, cycle)
-            ax.set(title=_TITLE.format(relative), ylabel="amplitude [µm]")
-        axes[-1].set_xlabel("mesh order")
+            _stems(ax, cycle, _at(cycle, relative, _DRY))
+            ax.set(title=_TITLE.format(relative), xlabel="mesh order")
+        axes[0].set_ylabel("amplitude [µm]")
+        top = 1e6 * float(cycle["spectrum"].where(cycle["order"] > 0.0).max())
+        axes[0].set_ylim(_LEAST_AMPLITUDE, 2.0 * top)  # one scale for all panels
         _shared_legend(figure, axes)
-        figure.suptitle("Orders of the transmission error, without its mean", fontsize=11.5)
+        figure.suptitle(
+            f"Orders of the transmission error{_last_words(cycle)}; stable motions", fontsize=11.5
+        )
     return figure
 
 
-def _bars(ax: Any, motions: list[xr.Dataset], last: int = 8) -> None:
-    """Draw stable motions as bars beside each other on a logarithmic scale."""
+def _last_order(cycle: xr.Dataset) -> int:
+    """Return the highest mesh order that is drawn: the mesh table excites no higher one."""
+    return min(_MOST_ORDERS, int(cycle.attrs.get("mesh_orders", _MOST_ORDERS)))
+
+
+def _last_words(cycle: xr.Dataset) -> str:
+    last = _last_order(cycle)
+    return f" up to {last}, the last of the mesh table" if last < _MOST_ORDERS else ""
+
+
+_MOST_ORDERS, _LEAST_AMPLITUDE = 8, 1e-3  # um
+
+
+def _stems(ax: Any, cycle: xr.Dataset, motions: list[xr.Dataset]) -> None:
+    """Draw the orders of stable motions beside each other on a logarithmic scale."""
     stable = [motion for motion in motions if motion["motion_stable"] > 0.5]
-    width = 0.8 / max(len(stable), 1)
+    last = _last_order(cycle)
     for place, motion in enumerate(stable):
         amplitude = 1e6 * motion["spectrum"].values
         orders = motion["order"].values
-        kept = (orders > 0.0) & (orders <= last) & (amplitude > 1e-5)
-        shift = (place - 0.5 * (len(stable) - 1)) * width
-        ax.bar(
-            orders[kept] + shift,
-            amplitude[kept],
-            width,
-            color=COLOURS[str(motion["motion_model"].values)],
-            label=_label(motion),
-        )
-    ax.set(yscale="log", ylim=(1e-4, None), xticks=range(1, last + 1))
-
-
-def _end_of_table(ax: Any, cycle: xr.Dataset, last: int = 8) -> None:
-    """Shade the orders that the mesh table lacks: they are too small there."""
-    orders = int(cycle.attrs.get("mesh_orders", last))
-    if orders < last:
-        ax.axvspan(orders + 0.5, last + 0.5, color="0.93", zorder=0)
-        ax.text(
-            orders + 0.55,
-            0.97,
-            f"the mesh table ends at order {orders}:\nhigher ones lack their excitation",
-            transform=ax.get_xaxis_transform(),
-            va="top",
-            fontsize=7.0,
-        )
+        kept = (orders > 0.0) & (orders <= last) & (amplitude > _LEAST_AMPLITUDE)
+        model = str(motion["motion_model"].values)
+        at = orders[kept] + 0.16 * (place - 0.5 * (len(stable) - 1))
+        ax.vlines(at, _LEAST_AMPLITUDE, amplitude[kept], color=COLOURS[model], lw=2.2)
+        marker = MARKERS[list(COLOURS).index(model)]
+        ax.plot(at, amplitude[kept], marker, color=COLOURS[model], ms=6, label=_label(motion))
+    ax.set(yscale="log", xlim=(0.4, last + 0.6), xticks=range(1, last + 1))
+    ax.set_ylim(bottom=_LEAST_AMPLITUDE)
 
 
 def constant_radii(cycle: xr.Dataset) -> Any:
@@ -156,8 +155,7 @@ def constant_radii(cycle: xr.Dataset) -> Any:
                 wide = str(motion["motion_model"].values) == "two_dof_mean_radii"
                 _draw(row[0], motion, lw=2.4 if wide else 1.2)
             _no_contact(row[0])
-            _bars(row[1], motions)
-            _end_of_table(row[1], cycle)
+            _stems(row[1], cycle, motions)
             row[0].set(title=_TITLE.format(relative), ylabel="x [µm]", xlim=(0.0, 2.0))
             row[1].set(title=_TITLE.format(relative), ylabel="amplitude [µm]")
         axes[-1, 0].set_xlabel("pinion rotation [mesh periods]")

@@ -215,24 +215,51 @@ def harmonics(dataset: xr.Dataset) -> Any:
     return figure
 
 
+def _mark_folds(ax: Any, part: xr.Dataset, colour: str) -> None:
+    part = part.isel(special=main_special(part))
+    for kind, place in zip(
+        part["special_kind"].values, part["special_relative_frequency"].values, strict=True
+    ):
+        if kind == "fold":
+            ax.axvline(place, color=colour, lw=1.0, ls=":", zorder=0)
+
+
 def stability(dataset: xr.Dataset) -> Any:
-    """Return the moduli of all Floquet multipliers over frequency."""
+    """Return the factors on a disturbance in a mesh period over frequency.
+
+    They are the moduli of the Floquet multipliers; a motion with one above 1 is unstable.
+    """
     models = shown_models(dataset)
     with house_style():
-        figure = new_figure(9.6, 4.4)
+        figure = new_figure(9.6, 5.2)
         ax = figure.subplots()
         for model in models:
+            _mark_folds(ax, dataset.sel(model=model), COLOURS[model])
             for branch in segments(dataset, model):
                 for moduli in branch["multipliers"].values.T:
                     draw_branch(ax, branch, moduli, COLOURS[model], lw=WIDTHS[model])
             ax.plot([], [], color=COLOURS[model], lw=WIDTHS[model], label=MODELS[model])
+        top = max(1.3, min(ax.get_ylim()[1], 5.0))
+        ax.axhspan(1.0, top, color=VERMILLION, alpha=0.08, lw=0)
         ax.axhline(1.0, color="black", lw=0.8)
-        ax.set_ylim(0.0, max(1.3, min(ax.get_ylim()[1], 5.0)))
-        ax.set(xlabel=FREQUENCY, ylabel="modulus per mesh period [-]")
+        ax.set_ylim(0.0, top)
+        place = {"transform": ax.get_yaxis_transform(), "fontsize": 9.0}
+        ax.text(0.01, 0.5 * (1.0 + top), "disturbances grow: unstable", va="center", **place)
+        ax.text(0.01, 0.04, "disturbances die out fast", va="bottom", **place)
+        ax.text(
+            0.99,
+            0.97,
+            "the lines at 1 are the slow hold of the speed",
+            ha="right",
+            va="top",
+            **place,
+        )
+        ax.set(xlabel=FREQUENCY, ylabel="factor on a disturbance\nin one mesh period [-]")
         ax.set_xlim(dataset.attrs["first"], dataset.attrs["last"])
         ax.legend()
         figure.suptitle(
-            "Floquet multipliers; one above 1: unstable, one just below: the slow speed hold",
-            fontsize=11.5,
+            "Stability of the motions (moduli of Floquet multipliers); dashed: unstable motions, "
+            "dotted: folds",
+            fontsize=11.0,
         )
     return figure

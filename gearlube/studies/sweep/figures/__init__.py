@@ -1,12 +1,12 @@
 """Figures of a speed sweep: functions from the merged dataset to a matplotlib Figure."""
 
+from gearlube.studies.sweep.figures.bubbles import spectrum_bubbles
 from gearlube.studies.sweep.figures.catalogue import CATALOGUE, ESSENTIAL, Entry, save_figures
 from gearlube.studies.sweep.figures.efficiency import efficiency
 from gearlube.studies.sweep.figures.extremes import extremes_against_speed
 from gearlube.studies.sweep.figures.film import film_over_mesh_cycle
 from gearlube.studies.sweep.figures.operation import operating_points
 from gearlube.studies.sweep.figures.order_cuts import order_cuts
-from gearlube.studies.sweep.figures.spectrum_map import spectrum_map
 from gearlube.studies.sweep.figures.waveforms import roller_zone, waveforms
 
 __all__ = [
@@ -20,6 +20,6 @@ __all__ = [
     "order_cuts",
     "roller_zone",
     "save_figures",
-    "spectrum_map",
+    "spectrum_bubbles",
     "waveforms",
 ]

@@ -10,112 +10,177 @@ from typing import Any
 
 import xarray as xr
 
-from gearlube.studies.sweep.figures import extremes, spectrum_map
+from gearlube.studies.sweep.figures import bubbles, charts, extremes, spectrum_map
+from gearlube.studies.sweep.figures.bubble_chart import bubble_chart
 from gearlube.studies.sweep.figures.efficiency import efficiency
 from gearlube.studies.sweep.figures.film import film_over_mesh_cycle
 from gearlube.studies.sweep.figures.operation import operating_points
-from gearlube.studies.sweep.figures.order_cuts import order_cuts
+from gearlube.studies.sweep.figures.order_cuts import BEARING_CUTS, order_cuts
 from gearlube.studies.sweep.figures.waveforms import roller_zone, waveforms
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """A figure, its file name and a hint for the reader; `essential` ones suit a first look."""
+    """A figure, its file name and a hint for the reader.
+
+    Parameters
+    ----------
+    name, title, caption : str
+        File name; a few words; what is drawn, and what to see in it.
+    draw : callable
+        From the dataset to a picture of matplotlib.
+    chart : callable, optional
+        From the dataset to a chart of plotly, which the report shows in place of the picture.
+    essential : bool
+        Suits a first look.
+    """
 
     name: str
+    title: str
     caption: str
     draw: Callable[[xr.Dataset], Any]
+    chart: Callable[[xr.Dataset], Any] | None = None
     essential: bool = False
 
 
 def _map(channel: spectrum_map.MapChannel, top: float | None = None) -> Callable[..., Any]:
-    return partial(spectrum_map.spectrum_map, channel=channel, highest_frequency=top)
+    return partial(bubbles.spectrum_bubbles, channel=channel, highest_frequency=top)
+
+
+def _map_chart(channel: spectrum_map.MapChannel) -> Callable[..., Any]:
+    return partial(bubble_chart, channel=channel)
 
 
 def _band(channel: extremes.ExtremesChannel) -> Callable[..., Any]:
     return partial(extremes.extremes_against_speed, channel=channel)
 
 
+_BUBBLES = (
+    "A bubble is a line of the spectrum, the larger the higher its level. Dotted: natural "
+    "frequencies. Engine orders of the coupled car stay near 50 Hz, because the gear is chosen for "
+    "each speed."
+)
 _CAGE_TOP = 80.0  # Hz, shows the cage frequency, its multiples and the pinion rotation
 
 CATALOGUE = (
     Entry(
         name="operating_points",
+        title="Operating points",
         essential=True,
-        caption="Mean torques that the road load asks for, and the mesh, rotation and cage "
-        "frequencies against the natural frequencies. Grey bars span the preloads.",
+        caption="Mean torques that the road load asks for, and the mesh orders against the natural "
+        "frequencies; a grey bar spans the preloads. The engine's order stays within a band, "
+        "because the gear is chosen for each speed.",
         draw=operating_points,
     ),
     Entry(
         name="dte_map",
+        title="Spectra of the transmission error",
         essential=True,
         caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
-        "figures 3 and 4). Dashed: mesh frequency and multiples; dotted: natural frequencies. With "
-        "the coupled vehicle, lines below 200 Hz that do not follow the speed are engine orders.",
+        f"figures 3 and 4). {_BUBBLES}",
         draw=_map(spectrum_map.DTE),
+        chart=_map_chart(spectrum_map.DTE),
     ),
     Entry(
         name="dte_orders",
-        caption="Amplitudes of the first three mesh orders of the transmission error.",
+        title="Mesh orders of the transmission error",
+        caption="Amplitudes of the first three mesh orders of the transmission error. A crest is a "
+        "resonance or a change of the contact.",
         draw=order_cuts,
+        chart=charts.order_chart,
     ),
     Entry(
         name="dte_extremes",
+        title="Extremes of the transmission error",
         essential=True,
         caption="Extremes of the dynamic transmission error (compare figure 5). Below zero the "
         "drive flanks separate; the strip names the kind of separation.",
         draw=_band(extremes.DTE),
+        chart=partial(charts.extremes_chart, channel=extremes.DTE),
     ),
     Entry(
         name="dte_waveforms",
-        caption="Dynamic transmission error over one pinion revolution.",
+        title="Transmission error over one turn",
+        caption="Dynamic transmission error about its mean over one pinion revolution, on one "
+        "scale. Equal waves are the mesh; what changes from wave to wave is the engine or errors "
+        "of single teeth.",
         draw=waveforms,
     ),
     Entry(
         name="radial_map",
+        title="Spectra of the radial displacement of the pinion",
         caption="Spectra of the radial displacement of the pinion, which excites the casing "
-        "(compare figures 6 and 7).",
+        f"(compare figures 6 and 7). {_BUBBLES}",
         draw=_map(spectrum_map.RADIAL),
+        chart=_map_chart(spectrum_map.RADIAL),
     ),
     Entry(
         name="radial_extremes",
+        title="Extremes of the radial displacement of the pinion",
         essential=True,
         caption="Extremes of the radial displacement of the pinion, sqrt(y2 + z2) from the "
         "preloaded rest position (compare figure 8).",
         draw=_band(extremes.RADIAL),
+        chart=partial(charts.extremes_chart, channel=extremes.RADIAL),
+    ),
+    Entry(
+        name="bearing_force_map",
+        title="Spectra of a bearing force",
+        caption=f"Spectra of the force of pinion bearing 1 along y. {_BUBBLES}",
+        draw=_map(spectrum_map.BEARING),
+        chart=_map_chart(spectrum_map.BEARING),
+    ),
+    Entry(
+        name="bearing_force_orders",
+        title="Mesh orders of a bearing force",
+        caption="Amplitudes of the first three mesh orders of the force of pinion bearing 1 along "
+        "y, which shakes the housing. `gearlube runup` shows all bearings and directions.",
+        draw=partial(order_cuts, channel=BEARING_CUTS),
     ),
     Entry(
         name="roller_map",
-        caption="Spectra of the load of one roller (compare figures 9 and 10).",
+        title="Spectra of the load of one roller",
+        caption="Spectra of the load of one roller (compare figures 9 and 10). Beside a mesh order "
+        "lie its sidebands: the roller moves through the loaded zone while the force swings. "
+        f"{_BUBBLES}",
         draw=_map(spectrum_map.ROLLER),
     ),
     Entry(
         name="roller_map_cage",
+        title="The same at low frequencies",
         caption="The same at low frequencies: cage frequency, pinion rotation and what the engine "
         "orders of the coupled vehicle modulate.",
         draw=_map(spectrum_map.ROLLER_LOW, _CAGE_TOP),
     ),
     Entry(
         name="roller_extremes",
+        title="Extremes of the load of one roller",
         essential=True,
         caption="Extremes of the load of one roller (compare figure 11). A roller that reaches "
         "zero has left its races: the preload is too low.",
         draw=_band(extremes.ROLLER),
+        chart=partial(charts.extremes_chart, channel=extremes.ROLLER),
     ),
     Entry(
         name="roller_zone",
-        caption="Loaded zone: mean and range of the load of one roller over the turns of the cage.",
+        title="Loaded zone of the bearing",
+        caption="Mean (line) and range (band) of the load of one roller over its place around the "
+        "shaft. A flat line is a bearing that its preload loads evenly; zero is a "
+        "roller that has left its races. Each preload has its own scale.",
         draw=roller_zone,
     ),
     Entry(
         name="efficiency",
+        title="Efficiency and losses",
         essential=True,
         caption="Efficiency of the gear mesh (flank friction only, compare figure 12) and of the "
         "axle with all modelled losses, above the losses themselves.",
         draw=efficiency,
+        chart=charts.efficiency_chart,
     ),
     Entry(
         name="film",
+        title="Films while tooth pairs pass the mesh",
         essential=True,
         caption="Load, central film thickness, film ratio and film temperature of the tooth pairs "
         "in mesh, from entry to exit, mean over the record.",

@@ -24,7 +24,7 @@ from gearlube.plotting.style import (
 )
 from gearlube_core.arrays import Array
 
-_SOURCES = {
+SOURCES = {
     "friction_viscous": ("flank friction, fluid", BLUE),
     "friction_boundary": ("flank friction, asperities", SKY),
     "bearing_torque": ("bearing drag torque", ORANGE),
@@ -45,9 +45,7 @@ def efficiency(dataset: xr.Dataset) -> Any:
         _losses(below, dataset, _bar_group(dataset["speed_kmh"].values))
         below.set_xlabel("vehicle speed [km/h]")
         figure.suptitle("Transmission efficiency and losses", fontsize=11.5)
-        missing = [
-            words for source, (words, _) in _SOURCES.items() if not _modelled(dataset, source)
-        ]
+        missing = [words for source, (words, _) in SOURCES.items() if not modelled(dataset, source)]
         if missing:
             figure.supxlabel(f"Not modelled: {', '.join(missing)}.", fontsize=8.5, color="#555555")
     return figure
@@ -71,6 +69,10 @@ def _efficiencies(ax: Any, dataset: xr.Dataset) -> None:
             ls=(0, (5, 2)),
             **look,
         )
+        if "efficiency_axle_low" in dataset:
+            low, high = (100.0 * dataset[f"efficiency_axle_{one}"][row] for one in ("low", "high"))
+            words = "95 % of the draws of uncertain data" if row == 0 else None
+            ax.fill_between(speed, low, high, color=look["color"], alpha=0.15, lw=0.0, label=words)
     ax.set_ylabel("efficiency [%]")
     ax.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0), handlelength=2.6)
 
@@ -93,8 +95,8 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
     for row in range(preloads.size):
         shift = (row - 0.5 * (preloads.size - 1)) * width
         bottom = np.zeros(speed.size)
-        for source, (_, colour) in _SOURCES.items():
-            if not _modelled(dataset, source):
+        for source, (_, colour) in SOURCES.items():
+            if not modelled(dataset, source):
                 continue
             loss = np.nan_to_num(dataset["loss"].sel(source=source).values[row])
             ax.bar(
@@ -110,8 +112,8 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
             bottom += loss
     handles = [
         Patch(color=colour, label=f"{name}, up to {_largest(dataset, source)} W")
-        for source, (name, colour) in _SOURCES.items()
-        if _modelled(dataset, source)
+        for source, (name, colour) in SOURCES.items()
+        if modelled(dataset, source)
     ]
     handles += [
         Patch(
@@ -126,7 +128,7 @@ def _losses(ax: Any, dataset: xr.Dataset, group: float) -> None:
     ax.set_ylabel("power lost [W]")
 
 
-def _modelled(dataset: xr.Dataset, source: str) -> bool:
+def modelled(dataset: xr.Dataset, source: str) -> bool:
     """Whether a source loses anything; results of older versions lack some."""
     if source not in dataset["source"].values:
         return False

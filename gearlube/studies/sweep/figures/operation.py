@@ -9,14 +9,15 @@ import xarray as xr
 
 from gearlube.plotting.style import (
     BLUE,
-    GREEN,
-    PURPLE,
+    ORANGE,
     VERMILLION,
     house_style,
     name_levels,
     new_figure,
     speed_limits,
 )
+
+_FIRING = 2  # engine order of a four-stroke engine with four cylinders that is drawn
 
 
 def operating_points(dataset: xr.Dataset) -> Any:
@@ -48,13 +49,19 @@ def _campbell(ax: Any, dataset: xr.Dataset) -> None:
     speed = row["speed_kmh"].values
     ax.set_xlim(*speed_limits(dataset))
     for multiple, style in ((1, "-"), (2, (0, (5, 2))), (3, (0, (1, 1.2)))):
-        name = "mesh $f_m$" if multiple == 1 else f"${multiple}f_m$"
-        ax.semilogy(speed, multiple * row["mesh_frequency"], color=BLUE, ls=style, label=name)
-    for name, colour, label in (
-        ("pinion_frequency", GREEN, "pinion rotation"),
-        ("pinion_cage_frequency", PURPLE, "pinion cage $f_c$"),
-    ):
-        ax.semilogy(speed, row[name], color=colour, label=label)
+        ax.plot(
+            speed, multiple * row["mesh_frequency"], color=BLUE, ls=style, label=f"mesh H{multiple}"
+        )
+    if "crank_frequency" in dataset:
+        ax.plot(
+            speed,
+            _FIRING * row["crank_frequency"],
+            color=ORANGE,
+            marker="o",
+            ms=3.0,
+            lw=0.9,
+            label=f"engine order {_FIRING}, gear by speed",
+        )
     _modes(ax, dataset)
     ax.set_ylabel("frequency [Hz]")
     ax.set_title("excitation and natural frequencies")
@@ -72,8 +79,9 @@ def _modes(ax: Any, dataset: xr.Dataset) -> None:
         if not np.any(np.isfinite(values)):
             continue
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
-        ax.axhspan(low, high * 1.002, color="#404040", alpha=0.35, lw=0)
-        middles[str(name)] = (low * high) ** 0.5
-    if middles:
-        ax.set_ylim(top=max(ax.get_ylim()[1], 1.5 * max(middles.values())))
+        middle = 0.5 * (low + high)
+        ax.axhspan(low, high, color="#404040", alpha=0.3, lw=0)
+        ax.axhline(middle, color="#404040", lw=0.8)
+        middles[str(name)] = middle
+    ax.set_ylim(0.0, max([ax.get_ylim()[1], *(1.05 * one for one in middles.values())]))
     name_levels(ax, middles, size=7.5)

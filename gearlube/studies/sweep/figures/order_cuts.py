@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,31 @@ from gearlube_core.arrays import Array
 HARMONICS = (1, 2, 3)
 
 
-def order_cuts(dataset: xr.Dataset) -> Any:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CutChannel:
+    """A spectrum in the sweep dataset, its axis label with unit, title and scale to that unit."""
+
+    variable: str
+    label: str
+    title: str
+    scale: float
+
+
+DTE_CUTS = CutChannel(
+    variable="dte_spectrum",
+    label="amplitude of the DTE [nm]",
+    title="Order cuts of the dynamic transmission error",
+    scale=1e9,
+)
+BEARING_CUTS = CutChannel(
+    variable="bearing_force_spectrum",
+    label="amplitude of the force [N]",
+    title="Order cuts of the force of pinion bearing 1 along y",
+    scale=1.0,
+)
+
+
+def order_cuts(dataset: xr.Dataset, channel: CutChannel = DTE_CUTS) -> Any:
     """Return the amplitudes of the first three mesh orders against vehicle speed."""
     speed = dataset["speed_kmh"].values
     with house_style():
@@ -29,7 +54,8 @@ def order_cuts(dataset: xr.Dataset) -> Any:
             for row, preload in enumerate(dataset["preload"].values):
                 ax.semilogy(
                     speed,
-                    harmonic_amplitude(dataset.isel(preload=row), harmonic) * 1e9,
+                    channel.scale
+                    * harmonic_amplitude(dataset.isel(preload=row), harmonic, channel.variable),
                     label=preload_label(preload),
                     **series(row),
                 )
@@ -37,15 +63,15 @@ def order_cuts(dataset: xr.Dataset) -> Any:
             ax.set_title(f"mesh order H{harmonic} at {name}")
             ax.set_xlabel("vehicle speed [km/h]")
             ax.set_xlim(*speed_limits(dataset))
-        axes[0].set_ylabel("amplitude of the DTE [nm]")
+        axes[0].set_ylabel(channel.label)
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, ncols=len(handles), loc="outside lower center")
-        figure.suptitle("Order cuts of the dynamic transmission error", fontsize=11.5)
+        figure.suptitle(channel.title, fontsize=11.5)
     return figure
 
 
-def harmonic_amplitude(row: xr.Dataset, harmonic: int) -> Array:
-    """Return the amplitude [m] of mesh order `harmonic` at every speed of one preload."""
+def harmonic_amplitude(row: xr.Dataset, harmonic: int, variable: str = "dte_spectrum") -> Array:
+    """Return the amplitude of mesh order `harmonic` of a spectrum at every speed of one preload."""
     result = np.full(row.sizes["speed"], np.nan)
     target = harmonic * row["mesh_frequency"].values
     for column in range(result.size):
@@ -53,5 +79,5 @@ def harmonic_amplitude(row: xr.Dataset, harmonic: int) -> Array:
         known = np.isfinite(frequency)
         if np.isfinite(target[column]) and np.any(known):
             nearest = np.argmin(np.abs(frequency[known] - target[column]))
-            result[column] = row["dte_spectrum"].values[column][known][nearest]
+            result[column] = row[variable].values[column][known][nearest]
     return result

@@ -11,31 +11,36 @@ from gearlube.plotting.style import (
     SERIES,
     house_style,
     new_figure,
-    outlined,
     preload_label,
     typical_speeds,
 )
 
+_DASHES = ("-", (0, (5, 1.5)), (0, (1.5, 1.0)))
+
 
 def waveforms(dataset: xr.Dataset) -> Any:
-    """Return the DTE over one pinion revolution at a low, a medium and a high speed."""
+    """Return the DTE about its mean over one pinion revolution at three speeds, on one scale."""
     columns = typical_speeds(dataset)
     turns = dataset["pinion_angle"].values / (2.0 * np.pi)
     with house_style():
         figure = new_figure(9.0, 6.0)
-        axes = np.atleast_1d(figure.subplots(max(len(columns), 1), 1, sharex=True))
+        axes = np.atleast_1d(figure.subplots(max(len(columns), 1), 1, sharex=True, sharey=True))
         for ax, column in zip(axes, columns, strict=False):
+            means = []
             for row, preload in enumerate(dataset["preload"].values):
                 wave = dataset["dte_wave"].values[row, column] * 1e6
+                mean = float(np.nanmean(wave)) if np.any(np.isfinite(wave)) else np.nan
+                means.append(f"{mean:.2f}")
                 ax.plot(
                     turns,
-                    wave,
+                    wave - mean,
                     color=SERIES[row % len(SERIES)],
                     lw=(2.6, 1.1)[row % 2],
                     label=preload_label(preload),
                 )
-            ax.set_title(f"{float(dataset['speed_kmh'][column]):g} km/h", loc="left", fontsize=9.5)
-            ax.set_ylabel("DTE [µm]")
+            speed = float(dataset["speed_kmh"][column])
+            ax.set_title(f"{speed:g} km/h, mean {' and '.join(means)} µm", loc="left", fontsize=9.5)
+            ax.set_ylabel("DTE less its\nmean [µm]")
         axes[-1].set_xlabel("pinion revolutions [-]")
         axes[-1].set_xlim(0.0, 1.0)
         handles, labels = axes[0].get_legend_handles_labels()
@@ -45,41 +50,29 @@ def waveforms(dataset: xr.Dataset) -> Any:
 
 
 def roller_zone(dataset: xr.Dataset) -> Any:
-    """Return the polar plot of the load of one roller against cage angle: its loaded zone."""
-    from matplotlib.ticker import MaxNLocator
-
+    """Return the load of one roller over the cage angle: its loaded zone, a panel a preload."""
     columns = typical_speeds(dataset)
-    angle = dataset["cage_angle"].values
-    closed = np.append(angle, angle[:1])
+    angle = np.degrees(dataset["cage_angle"].values)
+    preloads = dataset["preload"].values
     with house_style():
-        figure = new_figure(10.0, 4.4)
-        axes = np.atleast_1d(
-            figure.subplots(1, max(len(columns), 1), subplot_kw={"projection": "polar"})
-        )
-        top = float(np.nanmax(dataset["roller_zone_max"].values[:, columns])) if columns else 1.0
-        for ax, column in zip(axes, columns, strict=False):
-            for row, preload in enumerate(dataset["preload"].values):
-                colour = SERIES[row % len(SERIES)]
+        figure = new_figure(max(4.4 * preloads.size + 0.6, 6.0), 4.2)
+        axes = np.atleast_1d(figure.subplots(1, preloads.size))
+        for row, (ax, preload) in enumerate(zip(axes, preloads, strict=True)):
+            for number, column in enumerate(columns):
                 mean, low, high = (
-                    np.append(values, values[:1])
-                    for values in (
-                        dataset[f"roller_zone_{part}"].values[row, column]
-                        for part in ("mean", "min", "max")
-                    )
+                    dataset[f"roller_zone_{part}"].values[row, column]
+                    for part in ("mean", "min", "max")
                 )
-                ax.fill_between(closed, low, high, color=colour, alpha=0.2, lw=0)
-                ax.plot(closed, mean, color=colour, label=preload_label(preload))
-            ax.set_ylim(0.0, 1.05 * top)
-            ticks = [t for t in MaxNLocator(4).tick_values(0.0, top) if 0.0 < t <= top]
-            ax.set_yticks(ticks, [])
-            for tick in ticks:
-                text = ax.text(np.pi / 8, tick, f"{tick:g}", fontsize=8, ha="center", va="center")
-                outlined(text, "white", 3.0)
-            ax.tick_params(labelsize=8)
-            ax.set_title(f"{float(dataset['speed_kmh'][column]):g} km/h", pad=14)
+                colour = SERIES[number % len(SERIES)]
+                ax.fill_between(angle, low, high, color=colour, alpha=0.25, lw=0)
+                speed = float(dataset["speed_kmh"][column])
+                ax.plot(angle, mean, color=colour, ls=_DASHES[number], label=f"{speed:g} km/h")
+            ax.set_xlim(0.0, 360.0)
+            ax.set_xticks(range(0, 361, 60))
+            ax.set_xlabel("place of the roller, from z towards y [°]")
+            ax.set_title(preload_label(preload))
+        axes[0].set_ylabel("load of the roller [N]")
         handles, labels = axes[0].get_legend_handles_labels()
-        figure.legend(handles, labels, ncols=len(handles), loc="outside lower center")
-        figure.suptitle(
-            "Load of one roller [N] against cage angle, pinion bearing 1", fontsize=11.5
-        )
+        figure.legend(handles, labels, ncols=3, loc="outside lower center", handlelength=3.0)
+        figure.suptitle("Loaded zone of pinion bearing 1: load of one roller", fontsize=11.5)
     return figure

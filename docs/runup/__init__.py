@@ -1,0 +1,1 @@
+"""The page of run-ups and its figures."""

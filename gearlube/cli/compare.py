@@ -1,0 +1,47 @@
+"""The command `gearlube compare`."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.options import OverwriteOption
+from gearlube.cli.results_folder import results_folder
+
+logger = logging.getLogger("gearlube")
+
+
+def compare(
+    first: Annotated[
+        str,
+        typer.Argument(help="Folder of results, or NAME=FOLDER to name it.", metavar="A"),
+    ],
+    second: Annotated[str, typer.Argument(help="Another folder of the same study.", metavar="B")],
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_compare"),
+    overwrite: OverwriteOption = False,
+) -> None:
+    """Compare two runs of one study: key numbers, curves, inputs. Writes report.html.
+
+    Reads the report.html of both folders. Marches of films have `gearlube ehl compare`, which draws
+    several over their steps.
+    """
+    from gearlube.cli.report_end import finish_with_report
+    from gearlube.report.comparison import comparison
+    from gearlube.report.stored import read_report
+
+    with exit_on_error():
+        names, data = [], []
+        for entry in (first, second):
+            name, given, folder = entry.rpartition("=")
+            where = Path(folder if given else entry)
+            names.append(name if given else where.resolve().name)
+            data.append(read_report(where))
+        if names[0] == names[1]:
+            names = [str(Path(entry)) for entry in (first, second)]
+        report = comparison(data[0], data[1], (names[0], names[1]))
+        with results_folder(out, "compare", overwrite=overwrite):
+            finish_with_report(report, out)

@@ -1,0 +1,114 @@
+"""The command `gearlube convert`."""
+
+from __future__ import annotations
+
+import logging
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from gearlube_core.rexs.stage import ExchangeNote
+
+logger = logging.getLogger("gearlube")
+_REXS = (".rexs", ".rexsz", ".rexsj", ".xml")
+
+
+class ConvertCommand(MultiValueCommand):
+    """`gearlube convert`, with several fields after one `--set`."""
+
+    multi_value = frozenset({"--set"})
+    value = re.compile(r"^[a-z_]\w*(\.\w+)*=")
+
+
+def convert(
+    pair: Annotated[
+        str,
+        typer.Argument(
+            help="REXS file (.rexs), gear file or blank file (TOML), or a shipped one.",
+            metavar="PAIR",
+        ),
+    ],
+    out: Annotated[
+        Path | None,
+        typer.Option(help="File to write. Default: PAIR with the other ending, in this folder."),
+    ] = None,
+    stage: Annotated[
+        int | None, typer.Option(help="Number of the stage in a REXS file of several.", metavar="N")
+    ] = None,
+    given: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", help="Fields that the REXS file lacks, FIELD=VALUE.", metavar="FIELD=VALUE"
+        ),
+    ] = None,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Write also where the file is there.")
+    ] = False,
+) -> None:
+    """Convert a pair between REXS and gear files, and say what does not fit.
+
+    A cylindrical stage becomes a gear file of a helical pair, a bevel stage a blank file.
+    Macro geometry only: no machine settings, no flank modifications.
+    """
+    from gearlube.output.toml_text import toml_text
+    from gearlube_core.errors import ParameterError
+    from gearlube_core.rexs.exchange import BlankFile, pair_file, read_rexs, write_rexs
+    from gearlube_core.storage.atomic_file import write_text
+
+    with exit_on_error():
+        reads = Path(pair).suffix.lower() in _REXS
+        path = out or Path(Path(pair).name).with_suffix(".toml" if reads else ".rexs")
+        if (path.suffix.lower() in _REXS) == reads:
+            wanted = "in .toml" if reads else "in .rexs"
+            raise ParameterError(f"--out must end {wanted}, got {path}")
+        if path.exists() and not overwrite:
+            raise ParameterError(f"{path} is there already. Choose another --out, or --overwrite")
+        if not reads:
+            if stage is not None or given:
+                raise ParameterError("--stage and --set are for REXS files only. Leave them out")
+            notes = write_rexs(pair_file(pair), path)
+            _show(notes, path)
+            return
+        read = read_rexs(pair, stage=stage, given=_fields(given or []))
+        write_text(toml_text(read.data), path)
+        _show(read.notes, path)
+        blank = isinstance(read.file, BlankFile)
+        logger.info("Next: gearlube %s %s", "design" if blank else "helical", path)
+
+
+def _fields(given: list[str]) -> dict[str, Any]:
+    from gearlube_core.errors import ParameterError
+
+    found: dict[str, Any] = {}
+    for text in given:
+        name, _, value = text.partition("=")
+        if not _NUMBER.fullmatch(value):
+            raise ParameterError(f"--set must be FIELD=NUMBER, got {text!r}")
+        found[name] = int(value) if value.lstrip("+-").isdigit() else float(value)
+    return found
+
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_MEANING = {
+    "taken": "Taken:",
+    "inferred": "Follows from other numbers:",
+    "lacking": "Not in the REXS file; this stands for it:",
+    "left out": "LEFT OUT, the written file has no place for it:",
+}
+
+
+def _show(notes: Iterable[ExchangeNote], path: Path) -> None:
+    notes = list(notes)
+    for kind, heading in _MEANING.items():
+        lines = [f"  {note.what}: {note.why}" for note in notes if note.kind == kind]
+        if lines:
+            typer.echo("\n".join([heading, *lines]))
+    logger.info("Written: %s", path)

@@ -1,0 +1,1 @@
+"""Reports of studies: findings, figures, tables and inputs in one HTML file."""

@@ -1,0 +1,71 @@
+(async () => {
+  "use strict";
+  const report = JSON.parse(document.getElementById("report-data").textContent);
+  const plots = [...document.querySelectorAll(".plot")];
+  const fail = (why) => plots.forEach((plot) => {
+    plot.style.height = "auto";
+    plot.textContent = `${why} The folder figures has the figures as pictures.`;
+  });
+  if (typeof DecompressionStream === "undefined") {
+    fail("This browser is too old to draw this figure.");
+    return;
+  }
+  const packed = document.getElementById("plotly-packed").textContent;
+  const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const code = document.createElement("script");
+  code.textContent = await new Response(stream).text();
+  document.head.append(code);
+
+  const PRINTED = 700, LOWER = 0.82, HIGHEST = 880;  // width of a page [px]; two figures fit on it
+  const axis = (rule) => ({
+    gridcolor: rule, zerolinecolor: rule, linecolor: rule, ticks: "outside", tickcolor: rule,
+    automargin: true, exponentformat: "power", title: {standoff: 8},
+  });
+  const template = (text, page, rule) => ({layout: {
+    font: {color: text, family: 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif', size: 13},
+    paper_bgcolor: page, plot_bgcolor: page, colorway: COLOURS,
+    xaxis: axis(rule), yaxis: axis(rule), hovermode: "closest",
+    margin: {l: 60, r: 20, t: 30, b: 50},
+    legend: {orientation: "h", yref: "container", y: 0, yanchor: "bottom", x: 0, font: {size: 12}},
+    colorscale: {sequential: "Cividis"},
+    scene: {xaxis: {gridcolor: rule}, yaxis: {gridcolor: rule}, zaxis: {gridcolor: rule}},
+  }});
+  const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
+  const LIGHT = template("#1d1f21", "#ffffff", "#dcdfe2");
+  const DARK = template("#e6e8ea", "#16191c", "#3b4147");
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const look = () => (dark.matches ? DARK : LIGHT);
+  const config = {
+    responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"],
+    toImageButtonOptions: {scale: 2},
+    displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false,
+  };
+  for (const plot of plots) {
+    const chart = report.charts[plot.dataset.figure];
+    const layout = {...chart.layout, template: look()};
+    await Plotly.newPlot(plot, {data: chart.data, layout, config, frames: chart.frames || []});
+  }
+  document.body.dataset.drawn = "yes";
+  dark.addEventListener("change", () => {
+    plots.forEach((plot) => Plotly.relayout(plot, {template: look()}));
+  });
+  const heights = new Map(plots.map((plot) => [plot, plot.offsetHeight]));
+  const folded = [...document.querySelectorAll("details:not([open])")];
+  addEventListener("beforeprint", () => {
+    folded.forEach((part) => { part.open = true; });
+    plots.forEach((plot) => {
+      const height = Math.min(LOWER * heights.get(plot), HIGHEST);
+      Object.assign(plot.style, {width: `${PRINTED}px`, height: `${height}px`});
+      Plotly.relayout(plot, {template: LIGHT, width: PRINTED, height});
+    });
+  });
+  addEventListener("afterprint", () => {
+    folded.forEach((part) => { part.open = false; });
+    plots.forEach((plot) => {
+      const height = heights.get(plot);
+      Object.assign(plot.style, {width: "", height: `${height}px`});
+      Plotly.relayout(plot, {template: look(), width: null, height, autosize: true});
+    });
+  });
+})();

@@ -1,0 +1,133 @@
+"""Write a report as one HTML file that opens without a network."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from gearlube.report.numbers import column_texts, number_text
+from gearlube.report.parts import GIVEN, Input, Report, Table, ranked
+from gearlube.report.provenance import today, versions
+from gearlube.report.stored import PAGE, as_data, as_json
+from gearlube_core.storage.atomic_file import write_text
+
+_SIZE = "@@@@ kB"  # replaced by the size of the page
+_HERE = "gearlube.report"
+
+
+def write_report(report: Report, folder: Path | str) -> Path:
+    """Write FOLDER/report.html and return its path.
+
+    Parameters
+    ----------
+    report : Report
+    folder : path
+        Made if need be.
+
+    Examples
+    --------
+    >>> from gearlube.report.parts import Finding, Report
+    >>> found = Report(study="map", title="Loss map", findings=[Finding("good", "It runs.")])
+    >>> write_report(found, "gearlube_map")  # doctest: +SKIP
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / PAGE
+    write_text(report_html(report), path)
+    return path
+
+
+def report_html(report: Report, made: str = "") -> str:
+    """Return a report as HTML: style, script, charts and pictures are all inside.
+
+    Parameters
+    ----------
+    report : Report
+    made : str
+        Date and time; by default now.
+    """
+    from jinja2 import Environment, PackageLoader
+
+    environment = Environment(
+        loader=PackageLoader(_HERE, "."), autoescape=True, trim_blocks=True, lstrip_blocks=True
+    )
+    made = made or today()
+    drawn = any(figure.chart is not None for figure in report.figures)
+    html = environment.get_template("page.html.j2").render(
+        report=report,
+        findings=ranked(report.findings),
+        made=made,
+        size=_SIZE,
+        style=_text("page.css"),
+        script=_text("page.js") if drawn else "",
+        data=as_json(as_data(report, made)) if drawn or report.numbers else "",
+        plotly=_plotly() if drawn else "",
+        plotly_size=f"{len(_plotly()) / 1e6:.1f} MB" if drawn else "",
+        recordings=[
+            {"title": r.title, "caption": r.caption, "wav": base64.b64encode(r.wav).decode("ascii")}
+            for r in report.recordings
+        ],
+        figures=[_figure(number, one) for number, one in enumerate(report.figures, 1)],
+        numbers=[(n.name, number_text(n.value, n.digits), n.unit) for n in report.numbers],
+        tables=[_table(one) for one in report.tables],
+        groups=_groups(report),
+        versions=versions(),
+    )
+    return html.replace(_SIZE, f"{len(html.encode()) / 1e6:.1f} MB")
+
+
+def _text(name: str) -> str:
+    return (files(_HERE) / name).read_text(encoding="utf-8")
+
+
+@cache
+def _plotly() -> str:
+    """Return plotly.min.js, compressed, as base64; the browser unpacks it."""
+    from plotly.offline import get_plotlyjs
+
+    packed = gzip.compress(get_plotlyjs().encode(), compresslevel=9, mtime=0)
+    return base64.b64encode(packed).decode("ascii")
+
+
+def _figure(number: int, figure: Any) -> dict[str, Any]:
+    picture = "" if figure.picture is None else base64.b64encode(figure.picture).decode("ascii")
+    height = 0
+    if figure.chart is not None:
+        height = int(figure.chart.layout.height or 420)
+    return {
+        "number": number,
+        "name": figure.name,
+        "title": figure.title,
+        "caption": figure.caption,
+        "picture": picture,
+        "height": height,
+    }
+
+
+def _table(table: Table) -> dict[str, Any]:
+    columns = [
+        column_texts([row[i] for row in table.rows], column.digits)
+        for i, column in enumerate(table.columns)
+    ]
+    return {
+        "title": table.title,
+        "caption": table.caption,
+        "folded": table.folded,
+        "heads": [(column.name, column.unit) for column in table.columns],
+        "words": [
+            any(isinstance(row[i], str) for row in table.rows) for i in range(len(table.columns))
+        ],
+        "rows": list(zip(*columns, strict=True)),
+    }
+
+
+def _groups(report: Report) -> list[tuple[str, list[Input]]]:
+    """Return the inputs as given, and as inferred or assumed."""
+    given = [one for one in report.inputs if one.origin == GIVEN]
+    others = [one for one in report.inputs if one.origin != GIVEN]
+    groups = (("Given", given), ("Inferred or assumed, give those that you know", others))
+    return [(name, group) for name, group in groups if group]

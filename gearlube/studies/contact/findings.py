@@ -1,0 +1,149 @@
+"""What a tooth contact analysis says, in sentences with numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.studies.contact.figures.charts import loaded_error
+from gearlube_core.hypoid_contact.mesh_cycle import SIDES
+from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
+
+_TOUCHES = 1e-3  # share of the torque above which a pair counts as in contact
+_NEAR_EDGE = 0.02  # of face or height, within which a loaded pattern reaches an edge
+
+
+def findings(contact: xr.Dataset) -> list[Finding]:
+    """Return the findings of a contact analysis, drive side first, the most important first.
+
+    Examples
+    --------
+    >>> findings(xr.load_dataset("gearlube_contact/contact.nc"))[0].headline  # doctest: +SKIP
+    'The drive flanks are pressed by a sharp edge from 100 N·m on.'
+    """
+    found: list[Finding] = []
+    for side in SIDES:
+        part = contact.sel(side=side)
+        found += [_edges(part, side), _error(part, side), _pattern(part, side)]
+    return [*found, _stiffness(contact)]
+
+
+def edge_torque(part: xr.Dataset) -> float:
+    """Return the least torque [N·m] at which a side has pressures of edges; NaN if at none."""
+    over = (part["pressure_max"] > EDGE_PRESSURE).any(("phase", "pair")).values
+    return float(part["torque"].values[over][0]) if over.any() else float("nan")
+
+
+def _edges(part: xr.Dataset, side: str) -> Finding:
+    first, top = edge_torque(part), float(part["torque"][-1])
+    highest = 1e-9 * float(part["pressure_max"].max())
+    if np.isnan(first):
+        return Finding(
+            GOOD,
+            f"No sharp edge presses into the {side} flanks up to {top:g} N·m: the highest "
+            f"pressure is {quantity_text(highest, 'GPa')}.",
+            f"Pressures above {1e-9 * EDGE_PRESSURE:g} GPa would be those of edges.",
+        )
+    middle = 1e-9 * _middle(part)
+    return Finding(
+        WARNING,
+        f"Sharp edges press into the {side} flanks from {first:g} N·m on, with up to "
+        f"{quantity_text(highest, 'GPa')}.",
+        "Such a pressure has no finite value, it rises with finer cells: read it as a place. Where "
+        f"a pair carries most, {top:g} N·m give {quantity_text(middle, 'GPa', 2)}. Relief of tips "
+        "and ends in the gear file removes edge contact; the command names the edges.",
+    )
+
+
+def _middle(part: xr.Dataset) -> float:
+    """Return the highest pressure [Pa] of a pair where it carries most, at the highest torque."""
+    state = part.isel(torque=-1)
+    most = int(np.argmax(np.nan_to_num(state["share"].values)))
+    return float(state["pressure_max"].values.ravel()[most])
+
+
+def transmission_orders(part: xr.Dataset, orders: int = 3) -> np.ndarray:
+    """Return amplitudes of the loaded transmission error [µm], shape (torques, orders)."""
+    rows = []
+    for torque in part["torque"].values:
+        spectrum = np.fft.rfft(loaded_error(part.sel(torque=torque)))
+        amplitude = 2.0 * np.abs(spectrum) / part.sizes["phase"]
+        rows.append([amplitude[k] if k < amplitude.size else np.nan for k in range(1, orders + 1)])
+    return np.array(rows)
+
+
+def _error(part: xr.Dataset, side: str) -> Finding:
+    first, torque = transmission_orders(part)[:, 0], part["torque"].values
+    most, least = int(np.argmax(first)), int(np.argmin(first))
+    unloaded = 1e6 * float(part["R_p"].mean() * np.ptp(part["error"].values))
+    return Finding(
+        NOTE,
+        f"The first mesh order of the loaded transmission error ({side}) is largest at "
+        f"{torque[most]:g} N·m: {quantity_text(first[most], 'µm')}.",
+        f"It is least at {torque[least]:g} N·m: {quantity_text(first[least], 'µm')}. Without load "
+        f"the error is {quantity_text(unloaded, 'µm')} peak to peak. This order excites the whine.",
+    )
+
+
+def _pattern(part: xr.Dataset, side: str) -> Finding:
+    cells, torque = np.asarray(part["pressure_map"].values > 0.0), part["torque"].values
+    along = np.asarray(cells.any(axis=1))
+    places = part["map_t"].values
+    half = 0.5 * float(places[1] - places[0])
+    spans = [(places[row].min() - half, places[row].max() + half) for row in along if row.any()]
+    toe, heel = spans[-1]
+    reached = [name for name, gap in (("toe", toe), ("heel", 1.0 - heel)) if gap < _NEAR_EDGE]
+    text = (
+        f"At {torque[0]:g} N·m it covers {100.0 * (spans[0][1] - spans[0][0]):.0f} % of the face."
+    )
+    span = f"{100.0 * toe:.0f} to {100.0 * heel:.0f} % of the face (toe 0, heel 100)"
+    if reached:
+        return Finding(
+            WARNING,
+            f"At {torque[-1]:g} N·m the {side} pattern runs off the {' and the '.join(reached)}: "
+            f"{span}.",
+            f"{text} Lengthwise crowning, or another place of the contact, keeps it inside.",
+        )
+    return Finding(
+        GOOD, f"At {torque[-1]:g} N·m the {side} pattern stays on the face: {span}.", text
+    )
+
+
+def _stiffness(contact: xr.Dataset) -> Finding:
+    part = contact.sel(side="drive")
+    low, high = (1e-6 * float(part["k_m"].isel(torque=k).mean()) for k in (0, -1))
+    pairs = (part["share"].isel(torque=-1) > _TOUCHES).sum("pair")
+    torque = part["torque"].values
+    return Finding(
+        NOTE,
+        f"The mean mesh stiffness (drive, secant) is {quantity_text(low, 'N/µm')} at "
+        f"{torque[0]:g} N·m and {quantity_text(high, 'N/µm')} at {torque[-1]:g} N·m.",
+        f"At {torque[-1]:g} N·m {float(pairs.mean()):.1f} pairs carry on the mean.",
+    )
+
+
+def numbers(contact: xr.Dataset) -> list[Number]:
+    """Return the key numbers of a contact analysis, with the same names in every run."""
+    found = []
+    for side in SIDES:
+        part = contact.sel(side=side)
+        first = transmission_orders(part)[:, 0]
+        found += [
+            Number(f"largest first order of the loaded error, {side}", float(first.max()), "µm"),
+            Number(
+                f"unloaded error, peak to peak, {side}",
+                1e6 * float(part["R_p"].mean() * np.ptp(part["error"].values)),
+                "µm",
+            ),
+            Number(f"highest pressure, {side}", 1e-9 * float(part["pressure_max"].max()), "GPa"),
+            Number(f"least torque with edge contact, {side}", edge_torque(part), "N·m"),
+            Number(
+                f"mean secant stiffness at the highest torque, {side}",
+                1e-6 * float(part["k_m"].isel(torque=-1).mean()),
+                "N/µm",
+            ),
+            Number(f"path of contact, {side}", float(part["path_contact_ratio"]), "mesh periods"),
+        ]
+    return found

@@ -1,0 +1,118 @@
+"""What a drive cycle says, in sentences with numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.loss_words import source_words
+from gearlube.report.numbers import number_text, quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.studies.drive_cycle.tables import range_sentence
+
+_NAMED, _LEAST_SHARE = 3, 0.005  # sources of loss that are told, if they are not smaller
+_DRAWN = "efficiency_low"  # a variable of cycles with draws of all uncertain data
+_WH = 1.0 / 3.6  # Wh in a kJ
+
+
+def findings(dataset: xr.Dataset) -> list[Finding]:
+    """Return the findings of a drive cycle, the most important first."""
+    return [
+        _lost(dataset),
+        _temperature(dataset),
+        *_brakes(dataset),
+        _ranges(dataset),
+        Finding(NOTE, f"Not modelled: {dataset.attrs['not_modelled']}."),
+    ]
+
+
+def numbers(dataset: xr.Dataset) -> list[Number]:
+    """Return the key numbers of a drive cycle."""
+    oil = dataset["oil_temperature"].values
+    return [
+        Number("energy lost in the axle", float(dataset["energy_lost"].sum()), "kJ", 4),
+        Number(
+            "energy lost in the axle, in Wh", _WH * float(dataset["energy_lost"].sum()), "Wh", 4
+        ),
+        Number("energy lost in the axle, low end", float(dataset["energy_lost_low"]), "kJ", 4),
+        Number("energy lost in the axle, high end", float(dataset["energy_lost_high"]), "kJ", 4),
+        Number("energy into the axle", float(dataset["energy_in"]), "kJ", 4),
+        Number("efficiency over the cycle", 100.0 * float(dataset["efficiency"]), "%", 4),
+        Number("oil at the end", float(oil[-1]), "°C"),
+        Number("warmest oil", float(oil.max()), "°C"),
+        *(
+            Number(f"lost by {source_words(str(one['source'].values))}", float(one), "kJ")
+            for one in dataset["energy_lost"]
+            if float(one) > _LEAST_SHARE * float(dataset["energy_lost"].sum())
+        ),
+    ]
+
+
+def _lost(dataset: xr.Dataset) -> Finding:
+    energy = dataset["energy_lost"].values
+    lost, put_in = float(energy.sum()), float(dataset["energy_in"])
+    names = [source_words(str(one)) for one in dataset["source"].values]
+    parts = ", ".join(
+        f"{names[i]} {100.0 * energy[i] / lost:.0f} %"
+        for i in np.argsort(energy)[::-1][:_NAMED]
+        if energy[i] > _LEAST_SHARE * lost
+    )
+    share = f", {100.0 * lost / put_in:.1f} % of what goes in" if put_in > 0.0 else ""
+    low, high = (float(dataset[f"energy_lost_{end}"]) for end in ("low", "high"))
+    return Finding(
+        NOTE,
+        f"The axle loses {quantity_text(lost, 'kJ')} ({quantity_text(_WH * lost, 'Wh')}) in the "
+        f"cycle{share}{': ' + parts if parts else ''}.",
+        f"{_whose(dataset)} it is {number_text(low)} to {quantity_text(high, 'kJ')}.",
+    )
+
+
+def _whose(dataset: xr.Dataset) -> str:
+    """Return what the ends of the energy and of the last temperature hold."""
+    if _DRAWN in dataset:
+        return "With the uncertain data of axle and heat (95 % of the draws)"
+    return "With heat capacity and conductances at the ends of their assumed intervals"
+
+
+def _temperature(dataset: xr.Dataset) -> Finding:
+    oil = dataset["oil_temperature"].values
+    low, high = (
+        float(
+            dataset[f"end_temperature_{end}"]
+            if _DRAWN in dataset
+            else dataset[f"oil_temperature_{end}"].values[-1]
+        )
+        for end in ("low", "high")
+    )
+    return Finding(
+        NOTE,
+        f"The oil goes from {oil[0]:.0f} to {oil[-1]:.0f} °C.",
+        f"{_whose(dataset)} it ends between {low:.0f} and {high:.0f} °C; air is at "
+        f"{dataset.attrs['air_temperature_degc']:g} °C.",
+    )
+
+
+def _brakes(dataset: xr.Dataset) -> list[Finding]:
+    brakes = float(dataset["energy_brakes"])
+    if brakes <= 0.0:
+        return []
+    return [
+        Finding(
+            NOTE,
+            f"The friction brakes take {quantity_text(brakes, 'kJ')}.",
+            f"Share of the braking that goes through the axle: {dataset.attrs['regeneration']:g}.",
+        )
+    ]
+
+
+def _ranges(dataset: xr.Dataset) -> Finding:
+    left = range_sentence(dataset)
+    if not left:
+        return Finding(GOOD, "No step left the range of a formula or table.")
+    share = 100.0 * float(dataset["energy_outside_range"].max())
+    return Finding(
+        WARNING,
+        f"Up to {number_text(share, 2)} % of the energy is lost outside the range of a formula or "
+        "table.",
+        f"It is extrapolated there. {left}",
+    )

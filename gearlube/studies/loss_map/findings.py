@@ -1,0 +1,265 @@
+"""What a loss map says, in sentences with numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.loss_words import source_words
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube_core.arrays import Array
+
+_NAMED = 3  # sources of loss and uncertain inputs that are told one by one
+_LEAST_SHARE = 0.005  # of the loss, of a source that is told
+_FULL_FILM, _MIXED = 3.0, 1.0  # film ratios between full film, mixed and mostly dry contact
+
+
+def findings(dataset: xr.Dataset) -> list[Finding]:
+    """Return the findings of a loss map, the most important first."""
+    failed = int((dataset["status"] != 0).sum())
+    points = dataset["status"].size
+    found = []
+    if failed:
+        found.append(
+            Finding(
+                WARNING,
+                f"{failed} of {points} points failed.",
+                f"The file map.csv says which. Reasons: {dataset.attrs['reasons']}",
+            )
+        )
+    not_modelled = Finding(NOTE, f"Not modelled: {dataset.attrs['not_modelled']}.")
+    if failed < points:
+        found += [
+            *_best(dataset),
+            *_largest(dataset),
+            not_modelled,
+            *_drag(dataset),
+            *_warmth(dataset),
+            *_uncertainty(dataset),
+            *_film(dataset),
+            *_steady(dataset),
+            *_ranges(dataset),
+        ]
+    return found
+
+
+def numbers(dataset: xr.Dataset) -> list[Number]:
+    """Return the key numbers of a loss map with a finished point."""
+    if not np.isfinite(dataset["loss_torque"].values).any():
+        return []
+    found = [
+        Number("best efficiency", 100.0 * _most(dataset["efficiency"]), "%", 4),
+        Number("mean efficiency over the map", 100.0 * float(dataset["efficiency"].mean()), "%", 4),
+        Number("largest loss", _most(_power(dataset)), "W"),
+        Number("mean loss torque at the pinion", float(dataset["loss_torque"].mean()), "N·m"),
+        Number("least film ratio", _least(dataset["film_ratio"]), "", 2),
+        Number("hottest flank film", _most(dataset["flank_temperature"]), "°C"),
+        Number(
+            "points outside a range", 100.0 * float((dataset["range_exceeded"] > 0).mean()), "%", 2
+        ),
+    ]
+    if "loss_torque_low" in dataset:
+        low, high = _band(dataset)
+        found += [
+            Number("error bar of the loss, low end", 100.0 * low, "%", 2),
+            Number("error bar of the loss, high end", 100.0 * high, "%", 2),
+        ]
+    return found
+
+
+def words_of(point: xr.Dataset) -> str:
+    """Return where a point of the map is, "50 N·m, 1000 rpm and 80 °C oil"."""
+    return (
+        f"{float(point['torque']):.4g} N·m, {float(point['speed']):.4g} rpm and "
+        f"{float(point['temperature']):.4g} °C oil"
+    )
+
+
+def _power(dataset: xr.Dataset) -> xr.DataArray:
+    return dataset["loss"].sum("source", skipna=False)
+
+
+def _at(dataset: xr.Dataset, values: xr.DataArray, *, least: bool = False) -> xr.Dataset:
+    """Return the point where values are largest, or least."""
+    filled = values if not least else -values
+    return dataset.isel(filled.argmax(list(filled.dims), skipna=True))  # type: ignore[arg-type]
+
+
+def _best(dataset: xr.Dataset) -> list[Finding]:
+    efficiency = dataset["efficiency"]
+    if not np.isfinite(efficiency.values).any():
+        return []
+    best = _at(dataset, efficiency)
+    return [
+        Finding(
+            NOTE,
+            f"The axle is at best {100.0 * float(best['efficiency']):.1f} % efficient, at "
+            f"{words_of(best)}.",
+            f"Over the map the mean is {100.0 * float(efficiency.mean()):.1f} %, where less than "
+            "half of the input is lost.",
+        )
+    ]
+
+
+def _largest(dataset: xr.Dataset) -> list[Finding]:
+    worst = _at(dataset, _power(dataset))
+    loss = worst["loss"].values
+    order = np.argsort(loss)[::-1]
+    names = [source_words(str(one)) for one in dataset["source"].values]
+    parts = ", ".join(
+        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %"
+        for i in order[:_NAMED]
+        if loss[i] > _LEAST_SHARE * loss.sum()
+    )
+    return [
+        Finding(
+            NOTE,
+            f"The largest loss is {quantity_text(float(loss.sum()), 'W')}, at {words_of(worst)}: "
+            f"{parts}.",
+        )
+    ]
+
+
+def _drag(dataset: xr.Dataset) -> list[Finding]:
+    """Say what turning without load takes, where the map has such torques."""
+    torque = dataset["torque"].values
+    if not torque[0] <= 0.0 <= torque[-1]:
+        return []
+    idle = dataset["loss_torque"].isel(torque=int(np.argmin(np.abs(torque))))
+    if not np.isfinite(idle.values).any():
+        return []
+    return [
+        Finding(
+            NOTE,
+            f"Turning without load takes {quantity_text(_least(idle), 'N·m')} to "
+            f"{quantity_text(_most(idle), 'N·m')} at the pinion.",
+            f"Read at {float(idle['torque']):.3g} N·m, the torque of the map next to zero.",
+        )
+    ]
+
+
+def _warmth(dataset: xr.Dataset) -> list[Finding]:
+    if dataset.sizes["temperature"] < 2:
+        return []
+    cold, warm = (
+        dataset["loss_torque"].isel(temperature=0),
+        dataset["loss_torque"].isel(temperature=-1),
+    )
+    both = np.isfinite(cold.values) & np.isfinite(warm.values)
+    if not both.any():
+        return []
+    change = float(warm.values[both].mean() / cold.values[both].mean()) - 1.0
+    verb = "lowers" if change < 0.0 else "raises"
+    return [
+        Finding(
+            NOTE,
+            f"Warming the oil from {float(cold['temperature']):g} to "
+            f"{float(warm['temperature']):g} °C {verb} the mean loss torque by "
+            f"{100.0 * abs(change):.0f} %.",
+        )
+    ]
+
+
+def _band(dataset: xr.Dataset) -> tuple[float, float]:
+    """Return the mean ends of the error bar over the map, as shares of the loss less one."""
+    loss = dataset["loss_torque"].values
+    good = np.isfinite(loss) & (loss > 0.0)
+    low, high = (dataset[f"loss_torque_{end}"].values for end in ("low", "high"))
+    return float(np.nanmean(low[good] / loss[good])) - 1.0, float(
+        np.nanmean(high[good] / loss[good])
+    ) - 1.0
+
+
+def mean_swings(dataset: xr.Dataset) -> dict[str, float]:
+    """Return by what share each uncertain input alone moves the loss torque, largest first."""
+    share = dataset["swing"] / dataset["loss_torque"]
+    mean = share.mean([d for d in share.dims if d != "input"]).values
+    names = [str(one) for one in dataset["input"].values]
+    return {names[i]: float(mean[i]) for i in np.argsort(mean)[::-1]}
+
+
+def _uncertainty(dataset: xr.Dataset) -> list[Finding]:
+    if "loss_torque_low" not in dataset:
+        return []
+    low, high = _band(dataset)
+    swings = mean_swings(dataset)
+    parts = ", ".join(
+        f"{name.replace('_', ' ')} {100.0 * swing:.0f} %"
+        for name, swing in list(swings.items())[:_NAMED]
+    )
+    return [
+        Finding(
+            NOTE,
+            f"The loss is known to {100.0 * low:+.0f} to {100.0 * high:+.0f} % (95 %, mean over "
+            "the map).".replace("-", "−"),
+            f"Most of it comes from: {parts}, each alone.",
+        )
+    ]
+
+
+def _film(dataset: xr.Dataset) -> list[Finding]:
+    ratio = dataset["film_ratio"]
+    if not np.isfinite(ratio.values).any():
+        return []
+    worst = _at(dataset, ratio, least=True)
+    least = float(worst["film_ratio"])
+    mixed = 100.0 * float((ratio < _MIXED).sum() / np.isfinite(ratio.values).sum())
+    level = GOOD if least >= _FULL_FILM else NOTE if least >= _MIXED else WARNING
+    return [
+        Finding(
+            level,
+            f"The least film ratio λ of a flank is {quantity_text(least, '', 2)}, at "
+            f"{words_of(worst)}.",
+            f"Below 1, where asperities carry much of the load, are {mixed:.0f} % of the points.",
+        )
+    ]
+
+
+def _steady(dataset: xr.Dataset) -> list[Finding]:
+    if "steady_temperature" not in dataset:
+        return []
+    steady = dataset["steady_temperature"]
+    missing, known = int(steady.isnull().sum()), steady.values[np.isfinite(steady.values)]
+    found = []
+    if known.size:
+        found.append(
+            Finding(
+                NOTE,
+                f"At constant running the oil comes to rest between {known.min():.0f} and "
+                f"{known.max():.0f} °C, with air of {dataset.attrs['air_temperature_degc']:g} °C.",
+            )
+        )
+    if missing:
+        found.append(
+            Finding(
+                WARNING,
+                f"{missing} of {steady.size} torques and speeds come to no rest within the data of "
+                "the oil.",
+                "Their steady temperature is empty: the axle would overheat, or the data end too "
+                "early.",
+            )
+        )
+    return found
+
+
+def _ranges(dataset: xr.Dataset) -> list[Finding]:
+    if not dataset.attrs["ranges_left"]:
+        return [Finding(GOOD, "No point left the range of a formula or table.")]
+    share = 100.0 * float((dataset["range_exceeded"] > 0).mean())
+    return [
+        Finding(
+            WARNING,
+            f"{share:.0f} % of the points left the range of a formula or table.",
+            f"What is computed there is extrapolated: {dataset.attrs['ranges_left']}. The column "
+            "range_exceeded of map.csv says which.",
+        )
+    ]
+
+
+def _least(values: xr.DataArray | Array) -> float:
+    return float(np.fmin.reduce(np.asarray(values), axis=None))  # without nan
+
+
+def _most(values: xr.DataArray | Array) -> float:
+    return float(np.fmax.reduce(np.asarray(values), axis=None))

@@ -1,0 +1,236 @@
+"""The report of a loss map: findings, charts, tables, inputs, limits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.loss_words import source_words
+from gearlube.report.charts import Axis, Line, add_line, add_map, add_stack, bar_chart, panels
+from gearlube.report.parts import ASSUMED, Column, Figure, Input, Report, Table
+from gearlube.studies.loss_map.figures import LEAST_SHARE, shown_speeds, some_temperatures
+from gearlube.studies.loss_map.findings import findings, mean_swings, numbers
+from gearlube_core.arrays import Array
+
+SPEED, TORQUE = Axis("pinion speed", "rpm"), Axis("pinion torque", "N·m")
+_POWER = Axis("power lost", "W")
+_ROWS = 8  # torques and speeds of a table
+_COOLING = {
+    "air_temperature_degc": ("air temperature", "°C"),
+    "conductance_at_rest_w_k": ("conductance of the housing at rest", "W/K"),
+    "conductance_at_100_kmh_w_k": ("conductance of the housing at 100 km/h", "W/K"),
+}
+_LIMITS = (
+    "Steady running: each point is at rest in torque, speed and oil temperature. Vibration adds "
+    "no loss here.",
+    "Films and friction are from formulas, not from a solution of the film; the oil temperature is "
+    "that at the inlet of the flanks.",
+    "The error bar holds the uncertain data and laws of the table; what is not modelled is not in "
+    "it.",
+)
+
+
+def loss_map_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
+    """Return the report of a loss map; `inputs` are those of the axle file."""
+    torque, speed, temperature = (
+        dataset[name].values for name in ("torque", "speed", "temperature")
+    )
+    finished = bool(np.isfinite(dataset["loss_torque"].values).any())
+    return Report(
+        study="map",
+        title="Loss map of an axle",
+        subtitle=f"Gear set {dataset.attrs['mesh']}, oil {dataset.attrs['oil']}: "
+        f"{dataset['status'].size} points from {torque[0]:.4g} to {torque[-1]:.4g} N·m and "
+        f"{speed[0]:.4g} to {speed[-1]:.4g} rpm at the pinion, with oil of "
+        f"{', '.join(f'{t:g}' for t in temperature)} °C.",
+        findings=findings(dataset),
+        numbers=numbers(dataset),
+        figures=_figures(dataset) if finished else (),
+        tables=_tables(dataset) if finished else (),
+        inputs=[*_settings(dataset), *inputs],
+        limits=_LIMITS,
+        files=("map.nc", "map.csv", "map.mat", "files for VECTO, GEM and Modelica", "figures/"),
+    )
+
+
+def _figures(dataset: xr.Dataset) -> list[Figure]:
+    found = []
+    if min(dataset.sizes["speed"], dataset.sizes["torque"]) > 1:
+        found.append(
+            Figure(
+                name="loss_torque",
+                title="Loss torque",
+                caption="Loss torque at the pinion over speed and torque; torques below zero are "
+                "coast. The numbers on the lines are N·m. Low torques lose the largest share.",
+                chart=contour_chart(dataset, "loss_torque", Axis("loss torque", "N·m")),
+            )
+        )
+        found.append(
+            Figure(
+                name="efficiency",
+                title="Efficiency",
+                caption="Output over input. White: more than half of the input is lost.",
+                chart=contour_chart(dataset, "efficiency", Axis("efficiency", "%"), 100.0),
+            )
+        )
+    found.append(
+        Figure(
+            name="losses",
+            title="Losses by source",
+            caption="Power lost over the torque at a low, a middle and the highest speed. Dashed: "
+            "95 % of the draws of the uncertain data lie between these lines.",
+            chart=split_chart(dataset),
+        )
+    )
+    if "swing" in dataset:
+        swings = mean_swings(dataset)
+        names = [name.replace("_", " ") for name in swings]
+        found.append(
+            Figure(
+                name="sensitivity",
+                title="What makes the loss uncertain",
+                caption="Mean change of the loss torque when one uncertain input goes to its "
+                "factor. The longest bar is what a measurement should settle first.",
+                chart=bar_chart(
+                    names, [100.0 * one for one in swings.values()], Axis("change of loss", "%")
+                ),
+            )
+        )
+    return found
+
+
+def contour_chart(dataset: xr.Dataset, name: str, colour: Axis, factor: float = 1.0) -> Any:
+    """Return contours over speed and torque, a panel for each of some temperatures."""
+    values = factor * dataset[name]
+    degrees = some_temperatures(dataset)
+    chart = panels([f"oil {t:g} °C" for t in degrees], SPEED, [TORQUE] * len(degrees), height=330)
+    low, high = (float(pick.reduce(values.values, axis=None)) for pick in (np.fmin, np.fmax))
+    for row, degree in enumerate(degrees, 1):
+        one = values.sel(temperature=degree).transpose("torque", "speed")
+        add_map(
+            chart,
+            one["speed"].values,
+            one["torque"].values,
+            one.values,
+            (SPEED, TORQUE, colour),
+            limits=(low, high),
+            contours=True,
+            bar=row == 1,
+            row=row,
+            col=1,
+        )
+    return chart
+
+
+def split_chart(dataset: xr.Dataset) -> Any:
+    """Return the losses by source over torque at some speeds, at a middle temperature."""
+    degree = dataset["temperature"].values[dataset.sizes["temperature"] // 2]
+    places = shown_speeds(dataset)
+    speeds = dataset["speed"].values[places]
+    titles = [f"{speed:.0f} rpm, oil {degree:g} °C" for speed in speeds]
+    chart = panels(titles, TORQUE, [_POWER] * len(titles), height=300)
+    largest = float(np.nanmax(dataset["loss"].sum("source").values))
+    for row, place in enumerate(places, 1):
+        one = dataset.sel(temperature=degree).isel(speed=place)
+        loss = one["loss"].transpose("source", "torque").values
+        kept = np.nanmax(loss, axis=1) > LEAST_SHARE * largest
+        names = [source_words(str(name)) for name in one["source"].values]
+        add_stack(
+            chart, names, one["torque"].values, loss, TORQUE, _POWER, kept=kept, row=row, col=1
+        )
+        for end in ("low", "high") if "loss_torque_low" in one else ():
+            _add_end(chart, one, end, row)
+    return chart
+
+
+def _add_end(chart: Any, one: xr.Dataset, end: str, row: int) -> None:
+    turning = float(one["speed"]) * np.pi / 30.0
+    line = Line(
+        name=f"95 % of draws, {end} end",
+        x=one["torque"].values,
+        y=one[f"loss_torque_{end}"].values * turning,
+        dash=1,
+    )
+    add_line(chart, line, 7, TORQUE, _POWER, row=row, col=1, showlegend=row == 1)
+
+
+def _tables(dataset: xr.Dataset) -> list[Table]:
+    found = [
+        Table(
+            title=f"Loss torque at the pinion [N·m] with oil of {float(one['temperature']):g} °C",
+            columns=[
+                Column("torque", "N·m", 3),
+                *(Column(f"{float(v):.0f} rpm", "N·m") for v in one["speed"].values),
+            ],
+            rows=[
+                [float(torque), *(float(x) for x in row)]
+                for torque, row in zip(one["torque"].values, one.values, strict=True)
+            ],
+            caption="Some torques and speeds of the map; map.csv has all.",
+            folded=i > 0,
+        )
+        for i, one in enumerate(
+            _some(dataset["loss_torque"]).sel(temperature=degree).transpose("torque", "speed")
+            for degree in some_temperatures(dataset)
+        )
+    ]
+    if dataset.attrs["uncertain"] and "swing" in dataset:
+        swings = mean_swings(dataset)
+        found.append(
+            Table(
+                title="Uncertain data and laws",
+                columns=[
+                    Column("input"),
+                    Column("known to (k = 2)"),
+                    Column("moves the loss by", "%", 2),
+                    Column("why"),
+                ],
+                rows=[
+                    [name.replace("_", " "), factor, 100.0 * swings[name], why]
+                    for name, factor, why in _uncertain(dataset)
+                ],
+            )
+        )
+    return found
+
+
+def _some(values: xr.DataArray) -> xr.DataArray:
+    """Return values at up to 8 torques and speeds, the ends among them."""
+    chosen = {
+        name: np.unique(np.linspace(0, values.sizes[name] - 1, _ROWS).round().astype(int))
+        for name in ("torque", "speed")
+    }
+    return values.isel(chosen)
+
+
+def _uncertain(dataset: xr.Dataset) -> list[tuple[str, str, str]]:
+    found = []
+    for part in dataset.attrs["uncertain"].split("; "):
+        name, _, rest = part.partition(": ")
+        factor, _, why = rest.partition(", ")
+        found.append((name, factor.replace(" (k = 2)", ""), why))
+    return found
+
+
+def _settings(dataset: xr.Dataset) -> list[Input]:
+    attributes = dataset.attrs
+    lines = [
+        Input("map: oil", str(attributes["oil"])),
+        Input("map: torques", _span(dataset["torque"].values), "N·m"),
+        Input("map: pinion speeds", _span(dataset["speed"].values), "rpm"),
+        Input("map: oil temperatures", _span(dataset["temperature"].values), "°C"),
+        Input("map: draws of the uncertain data", f"{attributes['draws']}"),
+        Input("map: seed of the draws", f"{attributes['seed']}"),
+    ]
+    return lines + [
+        Input(f"map: {words}", f"{attributes[name]:g}", unit, ASSUMED, "for the steady temperature")
+        for name, (words, unit) in _COOLING.items()
+        if name in attributes
+    ]
+
+
+def _span(values: Array) -> str:
+    return f"{values[0]:.4g} to {values[-1]:.4g}, {values.size} values"

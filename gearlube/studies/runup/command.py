@@ -1,0 +1,260 @@
+"""The command `gearlube runup`."""
+
+from __future__ import annotations
+
+import logging
+import shlex
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.options import ExampleOption, OverwriteOption
+from gearlube.cli.results_folder import results_folder
+
+if TYPE_CHECKING:
+    from drivetrain.axle_file.axle_file import CarAxle
+    from gearlube.studies.runup.settings import RunupSettings
+
+logger = logging.getLogger("gearlube")
+
+_FROM, _TO, _DURATION = 20.0, 120.0, 30.0  # km/h, km/h, s
+_QUICK_DURATION, _QUICK_RESOLUTION = 10.0, 0.5
+
+
+def runup(
+    axle: Annotated[
+        str,
+        typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE"),
+    ] = "mohammadpour_2015",
+    start: Annotated[
+        float | None,
+        typer.Option("--from", help="Speed at the start [km/h]. Default: 20.", metavar="SPEED"),
+    ] = None,
+    end: Annotated[
+        float | None,
+        typer.Option(
+            "--to",
+            help="Speed at the end [km/h]; lower than at the start: a coast-down. Default: 120.",
+            metavar="SPEED",
+        ),
+    ] = None,
+    rpm: Annotated[
+        bool,
+        typer.Option("--rpm", help="--from, --to and --rate are of the pinion in rpm, not km/h."),
+    ] = False,
+    duration: Annotated[
+        float | None, typer.Option(help="Of the ramp [s]. Default: 30.", metavar="S")
+    ] = None,
+    rate: Annotated[
+        float | None,
+        typer.Option(help="In place of the duration: speed gained in a second.", metavar="RATE"),
+    ] = None,
+    torque: Annotated[
+        float | None,
+        typer.Option(
+            help="Constant torque on the pinion [N.m], below 0 for coast. Default: what the car "
+            "needs for road load and acceleration.",
+            metavar="TORQUE",
+        ),
+    ] = None,
+    engine_orders: Annotated[
+        bool,
+        typer.Option(
+            "--engine-orders",
+            help="Run the whole car: engine with its orders, driveline and tyres, in one gear.",
+        ),
+    ] = False,
+    coast_down: Annotated[
+        bool, typer.Option("--coast-down", help="Afterwards come back down at the same rate.")
+    ] = False,
+    coast_torque: Annotated[
+        float | None,
+        typer.Option(help="Torque on the pinion of that coast-down [N.m].", metavar="TORQUE"),
+    ] = None,
+    oil_temperature: Annotated[
+        float, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
+    ] = 80.0,
+    oil: Annotated[
+        str | None,
+        typer.Option(
+            help="Shipped oil or an oil file (TOML). Default: that of the axle.", metavar="OIL"
+        ),
+    ] = None,
+    preload: Annotated[
+        float | None,
+        typer.Option(help="Bearing preload [N]. Default: that of the axle.", metavar="FORCE"),
+    ] = None,
+    order_resolution: Annotated[
+        float | None,
+        typer.Option(help="Orders of the pinion that are told apart. Default: 0.25."),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_runup"),
+    quick: Annotated[
+        bool, typer.Option("--quick", help="A ramp of 10 s, for a first look.")
+    ] = False,
+    animate: Annotated[
+        bool,
+        typer.Option(
+            "--animate", help="Also animate all roller loads over a turn (GIF), about a minute."
+        ),
+    ] = False,
+    overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
+) -> None:
+    """Run the axle up or down in one continuous speed ramp: waterfalls, order tracks, Campbell.
+
+    Writes runup.nc (coastdown.nc), summary.csv, figures and report.html. After Ctrl-C the same
+    command goes on where it stopped.
+    """
+    from drivetrain.axle_file.axle_file import AxleFile
+    from gearlube.cli.axle_gears import bring_gears_up_to_date
+    from gearlube.cli.console import console
+    from gearlube.cli.progress_report import progress_on
+    from gearlube.cli.report_end import tell_findings
+    from gearlube.studies.runup.figures.rollers import animate_rollers
+    from gearlube.studies.runup.findings import findings
+    from gearlube.studies.runup.report import write_runup_report
+    from gearlube.studies.runup.run import run_runup
+    from gearlube.studies.runup.settings import BENCH, VEHICLE
+    from gearlube.studies.runup.summary import summary_csv
+    from gearlube_core.progress import part_of
+    from gearlube_core.storage.atomic_file import write_text
+
+    began = time.monotonic()
+    with exit_on_error(f"Stopped; {out} may be incomplete. Run the same command again."):
+        if example:
+            typer.echo(AxleFile.shipped_text("mohammadpour_2015"), nl=False)
+            return
+        _check_together(rpm, start, end, duration, rate, torque, coast_down, coast_torque)
+        bring_gears_up_to_date(axle)
+        first = _settings(
+            _car_axle(axle, oil, preload),
+            (_FROM if start is None else start, _TO if end is None else end),
+            rpm=rpm,
+            rate=rate,
+            duration=duration or (_QUICK_DURATION if quick else _DURATION),
+            torque=torque,
+            driver=VEHICLE if engine_orders else BENCH,
+            oil_temperature=oil_temperature,
+            order_resolution=order_resolution or (_QUICK_RESOLUTION if quick else 0.25),
+        )
+        ramps = [first]
+        if coast_down:
+            ramps.append(
+                replace(
+                    first,
+                    start_speed=first.end_speed,
+                    end_speed=first.start_speed,
+                    pinion_torque=coast_torque,
+                )
+            )
+        logger.info("Preparing the axle; the first time this compiles it, about 15 s.")
+        with (
+            results_folder(out, "runup", overwrite=overwrite),
+            progress_on(console, "runup") as progress,
+        ):
+            count = len(ramps)
+            datasets = [
+                run_runup(one, folder=out, progress=part_of(progress, i / count, (i + 1) / count))
+                for i, one in enumerate(ramps)
+            ]
+            progress(1.0, "report")
+            write_text(summary_csv(datasets), out / "summary.csv")
+            command_line = shlex.join(["gearlube", *sys.argv[1:]])
+            report = write_runup_report(datasets, out, command_line)
+            for dataset in datasets if animate else ():
+                animate_rollers(dataset, out, progress)
+        logger.info("%.3g s.", time.monotonic() - began)
+        tell_findings([one for dataset in datasets for one in findings(dataset)], report)
+
+
+def _check_together(
+    rpm: bool,
+    start: float | None,
+    end: float | None,
+    duration: float | None,
+    rate: float | None,
+    torque: float | None,
+    coast_down: bool,
+    coast_torque: float | None,
+) -> None:
+    """Raise ParameterError where options contradict each other."""
+    from gearlube_core.checks import check_positive
+    from gearlube_core.errors import ParameterError
+
+    if rpm and (start is None or end is None):
+        raise ParameterError(
+            "--rpm needs --from and --to, for instance --from 600 --to 4000, got one of them or "
+            "none."
+        )
+    if duration is not None and rate is not None:
+        raise ParameterError(
+            f"--duration and --rate must not both be given, got {duration:g} s and {rate:g}. Leave "
+            "one of them out."
+        )
+    if rate is not None:
+        check_positive("--rate", rate, "rpm/s" if rpm else "km/h per s")
+    if coast_torque is not None and not coast_down:
+        raise ParameterError("--coast-torque needs --coast-down, got it alone. Add that option.")
+    if coast_down and (torque is None) != (coast_torque is None):
+        raise ParameterError(
+            "--coast-down needs --torque and --coast-torque, or neither of them, got one. Without "
+            "both the car's own torques are taken."
+        )
+
+
+def _car_axle(axle: str, oil: str | None, preload: float | None) -> CarAxle:
+    """Return the axle with another oil and preload where they are given."""
+    from drivetrain.axle_file.read_axle import read_axle
+    from fmu_src.axle_arguments import axle_parameters
+    from gearlube_core.oil.oil_file import read_oil
+
+    car = read_axle(axle)
+    if preload is not None:
+        car = replace(car, axle=axle_parameters({"bearing_preload": preload}, car.axle))
+    if oil is not None:
+        car = replace(car, axle=replace(car.axle, oil=read_oil(oil).lubricant))
+    return car
+
+
+def _settings(
+    car: CarAxle,
+    ends: tuple[float, float],
+    *,
+    rpm: bool,
+    rate: float | None,
+    duration: float,
+    torque: float | None,
+    driver: str,
+    oil_temperature: float,
+    order_resolution: float,
+) -> RunupSettings:
+    """Return the settings of a ramp between speeds in rpm or km/h."""
+    from gearlube.cli.oil_option import oil_kelvin
+    from gearlube.studies.runup.settings import RunupSettings
+    from gearlube_core.checks import check_within
+    from gearlube_core.units import kmh_to_ms, rpm_to_rads
+
+    unit, most = ("rpm", 20_000.0) if rpm else ("km/h", 400.0)
+    speeds = []
+    for name, speed in zip(("--from", "--to"), ends, strict=True):
+        check_within(name, speed, 1.0, most, unit)
+        road = car.driveline.road_load
+        speeds.append(rpm_to_rads(speed) if rpm else road.pinion_speed(kmh_to_ms(speed)))
+    if rate is not None:
+        duration = abs(ends[1] - ends[0]) / rate
+    return RunupSettings(
+        car_axle=car,
+        start_speed=speeds[0],
+        end_speed=speeds[1],
+        duration=duration,
+        pinion_torque=torque,
+        driver=driver,
+        oil_temperature=oil_kelvin(oil_temperature, car.axle.oil),
+        order_resolution=order_resolution,
+    )

@@ -1,0 +1,300 @@
+"""The dataset of a run-up: record, order tracks, waterfalls, modes and operating shape."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.runup.modes import COORDINATES, RampModes, engine_orders, ramp_modes
+from gearlube.studies.runup.operating_shape import CHANNELS, loudest, operating_shape
+from gearlube.studies.runup.record import AXES, BEARINGS, DIRECTIONS, RampRecord
+from gearlube.studies.runup.rollers import roller_variables
+from gearlube.studies.runup.settings import RunupSettings
+from gearlube_core import __version__
+from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from gearlube_core.input_file.input_note import notes_as_text
+from gearlube_core.spectra import OrderBlocks, order_blocks, samples_for, waterfall
+
+MESH_ORDERS = (1, 2, 3, 4)
+HIGHEST_MESH_ORDER = 6.5  # of the order maps
+_SLICES_OF_HERTZ = 400  # frequency bins at least, up to the highest frequency
+_FINEST = 4.0  # Hz
+
+# name: (unit, description)
+QUANTITIES: Mapping[str, tuple[str, str]] = {
+    "time": ("s", "time since the ramp began"),
+    "bearing_force": ("N", "force of both bearings together on their shaft"),
+    "pinion_speed": ("rad s-1", "speed of the pinion"),
+    "wheel_speed": ("rad s-1", "speed of the gear"),
+    "dte": ("m", "dynamic transmission error"),
+    "mesh_force": ("N", "mesh force"),
+    "axis": ("", "axis of the fixed frame"),
+    "slow_time": ("s", "middle of an interval of the losses"),
+    "loss": ("W", "power lost"),
+    "power_in": ("W", "power into the pinion"),
+    "torque_time": ("s", "time of the torques"),
+    "pinion_torque": ("N m", "torque on the pinion from outside"),
+    "block": ("1", "blocks of whole revolutions that follow each other"),
+    "block_time": ("s", "time at the middle of a block"),
+    "block_speed": ("rad s-1", "mean speed of the pinion over a block"),
+    "order": ("1", "cycles per pinion revolution"),
+    "mesh_order": ("1", "cycles per mesh period"),
+    "dte_orders": ("m", "amplitude of the dynamic transmission error"),
+    "dte_track": ("m", "amplitude of the dynamic transmission error at a mesh order"),
+    "dte_overall": ("m", "rms of the dynamic transmission error, all frequencies"),
+    "mesh_force_track": ("N", "amplitude of the mesh force at a mesh order"),
+    "bearing_force_orders": ("N", "amplitude of the bearing force"),
+    "bearing_force_track": ("N", "amplitude of the bearing force at a mesh order"),
+    "bearing_force_overall": ("N", "rms of the bearing force about its mean, all frequencies"),
+    "slice_time": ("s", "time at the middle of a slice"),
+    "slice_speed": ("rad s-1", "speed of the pinion at the middle of a slice"),
+    "frequency": ("Hz", "frequency"),
+    "dte_waterfall": ("m", "amplitude of the dynamic transmission error"),
+    "bearing_force_waterfall": ("N", "amplitude of the bearing force"),
+}
+
+
+def described(dataset: xr.Dataset) -> xr.Dataset:
+    """Return `dataset` with `units` and `long_name` on every known variable."""
+    for name in map(str, dataset.variables):
+        if name in QUANTITIES:
+            unit, text = QUANTITIES[name]
+            dataset[name].attrs |= {"long_name": text} | ({"units": unit} if unit else {})
+    return dataset
+
+
+def runup_dataset(settings: RunupSettings, record: RampRecord) -> xr.Dataset:
+    """Return record, losses, order tracks and waterfalls of a ramp as one dataset."""
+    names = [*record.force_names, "mesh.dte", "mesh.force"]
+    blocks = block_spectra(
+        settings, record, np.stack([record.channels[name] for name in names], axis=1)
+    )
+    modes = ramp_modes(settings, record.torques[0])
+    dataset = xr.Dataset(
+        {
+            **_record(record),
+            **_losses(record, settings),
+            **_orders(settings, blocks),
+            **_waterfalls(settings, record),
+            **_separation(settings, record),
+            **_modes(settings, modes),
+            **_shape(settings, record, modes, blocks),
+            **roller_variables(settings, record, _loudest_time(settings, record, blocks)),
+        },
+        coords={
+            "bearing": list(BEARINGS),
+            "direction": list(DIRECTIONS),
+            "source": list(LOSS_SOURCES),
+            "mesh_order": list(MESH_ORDERS),
+            "mode": list(modes.names),
+            "coordinate": list(COORDINATES),
+        },
+        attrs=_attributes(settings, record),
+    )
+    return described(dataset)
+
+
+def _record(record: RampRecord) -> dict[str, tuple[object, Array]]:
+    single = np.float32
+    forces = np.stack([record.forces(i) for i in range(len(BEARINGS))], axis=1)
+    return {
+        "time": ("time", record.time),
+        "axis": (("bearing", "direction"), np.array(AXES)),
+        "bearing_force": (("time", "bearing", "direction"), forces.astype(single)),
+        "pinion_speed": ("time", record.channels["pinion.speed"].astype(single)),
+        "wheel_speed": ("time", record.channels["wheel.speed"].astype(single)),
+        "dte": ("time", record.channels["mesh.dte"].astype(single)),
+        "mesh_force": ("time", record.channels["mesh.force"].astype(single)),
+    }
+
+
+def _losses(record: RampRecord, settings: RunupSettings) -> dict[str, tuple[object, Array]]:
+    steps = np.diff(record.slow_time)
+    powers = np.diff(record.energies, axis=0) / steps[:, None]
+    torque = record.torques[0]
+    return {
+        "slow_time": ("slow_time", record.slow_time[:-1] + 0.5 * steps),
+        "power_in": ("slow_time", powers[:, 0]),
+        "loss": (("slow_time", "source"), powers[:, 1:]),
+        "torque_time": ("torque_time", np.linspace(0.0, settings.duration, torque.size)),
+        "pinion_torque": ("torque_time", torque),
+    }
+
+
+def block_spectra(settings: RunupSettings, record: RampRecord, signals: Array) -> OrderBlocks:
+    """Return the orders of `signals`, shape (n, channels), along the ramp."""
+    slowest = min(settings.start_speed, settings.end_speed)
+    samples = samples_for(settings.highest_frequency, slowest)
+    teeth = settings.car_axle.axle.mesh.pinion_teeth
+    return order_blocks(
+        record.time,
+        record.channels["pinion.angle"],
+        signals,
+        revolutions=settings.revolutions,
+        samples_per_revolution=samples,
+        highest_order=min(HIGHEST_MESH_ORDER * teeth, 0.5 * samples),
+    )
+
+
+def _places(settings: RunupSettings) -> Array:
+    """Return the bins of the mesh orders."""
+    teeth = settings.car_axle.axle.mesh.pinion_teeth
+    return np.array([round(teeth * m * settings.revolutions) for m in MESH_ORDERS])
+
+
+def _orders(settings: RunupSettings, found: OrderBlocks) -> dict[str, tuple[object, Array]]:
+    """Return maps and tracks of the orders of forces, transmission error and mesh force."""
+    amplitude = np.abs(found.amplitude)
+    shape = (len(BEARINGS), len(DIRECTIONS))
+    forces = amplitude[..., :-2].reshape(*amplitude.shape[:2], *shape)
+    at = _places(settings)
+    both = ("bearing", "direction")
+    single = np.float32
+    return {
+        "block_time": ("block", found.time),
+        "block_speed": ("block", found.speed),
+        "order": ("order", found.order),
+        "bearing_force_orders": (
+            ("block", *both, "order"),
+            np.moveaxis(forces, 1, -1).astype(single),
+        ),
+        "bearing_force_track": (
+            ("block", *both, "mesh_order"),
+            np.moveaxis(forces[:, at], 1, -1),
+        ),
+        "bearing_force_overall": (("block", *both), found.rms[:, :-2].reshape(-1, *shape)),
+        "dte_orders": (("block", "order"), amplitude[..., -2].astype(single)),
+        "dte_track": (("block", "mesh_order"), amplitude[:, at, -2]),
+        "dte_overall": ("block", found.rms[:, -2]),
+        "mesh_force_track": (("block", "mesh_order"), amplitude[:, at, -1]),
+    }
+
+
+def _waterfalls(settings: RunupSettings, record: RampRecord) -> dict[str, tuple[object, Array]]:
+    resolution = _resolution(settings)
+    names = [*record.force_names, "mesh.dte"]
+    found = [
+        waterfall(
+            record.channels[name],
+            settings.sample_rate,
+            resolution=resolution,
+            highest_frequency=settings.highest_frequency,
+        )
+        for name in names
+    ]
+    levels = np.stack([one.amplitude for one in found[:-1]], axis=1)
+    shape = (levels.shape[0], len(BEARINGS), len(DIRECTIONS), levels.shape[2])
+    speed = np.interp(found[0].time, record.time, record.smooth_speed)
+    single = np.float32
+    return {
+        "slice_time": ("slice", found[0].time),
+        "slice_speed": ("slice", speed),
+        "frequency": ("frequency", found[0].frequency),
+        "bearing_force_waterfall": (
+            ("slice", "bearing", "direction", "frequency"),
+            levels.reshape(shape).astype(single),
+        ),
+        "dte_waterfall": (("slice", "frequency"), found[-1].amplitude.astype(single)),
+    }
+
+
+def _separation(settings: RunupSettings, record: RampRecord) -> dict[str, float]:
+    dte, backlash = record.channels["mesh.dte"], settings.car_axle.axle.backlash
+    return {"separated_fraction": float(np.mean((dte < 0.0) & (dte > -backlash)))}
+
+
+def _modes(settings: RunupSettings, modes: RampModes) -> dict[str, tuple[object, Array]]:
+    teeth = settings.car_axle.axle.mesh.pinion_teeth
+    count = range(len(modes.names))
+    critical = np.array([[modes.critical_speed(k, teeth * m) for m in MESH_ORDERS] for k in count])
+    damping = np.array([[modes.damping_at(k, v) for v in critical[k]] for k in count])
+    return {
+        "mode_speed": ("mode_speed", modes.speed),
+        "mode_frequency": (("mode_speed", "mode"), modes.frequency),
+        "mode_damping": (("mode_speed", "mode"), modes.damping_ratio),
+        "mode_shape": (("coordinate", "mode"), modes.shape),
+        "critical_speed": (("mode", "mesh_order"), critical),
+        "critical_damping": (("mode", "mesh_order"), damping),
+    }
+
+
+def _loudest_time(settings: RunupSettings, record: RampRecord, blocks: OrderBlocks) -> float:
+    """Return the time [s] at which a mesh order of the bearing forces is largest."""
+    tracks = np.abs(blocks.amplitude[:, _places(settings), : len(record.force_names)])
+    return float(blocks.time[loudest(tracks)[0]])
+
+
+def _shape(
+    settings: RunupSettings, record: RampRecord, modes: RampModes, blocks: OrderBlocks
+) -> dict[str, object]:
+    """Return the motion where the forces are largest; `blocks` are the orders of `FORCES`."""
+    teeth = settings.car_axle.axle.mesh.pinion_teeth
+    tracks = np.abs(blocks.amplitude[:, _places(settings), : len(record.force_names)])
+    block, place = loudest(tracks)
+    # the turns of this block and some on either side
+    angle = record.channels["pinion.angle"]
+    turns = np.interp(blocks.time[block], record.time, angle) / (2.0 * math.pi)
+    reach = 2.0 * math.pi * (0.5 * settings.revolutions + 2.0)
+    near = np.abs(angle - 2.0 * math.pi * turns) <= reach
+    part = replace(
+        record,
+        time=record.time[near],
+        channels={name: values[near] for name, values in record.channels.items()},
+    )
+    signals = np.stack([part.channels[name] for name in CHANNELS], axis=1)
+    around = block_spectra(settings, part, signals)
+    block = int(np.argmin(np.abs(around.time - blocks.time[block])))
+    found = operating_shape(around, block, MESH_ORDERS[place], teeth, modes)
+    return {
+        "shape_amplitude": ("coordinate", np.abs(found.motion)),
+        "shape_phase": ("coordinate", np.angle(found.motion)),
+        "shape_share": ("mode", found.share),
+        "shape_speed": found.speed,
+        "shape_mesh_order": found.mesh_order,
+    }
+
+
+def _resolution(settings: RunupSettings) -> float:
+    """Return the distance of frequency bins [Hz] at which the first mesh order is sharpest.
+
+    A slice of length T smears an order that moves by r [Hz/s] over r T, beside its bins 1/T; the
+    two are equal at T = r^-1/2.
+    """
+    teeth = settings.car_axle.axle.mesh.pinion_teeth
+    rate = abs(settings.ramp.acceleration) * teeth / (2.0 * math.pi)
+    wanted = max(_FINEST, math.sqrt(rate), 4.0 / settings.duration)
+    samples = round(
+        settings.sample_rate / min(wanted, settings.highest_frequency / _SLICES_OF_HERTZ)
+    )
+    return settings.sample_rate / samples
+
+
+def _attributes(settings: RunupSettings, record: RampRecord) -> dict[str, object]:
+    car = settings.car_axle
+    axle = car.axle
+    gear, engine = engine_orders(settings)
+    return {
+        "title": f"{settings.name} of a lubricated hypoid axle",
+        "study": "runup",
+        "ramp": settings.name,
+        "gearlube_version": __version__,
+        "axle": car.name,
+        "axle_source": car.source,
+        "mesh_table": axle.mesh.name,
+        "oil": axle.oil.name,
+        "bearing_preload": float(axle.bearings[0].preload_force()),
+        "pinion_teeth": int(axle.mesh.pinion_teeth),
+        "gear_teeth": int(axle.mesh.gear_teeth),
+        "rolling_radius": float(car.driveline.road_load.tyre.rolling_radius),
+        "ranges_left": "\n".join(record.warnings),
+        "inputs_given": notes_as_text([n for n in car.inputs if n.origin == "given"]),
+        "inputs_assumed": notes_as_text(car.assumed),
+        "engine_gear": gear,
+        "engine_orders": np.array(engine),
+        **{f"setting_{name}": value for name, value in settings.as_dict().items()},
+    }

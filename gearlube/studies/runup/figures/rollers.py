@@ -1,0 +1,103 @@
+"""Loads of all rollers of the four bearings, at one instant and as an animation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.animation import save_animation
+from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
+from gearlube.studies.runup import levels
+from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.units import rads_to_rpm
+
+ANIMATION = "roller_loads.gif"
+_NAMES = {
+    1: "pinion, bearing 1",
+    2: "pinion, bearing 2",
+    3: "gear, bearing 3",
+    4: "gear, bearing 4",
+}
+_AXES = {1: ("z", "y"), 2: ("z", "y"), 3: ("x", "y"), 4: ("x", "y")}
+_HUB = 0.45  # inner radius of the drawn ring, over the largest bar
+_WIDTH = 0.55  # of a bar over the pitch of the rollers
+
+
+def roller_loads(dataset: xr.Dataset, frame: int = 0) -> Any:
+    """Return the load of every roller at an instant, with its range over the turn."""
+    load = dataset["roller_load"].values
+    with house_style():
+        figure = new_figure(11.0, 3.9)
+        axes = figure.subplots(1, load.shape[1], subplot_kw={"projection": "polar"})
+        for ring, ax in enumerate(axes):
+            number = int(dataset["ring"][ring])
+            known = np.isfinite(load[frame, ring])
+            _ring(
+                ax,
+                dataset["roller_angle"].values[frame, ring][known],
+                load[:, ring][:, known],
+                frame,
+                BLUE if number <= 2 else VERMILLION,
+            )
+            ax.set_title(_NAMES[number], fontsize=10)
+            first, second = _AXES[number]
+            ax.set_xticks([0.0, 0.5 * np.pi], [first, second])
+        speed = rads_to_rpm(float(dataset["shape_speed"]))
+        turned = np.degrees(float(dataset["frame_angle"][frame]))
+        figure.suptitle(
+            f"Load of each roller [N] at {speed:.0f} 1/min, pinion turned by {turned:.0f}°: "
+            f"{levels.heading(dataset)}"
+        )
+    return figure
+
+
+def _ring(ax: Any, angle: Array, load: Array, frame: int, colour: str) -> None:
+    """Draw rollers as bars outwards; a black mark is the largest load over the turn."""
+    top = float(load.max())
+    hub = _HUB * top
+    width = _WIDTH * 2.0 * np.pi / angle.size
+    ax.bar(angle, load[frame], width, bottom=hub, color=colour)
+    ax.bar(
+        angle, np.zeros(angle.size), width, bottom=hub + load.max(axis=0), edgecolor="black", lw=0.8
+    )
+    circle = np.linspace(0.0, 2.0 * np.pi, 121)
+    ax.plot(circle, np.full(circle.size, hub), color="#808080", lw=0.8)
+    ax.set_ylim(0.0, hub + 1.05 * top)
+    ax.set_yticks([hub + top], [f"{top:.0f} N"], fontsize=7.5)
+    ax.set_rlabel_position(45.0)
+    ax.tick_params(axis="x", labelsize=8.5, pad=-1)
+
+
+def animate_rollers(
+    dataset: xr.Dataset, folder: Path | str, progress: Progress = no_progress
+) -> Path:
+    """Write the loads of all rollers over one turn of the pinion as FOLDER/roller_loads.gif.
+
+    Raises
+    ------
+    ParameterError
+        The bearings of the axle have no rollers.
+
+    Examples
+    --------
+    >>> animate_rollers(load_runup("gearlube_runup"), "gearlube_runup")  # doctest: +SKIP
+    """
+    if "roller_load" not in dataset:
+        raise ParameterError(
+            "The bearings of the axle must have rollers for an animation of roller loads, got "
+            "another type."
+        )
+    name = f"{dataset.attrs['ramp'].replace('-', '')}_{ANIMATION}"
+    return save_animation(
+        lambda frame: roller_loads(dataset, frame),
+        dataset.sizes["frame"],
+        Path(folder) / name,
+        per_second=10,
+        dots_per_inch=70,
+        progress=progress,
+    )

@@ -1,0 +1,137 @@
+"""Order tracks of a run-up with the speeds at which mesh orders meet natural frequencies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.style import BLUE, GREEN, PURPLE, VERMILLION, house_style, new_figure
+from gearlube.studies.runup import levels
+from gearlube_core.arrays import Array
+
+ORDER_LOOKS = (
+    {"color": BLUE, "lw": 2.0, "ls": "-"},
+    {"color": VERMILLION, "lw": 1.6, "ls": (0, (5, 1.5))},
+    {"color": GREEN, "lw": 1.6, "ls": (0, (1.5, 1.0))},
+    {"color": PURPLE, "lw": 1.2, "ls": (0, (6, 1.5, 1.5, 1.5))},
+)
+_MARKED = 3  # mesh orders whose critical speeds are marked
+_OVERALL = {"color": "black", "lw": 1.0, "ls": "-"}
+_SHOWN = 60.0  # dB below the overall level's peak
+
+
+def order_tracks(dataset: xr.Dataset) -> Any:
+    """Return levels of mesh orders 1 to 3 and of everything, of bearing forces and DTE."""
+    with house_style():
+        figure = new_figure(9.4, 7.6)
+        above, below = figure.subplots(2, 1, sharex=True)
+        _tracks(
+            above,
+            dataset,
+            levels.total_force(dataset, "bearing_force_track").values,
+            levels.total_force(dataset, "bearing_force_overall").values,
+            levels.FORCE,
+        )
+        above.set_ylabel(f"bearing forces [{levels.FORCE_TEXT}]")
+        _tracks(
+            below,
+            dataset,
+            levels.track_rms(dataset, "dte_track").values,
+            dataset["dte_overall"].values,
+            levels.LENGTH,
+        )
+        below.set_ylabel(f"transmission error [{levels.LENGTH_TEXT}]")
+        _mark_critical(above, dataset, named=True)
+        _mark_critical(below, dataset, named=False)
+        levels.speed_axis(above, dataset, label=False)
+        levels.speed_axis(below, dataset, top=False)
+        handles, labels = above.get_legend_handles_labels()
+        figure.legend(handles, labels, ncols=5, loc="outside lower center", handlelength=3.0)
+        figure.suptitle(f"Order tracks: {levels.heading(dataset)}")
+    return figure
+
+
+def bearing_tracks(dataset: xr.Dataset) -> Any:
+    """Return the mesh orders of the force on each shaft in each direction."""
+    bearings, directions = dataset["bearing"].values, dataset["direction"].values
+    with house_style():
+        figure = new_figure(11.0, 6.4)
+        axes = figure.subplots(len(bearings), len(directions), sharex=True, sharey=True)
+        for i, bearing in enumerate(bearings):
+            for j, direction in enumerate(directions):
+                ax, where = axes[i, j], {"bearing": bearing, "direction": direction}
+                _tracks(
+                    ax,
+                    dataset,
+                    levels.track_rms(dataset, "bearing_force_track").sel(where).values,
+                    dataset["bearing_force_overall"].sel(where).values,
+                    levels.FORCE,
+                )
+                axis = str(dataset["axis"].sel(where).values)
+                ax.set_title(f"{bearing}, {direction} ({axis})", fontsize=9.5)
+                levels.speed_axis(ax, dataset, label=i == len(bearings) - 1, top=False)
+        for ax in axes[:, 0]:
+            ax.set_ylabel(f"force [{levels.FORCE_TEXT}]")
+        top = max(float(ax.get_ylim()[1]) for ax in axes.flat)
+        axes[0, 0].set_ylim(top - _SHOWN, top)
+        handles, labels = axes[0, 0].get_legend_handles_labels()
+        figure.legend(handles, labels, ncols=5, loc="outside lower center", handlelength=3.0)
+        figure.suptitle(f"Bearing forces by direction: {levels.heading(dataset)}")
+    return figure
+
+
+def _tracks(ax: Any, dataset: xr.Dataset, tracks: Array, overall: Array, reference: float) -> None:
+    """Draw the levels of `tracks`, (blocks, orders), and of `overall`, (blocks,), rms."""
+    speed = levels.rpm(dataset)
+    everything = levels.level(overall, reference)
+    ax.plot(speed, everything, label="all frequencies", zorder=3, **_OVERALL)
+    for i, (order, look) in enumerate(zip(dataset["mesh_order"].values, ORDER_LOOKS, strict=False)):
+        name = f"H{order} (order {order * levels.teeth(dataset)})"
+        ax.plot(speed, levels.level(tracks[:, i], reference), label=f"mesh {name}", **look)
+    top = 5.0 * np.ceil((float(everything.max()) + 3.0) / 5.0)
+    low = 5.0 * np.floor(float(levels.level(tracks, reference).min()) / 5.0)
+    ax.set_ylim(max(low, top - _SHOWN), top)
+
+
+def critical_marks(dataset: xr.Dataset) -> list[tuple[float, str, int]]:
+    """Return the critical speeds within the ramp [1/min], what meets there, and the mesh order."""
+    speeds = levels.rpm(dataset, "mode_speed")
+    critical = levels.rpm(dataset, "critical_speed")
+    return sorted(
+        (float(critical[k, i]), f"{mode}, H{order}", int(order))
+        for i, order in enumerate(dataset["mesh_order"].values[:_MARKED])
+        for k, mode in enumerate(dataset["mode"].values)
+        if speeds[0] <= critical[k, i] <= speeds[-1]
+    )
+
+
+def _mark_critical(ax: Any, dataset: xr.Dataset, *, named: bool) -> None:
+    """Mark where mesh orders meet natural modes, with the order's look."""
+    marks = critical_marks(dataset)
+    looks = dict(zip(dataset["mesh_order"].values.tolist(), ORDER_LOOKS, strict=False))
+    lines = [(speed, words, str(looks[order]["color"])) for speed, words, order in marks]
+    for speed, _, colour in lines:
+        ax.axvline(speed, color=colour, lw=0.8, ls=":", zorder=0)
+    if named:
+        low, high = levels.rpm(dataset, "mode_speed")[[0, -1]]
+        _names(ax, lines, 0.021 * (high - low))
+
+
+def _names(ax: Any, lines: list[tuple[float, str, str]], gap: float) -> None:
+    """Write names upright at the foot of their lines, moved apart where they touch."""
+    place = -np.inf
+    for speed, words, colour in lines:
+        place = max(speed, place + gap)
+        ax.annotate(
+            words,
+            (place, 0.015),
+            xycoords=("data", "axes fraction"),
+            rotation=90,
+            fontsize=7.0,
+            color=colour,
+            ha="center",
+            va="bottom",
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.4},
+        )

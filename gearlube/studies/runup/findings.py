@@ -1,0 +1,230 @@
+"""What a run-up says, in sentences with numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.loss_words import not_modelled, source_words
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.studies.runup import levels
+from gearlube.studies.runup.peaks import Critical, Peak, critical_speeds, mean_loss, peaks
+
+NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
+_MARKED = 3  # mesh orders whose critical speeds are told
+_NAMED = 3  # critical speeds and losses that are told one by one
+_SMALL = 0.005  # of the loss, below which a part is not told
+_NARROW = 0.15  # of a speed: a margin below it is worth a warning
+
+
+def findings(dataset: xr.Dataset) -> list[Finding]:
+    """Return the findings of a run-up or coast-down, the most important first.
+
+    Examples
+    --------
+    >>> from gearlube.studies.runup.run import load_runup
+    >>> findings(load_runup("gearlube_runup"))[0].headline  # doctest: +SKIP
+    'The loudest is mesh order 1: 527 N rms of bearing forces at 3993 1/min (174 km/h, 865 Hz).'
+    """
+    critical = [one for one in critical_speeds(dataset) if one.mesh_order <= _MARKED]
+    return [
+        *_loudest(dataset, critical),
+        *_margins(dataset, critical),
+        *_rate(critical),
+        *_contact(dataset),
+        *_loss(dataset),
+        *_ranges(dataset),
+    ]
+
+
+def _speed(dataset: xr.Dataset, rpm: float) -> str:
+    return f"{rpm:.0f} 1/min ({levels.kmh_per_rpm(dataset) * rpm:.0f} km/h)"
+
+
+def _nearest(peak: Peak, critical: list[Critical]) -> Critical | None:
+    of_order = [one for one in critical if one.mesh_order == peak.mesh_order]
+    return min(of_order, key=lambda c: abs(c.speed_rpm / peak.speed_rpm - 1.0), default=None)
+
+
+def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
+    top, *others = peaks(dataset)
+    detail = (
+        f"The largest part is {quantity_text(top.part, 'N')} on the {top.bearing} in direction "
+        f"{top.direction}. "
+    )
+    near = _nearest(top, critical)
+    resonant = near is not None and abs(near.speed_rpm / top.speed_rpm - 1.0) < NEAR
+    if near is not None:
+        off = round(100.0 * (near.speed_rpm / top.speed_rpm - 1.0))
+        how_far = f"{abs(off)} % {'above' if off > 0 else 'below'}" if off else "there"
+        detail += (
+            f"The nearest critical speed of that order is {how_far}: natural mode '{near.mode}', "
+            f"{near.frequency:.0f} Hz. "
+        )
+    shares = dataset["shape_share"].values
+    most = int(np.argmax(shares))
+    detail += (
+        f"{100.0 * shares[most]:.0f} % of the kinetic energy there is in the mode "
+        f"'{dataset['mode'].values[most]}'. "
+    )
+    if top.at_end:
+        detail += f"The crest lies at the {top.at_end} of the ramp: go further to see all of it. "
+    words = "; ".join(
+        f"order {one.mesh_order} {quantity_text(one.force, 'N')} at {one.speed_rpm:.0f} 1/min"
+        for one in others
+    )
+    speed = f"{top.speed_rpm:.0f} 1/min ({levels.kmh_per_rpm(dataset) * top.speed_rpm:.0f} km/h"
+    return [
+        Finding(
+            WARNING if resonant else NOTE,
+            f"The loudest is mesh order {top.mesh_order}: {quantity_text(top.force, 'N rms')} of "
+            f"bearing forces at {speed}, {top.frequency:.0f} Hz).",
+            f"{detail}The others: {words}.",
+        )
+    ]
+
+
+def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
+    inside = sorted((one for one in critical if one.margin == 0.0), key=lambda one: -one.force)
+    loudest = peaks(dataset)[0].mesh_order
+    outside = [one for one in critical if one.margin != 0.0 and one.mesh_order == loudest]
+    found = []
+    if inside:
+        told = "; ".join(
+            f"order {one.mesh_order} with '{one.mode}' at {_speed(dataset, one.speed_rpm)}, "
+            f"{quantity_text(one.force, 'N')}"
+            for one in inside[:_NAMED]
+        )
+        more = len(inside) - _NAMED
+        found.append(
+            Finding(
+                NOTE,
+                f"Mesh orders 1 to {_MARKED} meet natural frequencies at {len(inside)} speeds of "
+                "the ramp.",
+                f"By force: {told}{f'; and {more} more' if more > 0 else ''}. The table of "
+                "critical speeds has all.",
+            )
+        )
+    if outside:
+        near = min(outside, key=lambda one: abs(one.margin))
+        where = "above" if near.margin > 0.0 else "below"
+        narrow = abs(near.margin) < _NARROW
+        found.append(
+            Finding(
+                WARNING if narrow else GOOD,
+                f"The next critical speed of mesh order {loudest} lies {where} the ramp, "
+                f"{100.0 * abs(near.margin):.0f} % away: '{near.mode}' at "
+                f"{_speed(dataset, near.speed_rpm)}.",
+                "Its flank already raises the level at the end of the ramp." if narrow else "",
+            )
+        )
+    return found
+
+
+def _rate(critical: list[Critical]) -> list[Finding]:
+    inside = [one for one in critical if one.margin == 0.0]
+    fast = [one for one in inside if one.hurry > 1.0]
+    if fast:
+        worst = max(fast, key=lambda one: one.hurry)
+        return [
+            Finding(
+                WARNING,
+                f"The ramp passes {len(fast)} critical speeds too fast: the worst is mesh order "
+                f"{worst.mesh_order} with '{worst.mode}', {worst.hurry:.1f} times the rate that "
+                "lets it swing up.",
+                "These crests read too low. Take a slower ramp. Rate after ISO 7626-2.",
+            )
+        ]
+    if inside:
+        worst = max(inside, key=lambda one: one.hurry)
+        return [
+            Finding(
+                GOOD,
+                "The ramp is slow enough for every mode to swing up: at most "
+                f"{100.0 * worst.hurry:.0f} % of the fastest rate of ISO 7626-2.",
+            )
+        ]
+    return []
+
+
+def _contact(dataset: xr.Dataset) -> list[Finding]:
+    share = float(dataset["separated_fraction"])
+    if share <= 0.0:
+        return [Finding(GOOD, "The teeth stay in contact all the way.")]
+    return [
+        Finding(
+            WARNING,
+            f"The teeth are apart for {quantity_text(100.0 * share, '%', 2)} of the time.",
+            "Separation brings impacts: rattle, or clonk where the torque changes its sign.",
+        )
+    ]
+
+
+def _loss(dataset: xr.Dataset) -> list[Finding]:
+    loss = mean_loss(dataset)
+    names = [str(one) for one in dataset["source"].values]
+    largest = np.argsort(loss)[::-1][:_NAMED]
+    parts = ", ".join(
+        f"{source_words(names[i])} {100.0 * loss[i] / loss.sum():.0f} %"
+        for i in largest
+        if loss[i] > _SMALL * loss.sum()
+    )
+    losing = {name for name, one in zip(names, loss, strict=True) if one > 0.0}
+    return [
+        Finding(
+            NOTE,
+            f"At the fast end the axle loses {quantity_text(float(loss.sum()), 'W')}: {parts}.",
+            f"Not modelled: {', '.join(not_modelled(losing))}.",
+        )
+    ]
+
+
+def _ranges(dataset: xr.Dataset) -> list[Finding]:
+    left = str(dataset.attrs["ranges_left"])
+    if not left:
+        return [Finding(GOOD, "Nothing left the range of a formula or table.")]
+    count = len(left.splitlines())
+    return [
+        Finding(
+            WARNING,
+            f"{count} {'quantity' if count == 1 else 'quantities'} left the range of a formula or "
+            "table; what is computed there is extrapolated.",
+            left.replace("\n", " "),
+        )
+    ]
+
+
+def numbers(dataset: xr.Dataset) -> list[Number]:
+    """Return the key numbers, the same words in every run."""
+    by_order = {one.mesh_order: one for one in peaks(dataset)}
+    found = []
+    for order in sorted(by_order):
+        one = by_order[order]
+        found += [
+            Number(f"largest bearing forces of mesh order {order}", one.force, "N rms"),
+            Number(f"pinion speed there, order {order}", one.speed_rpm, "1/min", 4),
+        ]
+    overall = levels.total_force(dataset, "bearing_force_overall")
+    critical = [one for one in critical_speeds(dataset) if one.mesh_order <= _MARKED]
+    loudest = peaks(dataset)[0].mesh_order
+    margins = [abs(c.margin) for c in critical if c.margin != 0.0 and c.mesh_order == loudest]
+    inside = [one for one in critical if one.margin == 0.0]
+    return [
+        Number("largest bearing forces, all frequencies", float(overall.max()), "N rms"),
+        *found,
+        Number(
+            "largest transmission error, all frequencies",
+            1e6 * float(dataset["dte_overall"].max()),
+            "µm rms",
+        ),
+        Number("critical speeds of orders 1 to 3 within the ramp", float(len(inside)), "", 2),
+        Number(
+            "margin of the loudest order to the next critical speed",
+            100.0 * min(margins, default=np.nan),
+            "%",
+            2,
+        ),
+        Number("time without contact", 100.0 * float(dataset["separated_fraction"]), "%", 2),
+        Number("loss at the fast end", float(mean_loss(dataset).sum()), "W"),
+    ]

@@ -1,0 +1,225 @@
+"""The report of a run-up, a coast-down or both: findings, figures, tables, inputs, limits."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from gearlube.plotting.figure_folder import save_figure_folder
+from gearlube.report.page import write_report
+from gearlube.report.parts import GIVEN, Column, Figure, Input, Report, Table
+from gearlube.studies.runup import levels
+from gearlube.studies.runup.figures import CATALOGUE
+from gearlube.studies.runup.findings import findings, numbers
+from gearlube.studies.runup.peaks import critical_speeds, peaks
+from gearlube.studies.runup.run import FILES
+from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
+
+_DPI = 130
+_LIMITS = (
+    "The axle has 8 degrees of freedom; housing and shafts do not bend. Forces are those of the "
+    "bearings on the shafts; noise of the housing is not in them.",
+    "On the bench the torque on the pinion is smooth; with `--engine-orders` those of the engine "
+    "act, in one gear.",
+    "Natural frequencies are undamped, at the mean mesh stiffness, along the ramp's torque.",
+    "Teeth are all alike unless the mesh table has errors of single teeth, so between the mesh "
+    "orders there is no noise floor as in a measurement.",
+    "Films and friction are from formulas, see docs/ehl_hypoid.md for their error.",
+)
+_INPUTS = (
+    ("start_speed", "start speed of the pinion", "1/min", rads_to_rpm),
+    ("end_speed", "end speed of the pinion", "1/min", rads_to_rpm),
+    ("duration", "duration", "s", float),
+    ("pinion_torque", "torque on the pinion", "N·m", float),
+    ("oil_temperature", "oil temperature", "°C", kelvin_to_celsius),
+    ("order_resolution", "order resolution", "", float),
+    ("highest_frequency", "end of the spectra", "Hz", float),
+    ("sample_rate", "sample rate", "Hz", float),
+    ("settling_time", "settling time", "s", float),
+)
+
+
+def write_runup_report(
+    datasets: Sequence[xr.Dataset], folder: Path | str, command_line: str = ""
+) -> Path:
+    """Write report.html and figures/*.png of one ramp or more; return the path of the report.
+
+    Examples
+    --------
+    >>> from gearlube.studies.runup.run import load_runup
+    >>> write_runup_report([load_runup("gearlube_runup")], "gearlube_runup")  # doctest: +SKIP
+    """
+    folder = Path(folder)
+    drawn = {
+        _name(dataset, one.name): one.draw(dataset)
+        for dataset in datasets
+        for one in CATALOGUE
+        if one.needs in dataset.variables
+    }
+    save_figure_folder(drawn, folder / "figures")
+    return write_report(runup_report(datasets, drawn, command_line), folder)
+
+
+def _name(dataset: xr.Dataset, name: str) -> str:
+    return f"{dataset.attrs['ramp'].replace('-', '')}_{name}"
+
+
+def runup_report(
+    datasets: Sequence[xr.Dataset], drawn: dict[str, Any], command_line: str = ""
+) -> Report:
+    """Return the report of ramps; `drawn` has every figure as a picture of matplotlib."""
+    several = len(datasets) > 1
+    found = Report(
+        study="runup",
+        title=" and ".join(str(one.attrs["ramp"]) for one in datasets).capitalize()
+        + " of a lubricated hypoid axle",
+        subtitle=" ".join(map(_subtitle, datasets)),
+        limits=_LIMITS,
+        files=(*(FILES[one.attrs["ramp"]] for one in datasets), "summary.csv", "figures/"),
+        inputs=_noted(datasets[0]),
+        facts=_facts(datasets[0], command_line),
+    )
+    for dataset in datasets:
+        before = f"{dataset.attrs['ramp'].capitalize()}: " if several else ""
+        found = replace(
+            found,
+            findings=[
+                *found.findings,
+                *(replace(f, headline=_joined(before, f.headline)) for f in findings(dataset)),
+            ],
+            numbers=[
+                *found.numbers,
+                *(replace(n, name=f"{before}{n.name}") for n in numbers(dataset)),
+            ],
+            figures=[*found.figures, *_figures(dataset, drawn, before)],
+            tables=[*found.tables, *tables(dataset, before)],
+            inputs=[*_settings(dataset, before), *found.inputs],
+        )
+    return found
+
+
+def _joined(before: str, sentence: str) -> str:
+    return before + (sentence[0].lower() + sentence[1:] if before else sentence)
+
+
+def _subtitle(dataset: xr.Dataset) -> str:
+    start, end = (rads_to_rpm(float(dataset.attrs[f"setting_{e}_speed"])) for e in ("start", "end"))
+    kmh = levels.kmh_per_rpm(dataset)
+    return (
+        f"Hypoid axle {dataset.attrs['axle']}, {levels.heading(dataset)}, from {start:.0f} to "
+        f"{end:.0f} 1/min of the pinion ({kmh * start:.0f} to {kmh * end:.0f} km/h) in "
+        f"{dataset.attrs['setting_duration']:g} s as one continuous ramp."
+    )
+
+
+def _figures(dataset: xr.Dataset, drawn: dict[str, Any], before: str) -> list[Figure]:
+    found = []
+    for one in CATALOGUE:
+        name = _name(dataset, one.name)
+        if name not in drawn:
+            continue
+        chart = None if one.chart is None else one.chart(dataset)
+        found.append(
+            Figure(
+                name=name,
+                title=_joined(before, one.title),
+                caption=one.caption,
+                chart=chart,
+                picture=None if chart is not None else _png(drawn[name]),
+            )
+        )
+    return found
+
+
+def _png(figure: Any) -> bytes:
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=_DPI)
+    return buffer.getvalue()
+
+
+def tables(dataset: xr.Dataset, before: str = "") -> list[Table]:
+    """Return the crests of the orders and the critical speeds."""
+    kmh = levels.kmh_per_rpm(dataset)
+    crests = [
+        (
+            one.mesh_order, one.force, one.speed_rpm, kmh * one.speed_rpm, one.frequency,
+            one.bearing, one.direction, one.part,
+        )
+        for one in peaks(dataset)
+    ]  # fmt: skip
+    critical = [
+        (
+            one.mode, one.mesh_order, one.speed_rpm, kmh * one.speed_rpm, one.frequency,
+            100.0 * one.damping, None if math.isnan(one.force) else one.force,
+            100.0 * one.margin, 100.0 * one.hurry,
+        )
+        for one in critical_speeds(dataset)
+    ]  # fmt: skip
+    return [
+        Table(
+            title=_joined(before, "Crests of the mesh orders"),
+            caption="Largest bearing forces of each mesh order, all bearings and directions "
+            "together, and the one with the largest part.",
+            columns=(
+                Column("mesh order"), Column("bearing forces", "N rms"),
+                Column("pinion speed", "1/min", 4), Column("vehicle speed", "km/h"),
+                Column("frequency", "Hz"), Column("bearing"), Column("direction"),
+                Column("its part", "N rms"),
+            ),
+            rows=crests,
+        ),
+        Table(
+            title=_joined(before, "Critical speeds"),
+            caption="Where a mesh order meets a natural frequency. Margin: how far outside the "
+            "ramp, as a share of its end. Rate: how fast the order passes the mode, as a share of "
+            "the fastest that lets it swing up (ISO 7626-2).",
+            columns=(
+                Column("natural mode"), Column("mesh order"), Column("pinion speed", "1/min", 4),
+                Column("vehicle speed", "km/h"), Column("frequency", "Hz"),
+                Column("damping ratio", "%", 2), Column("bearing forces", "N rms"),
+                Column("margin", "%", 2), Column("rate", "%", 2),
+            ),
+            rows=critical,
+            folded=True,
+        ),
+    ]  # fmt: skip
+
+
+def _settings(dataset: xr.Dataset, before: str) -> list[Input]:
+    driver = str(dataset.attrs.get("setting_driver", "bench"))
+    found = [Input(f"{before or 'ramp: '}driver", driver, "", GIVEN, "setting")]
+    for name, words, unit, converted in _INPUTS:
+        value = float(dataset.attrs[f"setting_{name}"])
+        label = f"{before or 'ramp: '}{words}"
+        if math.isnan(value):
+            found.append(Input(label, "what the car needs", "", GIVEN, "road load and inertia"))
+        else:
+            found.append(Input(label, f"{converted(value):.6g}", unit, GIVEN, "setting"))
+    return found
+
+
+def _noted(dataset: xr.Dataset) -> list[Input]:
+    return [
+        Input(field, value, unit, origin, why)
+        for name in ("inputs_given", "inputs_assumed")
+        for field, value, unit, origin, why in json.loads(dataset.attrs[name])
+    ]
+
+
+def _facts(dataset: xr.Dataset, command_line: str) -> list[tuple[str, str]]:
+    attributes = dataset.attrs
+    return [
+        ("command", command_line or "(run from Python)"),
+        ("ramp by gearlube", str(attributes["gearlube_version"])),
+        ("axle", f"{attributes['axle']} {attributes['axle_source']}".strip()),
+        ("mesh table", str(attributes["mesh_table"])),
+        ("bearing preload", f"{attributes['bearing_preload']:g} N"),
+        ("oil", str(attributes["oil"])),
+    ]

@@ -1,0 +1,250 @@
+"""What a run-up or coast-down is computed for."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.ramp_vehicle import gear_for_ramp
+from drivetrain.speed_ramp import SpeedRamp
+from gearlube_core import __version__
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_finite, check_option, check_within
+from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, axle_losses
+from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.errors import ParameterError
+from gearlube_core.units import celsius_to_kelvin, rads_to_rpm
+
+BENCH, VEHICLE = "bench", "vehicle"
+DRIVERS = (BENCH, VEHICLE)
+SPEEDS = (5.0, 2000.0)  # of the pinion [rad/s]
+LONGEST = 600.0  # s
+LARGEST_CHANGE = 0.25  # of the speed within a block of revolutions
+LEAST_BLOCKS = 8  # that do not overlap
+SAMPLE_RATE = 32768.0  # Hz
+_NODES = 9  # of torque and loss along the ramp
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RunupSettings:
+    """A speed ramp of an axle.
+
+    Parameters
+    ----------
+    car_axle : CarAxle
+        Axle and car, see `read_axle`.
+    start_speed, end_speed : float
+        Pinion speed at the two ends [rad/s]; a lower end than start is a coast-down.
+    duration : float
+        From start to end [s].
+    pinion_torque : float, optional
+        Constant torque on the pinion from outside [N m]; below 0 the wheels drive. None: what the
+        car needs for its road load and for its acceleration in the ramp.
+    driver : str
+        "bench": smooth torque on the pinion, the wheel holds the ramp; "vehicle": engine with its
+        orders, driveline and tyres in one gear, with the torque that the car needs.
+    oil_temperature : float
+        [K]
+    order_resolution : float
+        Distance of the orders that are told apart [-]; 1 over a whole number of pinion
+        revolutions.
+    highest_frequency : float
+        End of the spectra [Hz].
+    sample_rate : float
+        Of the record [Hz].
+    settling_time : float
+        For which the start speed is held before the record begins [s].
+
+    Raises
+    ------
+    ParameterError
+        A value is out of range, or the speed changes by more than a quarter within the revolutions
+        that the order resolution takes.
+
+    Examples
+    --------
+    >>> from drivetrain.axle_file.read_axle import read_axle
+    >>> ramp = RunupSettings(
+    ...     car_axle=read_axle("mohammadpour_2015"), start_speed=100.0, end_speed=300.0,
+    ...     duration=20.0, pinion_torque=80.0,
+    ... )
+    >>> ramp.name, ramp.revolutions
+    ('run-up', 4)
+    """
+
+    car_axle: CarAxle
+    start_speed: float
+    end_speed: float
+    duration: float
+    pinion_torque: float | None = None
+    driver: str = "bench"
+    oil_temperature: float = celsius_to_kelvin(80.0)
+    order_resolution: float = 0.25
+    highest_frequency: float = 4000.0
+    sample_rate: float = SAMPLE_RATE
+    settling_time: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name in ("start_speed", "end_speed"):
+            check_within(name, getattr(self, name), *SPEEDS, "rad/s", "It is the pinion's.")
+        if self.start_speed == self.end_speed:
+            raise ParameterError(
+                f"start_speed and end_speed must differ, got {self.start_speed:g} rad/s for both. "
+                "For one speed use a sweep."
+            )
+        check_within("duration", self.duration, 0.2, LONGEST, "s")
+        check_within("order_resolution", self.order_resolution, 0.02, 1.0)
+        check_within("sample_rate", self.sample_rate, 8192.0, 131072.0, "Hz")
+        check_within(
+            "highest_frequency", self.highest_frequency, 100.0, 0.4 * self.sample_rate, "Hz"
+        )
+        check_within("settling_time", self.settling_time, 0.0, 60.0, "s")
+        self.car_axle.axle.oil.check_temperature(self.oil_temperature, "oil_temperature")
+        check_option("driver", self.driver, DRIVERS)
+        if self.pinion_torque is not None:
+            check_finite("pinion_torque", self.pinion_torque, "N m")
+            if self.driver == VEHICLE:
+                raise ParameterError(
+                    "pinion_torque must be left out with the driver 'vehicle', whose engine gives "
+                    f"it, got {self.pinion_torque:g} N m. Leave it out, or take 'bench'."
+                )
+        if self.driver == VEHICLE:
+            gear_for_ramp(self.car_axle.driveline, self.ramp)
+        self._check_rate()
+        self._check_torque()
+
+    @property
+    def name(self) -> str:
+        """Return "run-up" or "coast-down"."""
+        return "run-up" if self.end_speed > self.start_speed else "coast-down"
+
+    @property
+    def ramp(self) -> SpeedRamp:
+        """The speed over time."""
+        return SpeedRamp(start=self.start_speed, end=self.end_speed, duration=self.duration)
+
+    @property
+    def revolutions(self) -> int:
+        """Pinion revolutions in a block of the order analysis."""
+        return math.ceil(1.0 / self.order_resolution - 1e-9)
+
+    def _check_rate(self) -> None:
+        slow, fast = sorted((self.start_speed, self.end_speed))
+        block = 2.0 * math.pi * self.revolutions
+        per_second = (fast - slow) / self.duration
+        change = per_second * block / slow**2
+        resolution = 1.0 / self.revolutions
+        if change > LARGEST_CHANGE:
+            shortest = self.duration * change / LARGEST_CHANGE
+            lowest = math.sqrt(per_second * block / LARGEST_CHANGE)
+            coarser = 1.0 / max(1, int(self.revolutions * LARGEST_CHANGE / change))
+            cures = [f"take at least {_up(shortest)} s"]
+            if lowest < fast:
+                cures.append(f"begin above {_up(rads_to_rpm(lowest))} rpm")
+            if coarser > resolution:
+                cures.append(f"resolve orders {coarser:.3g} apart")
+            raise ParameterError(
+                f"The pinion speed must change by at most {100.0 * LARGEST_CHANGE:g} % within the "
+                f"{self.revolutions} revolutions that tell orders {resolution:.3g} apart, got "
+                f"{100.0 * change:.3g} % at {rads_to_rpm(slow):.0f} rpm: the ramp is too fast. "
+                f"For this ramp {', or '.join(cures)}."
+            )
+        turned = 0.5 * (slow + fast) * self.duration / block
+        if turned < LEAST_BLOCKS:
+            raise ParameterError(
+                f"The ramp must hold {LEAST_BLOCKS} times the {self.revolutions} revolutions that "
+                f"tell orders {resolution:.3g} apart, got {turned:.2g} times. Take at least "
+                f"{_up(self.duration * LEAST_BLOCKS / turned)} s."
+            )
+
+    def _check_torque(self) -> None:
+        limits = torque_limits(self.car_axle.axle)
+        for torque in self._asked_torques():
+            check_within(
+                "The torque on the pinion",
+                float(torque),
+                limits.pinion_low,
+                limits.pinion_high,
+                "N.m",
+                f"{limits.cure} Or take a slower ramp, or give a torque.",
+            )
+
+    def vehicle_speed(self, pinion_speed: Array) -> Array:
+        """Return the speed of a car whose wheels roll without slip [m/s]."""
+        road = self.car_axle.driveline.road_load
+        return np.asarray(pinion_speed) / road.final_drive.ratio * road.tyre.rolling_radius
+
+    def _asked_torques(self) -> Array:
+        """Return the torque on the pinion without the axle's loss [N m] at equal times."""
+        speeds = np.linspace(self.start_speed, self.end_speed, _NODES)
+        if self.pinion_torque is not None:
+            return np.full(_NODES, float(self.pinion_torque))
+        car = self.car_axle.driveline
+        road, radius = car.road_load, car.rolling_radius
+        mass = car.translating_mass + 2.0 * car.wheel_inertia / radius**2
+        inertial = mass * self.ramp.acceleration / car.axle_ratio * radius
+        forces = [road.resistance(float(v)) + inertial for v in self.vehicle_speed(speeds)]
+        return np.array(forces) * radius / car.axle_ratio
+
+    def torques(self) -> tuple[Array, Array]:
+        """Return torque on the pinion and expected loss torque [N m] at equal times of the ramp.
+
+        Raises
+        ------
+        ParameterError
+            The axle finds no balance at a speed of the ramp.
+        """
+        asked = self._asked_torques()
+        speeds = np.linspace(self.start_speed, self.end_speed, _NODES)
+        loss = np.empty(_NODES)
+        for i, (torque, speed) in enumerate(zip(asked, speeds, strict=True)):
+            found = axle_losses(
+                self.car_axle.axle,
+                torques=np.array([torque]),
+                speeds=np.array([speed]),
+                temperatures=np.array([self.oil_temperature]),
+                extremes=False,
+            )
+            status = int(found.status[0, 0, 0])
+            if status:
+                raise ParameterError(
+                    f"The axle must balance along the ramp, got {torque:.4g} N m at "
+                    f"{rads_to_rpm(float(speed)):.0f} rpm: {FAILURES[status]}"
+                )
+            loss[i] = found.total[0, 0, 0] / speed
+        return (asked if self.pinion_torque is not None else asked + loss), loss
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the numbers by name."""
+        return {
+            "start_speed": self.start_speed,
+            "end_speed": self.end_speed,
+            "duration": self.duration,
+            "pinion_torque": math.nan if self.pinion_torque is None else self.pinion_torque,
+            "driver": self.driver,
+            "oil_temperature": self.oil_temperature,
+            "order_resolution": 1.0 / self.revolutions,
+            "highest_frequency": self.highest_frequency,
+            "sample_rate": self.sample_rate,
+            "settling_time": self.settling_time,
+        }
+
+    def key(self) -> str:
+        """Return a hash of everything that the record depends on."""
+        with np.printoptions(threshold=sys.maxsize):
+            axle, car = repr(self.car_axle.axle), repr(self.car_axle.driveline)
+        everything = json.dumps([self.as_dict(), axle, car, __version__])
+        return hashlib.sha256(everything.encode()).hexdigest()[:20]
+
+
+def _up(value: float) -> str:
+    """Return a number rounded up to two digits."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return f"{math.ceil(value / step - 1e-9) * step:g}"

@@ -1,0 +1,134 @@
+"""The command `gearlube sound`."""
+
+from __future__ import annotations
+
+import logging
+import shlex
+import sys
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.options import OverwriteOption
+from gearlube.cli.results_folder import results_folder
+
+logger = logging.getLogger("gearlube")
+
+
+def sound(
+    run: Annotated[
+        Path,
+        typer.Argument(
+            help="Bearing forces over time: NetCDF file or folder of `gearlube runup`.",
+            metavar="RUN",
+        ),
+    ],
+    other: Annotated[
+        Path | None, typer.Argument(help="A second run to lay beside it.", metavar="[OTHER]")
+    ] = None,
+    against: Annotated[
+        Path | None,
+        typer.Option(help="The same as OTHER.", metavar="RUN"),
+    ] = None,
+    transfer: Annotated[
+        Path | None,
+        typer.Option(
+            help="Measured frequency responses [Pa/N], CSV or UFF58. Default: a generic path.",
+            metavar="FILE",
+        ),
+    ] = None,
+    band: Annotated[
+        str | None,
+        typer.Option(help="Frequencies that are kept [Hz], as 50:4000.", metavar="LOW:HIGH"),
+    ] = None,
+    order: Annotated[
+        list[float] | None,
+        typer.Option(
+            help="Order of the pinion to track; repeat it. Default: mesh orders 1 to 4.",
+            metavar="ORDER",
+        ),
+    ] = None,
+    full_scale: Annotated[
+        float | None,
+        typer.Option(help="Pressure at full scale of the WAV [Pa].", metavar="PA"),
+    ] = None,
+    wav_rate: Annotated[int, typer.Option(help="Rate of the WAV [Hz].", metavar="HZ")] = 48000,
+    metrics: Annotated[
+        str,
+        typer.Option(
+            help="all, none, or some of loudness, tonality, roughness, fluctuation_strength, with "
+            "commas.",
+            metavar="LIST",
+        ),
+    ] = "all",
+    field: Annotated[str, typer.Option(help="Sound field: free or diffuse.")] = "free",
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_sound"),
+    overwrite: OverwriteOption = False,
+) -> None:
+    """Make a run audible: sound pressure, WAV, loudness and which order one hears.
+
+    Two runs are laid side by side. Writes sound.nc, WAV files, summary.csv, figures, report.html.
+    """
+    from gearlube.cli.console import console
+    from gearlube.cli.progress_report import progress_on
+    from gearlube.studies.sound.run import run_sound
+    from gearlube.studies.sound.settings import METRICS, SoundSettings
+    from gearlube_core.errors import ParameterError
+
+    began = time.monotonic()
+    with exit_on_error():
+        if other is not None and against is not None:
+            raise ParameterError(
+                f"The second run must be given once, got {other} and --against {against}. Leave "
+                "one of them out."
+            )
+        chosen = {"all": METRICS, "none": ()}.get(
+            metrics, tuple(one.strip() for one in metrics.split(","))
+        )
+        settings = SoundSettings(
+            band=_band(band),
+            orders=tuple(order or ()),
+            full_scale=full_scale,
+            wav_rate=wav_rate,
+            field=field,
+            metrics=chosen,
+        )
+        with (
+            results_folder(out, "sound", overwrite=overwrite),
+            progress_on(console, "sound") as progress,
+        ):
+            found = run_sound(
+                run,
+                settings,
+                against=other or against,
+                transfer=transfer,
+                folder=out,
+                command_line=shlex.join(["gearlube", *sys.argv[1:]]),
+                progress=progress,
+            )
+        for sentence in found.findings:
+            logger.info("%s", sentence)
+        if found.runs[0].path.generic:
+            logger.warning("%s", found.limits[0])
+        for reason in found.missing:
+            logger.warning("Missing: %s.", reason)
+        logger.info("Computed in %.1f s.", time.monotonic() - began)
+        logger.info("Listen: %s", ", ".join(str(out / one.wav) for one in found.runs))
+        logger.info("Report: %s", out / "report.html")
+
+
+def _band(text: str | None) -> tuple[float, float] | None:
+    from gearlube_core.errors import ParameterError
+
+    if text is None:
+        return None
+    try:
+        low, high = (float(one) for one in text.split(":"))
+    except ValueError:
+        raise ParameterError(
+            f"--band must be two frequencies [Hz] as 50:4000, got {text!r}."
+        ) from None
+    return low, high

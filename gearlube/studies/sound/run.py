@@ -1,0 +1,176 @@
+"""Make the sound of a run, judge it, compare it with another: a library call."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from gearlube.studies.sound.audible import contributions
+from gearlube.studies.sound.compare import common_speeds, difference_sentences
+from gearlube.studies.sound.dataset import sound_dataset
+from gearlube.studies.sound.force_record import ForceRecord, read_forces
+from gearlube.studies.sound.heard import HeardRun, Sound
+from gearlube.studies.sound.metrics import Curve, engine, metric_curve, missing
+from gearlube.studies.sound.order_tracks import track_orders
+from gearlube.studies.sound.pressure import sound_pressure
+from gearlube.studies.sound.read_path import read_transfer
+from gearlube.studies.sound.results import write_sound
+from gearlube.studies.sound.settings import SoundSettings
+from gearlube.studies.sound.wav import full_scale_for, played, wav_name
+from gearlube.studies.sound.words import limit_sentences, sound_sentences
+from gearlube_core.errors import ParameterError
+from gearlube_core.progress import Progress, no_progress, part_of
+
+
+def run_sound(
+    run: Path | str | xr.Dataset,
+    settings: SoundSettings | None = None,
+    *,
+    against: Path | str | xr.Dataset | None = None,
+    transfer: Path | str | None = None,
+    names: tuple[str, ...] = (),
+    folder: Path | str | None = None,
+    command_line: str = "",
+    progress: Progress = no_progress,
+) -> Sound:
+    """Return the sound of a run: bearing forces through a transfer path to the ear.
+
+    Parameters
+    ----------
+    run : path or dataset
+        Bearing forces over time, see `read_forces`: a run-up or a steady recording.
+    settings : SoundSettings, optional
+    against : path or dataset, optional
+        A second run; the findings then begin with the difference.
+    transfer : path, optional
+        Measured frequency responses, CSV or UFF58. None: the generic path.
+    names : tuple of str
+        What the runs are called; absent: their folders.
+    folder : path, optional
+        Gets sound.nc, WAV files, summary.csv, figures/ and report.html.
+    command_line : str
+        What was typed, for the report.
+    progress : callable, optional
+        Called with the share that is done [-] and a sentence on what runs.
+
+    Returns
+    -------
+    Sound
+
+    Raises
+    ------
+    ParameterError, FileError
+        The input is not fit; before anything is written.
+
+    Examples
+    --------
+    >>> import numpy as np, xarray as xr
+    >>> t = np.arange(20000) / 10000.0  # 2 s at 10 kHz; a force of 2 N at 400 Hz
+    >>> force = 2.0 * np.cos(2.0 * np.pi * 400.0 * t)[:, None, None]
+    >>> run = xr.Dataset(
+    ...     {
+    ...         "bearing_force": (("time", "bearing", "direction"), force, {"units": "N"}),
+    ...         "pinion_speed": ("time", np.full(t.size, 200.0), {"units": "rad/s"}),
+    ...     },
+    ...     {"time": ("time", t, {"units": "s"})},
+    ... )
+    >>> sound = run_sound(run, SoundSettings(metrics=()))
+    >>> round(float(sound.dataset["level"].mean()), 1)  # 1e-4 Pa/N on the plateau: 17 dB
+    16.9
+    """
+    settings = settings or SoundSettings()
+    sources = [run] if against is None else [run, against]
+    records = [
+        read_forces(source, name)
+        for source, name in zip(sources, (*names, *[""] * len(sources)), strict=False)
+    ]
+    records = _told_apart(records)
+    wanted, left_out = _metrics(settings)
+    heard = []
+    for i, record in enumerate(records):
+        part = part_of(progress, i / len(records), (i + 1) / len(records))
+        heard.append(_heard(record, transfer, settings, wanted, part))
+    if len(heard) == 2:
+        common_speeds(heard[0].dataset, heard[1].dataset)
+    full_scale = _full_scale(heard, settings)
+    files = [wav_name(str(one.dataset.attrs["name"]), full_scale) for one in heard]
+    sound = Sound(
+        runs=tuple(replace(one, wav=name) for one, name in zip(heard, files, strict=True)),
+        full_scale=full_scale,
+        findings=tuple(_findings(heard)),
+        limits=tuple(limit_sentences(heard[0].dataset)),
+        missing=tuple(left_out),
+    )
+    if folder is None:
+        return sound
+    return write_sound(sound, settings, Path(folder), command_line)
+
+
+def _told_apart(records: list[ForceRecord]) -> list[ForceRecord]:
+    if len(records) == 2 and records[0].name == records[1].name:
+        return [
+            replace(one, name=f"{one.name} {letter}")
+            for one, letter in zip(records, "AB", strict=True)
+        ]
+    return records
+
+
+def _metrics(settings: SoundSettings) -> tuple[list[str], list[str]]:
+    """Return the metrics that are computed, and why others are not."""
+    if not settings.metrics:
+        return [], []
+    engine()
+    reasons = {name: missing(name) for name in settings.metrics}
+    return [name for name, why in reasons.items() if not why], [w for w in reasons.values() if w]
+
+
+def _heard(
+    record: ForceRecord,
+    transfer: Path | str | None,
+    settings: SoundSettings,
+    wanted: list[str],
+    progress: Progress,
+) -> HeardRun:
+    progress(0.0, f"{record.name}: pressure")
+    path = read_transfer(transfer, record)
+    pressure = sound_pressure(record, path, settings.band)
+    tracks = track_orders(record, pressure, settings.orders, settings.revolutions)
+    curves: dict[str, Curve] = {}
+    for i, name in enumerate(wanted):
+        progress(0.1 + 0.5 * i / len(wanted), f"{record.name}: {name.replace('_', ' ')}")
+        curves[name] = metric_curve(name, pressure.signal, settings.field)
+    audible = None
+    if "loudness" in wanted:
+        part = part_of(progress, 0.6, 1.0)
+        audible = contributions(record, pressure, tracks, settings.field, part)
+    progress(1.0, record.name)
+    dataset = sound_dataset(record, path, pressure, tracks, curves, audible, settings)
+    return HeardRun(dataset=dataset, pressure=pressure, path=path)
+
+
+def _full_scale(heard: list[HeardRun], settings: SoundSettings) -> float:
+    peak = max(
+        float(np.max(np.abs(played(one.pressure.signal, settings.wav_rate)))) for one in heard
+    )
+    if settings.full_scale is None:
+        return full_scale_for(peak)
+    if peak > settings.full_scale:
+        raise ParameterError(
+            f"full_scale must be at least the peak of the sound, {peak:.4g} Pa, got "
+            f"{settings.full_scale:g} Pa: the WAV would clip. Take {full_scale_for(peak):g} Pa, or "
+            "leave it out."
+        )
+    return settings.full_scale
+
+
+def _findings(heard: list[HeardRun]) -> list[str]:
+    found = []
+    if len(heard) == 2:
+        found = difference_sentences(heard[0].dataset, heard[1].dataset)
+    for one in heard:
+        before = f"{one.dataset.attrs['name']}: " if len(heard) == 2 else ""
+        found += [f"{before}{text}" for text in sound_sentences(one.dataset)]
+    return found

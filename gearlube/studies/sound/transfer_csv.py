@@ -1,0 +1,116 @@
+"""Measured frequency responses from a CSV file with units in its headings."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+
+from gearlube.studies.sound.transfer_path import Complex, TransferPath
+from gearlube_core.arrays import Array
+from gearlube_core.errors import FileError, ParameterError, why
+
+_HEADING = re.compile(r"^\s*(?P<what>.+?)\s*\[(?P<unit>[^\]]*)\]\s*$")
+_PARTS: dict[str, dict[str, float | None]] = {
+    "real": {"Pa/N": 1.0},
+    "imag": {"Pa/N": 1.0},
+    "magnitude": {"Pa/N": 1.0, "dB re 20 uPa/N": None, "dB re 1 Pa/N": None},
+    "phase": {"deg": np.pi / 180.0, "rad": 1.0},
+}
+_REFERENCE = {"dB re 20 uPa/N": 20e-6, "dB re 1 Pa/N": 1.0}
+_CURE = (
+    "Headings: 'frequency [Hz]', then for every path either 'pinion.axial real [Pa/N]' and "
+    "'pinion.axial imag [Pa/N]', or 'pinion.axial magnitude [Pa/N]' and 'pinion.axial phase [deg]'."
+)
+
+
+def read_csv_path(file: Path) -> TransferPath:
+    """Return the transfer path in a CSV file; `docs/sound.md` describes its headings.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read.
+    ParameterError
+        A heading has no unit or is not known, half of a pair is missing, a cell is no number.
+    """
+    head, rows = _table(file)
+    columns: dict[tuple[str, str], Array] = {}
+    frequency = None
+    for i, heading in enumerate(head):
+        path, part, unit = _meaning(heading, file)
+        values = rows[:, i]
+        if part == "frequency":
+            frequency = values
+        elif unit in _REFERENCE:
+            columns[path, part] = _REFERENCE[unit] * 10.0 ** (values / 20.0)
+        else:
+            columns[path, part] = values * (_PARTS[part][unit] or 1.0)
+    if frequency is None:
+        raise ParameterError(f"{file} must have a column 'frequency [Hz]', got none. {_CURE}")
+    paths = list(dict.fromkeys(path for path, _ in columns))
+    responses = {path: _response(path, columns, file) for path in paths}
+    return TransferPath(source=file.name, frequency=frequency, responses=responses)
+
+
+def _table(file: Path) -> tuple[list[str], Array]:
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as reason:
+        raise FileError(f"The transfer path {file} cannot be read: {why(reason)}.") from None
+    lines = [row for row in csv.reader(text.splitlines()) if row and not row[0].startswith("#")]
+    if len(lines) < 3:
+        raise ParameterError(
+            f"{file} must have a line of headings and at least two lines of numbers, got "
+            f"{len(lines)} lines. {_CURE}"
+        )
+    head = lines[0]
+    rows = np.empty((len(lines) - 1, len(head)))
+    for i, row in enumerate(lines[1:]):
+        try:
+            rows[i] = [float(cell) for cell in row]
+        except ValueError:
+            raise ParameterError(
+                f"Row {i + 1} of {file} must have {len(head)} numbers, one for each heading, got "
+                f"{', '.join(row)[:80]}. Fill the row or leave it out; the decimal sign is a point."
+            ) from None
+    return head, rows
+
+
+def _meaning(heading: str, file: Path) -> tuple[str, str, str]:
+    """Return path, part and unit of a heading."""
+    found = _HEADING.match(heading)
+    if found is None:
+        raise ParameterError(f"The heading {heading!r} of {file} must say its unit. {_CURE}")
+    what, unit = found["what"], found["unit"].strip().replace("µ", "u").replace("μ", "u")
+    if what.lower() == "frequency":
+        if unit != "Hz":
+            raise ParameterError(f"The frequency in {file} must be in Hz, got [{unit}]. {_CURE}")
+        return "", "frequency", unit
+    path, _, part = what.rpartition(" ")
+    part = part.lower()
+    if not path or part not in _PARTS:
+        raise ParameterError(
+            f"The heading {heading!r} of {file} must name a path and real, imag, magnitude or "
+            f"phase. {_CURE}"
+        )
+    if unit not in _PARTS[part]:
+        raise ParameterError(
+            f"The unit of {heading!r} in {file} must be {' or '.join(_PARTS[part])}, got "
+            f"[{unit}]. {_CURE}"
+        )
+    return path, part, unit
+
+
+def _response(path: str, columns: dict[tuple[str, str], Array], file: Path) -> Complex:
+    parts = {part for name, part in columns if name == path}
+    if parts == {"real", "imag"}:
+        return np.asarray(columns[path, "real"] + 1j * columns[path, "imag"])
+    if parts == {"magnitude", "phase"}:
+        return np.asarray(columns[path, "magnitude"] * np.exp(1j * columns[path, "phase"]))
+    raise ParameterError(
+        f"{path} in {file} must have real and imag, or magnitude and phase, got "
+        f"{', '.join(sorted(parts))}. {_CURE}"
+    )

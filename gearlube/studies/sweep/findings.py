@@ -1,0 +1,317 @@
+"""What a sweep says, in sentences with numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.loss_words import not_modelled, source_words
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
+from gearlube.studies.sweep.crossings import ORDERS, Crossing, crossings
+from gearlube.studies.sweep.peaks import Peak, peak_orders
+from gearlube.studies.sweep.point import FINISHED
+from gearlube.studies.sweep.separation import DOUBLE_SIDED, NONE
+from gearlube_core.arrays import Array
+
+NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
+_FULL_FILM, _MIXED = 3.0, 1.0  # film ratios between full film, mixed and mostly dry contact
+_CLOSED = 1e-3  # of the input, below which the energy balance is called closed
+_NAMED = 3  # crossings and losses that are told one by one
+_LEAST_SHARE = 0.005  # of the loss, of a source that is told
+
+
+def findings(dataset: xr.Dataset) -> list[Finding]:
+    """Return the findings of a merged sweep, the most important first.
+
+    Examples
+    --------
+    >>> from gearlube.studies.sweep.datasets import load_sweep
+    >>> findings(load_sweep("gearlube_sweep"))[0].headline  # doctest: +SKIP
+    'The loudest mesh order of the transmission error is order 1: 0.42 µm at 45 km/h, ...'
+    """
+    failed = int((dataset["status"] != FINISHED).sum())
+    points = dataset["status"].size
+    found = []
+    if failed:
+        found.append(
+            Finding(
+                WARNING,
+                f"{failed} of {points} points failed.",
+                "The table of failed points says why.",
+            )
+        )
+    if failed < points:
+        found += [
+            *_whine(dataset),
+            *_resonance(dataset),
+            *_contact(dataset),
+            *_loss(dataset),
+            *_film(dataset),
+            *_rollers(dataset),
+            *_ranges(dataset),
+            *_balance(dataset),
+        ]
+    return found
+
+
+def _whine(dataset: xr.Dataset) -> list[Finding]:
+    peaks = sorted(peak_orders(dataset), key=lambda one: -one.amplitude)
+    if not peaks:
+        return []
+    top, *others = peaks
+    near = _nearest_mode(dataset, top)
+    words = "; ".join(
+        f"order {p.order} {quantity_text(1e6 * p.amplitude, 'µm')} at {p.speed_kmh:g} km/h"
+        for p in others
+    )
+    detail = f"The others: {words}." if words else ""
+    if near is not None:
+        off = top.frequency / near[1] - 1.0
+        side = "above" if off > 0.0 else "below"
+        detail += (
+            f" The peak lies {100.0 * abs(off):.0f} % {side} the nearest natural frequency, "
+            f"'{near[0]}' at {near[1]:.0f} Hz."
+        )
+        if abs(off) < NEAR:
+            detail += " So the peak is a resonance, or close to one."
+    level = WARNING if near is not None and abs(top.frequency / near[1] - 1.0) < NEAR else NOTE
+    return [
+        Finding(
+            level,
+            f"The largest mesh order of the transmission error is order {top.order}: "
+            f"{quantity_text(1e6 * top.amplitude, 'µm')} at {top.speed_kmh:g} km/h "
+            f"({top.frequency:.0f} Hz), preload {top.preload:g} N.",
+            detail.strip(),
+        ),
+        *_bearing_force(dataset),
+    ]
+
+
+def _bearing_force(dataset: xr.Dataset) -> list[Finding]:
+    peaks = peak_orders(dataset, "bearing_force_spectrum")
+    top = max(peaks, key=lambda one: one.amplitude, default=None)
+    if top is None or top.amplitude <= 0.0:
+        return []
+    return [
+        Finding(
+            NOTE,
+            f"Bearing 1 shakes the housing most with mesh order {top.order}: "
+            f"{quantity_text(top.amplitude, 'N')} across the pinion (y) at {top.speed_kmh:g} km/h "
+            f"({top.frequency:.0f} Hz), preload {top.preload:g} N.",
+        )
+    ]
+
+
+def _nearest_mode(dataset: xr.Dataset, peak: Peak) -> tuple[str, float] | None:
+    if "mode_frequency" not in dataset:
+        return None
+    row = dataset["mode_frequency"].sel(preload=peak.preload)
+    known = row.values[np.isfinite(row.values)]
+    if not known.size:
+        return None
+    at = int(np.nanargmin(np.abs(row.values - peak.frequency)))
+    return str(dataset["mode"].values[at]), float(row.values[at])
+
+
+def _resonance(dataset: xr.Dataset) -> list[Finding]:
+    all_of_them = crossings(dataset)
+    if not all_of_them:
+        return []
+    low, high = (float(dataset["speed_kmh"].values[i]) for i in (0, -1))
+    span = f"between {low:g} and {high:g} km/h" if high > low else f"at {low:g} km/h"
+    first = [one for one in all_of_them if one.preload == all_of_them[0].preload]
+    inside = [one for one in first if one.margin == 0.0]
+    if not inside:
+        nearest = min(all_of_them, key=lambda one: one.margin)
+        level = GOOD if nearest.margin > NEAR else NOTE
+        return [
+            Finding(
+                level,
+                f"No mesh order 1 to {ORDERS[-1]} meets a natural frequency {span}; the least "
+                f"margin is {100.0 * nearest.margin:.0f} %.",
+                f"That is {_crossing(nearest)}.",
+            )
+        ]
+    first_order = [one for one in inside if one.order == 1]
+    told = first_order or inside
+    more = f", and {len(told) - _NAMED} more" if len(told) > _NAMED else ""
+    return [
+        Finding(
+            NOTE,
+            f"Mesh orders 1 to {ORDERS[-1]} meet natural frequencies {len(inside)} times {span}; "
+            f"{len(first_order)} of these are order 1.",
+            f"At preload {told[0].preload:g} N: {'; '.join(map(_crossing, told[:_NAMED]))}{more}. "
+            "The table of natural frequencies has all.",
+        )
+    ]
+
+
+def _crossing(one: Crossing) -> str:
+    return (
+        f"order {one.order} with '{one.mode}' ({one.frequency:.0f} Hz) at {one.speed_kmh:.0f} km/h"
+    )
+
+
+def _contact(dataset: xr.Dataset) -> list[Finding]:
+    kinds = dataset["separation"].values
+    known = np.isfinite(kinds)
+    apart = known & (kinds != NONE)
+    if not np.any(apart):
+        least = 1e6 * _least(dataset["dte_min"])
+        return [
+            Finding(
+                GOOD,
+                "The teeth stay in contact at every point.",
+                f"The least transmission error is {quantity_text(least, 'µm')}; contact is lost "
+                "below zero.",
+            )
+        ]
+    speeds = _speeds_where(dataset, apart)
+    double = int(np.sum(kinds[known] == DOUBLE_SIDED))
+    share = 100.0 * _most(dataset["separated_fraction"])
+    return [
+        Finding(
+            WARNING,
+            f"The teeth separate at {int(apart.sum())} of {int(known.sum())} points: {speeds}.",
+            f"At most {share:.0f} % of the time is without contact. "
+            + (
+                f"At {double} points the back flanks hit too."
+                if double
+                else "The back flanks do not hit."
+            ),
+        )
+    ]
+
+
+def _loss(dataset: xr.Dataset) -> list[Finding]:
+    total = dataset["loss"].sum("source", skipna=False)
+    row, column = _place(total.values)
+    point = dataset.isel(preload=row, speed=column)
+    loss = point["loss"].values
+    order = np.argsort(loss)[::-1]
+    names = [source_words(str(one)) for one in dataset["source"].values]
+    parts = ", ".join(
+        f"{names[i]} {100.0 * loss[i] / loss.sum():.0f} %"
+        for i in order[:_NAMED]
+        if loss[i] > _LEAST_SHARE * loss.sum()
+    )
+    efficiency = dataset["efficiency_axle"]
+    losing = {
+        str(name)
+        for name in dataset["source"].values
+        if np.any(np.nan_to_num(dataset["loss"].sel(source=name).values) > 0.0)
+    }
+    return [
+        Finding(
+            NOTE,
+            f"The largest loss is {quantity_text(float(total.values[row, column]), 'W')} at "
+            f"{float(point['speed_kmh']):g} km/h and preload {float(point['preload']):g} N: "
+            f"{parts}.",
+            f"The efficiency of the axle is {100.0 * _least(efficiency):.1f} to "
+            f"{100.0 * _most(efficiency):.1f} %. Not modelled: "
+            f"{', '.join(not_modelled(losing))}.",
+        )
+    ]
+
+
+def _film(dataset: xr.Dataset) -> list[Finding]:
+    ratio = dataset["film_ratio_min"].values
+    if not np.any(np.isfinite(ratio)):
+        return []
+    row, column = _place(-ratio)
+    least, point = float(ratio[row, column]), dataset.isel(preload=row, speed=column)
+    level, words = (
+        (GOOD, "The flanks run on a full film, above 3.")
+        if least >= _FULL_FILM
+        else (NOTE, "Below 3 the highest asperities touch: mixed lubrication.")
+        if least >= _MIXED
+        else (WARNING, "Below 1 asperities carry much of the load; watch wear and friction.")
+    )
+    film = quantity_text(1e6 * float(point["film_thickness_min"]), "µm")
+    return [
+        Finding(
+            level,
+            f"The least film ratio λ of a loaded flank is {quantity_text(least, '', 2)}, at "
+            f"{float(point['speed_kmh']):g} km/h and preload {float(point['preload']):g} N "
+            f"(film {film}).",
+            words,
+        )
+    ]
+
+
+def _rollers(dataset: xr.Dataset) -> list[Finding]:
+    least = dataset["bearing_roller_load_min"].min("bearing").values
+    known = np.isfinite(least)
+    free = known & (least <= 0.0)
+    most = quantity_text(_most(dataset["bearing_roller_load_max"]), "N")
+    if np.any(free):
+        return [
+            Finding(
+                WARNING,
+                f"Rollers leave their races at {int(free.sum())} of {int(known.sum())} points: "
+                f"{_speeds_where(dataset, free)}.",
+                f"There the preload is too low. The largest load of a roller is {most}.",
+            )
+        ]
+    return [
+        Finding(
+            GOOD,
+            f"Every roller stays loaded: at least {quantity_text(_least(least), 'N')}, at most "
+            f"{most}.",
+        )
+    ]
+
+
+def _ranges(dataset: xr.Dataset) -> list[Finding]:
+    if "range_exceeded" not in dataset:
+        return []
+    left = np.nan_to_num(dataset["range_exceeded"].values) > 0.0
+    finished = int((dataset["status"] == FINISHED).sum())
+    if not np.any(left):
+        return [Finding(GOOD, "No finished point left the range of a formula or table.")]
+    return [
+        Finding(
+            WARNING,
+            f"{int(left.sum())} of {finished} points left the range of a formula or table: "
+            f"{_speeds_where(dataset, left)}.",
+            "What is computed there is extrapolated; the table of ranges says which.",
+        )
+    ]
+
+
+def _balance(dataset: xr.Dataset) -> list[Finding]:
+    worst = float(np.nanmax(np.abs(dataset["energy_closure_error"].values)))
+    if not np.isfinite(worst):
+        return []
+    size = quantity_text(1e6 * worst, "ppm of the input", 2)
+    if worst < _CLOSED:
+        return [Finding(GOOD, f"The energy balance closes to {size} at every point.")]
+    return [
+        Finding(
+            WARNING,
+            f"The energy balance is open by up to {size}.",
+            "Take more time steps a mesh period.",
+        )
+    ]
+
+
+def _speeds_where(dataset: xr.Dataset, where: Array) -> str:
+    """Return the speeds at which a condition holds at any preload, as ranges if they are many."""
+    speeds = dataset["speed_kmh"].values[np.any(where, axis=0)]
+    if speeds.size > 4:
+        return f"{speeds[0]:g} to {speeds[-1]:g} km/h"
+    return f"{', '.join(f'{one:g}' for one in speeds)} km/h"
+
+
+def _place(values: Array) -> tuple[int, int]:
+    row, column = np.unravel_index(int(np.nanargmax(values)), values.shape)
+    return int(row), int(column)
+
+
+def _least(values: xr.DataArray | Array) -> float:
+    return float(np.nanmin(np.asarray(values)))
+
+
+def _most(values: xr.DataArray | Array) -> float:
+    return float(np.nanmax(np.asarray(values)))

@@ -1,0 +1,146 @@
+"""The command `gearlube whine`."""
+
+from __future__ import annotations
+
+import logging
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.table import Table
+
+from gearlube.cli.console import console
+from gearlube.cli.exit_codes import exit_on_error
+from gearlube.cli.multi_value_options import MultiValueCommand
+from gearlube.cli.options import JobsOption, OverwriteOption
+from gearlube.cli.progress_report import progress_on
+from gearlube.cli.ranges import numbers_from
+from gearlube.cli.results_folder import results_folder
+from gearlube_core.checks import check_within
+
+if TYPE_CHECKING:  # the study is loaded when the command runs
+    from gearlube.studies.whine.run import WhineRow
+
+logger = logging.getLogger("gearlube")
+_SHOWN = 12
+
+
+class WhineCommand(MultiValueCommand):
+    """A command whose option `--speeds-rpm` takes several values."""
+
+    multi_value = frozenset({"--speeds-rpm"})
+
+
+def whine(
+    gear: Annotated[
+        str,
+        typer.Argument(
+            help="Gear file (TOML) of a hypoid pair or the name of a shipped one.", metavar="GEAR"
+        ),
+    ] = "mohammadpour_2015",
+    torque: Annotated[float, typer.Option(help="Pinion torque [N.m].", metavar="TORQUE")] = 50.0,
+    speeds_rpm: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Pinion speeds [rpm]: first:last:step and single values. Default: 500:6000:100.",
+            metavar="RANGE...",
+        ),
+    ] = None,
+    by: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Setting, relief or misalignment, as pinion.machine.tilt_angle_deg; repeat for "
+            "more. Default: all of them.",
+            metavar="FIELD",
+        ),
+    ] = None,
+    pinion_inertia: Annotated[
+        float | None,
+        typer.Option(help="About its axis [kg m2]. Default: shipped pair's.", metavar="KGM2"),
+    ] = None,
+    gear_inertia: Annotated[
+        float | None,
+        typer.Option(help="About its axis [kg m2]. Default: shipped pair's.", metavar="KGM2"),
+    ] = None,
+    damping_ratio: Annotated[float, typer.Option(help="Of the mesh mode.", metavar="RATIO")] = 0.03,
+    positions: Annotated[int, typer.Option(help="Positions over a mesh period.", metavar="N")] = 16,
+    jobs: JobsOption = None,
+    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_whine"),
+    overwrite: OverwriteOption = False,
+) -> None:
+    """Whine orders of a hypoid pair over the speed, and what each setting changes of them.
+
+    From the flanks through the mesh table to the vibration of the torsional pair, with exact
+    derivatives. Writes whine.nc, whine.csv and a figure. Finished positions are kept in OUT: run
+    the same command again to go on after a stop.
+    """
+    from gearlube.studies.whine.run import WhineSettings, run_whine, whine_rows
+    from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings
+    from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+    from gearlube_core.units import rpm_to_rads
+
+    began = time.monotonic()
+    with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
+        file = HypoidGearFile.given(gear)
+        check_within("--positions", positions, 7, 400, "", "Three mesh orders need seven.")
+        rpm = numbers_from(
+            "--speeds-rpm",
+            speeds_rpm or ("500:6000:100",),
+            "rpm",
+            10.0,
+            47000.0,
+            example="500:6000:100",
+            most=500,
+        )
+        settings = WhineSettings(
+            series=SeriesSettings(parameters=tuple(by or ()), torque=torque, positions=positions),
+            speeds=tuple(float(rpm_to_rads(one)) for one in rpm),
+            damping_ratio=damping_ratio,
+        )
+        if pinion_inertia is not None:
+            settings = replace(settings, pinion_inertia=pinion_inertia)
+        if gear_inertia is not None:
+            settings = replace(settings, gear_inertia=gear_inertia)
+        if gear.endswith(".toml") and None in (pinion_inertia, gear_inertia):
+            logger.warning(
+                "Inertias are those of the shipped pair, %g and %g kg m2. Give --pinion-inertia "
+                "and --gear-inertia.",
+                settings.pinion_inertia,
+                settings.gear_inertia,
+            )
+        with (
+            results_folder(out, "whine", overwrite=overwrite),
+            progress_on(console, "whine", positions) as progress,
+        ):
+            dataset = run_whine(file, settings, folder=out, jobs=jobs, progress=progress)
+        rows = whine_rows(dataset)
+        console.print(_table(file.name, torque, rows[:_SHOWN]))
+        missing = int(dataset["force"].isel(order=0).isnull().sum())
+        if missing:
+            logger.warning("No periodic motion at %d of %d speeds.", missing, len(rpm))
+        logger.info("Computed in %.1f s.", time.monotonic() - began)
+        logger.info("Results: %s, %s, %s", out / "whine.nc", out / "whine.csv", out / "figures")
+
+
+def _table(name: str, torque: float, rows: list[WhineRow]) -> Table:
+    from gearlube.plotting.parameter_words import parameter_words, tolerance_words
+    from gearlube_core.units import rads_to_rpm
+
+    table = Table(title=f"{name}: what small errors change of mesh order 1 at {torque:g} N·m")
+    table.add_column("what grows by how much")
+    for heading in (
+        "mesh force,\nat most [N]",
+        "there\n[rpm]",
+        "transmission error,\nat most [µrad]",
+    ):
+        table.add_column(heading, justify="right")
+    for row in rows:
+        table.add_row(
+            f"{parameter_words(row.parameter)}, {tolerance_words(row.tolerance, row.unit)}",
+            f"{row.force:.2f}",
+            f"{rads_to_rpm(row.pinion_speed):.0f}",
+            f"{1e6 * row.transmission_error:.2f}",
+        )
+    return table

@@ -1,0 +1,265 @@
+"""Whine orders over the speed and their derivatives by settings: a library call."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gearlube.output.csv_text import csv_text
+from gearlube.studies.whine.figures import whine_figure
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_positive, check_within
+from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
+from gearlube_core.dynamics.hypoid_torsional.parameters import (
+    KARAGIANNIS_DAMPING_RATIO,
+    HypoidTorsionalParameters,
+    karagiannis_2012_pair,
+)
+from gearlube_core.dynamics.hypoid_torsional.whine_rates import WhineRates, whine_rates
+from gearlube_core.errors import ConvergenceError, ParameterError
+from gearlube_core.hypoid_contact.sensitivity.series_rates import (
+    SeriesRates,
+    SeriesSettings,
+    series_rates,
+)
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.progress import Progress, no_progress
+from gearlube_core.storage.atomic_file import write_dataset, write_text
+
+POSITIONS = "positions"  # folder of finished positions, in that of the results
+QUANTITIES = {
+    "transmission_error": ("rad", "rotation of the pinion beyond the teeth ratio"),
+    "force": ("N", "mesh force"),
+}
+_SHIPPED = karagiannis_2012_pair()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WhineSettings:
+    """Where whine is computed, and by what it is differentiated.
+
+    Parameters
+    ----------
+    series : SeriesSettings
+        Torque, parameters, mesh phases.
+    speeds : tuple of float
+        Mean pinion speeds [rad/s], rising, 1 to 5000.
+    orders : tuple of int
+        Of the mesh.
+    pinion_inertia, gear_inertia : float
+        About the members' axes [kg m2]; by default those of the shipped pair.
+    damping_ratio : float
+        Of the mesh mode [-], 0.001 to 0.5.
+
+    Examples
+    --------
+    >>> WhineSettings(speeds=(100.0, 200.0)).series.torque
+    50.0
+    """
+
+    series: SeriesSettings = field(default_factory=SeriesSettings)
+    speeds: tuple[float, ...] = tuple(np.linspace(50.0, 650.0, 61).tolist())
+    orders: tuple[int, ...] = (1, 2, 3)
+    pinion_inertia: float = _SHIPPED.pinion_inertia
+    gear_inertia: float = _SHIPPED.gear_inertia
+    damping_ratio: float = KARAGIANNIS_DAMPING_RATIO
+
+    def __post_init__(self) -> None:
+        if not self.speeds or any(np.diff(self.speeds) <= 0.0):
+            raise ParameterError(f"speeds must rise [rad/s], got {self.speeds}. Sort them.")
+        check_within("speeds", self.speeds[0], 1.0, 5e3, "rad/s")
+        check_within("speeds", self.speeds[-1], 1.0, 5e3, "rad/s")
+        check_positive("pinion_inertia", self.pinion_inertia, "kg m2")
+        check_positive("gear_inertia", self.gear_inertia, "kg m2")
+        check_within("damping_ratio", self.damping_ratio, 1e-3, 0.5)
+        most = (self.series.positions - 1) // 2
+        for order in self.orders:
+            check_within(
+                "orders", order, 1, most, "", "Twice the order and one position are needed."
+            )
+
+
+class WhineRow(NamedTuple):
+    """What the tolerance of one parameter changes at most, to first order."""
+
+    parameter: str
+    tolerance: float
+    unit: str
+    transmission_error: float  # largest change of order 1 over the speeds [rad]
+    force: float  # the same of the mesh force [N]
+    pinion_speed: float  # where the force changes most [rad/s]
+
+
+def run_whine(
+    file: HypoidGearFile,
+    settings: WhineSettings | None = None,
+    *,
+    folder: Path | None = None,
+    jobs: int | None = None,
+    progress: Progress = no_progress,
+) -> xr.Dataset:
+    """Return the whine orders of a hypoid pair over its speed, and their rates by settings.
+
+    The drive flanks' loaded contact and its derivatives become a mesh table with derivatives; the
+    torsional pair's periodic motions on it give amplitudes of transmission error and mesh force.
+
+    Parameters
+    ----------
+    file : HypoidGearFile
+    settings : WhineSettings, optional
+        Torque, parameters, speeds; absent: 50 N.m, all parameters.
+    folder : Path, optional
+        Gets whine.nc, whine.csv and figures/whine.png. Finished positions are kept there: the
+        same call goes on after a stop.
+    jobs : int, optional
+        Processes; default: all processors.
+    progress : callable, optional
+        Called with the share that is done [-] and a sentence on what runs.
+
+    Raises
+    ------
+    ParameterError
+        The flanks do not meet, or a parameter has no derivative.
+    ConvergenceError
+        A position finds no equilibrium.
+
+    Notes
+    -----
+    No flank friction, shafts and bearings rigid. A speed without periodic motion of the mesh
+    period is NaN; `stable` is 0 where such a motion is not stable.
+
+    Examples
+    --------
+    >>> file = HypoidGearFile.named("mohammadpour_2015")
+    >>> found = run_whine(file)  # doctest: +SKIP
+    >>> found["force_rate"].sel(parameter="misalignment.pinion_axial", order=1)  # doctest: +SKIP
+    """
+    settings = settings or WhineSettings()
+    store = None if folder is None else folder / POSITIONS
+    table = series_rates(file, settings.series, store=store, jobs=jobs, progress=progress)
+    progress(1.0, "periodic motions")
+    dataset = _dataset(file, settings, table, _motions(table, settings))
+    if folder is not None:
+        write_whine(dataset, folder)
+    return dataset
+
+
+def write_whine(dataset: xr.Dataset, folder: Path) -> None:
+    """Write whine.nc, whine.csv and figures/whine.png into a folder."""
+    (folder / "figures").mkdir(parents=True, exist_ok=True)
+    write_dataset(dataset, folder / "whine.nc")
+    write_text(csv_text(WhineRow._fields, whine_rows(dataset)), folder / "whine.csv")
+    whine_figure(dataset).savefig(folder / "figures" / "whine.png", dpi=150)
+
+
+def whine_rows(dataset: xr.Dataset) -> list[WhineRow]:
+    """Return a row for each parameter, what changes the force of order 1 most on top."""
+    rows = []
+    first = dataset.isel(order=0)
+    for name in dataset["parameter"].values:
+        part = first.sel(parameter=name)
+        tolerance = float(part["tolerance"])
+        error, force = (np.abs(tolerance * part[f"{one}_rate"].values) for one in QUANTITIES)
+        highest = int(np.nanargmax(force))
+        rows.append(
+            WhineRow(
+                str(name),
+                tolerance,
+                str(part["unit"].values),
+                float(np.nanmax(error)),
+                float(force[highest]),
+                float(dataset["pinion_speed"].values[highest]),
+            )
+        )
+    return sorted(rows, key=lambda row: -row.force)
+
+
+def _pair(table: SeriesRates, settings: WhineSettings) -> HypoidTorsionalParameters:
+    return replace(
+        karagiannis_2012_pair(table.table),
+        pinion_torque=settings.series.torque,
+        pinion_inertia=settings.pinion_inertia,
+        gear_inertia=settings.gear_inertia,
+        mesh_damping="modal",
+        damping_ratio=settings.damping_ratio,
+    )
+
+
+def _motions(table: SeriesRates, settings: WhineSettings) -> list[WhineRates | None]:
+    pair = _pair(table, settings)
+    found: list[WhineRates | None] = []
+    for speed in settings.speeds:
+        try:
+            one = whine_rates(pair, table.rates, speed, orders=settings.orders)
+        except ConvergenceError:
+            one = None
+        found.append(one)
+    if not any(found):
+        raise ConvergenceError(
+            f"A periodic motion must exist at one of {len(settings.speeds)} speeds, none was "
+            "found. Give speeds off the resonance, or more damping."
+        )
+    return found
+
+
+def _dataset(
+    file: HypoidGearFile,
+    settings: WhineSettings,
+    table: SeriesRates,
+    motions: list[WhineRates | None],
+) -> xr.Dataset:
+    count, orders = len(table.parameters), len(settings.orders)
+    data: dict[str, Any] = {}
+    for name, (unit, text) in QUANTITIES.items():
+        values = np.full((len(motions), orders), np.nan)
+        rates = np.full((len(motions), count, orders), np.nan)
+        for k, one in enumerate(motions):
+            if one is not None:
+                values[k], rates[k] = one.amplitudes(name)
+        note = f"amplitude of mesh orders: {text}"
+        data[name] = (("pinion_speed", "order"), values, {"units": unit, "long_name": note})
+        data[f"{name}_rate"] = (
+            ("pinion_speed", "parameter", "order"),
+            rates,
+            {"units": f"{unit} per unit of the parameter", "long_name": f"rate of: {note}"},
+        )
+    stable: Array = np.array([one is not None and one.stable for one in motions], float)
+    data["stable"] = (("pinion_speed",), stable, {"units": "1", "long_name": "1: stable motion"})
+    data["loaded_error"] = (
+        ("phase",),
+        table.rotation,
+        {"units": "rad", "long_name": "static transmission error under load"},
+    )
+    data["loaded_error_rate"] = (
+        ("parameter", "phase"),
+        table.rotation_rate,
+        {"units": "rad per unit of the parameter", "long_name": "its rate"},
+    )
+    model = HypoidTorsional(_pair(table, settings))
+    return xr.Dataset(
+        data,
+        coords={
+            "pinion_speed": (
+                "pinion_speed",
+                list(settings.speeds),
+                {"units": "rad/s", "long_name": "mean pinion speed"},
+            ),
+            "order": list(settings.orders),
+            "phase": np.arange(settings.series.positions) / settings.series.positions,
+            "parameter": [one.name for one in table.parameters],
+            "unit": ("parameter", [one.unit for one in table.parameters]),
+            "value": ("parameter", [one.value for one in table.parameters]),
+            "tolerance": ("parameter", [one.tolerance for one in table.parameters]),
+        },
+        attrs={
+            "name": file.name,
+            "torque": settings.series.torque,
+            "pinion_teeth": file.pinion.teeth,
+            "natural_frequency": model.natural_frequency,
+            "gear_file": file.model_dump_json(exclude_none=True),
+        },
+    )

@@ -1,0 +1,145 @@
+"""A REXS file as components with attributes, and the relations between them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from lxml import etree
+
+from gearlube_core.errors import ParameterError, why
+from gearlube_core.rexs.units import converted
+
+_OTHER_KINDS = {
+    ".rexsz": "is a ZIP archive. Unpack it and give the .rexs file that is in it",
+    ".rexsj": "is REXS as JSON. Save it as XML (.rexs) instead",
+}
+
+
+@dataclass(slots=True)
+class Component:
+    """A machine element with its attributes; it keeps track of which of them were read."""
+
+    number: int
+    kind: str
+    name: str
+    attributes: dict[str, tuple[str, str]]  # text and unit; text is empty where it is an array
+    used: set[str] = field(default_factory=set)
+
+    def __str__(self) -> str:
+        return f"{self.kind} {self.number}" + (f" ({self.name})" if self.name else "")
+
+    def value(self, attribute: str, unit: str = "none") -> float | None:
+        """Return a number in `unit` ("mm", "deg" or "none"), or None where it is not given.
+
+        Raises
+        ------
+        ParameterError
+            The attribute is no number, or its unit is of another kind.
+        """
+        if attribute not in self.attributes:
+            return None
+        self.used.add(attribute)
+        text, own = self.attributes[attribute]
+        what = f"{attribute} of {self}"
+        try:
+            number = float(text)
+        except ValueError:
+            number = math.nan
+        if not math.isfinite(number):
+            raise ParameterError(f"{what} must be a number, got {text!r}. Correct the file")
+        return converted(number, "" if own == "none" else own, unit, what)
+
+    def count(self, attribute: str) -> int | None:
+        """Return a whole number, or None where it is not given."""
+        number = self.value(attribute)
+        if number is not None and number != round(number):
+            raise ParameterError(f"{attribute} of {self} must be a whole number, got {number:g}")
+        return None if number is None else round(number)
+
+    def word(self, attribute: str) -> str:
+        """Return a text, empty where it is not given."""
+        if attribute not in self.attributes:
+            return ""
+        self.used.add(attribute)
+        return self.attributes[attribute][0]
+
+    @property
+    def unused(self) -> list[str]:
+        """Attributes that nobody has asked for."""
+        return [name for name in self.attributes if name not in self.used]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RexsModel:
+    """Components and relations of a REXS file.
+
+    References
+    ----------
+    [fva_2022]: structure of files.
+    """
+
+    path: Path
+    source: str
+    components: dict[int, Component]
+    relations: list[tuple[str, list[tuple[str, int]]]]  # type; roles and components
+    load_spectra: int  # how many the file has; they are not read
+
+    @classmethod
+    def read(cls, path: str | Path) -> RexsModel:
+        """Read a file; raise ParameterError where it is not REXS of version 1."""
+        path = Path(path)
+        if path.suffix in _OTHER_KINDS:
+            raise ParameterError(f"{path} {_OTHER_KINDS[path.suffix]}.")
+        parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True)
+        try:
+            root = etree.parse(path, parser).getroot()
+        except (OSError, etree.XMLSyntaxError) as reason:
+            text = why(reason) if path.is_file() else "there is no such file"
+            raise ParameterError(f"{path} is not a readable XML file: {text}.") from None
+        version = root.get("version", "")
+        if etree.QName(root).localname != "model" or not version.startswith("1."):
+            raise ParameterError(
+                f"{path} must be a REXS model of version 1, got <{etree.QName(root).localname}> "
+                f"with version {version or 'not given'!r}. Export it as REXS 1.4"
+            )
+        try:
+            components = [_component(one) for one in root.findall("{*}components/{*}component")]
+            relations = [
+                (one.get("type", ""), [(ref.get("role", ""), int(ref.get("id"))) for ref in one])
+                for one in root.findall("{*}relations/{*}relation")
+            ]
+        except (TypeError, ValueError):
+            raise ParameterError(
+                f"{path}: every component and every ref must have a whole number as its id. "
+                "Correct the file"
+            ) from None
+        program = " ".join(root.get(f"application{key}", "") for key in ("Id", "Version")).strip()
+        return cls(
+            path=path,
+            source=f"REXS {version} file {path.name}" + (f" of {program}" if program else ""),
+            components={one.number: one for one in components},
+            relations=relations,
+            load_spectra=len(root.findall("{*}load_spectrum")),
+        )
+
+    def related(self, kind: str, role: str, number: int) -> list[dict[str, int]]:
+        """Return relations of a type in which a component has a role, as roles and components."""
+        return [
+            dict(refs) for name, refs in self.relations if name == kind and (role, number) in refs
+        ]
+
+    def of_kind(self, *kinds: str) -> list[Component]:
+        """Return the components of these types, in the order of the file."""
+        return [one for one in self.components.values() if one.kind in kinds]
+
+
+def _component(element: etree._Element) -> Component:
+    attributes = {
+        one.get("id", ""): ((one.text or "").strip(), one.get("unit", "").strip())
+        for one in element.findall("{*}attribute")
+    }
+    return Component(
+        int(element.get("id")), element.get("type", ""), element.get("name", ""), attributes
+    )

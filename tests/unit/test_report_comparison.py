@@ -1,0 +1,96 @@
+"""Two reports side by side: differences, lines in one chart, inputs that differ."""
+
+import math
+
+import pytest
+from typer.testing import CliRunner
+
+from gearlube.command import COMMANDS, command_line
+from gearlube.report.charts import Axis, Line, heat_map, line_chart
+from gearlube.report.comparison import changes_of, comparison, differing_inputs
+from gearlube.report.page import report_html, write_report
+from gearlube.report.parts import Figure, Finding, Input, Number, Report
+from gearlube.report.stored import read_report
+from gearlube_core.errors import ParameterError
+
+SPEED, LOSS = Axis("speed", "rpm"), Axis("loss", "W")
+
+
+def report(study="map", *, loss=100.0, preload="2500", extra=()):
+    line = Line(name="preload", x=[1.0, 2.0], y=[loss, 2.0 * loss])
+    axes = (SPEED, SPEED, LOSS)
+    cells = heat_map([1.0, 2.0], [1.0, 2.0], [[1.0, 2.0], [3.0, loss]], axes)
+    return Report(
+        study=study,
+        title="Losses",
+        findings=[Finding("note", f"The loss is {loss:g} W.")],
+        numbers=[Number("largest loss", loss, "W"), Number("same", 1.0), *extra],
+        inputs=[Input("oil", "an_oil"), Input("preload", preload, "N")],
+        figures=[
+            Figure(name="lines", title="Loss", caption="c", chart=line_chart([line], SPEED, LOSS)),
+            Figure(name="cells", title="Map", caption="c", chart=cells),
+        ],
+    )
+
+
+@pytest.fixture
+def folders(tmp_path):
+    only = Number("only in B", 3.0, "N")
+    write_report(report(), tmp_path / "a")
+    write_report(report(loss=80.0, preload="2000", extra=[only]), tmp_path / "b")
+    write_report(report("cycle"), tmp_path / "other")
+    return tmp_path
+
+
+def both(folders):
+    return read_report(folders / "a"), read_report(folders / "b")
+
+
+def test_differences_are_absolute_and_in_percent(folders):
+    by_name = {one.name: one for one in changes_of(*both(folders))}
+    assert by_name["largest loss"].difference == -20.0
+    assert by_name["largest loss"].percent == pytest.approx(-20.0)
+    assert by_name["same"].is_equal
+    assert math.isnan(by_name["only in B"].difference)
+    assert differing_inputs(*both(folders)) == [("preload", "2500 N", "2000 N")]
+
+
+def test_findings_name_the_largest_change_and_the_inputs(folders):
+    found = comparison(*both(folders), ("old", "new"))
+    assert [one.headline for one in found.findings] == [
+        "Largest loss: 100 W in A, 80.0 W in B (−20.0 %).",
+        "1 input differs.",
+    ]
+    assert found.findings[1].detail == "preload: 2500 N in A, 2000 N in B."
+    html = report_html(found)
+    assert "The loss is 80 W." in html  # findings of both stand in it
+
+
+def test_lines_lie_in_one_chart_and_maps_one_after_the_other(folders):
+    found = comparison(*both(folders), ("old", "new"))
+    assert [one.name for one in found.figures] == ["lines", "cells_A", "cells_B"]
+    names = [trace.name for trace in found.figures[0].chart.data]
+    assert names == ["A: preload", "B: preload"]
+    assert [trace.line.dash for trace in found.figures[0].chart.data] == ["solid", "dot"]
+
+
+def test_equal_reports_are_called_equal(folders):
+    a = read_report(folders / "a")
+    assert [one.headline for one in comparison(a, a, ("x", "y")).findings] == [
+        "All key numbers are the same."
+    ]
+
+
+def test_command_writes_a_report_and_refuses_other_studies(folders, caplog):
+    def run(*words):
+        return CliRunner().invoke(command_line(COMMANDS), ["compare", *map(str, words)])
+
+    ended = run(f"old={folders / 'a'}", folders / "b", "--out", folders / "out")
+    assert ended.exit_code == 0, ended.output
+    assert "old and b: map" in (folders / "out" / "report.html").read_text(encoding="utf-8")
+    refused = run(folders / "a", folders / "other", "--out", folders / "not")
+    assert refused.exit_code == 2
+    assert "got `gearlube map` in a and `gearlube cycle` in other" in caplog.text
+    assert not (folders / "not").exists()
+    with pytest.raises(ParameterError, match="Both folders must be of one study"):
+        comparison(read_report(folders / "a"), read_report(folders / "other"), ("a", "b"))

@@ -1,0 +1,178 @@
+"""A report as a page: self-contained, valid, with units, and readable by another program."""
+
+import base64
+import gzip
+import re
+
+import numpy as np
+import pytest
+from lxml import html as lxml_html
+
+from gearlube.report.charts import (
+    Axis,
+    Line,
+    add_line,
+    add_map,
+    bar_chart,
+    heat_map,
+    line_chart,
+    mark_level,
+    panels,
+    stack_chart,
+)
+from gearlube.report.page import report_html, write_report
+from gearlube.report.parts import Column, Figure, Finding, Input, Number, Report, Table
+from gearlube.report.stored import read_report
+from gearlube_core.errors import ParameterError
+
+PNG = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
+)
+SPEED, LOSS = Axis("vehicle speed", "km/h"), Axis("power lost", "W")
+X = np.array([20.0, 40.0, 60.0])
+
+
+def charts():
+    lines = [Line(name="a & b", x=X, y=X**2), Line(name="dashed", x=X, y=X, dash=1)]
+    parts = np.array([[1.0, 2.0, 3.0], [0.5, 0.5, np.nan]])
+    axes = (SPEED, Axis("frequency", "Hz"), Axis("level", "dB"))
+    below = panels(["one", "two"], SPEED, [LOSS, LOSS])
+    add_line(below, lines[0], 0, SPEED, LOSS, row=1, col=1)
+    add_map(below, X, X, np.outer(X, X), axes, row=2, col=1)
+    levels = line_chart(lines, SPEED, LOSS)
+    mark_level(levels, 1000.0, "limit")
+    mark_level(levels, 30.0, "third gear", across=False)
+    return {
+        "levels": levels,
+        "areas": stack_chart(["bearing", "seal"], X, parts, SPEED, LOSS),
+        "bars": stack_chart(["bearing", "seal"], X, parts, SPEED, LOSS, bars=True),
+        "cells": heat_map(X, X, np.outer(X, X), axes, limits=(0.0, 1.0)),
+        "contours": heat_map(X, X, np.outer(X, X), axes, contours=True),
+        "level_bars": bar_chart(["oil", "preload"], [3.0, 1.0], Axis("change", "%")),
+        "below": below,
+    }
+
+
+@pytest.fixture(scope="module")
+def report():
+    return Report(
+        study="map",
+        title="Losses <of> an axle",
+        findings=[
+            Finding("good", "Nothing left its range."),
+            Finding("warning", "The film is 0.1 µm thin.", "Rough flanks touch & wear."),
+        ],
+        numbers=[Number("loss", 123.456, "W"), Number("nothing", float("nan"), "%")],
+        figures=[
+            *(
+                Figure(name=name, title=name, caption=f"What {name} says.", chart=chart)
+                for name, chart in charts().items()
+            ),
+            Figure(name="picture", title="Picture", caption="Small.", picture=PNG),
+        ],
+        tables=[
+            Table(
+                title="Points",
+                columns=[Column("speed", "km/h"), Column("film", "µm", 2), Column("why")],
+                rows=[[20.0, 0.123, "cold"], [100.0, None, "</script>"]],
+            )
+        ],
+        inputs=[Input("oil", "75W-90"), Input("preload", "2500", "N", "assumed", "a guess")],
+        limits=["Steady running only."],
+        facts=[("command", "gearlube map <axle>")],
+        files=["map.nc"],
+    )
+
+
+@pytest.fixture(scope="module")
+def page(report):
+    return report_html(report, "2026-01-02 03:04 UTC")
+
+
+def test_page_loads_nothing_from_elsewhere(page):
+    tree = lxml_html.document_fromstring(page)
+    loaded = [*tree.xpath("//@src"), *tree.xpath("//link/@href"), *tree.xpath("//@srcset")]
+    assert loaded
+    assert all(one.startswith("data:") for one in loaded)
+    assert "@import" not in page
+    assert re.search(r"url\(", page) is None
+
+
+def test_page_is_whole_and_says_units_date_versions_and_its_own_size(page, report):
+    tree = lxml_html.document_fromstring(page)
+    parts = tree.xpath("//section/@id")
+    assert parts == ["findings", "numbers", "figures", "tables", "inputs", "limits", "origin"]
+    assert tree.xpath("//h1/text()") == ["Losses <of> an axle"]
+    heads = [" ".join(one.text_content().split()) for one in tree.xpath("//thead/tr/th")]
+    assert heads[:3] == ["speedkm/h", "filmµm", "why"]
+    cells = [[one.text for one in row] for row in tree.xpath("//section[@id='tables']//tbody/tr")]
+    assert cells == [["20.0", "0.12", "cold"], ["100.0", "–", "</script>"]]
+    text = tree.text_content()
+    assert "123 W" in text
+    assert "2026-01-02 03:04 UTC" in text
+    assert "numpy" in text
+    said = float(re.search(r"one file of ([\d.]+) MB", text).group(1))
+    assert said == pytest.approx(len(page.encode()) / 1e6, abs=0.06)  # one decimal is said
+    assert "gearlube map <axle>" in text
+
+
+def test_warnings_come_before_what_is_fine(page):
+    tree = lxml_html.document_fromstring(page)
+    assert tree.xpath("//ul[@class='findings']/li/@class") == ["warning", "good"]
+
+
+def test_plotly_lies_inside_once_and_whole(page):
+    from plotly.offline import get_plotlyjs
+
+    packed = lxml_html.document_fromstring(page).xpath("//script[@id='plotly-packed']")
+    assert len(packed) == 1
+    assert gzip.decompress(base64.b64decode(packed[0].text)).decode() == get_plotlyjs()
+
+
+def test_a_report_without_charts_has_no_plotly_and_is_small(report):
+    bare = report_html(Report(study="map", title="Bare", findings=report.findings))
+    assert "plotly-packed" not in bare
+    assert len(bare) < 20_000
+
+
+def test_every_chart_has_named_axes_with_units_and_a_caption(page, report):
+    for figure in report.figures[:-1]:
+        layout = figure.chart.layout
+        titles = [
+            one.title.text
+            for name, one in layout.to_plotly_json().items()
+            if name.startswith(("xaxis", "yaxis"))
+            for one in [layout[name]]
+            if one.title.text
+        ]
+        assert any("[" in one for one in titles), figure.name
+        assert f"What {figure.name} says." in page
+
+
+def test_what_a_page_keeps_is_read_back(report, tmp_path):
+    write_report(report, tmp_path)
+    data = read_report(tmp_path)
+    assert data["study"] == "map"
+    assert data["numbers"] == [["loss", 123.456, "W", 3], ["nothing", None, "%", 3]]
+    assert data["inputs"][1] == ["preload", "2500", "N", "assumed", "a guess"]
+    assert set(data["charts"]) == set(charts())
+    drawn = data["charts"]["levels"]["data"][0]["y"]
+    values = np.frombuffer(base64.b64decode(drawn["bdata"]), dtype=drawn["dtype"])
+    np.testing.assert_allclose(values, X**2, rtol=1e-6)  # 32 bit
+
+
+def test_a_folder_without_a_report_is_refused_with_a_cure(tmp_path):
+    with pytest.raises(ParameterError, match=r"must hold a report.html, got none. Give a folder"):
+        read_report(tmp_path)
+    (tmp_path / "report.html").write_text("<html></html>")
+    with pytest.raises(ParameterError, match="numbers of a report, got none"):
+        read_report(tmp_path)
+
+
+def test_wrong_parts_are_refused():
+    with pytest.raises(ParameterError, match="level"):
+        Finding("bad", "It is.")
+    with pytest.raises(ParameterError, match="must have 1 cells, one for each column, got 2"):
+        Table(title="T", columns=[Column("a")], rows=[[1.0, 2.0]])
+    with pytest.raises(ParameterError, match="must have a chart or a picture"):
+        Figure(name="f", title="F", caption="c")

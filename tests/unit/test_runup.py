@@ -1,0 +1,93 @@
+"""A run-up of the axle: settings, record, dataset, and that a stopped run goes on."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from drivetrain.axle_file.read_axle import read_axle
+from gearlube.studies.runup.record import record_ramp
+from gearlube.studies.runup.run import load_runup, run_runup
+from gearlube.studies.runup.settings import RunupSettings
+from gearlube_core.errors import ParameterError
+
+SHORT = RunupSettings(
+    car_axle=read_axle("mohammadpour_2015"),
+    start_speed=280.0,
+    end_speed=300.0,
+    duration=0.8,
+    pinion_torque=80.0,
+    sample_rate=8192.0,
+    highest_frequency=3000.0,
+    settling_time=0.1,
+)
+
+
+def test_a_ramp_too_fast_for_its_orders_is_refused_with_a_cure_that_helps() -> None:
+    with pytest.raises(ParameterError, match="For this ramp take at least 11 s") as told:
+        dataclasses.replace(SHORT, start_speed=50.0, duration=8.0)
+    # 250 rad/s in 8 s: 31.25 rad/s2 * 25.13 rad / (50 rad/s)^2
+    assert "got 31.4 %" in str(told.value)
+    shortest = float(str(told.value).split("at least ")[1].split(" s,")[0])
+    dataclasses.replace(SHORT, start_speed=50.0, duration=shortest)
+    with pytest.raises(ParameterError, match="hold 8 times the 4 revolutions"):
+        dataclasses.replace(SHORT, duration=0.4)
+    with pytest.raises(ParameterError, match="must differ"):
+        dataclasses.replace(SHORT, end_speed=280.0)
+
+
+def test_the_cars_torque_is_road_load_and_its_mass_times_acceleration() -> None:
+    settings = dataclasses.replace(
+        SHORT, pinion_torque=None, start_speed=100.0, end_speed=200.0, duration=40.0
+    )
+    torque, loss = settings.torques()
+    car = settings.car_axle.driveline
+    radius, ratio = car.rolling_radius, 36 / 13
+    # 1300 kg and four wheels of 0.9 kg m2
+    force = (1300.0 + 4 * 0.9 / radius**2) * 2.5 * radius / ratio
+    speed = 100.0 * radius / ratio
+    road = car.road_load.resistance(speed)
+    assert torque[0] == pytest.approx((road + force) * radius / ratio + loss[0], rel=1e-12)
+    down = dataclasses.replace(settings, start_speed=200.0, end_speed=100.0, duration=25.0)
+    assert down.name == "coast-down"
+    assert down.torques()[0][0] < 0.0  # the engine brakes
+
+
+def test_a_run_up_keeps_forces_and_speeds_with_units_at_a_constant_rate(tmp_path) -> None:
+    made = run_runup(SHORT, folder=tmp_path)
+    found = load_runup(tmp_path)
+    force = found["bearing_force"]
+    assert force.dims == ("time", "bearing", "direction")
+    assert force.attrs["units"] == "N"
+    assert (found["time"].attrs["units"], found["pinion_speed"].attrs["units"]) == ("s", "rad s-1")
+    assert np.diff(found["time"].values) == pytest.approx(1.0 / 8192.0, rel=1e-9)
+    assert found.sizes["time"] == made.sizes["time"] == round(0.8 * 8192.0)
+    # action and reaction of the mesh, by axis of the fixed frame; 1 % for inertia and friction
+    mean = {
+        (str(b.values), str(found["axis"].sel(bearing=b, direction=d).values)): float(
+            force.sel(bearing=b, direction=d).mean()
+        )
+        for b in found["bearing"]
+        for d in found["direction"]
+    }
+    for axis in "xyz":
+        assert mean["pinion", axis] == pytest.approx(-mean["gear", axis], rel=0.01)
+    assert found["pinion_speed"].values[[0, -1]] == pytest.approx([280.0, 300.0], rel=0.01)
+    # what goes in is what is asked for; losses are those of a mesh period at rest but for what
+    # vibrates, which is little away from resonance
+    power = found["power_in"].mean()
+    assert float(power) == pytest.approx(80.0 * 290.0, rel=0.01)
+    share = float(found["loss"].sum("source").mean() / power)
+    assert share == pytest.approx(SHORT.torques()[1].mean() / 80.0, rel=0.02)
+    assert not (tmp_path / "parts").exists()
+
+
+def test_a_stopped_ramp_goes_on_from_its_parts_to_the_same_bits(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("gearlube.studies.runup.record._PART", 0.25)
+    whole = record_ramp(SHORT, folder=tmp_path)
+    last = max(tmp_path.glob("*_*.npz"), key=lambda path: int(path.stem.rsplit("_", 1)[1]))
+    last.unlink()
+    again = record_ramp(SHORT, folder=tmp_path)
+    for name, values in whole.channels.items():
+        assert np.array_equal(values, again.channels[name]), name
+    assert np.array_equal(whole.slow_time, again.slow_time)

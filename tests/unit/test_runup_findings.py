@@ -1,0 +1,145 @@
+"""What is read out of a run-up: crests, critical speeds, operating shape, figures, table."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from drivetrain.axle_file.read_axle import read_axle
+from gearlube.studies.runup import levels
+from gearlube.studies.runup.figures.tracks import order_tracks
+from gearlube.studies.runup.findings import findings, numbers
+from gearlube.studies.runup.modes import RampModes
+from gearlube.studies.runup.operating_shape import operating_shape
+from gearlube.studies.runup.peaks import critical_speeds, peaks
+from gearlube.studies.runup.report import tables
+from gearlube.studies.runup.run import run_runup
+from gearlube.studies.runup.settings import RunupSettings
+from gearlube.studies.runup.summary import summary_csv
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle, modes
+from gearlube_core.spectra import OrderBlocks
+
+OIL = 353.15  # K
+
+
+@pytest.fixture(scope="module")
+def ramp():
+    return run_runup(
+        RunupSettings(
+            car_axle=read_axle("mohammadpour_2015"),
+            start_speed=280.0,
+            end_speed=300.0,
+            duration=0.8,
+            pinion_torque=80.0,
+            oil_temperature=OIL,
+            sample_rate=8192.0,
+            highest_frequency=3000.0,
+            settling_time=0.3,
+        )
+    )
+
+
+def test_critical_speeds_are_where_the_mesh_meets_the_modes_of_the_axle(ramp) -> None:
+    axle = HypoidAxle(read_axle("mohammadpour_2015").axle)
+    axle.initialise(pinion_speed=290.0, pinion_torque=80.0, wheel_torque=221.5, oil_temperature=OIL)
+    of_axle = modes(axle, OIL, 80.0)
+    assert list(ramp["mode"].values) == list(of_axle)
+    found = {(one.mode, one.mesh_order): one for one in critical_speeds(ramp)}
+    # the film and the bearings' stiffness change the modes along the ramp by less than 0.1 %
+    axial = found["pinion axial", 1]
+    assert axial.speed_rpm == pytest.approx(60.0 * of_axle["pinion axial"] / 13, rel=1e-3)
+    assert axial.margin == pytest.approx(axial.speed_rpm / (300.0 * 30.0 / math.pi) - 1.0)
+    inside = found["pinion radial 2", 3]
+    assert inside.speed_rpm == pytest.approx(60.0 * of_axle["pinion radial 2"] / 39, rel=1e-3)
+    assert inside.margin == 0.0
+    assert inside.force > 0.0
+
+
+def test_the_loudest_order_rises_towards_its_resonance_and_is_told_first(ramp) -> None:
+    top = peaks(ramp)[0]
+    assert (top.mesh_order, top.bearing, top.direction) == (1, "pinion", "axial")
+    assert top.speed_rpm == pytest.approx(levels.rpm(ramp)[-1])
+    first, *others = findings(ramp)
+    assert first.level == "warning"
+    assert first.headline.startswith("The loudest is mesh order 1: ")
+    assert "mode 'pinion axial'" in first.detail
+    assert "The crest lies at the end of the ramp" in first.detail
+    headlines = " ".join(one.headline for one in others)
+    assert "lies above the ramp, 3 % away: 'pinion axial'" in headlines
+    assert "The teeth stay in contact all the way." in headlines
+    assert {one.unit for one in numbers(ramp)} == {"N rms", "1/min", "µm rms", "", "%", "W"}
+
+
+def test_table_and_summary_have_every_crest_and_block(ramp) -> None:
+    crests, critical = tables(ramp)
+    assert [row[0] for row in crests.rows] == [one.mesh_order for one in peaks(ramp)]
+    assert len(critical.rows) == len(critical_speeds(ramp))
+    lines = summary_csv([ramp]).splitlines()
+    assert lines[0].startswith("ramp,time_s,pinion_speed_rpm,vehicle_speed_kmh,")
+    assert len(lines) == 1 + ramp.sizes["block"]
+    # 0.32033 m wheels at 13/36
+    row = lines[1].split(",")
+    assert float(row[3]) == pytest.approx(
+        float(row[2]) * math.pi / 30 * 13 / 36 * 0.32033 * 3.6, 1e-3
+    )
+
+
+def test_order_tracks_show_levels_and_mark_critical_speeds(ramp) -> None:
+    figure = order_tracks(ramp)
+    overall = figure.axes[0].lines[0]
+    force = ramp["bearing_force_overall"].values
+    expected = 10.0 * np.log10((force**2).sum(axis=(1, 2)))
+    assert overall.get_ydata() == pytest.approx(expected)
+    assert figure.axes[0].get_ylabel() == "bearing forces [dB re 1 N rms]"
+    assert any("pinion radial 2, H3" in text.get_text() for text in figure.axes[0].texts)
+
+
+def test_a_motion_in_a_mode_is_wholly_of_that_mode() -> None:
+    """Two modes of a made-up axle, orthogonal with respect to its masses."""
+    mass = np.array([2.0, 1.0, 1.0, 1.0, 4.0, 1.0, 1.0, 1.0])
+    one, two = np.zeros(8), np.zeros(8)
+    one[[0, 4]] = 0.5, 0.5 / math.sqrt(2.0)  # 2 * 0.25 + 4 * 0.125 = 1
+    two[1] = 1.0
+    made = RampModes(
+        speed=np.array([100.0, 200.0]),
+        names=("turning", "axial"),
+        frequency=np.full((2, 2), 500.0),
+        damping_ratio=np.full((2, 2), 0.03),
+        shape=np.stack([one, two], axis=1),
+        mass=mass,
+        radii=(0.02, 0.06),
+    )
+    speed, order = 150.0, 13
+    # speeds of the shafts that turn them as in the first mode, and a quarter as much of the second
+    amplitude = np.zeros((1, order + 1, 8), dtype=complex)
+    motion = 1e-6 * one + 0.5e-6 * two
+    amplitude[0, order] = motion
+    amplitude[0, order, 0] *= 1j * order * speed / 0.02
+    amplitude[0, order, 4] *= 1j * order * speed / 0.06
+    blocks = OrderBlocks(
+        time=np.zeros(1),
+        speed=np.array([speed]),
+        order=np.arange(order + 1.0),
+        amplitude=amplitude,
+        rms=np.zeros((1, 8)),
+    )
+    found = operating_shape(blocks, 0, 1, order, made)
+    assert found.motion == pytest.approx(motion, abs=1e-18)
+    assert found.share == pytest.approx([0.8, 0.2])
+    assert made.critical_speed(0, 25.0) == pytest.approx(2.0 * math.pi * 500.0 / 25.0)
+    assert math.isnan(made.critical_speed(0, 1.0))  # 3142 rad/s, far above
+
+
+def test_the_rollers_together_carry_the_recorded_force(ramp) -> None:
+    """The loads that are drawn are those of the march: their axial sum is the bearing force."""
+    bearing = read_axle("mohammadpour_2015").axle.bearings[0]
+    load = ramp["roller_load"]
+    sine = math.sin(bearing.contact_angle)
+    axial = -sine * (load.isel(ring=0).sum("roller") - load.isel(ring=1).sum("roller"))
+    recorded = ramp["bearing_force"].sel(bearing="pinion", direction="axial").astype(float)
+    at = CubicSpline(ramp["time"].values, recorded.values)(ramp["frame_time"].values)
+    # at 8192 Hz a mode of 2.3 kHz has four samples a cycle, which a spline keeps to 1 % of it
+    assert axial.values == pytest.approx(at, rel=1e-3)
+    turned = ramp["frame_angle"].values
+    assert turned[-1] < 2.0 * math.pi <= turned[-1] + turned[1] + 1e-9
