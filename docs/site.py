@@ -1,7 +1,7 @@
 """Build the documentation site: `python -m docs.site [FOLDER]`; the default is build/site.
 
-All pages are checked and the tutorials are run. A warning is an error. A tutorial that has not changed since the last
-build is not run again.
+All pages are checked and the tutorials are run. A warning is an error. A tutorial that has not
+changed since the last build is not run again.
 """
 
 from __future__ import annotations

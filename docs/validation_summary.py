@@ -38,16 +38,17 @@ _HEAD = """# Validation in short
 
 Written by `python -m docs.validation_summary`; not edited by hand.
 
-gearlube implements four publications. Their statements were written down one by one, each with a tolerance, before
-the results were looked at. Each page below has the full table: what the source says, what gearlube finds, and why a
-statement does not hold. *Calibrated* means that a number was chosen to meet the statement, so it proves nothing.
+gearlube implements four publications. Their statements are written down one by one, each with a
+tolerance. Each page below has the full table: what the source says, what gearlube finds, and why a
+statement does not hold. *Calibrated* means that a number was chosen to meet the statement, so it
+proves nothing.
 
 | Page | Source | About | Hold | In part | Do not hold | Calibrated |
 |---|---|---|---|---|---|---|
 """
 _TAIL = """
-A statement that does not hold is left standing. Often the source leaves out an input or prints a formula with a
-missing factor; the pages say which input would make it hold.
+A statement that does not hold is left standing. Often the source leaves out an input or prints a
+formula with a missing factor; the pages say which input would make it hold.
 
 Besides the papers, the equations are held against independent solutions:
 
@@ -61,7 +62,7 @@ Besides the papers, the equations are held against independent solutions:
 | FMUs | the same FMU in seven host programs | [host programs](fmu_hosts.md) |
 
 [What can I trust this for?](trust.md) says what this means for your results.
-"""
+"""  # noqa: E501
 
 
 def verdicts(text: str) -> Counter[str]:

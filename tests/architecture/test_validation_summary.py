@@ -1,0 +1,19 @@
+"""The page that counts verdicts agrees with the pages of verdicts."""
+
+from docs import validation_summary
+
+
+def test_the_page_counts_the_verdicts_as_they_stand():
+    # cure: python -m docs.validation_summary
+    assert validation_summary.PAGE.read_text(encoding="utf-8") == validation_summary.page()
+
+
+def test_a_row_counts_once_by_its_first_verdict():
+    text = """
+| 1 | a | **holds** | **does not hold** |
+| 2 | b | **holds in part** | **holds** |
+| 3 | c | **not held**: why | |
+| 4 | d | **order held**: numbers | |
+a **holds** outside a table
+"""
+    assert validation_summary.verdicts(text) == {"yes": 1, "part": 2, "no": 1}
