@@ -47,7 +47,7 @@ proves nothing.
 |---|---|---|---|---|---|---|
 """
 _TAIL = """
-A statement that does not hold is left standing. Often the source leaves out an input or prints a
+A statement that does not hold stays in the table. Often the source leaves out an input or prints a
 formula with a missing factor; the pages say which input would make it hold.
 
 Besides the papers, the equations are held against independent solutions:

@@ -50,7 +50,7 @@ def _twenty(store: Store) -> Verdict:
     return Verdict(
         _values(p, h, count, failed),
         judge(_within(p, 2.44, 3.16, _PRESSURE), failed > 0 or h.min() < 0.02),
-        "at rest; a pressure at a corner hangs on the grid; film fails: none found, or below "
+        "at rest; a pressure at a corner depends on the grid; film fails: none found, or below "
         "0.02 um",
     )
 

@@ -96,7 +96,7 @@ def _powers_b(store: Store) -> Verdict:
             all(abs(h / 0.185 - 1.0) < 0.15 for h in moving[1:]),
             abs(starts[1.0]) < 1.0 and abs(starts[4.0] + 5.0) < 1.0,
         ),
-        "beta = 1 / 2 / 3 / 4; 3.2 GPa at a corner hangs on the grid (15 %)",
+        "beta = 1 / 2 / 3 / 4; 3.2 GPa at a corner depends on the grid (15 %)",
     )
 
 

@@ -1,4 +1,4 @@
-"""Section of docs/ehl.md on solids that touch: how much hangs on the layer that carries them."""
+"""Section of docs/ehl.md on solids that touch: how much depends on the layer that carries them."""
 
 from __future__ import annotations
 

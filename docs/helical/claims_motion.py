@@ -164,7 +164,8 @@ def two_orders(_: Evidence) -> Verdict:
         f"n = 1: {ratios[0]:.0f} / {ratios[1]:.0f} times delta_x / delta_y at mu = 0.01, "
         f"{ratios[2]:.0f} / {ratios[3]:.0f} at 0.1",
         judge(min(ratios) > 100.0, max(ratios) > 100.0),
-        "printed of the rate, meant of delta_z; hangs on the tilting stiffness, which is completed",
+        "printed of the rate, meant of delta_z; depends on the tilting stiffness, which is "
+        "completed",
     )
 
 

@@ -46,7 +46,7 @@ def relief_starts(_: Evidence) -> Verdict:
     return Verdict(
         ", ".join(f"{v:.2f}" for v in got) + " mm",
         judge(bool(off.max() < 0.05), bool(off.max() < 1.0)),
-        "the last three are read where relief becomes apparent in a figure and hang on z_p, z_w",
+        "the last three are read where relief becomes apparent in a figure and depend on z_p, z_w",
     )
 
 

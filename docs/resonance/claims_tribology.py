@@ -252,7 +252,7 @@ def hot_friction(evidence: Evidence) -> Verdict:
     return _shipped(
         ", ".join(texts),
         OPEN,
-        "less viscous and more boundary friction nearly cancel: sign and size hang on tau0, the "
+        "less viscous and more boundary friction nearly cancel: sign and size depend on tau0, the "
         "film's convention and roughness, none of which is printed. Not tuned to",
     )
 

@@ -1,7 +1,7 @@
 """A density law written outside the package serves every film solution.
 
 Its oil has a viscosity law from outside as well: neither what the films hold nor what flows through
-them hangs on that.
+them depends on that.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Oil beyond the domain of a point contact: closed forms, and films that do not hang on domains."""
+"""Oil beyond the domain of a point contact: closed forms; films do not depend on domains."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stiffness and sharing of loaded helical contact do not hang on cells, stations or elements."""
+"""Stiffness and sharing of loaded helical contact do not depend on cells, stations or elements."""
 
 import numpy as np
 import pytest

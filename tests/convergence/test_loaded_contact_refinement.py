@@ -1,4 +1,4 @@
-"""The mesh stiffness does not hang on the cells of the contact strips."""
+"""The mesh stiffness does not depend on the cells of the contact strips."""
 
 import numpy as np
 import pytest

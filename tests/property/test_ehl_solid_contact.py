@@ -119,7 +119,7 @@ def test_a_thin_film_of_a_helical_pair_touches_and_goes_on() -> None:
         assert np.abs(cycle["load_error"]).max() < 1e-6
         assert cycle["minimum_film"].min() > 0.2 * thickness
         shares.append(cycle["solid_share"][-1])
-    # what touches hangs on the layer, more than in proportion
+    # what touches depends on the layer, more than in proportion
     assert shares[0] < shares[1] < shares[2]
     assert shares[2] > 0.9
 
