@@ -10,7 +10,6 @@ import xarray as xr
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 from gearlube.studies.helical.figures.layout import PERIODS, RPM, closed, title
 
-
 _SHOWN = 1.0  # per cent of the points that lie beyond each end of a colour scale
 
 
@@ -21,10 +20,9 @@ def film_on_lines(film: xr.Dataset) -> Any:
     """
     from matplotlib.tri import Triangulation
 
-    age = film["friction_phase"] + xr.DataArray(
-        np.arange(film.sizes["friction_line"]), dims="friction_line"
-    )
-    age = age.broadcast_like(film["z"]).transpose(*film["z"].dims).values
+    line = xr.DataArray(np.arange(film.sizes["friction_line"]), dims="friction_line")
+    since = (film["friction_phase"] + line).broadcast_like(film["z"])
+    age = since.transpose(*film["z"].dims).values
     across, load = 1e3 * film["z"].values, film["line_load"].values
     panels: tuple[tuple[str, float, str, str], ...] = (
         ("coefficient", 1.0, "coefficient of friction, size", "viridis"),

@@ -61,8 +61,10 @@ def _panels(
             for ax in axes.ravel()
             for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
         }
-        names = sorted(named)
-        figure.legend([named[name] for name in names], names, ncols=5, loc="outside lower center")
+        labels = sorted(named)
+        figure.legend(
+            [named[label] for label in labels], labels, ncols=5, loc="outside lower center"
+        )
         figure.suptitle(title(sweep, what), fontsize=11.0)
     return figure
 
