@@ -88,8 +88,8 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
             name="changes",
             title="What small errors change of the first order",
             caption="Change of the mesh force in percent of it, by a growth of each parameter by "
-            "its tolerance; point at a cell to read it. Red: louder, blue: quieter. The largest on the "
-            "mean of the speeds stand on top. Where the force itself is small, percents are large.",
+            "its tolerance; point at a cell to read it. Red: louder, blue: quieter. The largest on "
+            "the mean of the speeds stand on top. Where the force is small, percents are large.",
             chart=_changes(dataset),
         ),
         Figure(
@@ -130,6 +130,7 @@ def _changes(dataset: xr.Dataset) -> Any:
     chart.update_traces(
         colorscale="RdBu",
         reversescale=True,
+        colorbar={"orientation": "h", "y": 1.0, "yanchor": "bottom", "title": {"side": "top"}},
         customdata=np.repeat(np.array(names)[:, None], changes.shape[1], axis=1),
         hovertemplate="%{customdata}: %{z:.3g} % at %{x:.0f} rpm<extra></extra>",
     )
