@@ -58,7 +58,7 @@ def test_run_without_friction_leaves_out_the_lubricated_model_and_its_figures(tm
     response = xr.load_dataset(tmp_path / "resonance.nc", engine="scipy")
     assert list(response["model"].values) == ["two_dof", "one_dof", "two_dof_mean_radii"]
     figures = {path.stem for path in (tmp_path / "figures").glob("*.png")}
-    lubricated = {name for name, (needed, _) in RESONANCE_CATALOGUE.items() if needed == "load"}
+    lubricated = {name for name, one in RESONANCE_CATALOGUE.items() if one.needs == "load"}
     assert figures == set(RESONANCE_CATALOGUE) - lubricated
 
 

@@ -15,6 +15,7 @@ from gearlube.cli.exit_codes import INTERRUPTED, exit_on_error
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import OilTemperatureOption, OverwriteOption, RoughnessOption
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
 from gearlube_core.checks import check_finite, check_option, check_within
 from gearlube_core.errors import ParameterError
@@ -87,13 +88,15 @@ def resonance(
     ] = False,
     overwrite: OverwriteOption = False,
 ) -> None:
-    """Follow the resonance of the torsional hypoid pair; write resonance.nc, cycle.nc and figures.
+    """Follow the resonance of the torsional hypoid pair; write data, figures and report.html.
 
     Stable and unstable periodic motions of the dry 2-DOF and 1-DOF models and of the lubricated
     2-DOF model, with time sweeps as a check. Stopped with Ctrl-C, it writes what was found.
     """
     from gearlube.studies.resonance import run
-    from gearlube.studies.resonance.settings import MODELS, ResonanceSettings, quick_settings
+    from gearlube.studies.resonance.findings import findings
+    from gearlube.studies.resonance.report import write_resonance_report
+    from gearlube.studies.resonance.settings import ResonanceSettings, quick_settings
     from gearlube.studies.resonance.summary import summaries
     from gearlube_core.dynamics.hypoid_torsional.parameters import KARAGIANNIS_OIL
 
@@ -126,13 +129,10 @@ def resonance(
         found = summaries(results.response)
         if found:
             console.print(_table(found))
-        if "natural_frequency" in results.response.attrs:
-            logger.info("Natural frequency %.0f Hz.", results.response.attrs["natural_frequency"])
-        for summary in found:
-            for sentence in summary.remarks:
-                logger.warning("%s: %s", MODELS[summary.model], sentence)
         logger.info("Studied in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s, %s, %s", out / "resonance.nc", out / "cycle.nc", out / "figures")
+        page = write_resonance_report(results.response, out, results.load, command_line())
+        tell_findings(findings(results.response, results.load), page)
     if results.interrupted:
         logger.warning("Stopped. What was found until then is in %s.", out)
         raise typer.Exit(INTERRUPTED)

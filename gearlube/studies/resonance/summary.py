@@ -54,7 +54,7 @@ def _summary(dataset: xr.Dataset, model: str) -> ModelSummary:
     size = np.where(part["stable"].values > 0.5, part["peak_to_peak"].values, -np.inf)
     top = int(np.argmax(size))
     branches = single_branches(part)
-    path = _path(branches)
+    path = path_over_range(branches)
     special = _special(part)
     remarks = [
         f"branch {int(branch['segment'][0]) + 1} was followed no further than {place:.3f} of the "
@@ -85,7 +85,7 @@ def single_branches(part: xr.Dataset) -> list[xr.Dataset]:
     ]
 
 
-def _path(branches: list[xr.Dataset]) -> xr.Dataset:
+def path_over_range(branches: list[xr.Dataset]) -> xr.Dataset:
     """Return one path over the range: the branch from its start, then that to its end."""
     if len(branches) == 1:
         return branches[0]

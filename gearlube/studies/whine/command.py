@@ -17,6 +17,7 @@ from gearlube.cli.multi_value_options import MultiValueCommand
 from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
+from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
 from gearlube_core.checks import check_within
 
@@ -73,9 +74,11 @@ def whine(
     """Whine orders of a hypoid pair over the speed, and what each setting changes of them.
 
     From the flanks through the mesh table to the vibration of the torsional pair, with exact
-    derivatives. Writes whine.nc, whine.csv and a figure. Finished positions are kept in OUT: run
-    the same command again to go on after a stop.
+    derivatives. Writes whine.nc, whine.csv, a figure and report.html. Finished positions are kept
+    in OUT: run the same command again to go on after a stop.
     """
+    from gearlube.studies.whine.findings import findings
+    from gearlube.studies.whine.report import write_whine_report
     from gearlube.studies.whine.run import WhineSettings, run_whine, whine_rows
     from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings
     from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -117,11 +120,10 @@ def whine(
             dataset = run_whine(file, settings, folder=out, jobs=jobs, progress=progress)
         rows = whine_rows(dataset)
         console.print(_table(file.name, torque, rows[:_SHOWN]))
-        missing = int(dataset["force"].isel(order=0).isnull().sum())
-        if missing:
-            logger.warning("No periodic motion at %d of %d speeds.", missing, len(rpm))
         logger.info("Computed in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s, %s, %s", out / "whine.nc", out / "whine.csv", out / "figures")
+        page = write_whine_report(dataset, out, command_line())
+        tell_findings(findings(dataset), page)
 
 
 def _table(name: str, torque: float, rows: list[WhineRow]) -> Table:

@@ -6,22 +6,33 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from gearlube.plotting.parameter_words import parameter_words, tolerance_words
 from gearlube.plotting.style import SERIES, cell_edges, house_style, new_figure
+from gearlube_core.arrays import Array
 from gearlube_core.units import rads_to_rpm
 
 _MOST = 16  # parameters that the map shows
 _FULL = 95.0  # percentile of the changes at which colours are full
 
 
+def order_changes(dataset: xr.Dataset) -> Array:
+    """Return changes of the force of order 1 by each tolerance [%], shape (speeds, parameters)."""
+    first = dataset["force_rate"].isel(order=0).values * dataset["tolerance"].values
+    return np.asarray(100.0 * first / dataset["force"].isel(order=0).values[:, None])
+
+
+def most_moving(dataset: xr.Dataset) -> NDArray[np.intp]:
+    """Return the parameters that change order 1 most on the mean of the speeds, the most last."""
+    largest = np.nanmean(np.abs(order_changes(dataset)), axis=0)
+    return np.argsort(-largest)[:_MOST][::-1]
+
+
 def whine_figure(dataset: xr.Dataset) -> Any:
     """Return amplitudes of the orders of the mesh force, and a map of changes of order 1."""
     speed = dataset["pinion_speed"].values * rads_to_rpm(1.0)
-    first = dataset["force_rate"].isel(order=0).values * dataset["tolerance"].values
-    first = 100.0 * first / dataset["force"].isel(order=0).values[:, None]
-    largest = np.nanmean(np.abs(first), axis=0)
-    shown = np.argsort(-largest)[:_MOST][::-1]
+    first, shown = order_changes(dataset), most_moving(dataset)
     labels = [
         f"{parameter_words(str(part['parameter'].values))}  "
         f"+{tolerance_words(float(part['tolerance']), str(part['unit'].values))}"

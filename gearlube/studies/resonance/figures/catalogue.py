@@ -37,9 +37,10 @@ RESONANCE_CATALOGUE: dict[str, Picture] = {
     "response": Picture(
         lambda response, _: response_curves(response),
         "Response over mesh frequency",
-        "Peak-to-peak and least transmission error, and time without contact, of all periodic "
-        "motions. Between two folds there are two stable motions: which one runs depends on "
-        "whether the speed rose or fell. Triangles are slow sweeps in time, as a check.",
+        "Transmission error and time without contact of all periodic motions; dashed: unstable "
+        "ones, which do not run by themselves. Between two folds there are two stable motions: "
+        "which one runs depends on whether the speed rose or fell. Triangles are slow sweeps in "
+        "time, as a check.",
         "peak_to_peak",
     ),
     "harmonics": Picture(

@@ -1,0 +1,162 @@
+"""The report of a resonance study: findings, figures, table, inputs, limits."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from gearlube.report.page import write_report
+from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
+from gearlube.report.pictures import pictured
+from gearlube.studies.resonance.figures.catalogue import RESONANCE_CATALOGUE
+from gearlube.studies.resonance.figures.charts import (
+    harmonics_chart,
+    load_chart,
+    response_chart,
+    stability_chart,
+)
+from gearlube.studies.resonance.findings import findings, leading_model, numbers, pinion_rpm
+from gearlube.studies.resonance.settings import MODELS
+from gearlube.studies.resonance.summary import summaries
+from gearlube_core.units import kelvin_to_celsius
+
+_LIMITS = (
+    "The pair alone, two rotations about rigid shafts and bearings; in a car shafts and housing "
+    "add natural frequencies.",
+    "Periodic motions that repeat after one mesh period, or two where they double; motions that "
+    "never repeat are seen in the sweeps in time only.",
+    "While flanks are apart no film damps them; impacts have the damping of the mesh.",
+    "Teeth are all alike.",
+)
+_COLUMNS = (
+    Column("model"),
+    Column("folds and bifurcations at"),
+    Column("largest response, p-p", "µm"),
+    Column("at"),
+    Column("pinion speed", "rpm", 4),
+    Column("teeth apart, rising"),
+    Column("teeth apart, falling"),
+)
+
+
+def write_resonance_report(
+    response: xr.Dataset,
+    folder: Path | str,
+    load: xr.Dataset | None = None,
+    command_line: str = "",
+) -> Path:
+    """Write report.html beside the figures that lie in FOLDER/figures; return its path.
+
+    Examples
+    --------
+    >>> found = xr.load_dataset("gearlube_resonance/resonance.nc")  # doctest: +SKIP
+    >>> write_resonance_report(found, "gearlube_resonance")  # doctest: +SKIP
+    """
+    folder = Path(folder)
+    report = resonance_report(response, folder / "figures", load, command_line)
+    return write_report(report, folder)
+
+
+def resonance_report(
+    response: xr.Dataset,
+    figures: Path,
+    load: xr.Dataset | None = None,
+    command_line: str = "",
+) -> Report:
+    """Return the report of a resonance study; `figures` is the folder of its pictures."""
+    attributes = response.attrs
+    charts: dict[str, Any] = {}
+    if "model" in response:
+        charts = {
+            "response": response_chart(response),
+            "harmonics": harmonics_chart(response, leading_model(response)),
+            "stability": stability_chart(response),
+        }
+    drawn = pictured(RESONANCE_CATALOGUE, figures, charts)
+    if load is not None:
+        drawn.insert(1, _over_torque(load))
+    return Report(
+        study="resonance",
+        title="Resonance of a torsional hypoid pair",
+        subtitle=f"Stable and unstable periodic motions from {attributes['first']:g} to "
+        f"{attributes['last']:g} of the natural frequency at {attributes['pinion_torque']:g} N·m "
+        f"on the pinion, mesh {attributes.get('mesh', 'not reached')}.",
+        findings=findings(response, load),
+        numbers=numbers(response),
+        figures=drawn,
+        tables=[_table(response)] if "model" in response else [],
+        inputs=_inputs(response),
+        limits=_LIMITS,
+        facts=[
+            (name, text)
+            for name, text in (("command", command_line), ("source", str(attributes["source"])))
+            if text
+        ],
+        files=("resonance.nc", "cycle.nc", *(() if load is None else ("load.nc",)), "figures/"),
+    )
+
+
+def _over_torque(load: xr.Dataset) -> Figure:
+    return Figure(
+        name="load_response",
+        title="Response over load",
+        caption=f"At {load.attrs['relative_frequency']:g} of the natural frequency, without "
+        "friction. Dashed: unstable motions. Where two stable motions lie above each other, which "
+        "one runs depends on where the torque came from.",
+        chart=load_chart(load),
+    )
+
+
+def _table(response: xr.Dataset) -> Table:
+    rows: list[list[Cell]] = [
+        [
+            MODELS[one.model],
+            ", ".join(f"{kind} {at:.4f}" for kind, at in one.special) or "none",
+            1e6 * one.peak,
+            one.peak_at,
+            pinion_rpm(response, one.peak_at),
+            _ranges(one.separated_up),
+            _ranges(one.separated_down),
+        ]
+        for one in summaries(response)
+    ]
+    return Table(
+        title="Models side by side",
+        columns=_COLUMNS,
+        rows=rows,
+        caption="Frequencies are mesh over natural frequency. Teeth part along slow sweeps of "
+        "rising and of falling speed.",
+    )
+
+
+def _ranges(ranges: list[tuple[float, float]]) -> str:
+    return ", ".join(f"{a:.3f} to {b:.3f}" for a, b in ranges) or "never"
+
+
+def _inputs(response: xr.Dataset) -> list[Input]:
+    given = response.attrs
+    found = [
+        Input("pinion torque", f"{given['pinion_torque']:g}", "N·m"),
+        Input("range, mesh over natural frequency", f"{given['first']:g} to {given['last']:g}"),
+        Input("contact radii", str(given["radii"])),
+        Input("flank friction", str(given["friction"])),
+        Input("oil temperature", f"{kelvin_to_celsius(given['oil_temperature']):.4g}", "°C"),
+        Input("roughness of both flanks, rms", f"{1e6 * given['roughness_rms']:.4g}", "µm"),
+    ]
+    for name, words, scale, unit in (
+        ("damping_ratio", "damping ratio", 100.0, "%"),
+        ("static_deflection", "static deflection", 1e6, "µm"),
+        ("mesh_stiffness", "mean mesh stiffness", 1e-6, "N/µm"),
+        ("equivalent_mass", "equivalent mass", 1.0, "kg"),
+        ("backlash", "backlash", 1e6, "µm"),
+        ("mesh_orders", "mesh orders of the table", 1.0, ""),
+    ):
+        if name in given:
+            origin = "inferred" if name in ("static_deflection", "equivalent_mass") else "assumed"
+            why = "of the pair and its mesh" if origin == "inferred" else "of the shipped pair"
+            if name in ("mesh_stiffness", "mesh_orders"):
+                origin, why = "inferred", "mesh table"
+            found.append(Input(words, f"{scale * float(given[name]):.4g}", unit, origin, why))
+    return found
