@@ -34,9 +34,7 @@ def mode_shapes(dataset: xr.Dataset) -> Any:
         for ax in axes[-1]:
             ax.set_xlabel("displacement [-]")
         speed = levels.rpm(dataset, "mode_speed")[middle]
-        figure.suptitle(
-            f"Natural modes of the axle at {speed:.0f} rpm, {levels.heading(dataset)}"
-        )
+        figure.suptitle(f"Natural modes of the axle at {speed:.0f} rpm, {levels.heading(dataset)}")
     return figure
 
 
