@@ -136,8 +136,8 @@ def main() -> None:
     images = ROOT / "docs" / "images"
     images.mkdir(exist_ok=True)
     for name in PICTURES:
-        source, draw = HELICAL_CATALOGUE[name]
-        draw(datasets[source]).savefig(images / f"helical_{name}.png", dpi=110)
+        one = HELICAL_CATALOGUE[name]
+        one.draw(datasets[one.needs]).savefig(images / f"helical_{name}.png", dpi=110)
     pairs = [data for name, data in datasets.items() if name.startswith("geometry_")]
     for name in THESIS_PICTURES:
         GEOMETRY_CATALOGUE[name](pairs).savefig(images / f"helical_{name}.png", dpi=110)

@@ -55,19 +55,3 @@ def edges_that_carry(pressure_map: Array) -> dict[str, float]:
         for name, one in edges.items()
         if one.max() >= enough.get(name, EDGE_SHARE * highest) > 0.0
     }
-
-
-def sharp_edge_remark(pressure: float) -> str:
-    """Return a sentence on the highest pressure [Pa] of a loaded contact, empty below the limit.
-
-    Half-space cells under a sharp edge return a pressure that grows as their size falls: elastic
-    theory has no finite value there. Stiffness, load shares and transmission error do not depend
-    on it.
-    """
-    if not pressure > EDGE_PRESSURE:
-        return ""
-    return (
-        f"The highest pressure, {1e-9 * pressure:.1f} GPa, is that of a sharp tip or end edge that "
-        "presses into the flank. It has no finite value and rises with finer cells. Stiffness and "
-        "load shares do not depend on it. Tip and end relief in the gear file remove it."
-    )

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import logging
-import shlex
-import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -28,6 +26,7 @@ from gearlube.cli.options import (
 )
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
+from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
@@ -130,13 +129,15 @@ def helical(
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
-    """Study a helical or spur pair; write NetCDF datasets, summary.csv and figures.
+    """Study a helical or spur pair; write NetCDF datasets, figures and report.
 
     Loaded contact, vibration under sliding friction, parametric instability, tooth separation,
     oil film, losses of the pair alone, geometry. Finished parts are kept in OUT/parts: run the same
     command again to go on after a stop.
     """
+    from gearlube.report.stored import PAGE
     from gearlube.studies.helical import run
+    from gearlube.studies.helical.findings import findings
     from gearlube.studies.helical.settings import HelicalSettings, quick_settings
     from gearlube.studies.helical.summary import remarks, summary_rows
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -199,13 +200,15 @@ def helical(
                 folder=out,
                 jobs=jobs,
                 progress=progress,
-                command_line=shlex.join(["gearlube", *sys.argv[1:]]),
+                command_line=command_line(),
             )
         console.print(_table(file.name, summary_rows(results)))
         for sentence in remarks(results):
             logger.warning("%s", sentence)
         logger.info("Studied in %.1f s.", time.monotonic() - began)
         logger.info("Results: %s", out)
+        if not results.interrupted:
+            tell_findings(findings(results.datasets), out / PAGE)
     for name, reason in results.failures.items():
         logger.error("%s: %s", name, reason)
     if results.interrupted:

@@ -7,6 +7,7 @@ from pathlib import Path
 from gearlube.studies.helical.figures.catalogue import save_helical_figures
 from gearlube.studies.helical.labels import study_attributes
 from gearlube.studies.helical.pair_losses import losses_csv
+from gearlube.studies.helical.report import write_helical_report
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.helical.stages import RunningStudy, StageReport, stages_of
@@ -79,9 +80,9 @@ def run_helical(
 
 
 def write_helical(results: HelicalResults, folder: Path) -> None:
-    """Write NAME.nc for each dataset, line_mesh.nc, summary.csv and figures/.
+    """Write NAME.nc for each dataset, line_mesh.nc, summary.csv, figures/ and report.html.
 
-    A stopped study has no figures.
+    A stopped study has no figures and no report.
     """
     folder.mkdir(parents=True, exist_ok=True)
     for name, dataset in results.datasets.items():
@@ -93,6 +94,7 @@ def write_helical(results: HelicalResults, folder: Path) -> None:
     write_text(summary_csv(summary_rows(results)), folder / "summary.csv")
     if not results.interrupted:
         save_helical_figures(results.datasets, folder / "figures")
+        write_helical_report(results, folder)
 
 
 def _solved(

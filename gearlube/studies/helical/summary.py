@@ -11,7 +11,6 @@ import xarray as xr
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.helical.results import HelicalResults
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
-from gearlube_core.tooth_contact.sharp_edge import sharp_edge_remark
 
 _MOTIONS = ("delta_z", "u_xp", "u_yp", "u_zp")
 _FORCES = ("F_xp", "F_yp", "F_zp")
@@ -55,11 +54,6 @@ def remarks(results: HelicalResults) -> list[str]:
         sentences.append(f"Not in the pair's source, completed: {fields}.")
     if "contact" in found and found["contact"].attrs["iso_outside"] != "none":
         sentences.append(f"ISO 6336-1 does not hold here: {found['contact'].attrs['iso_outside']}.")
-    if "contact" in found:
-        remark = sharp_edge_remark(float(found["contact"]["pressure_max"].max()))
-        sentences += [remark] if remark else []
-    if "sweep" in found and bool((found["sweep"]["stability_margin"] <= 0.0).any()):
-        sentences.append("Unstable within the speed sweep: rows without values in sweep.nc.")
     return sentences
 
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import xarray as xr
 
+from gearlube.report.pictures import Picture
 from gearlube.studies.helical.figures.film_friction import film_on_lines, film_over_mesh
 from gearlube.studies.helical.figures.friction_sweep import (
     friction_force_harmonics,
     friction_harmonics,
 )
 from gearlube.studies.helical.figures.geometry_catalogue import save_geometry_figures
+from gearlube.studies.helical.figures.load_sharing import harris_map, load_sharing
 from gearlube.studies.helical.figures.losses import pair_losses
 from gearlube.studies.helical.figures.operating_point import (
     bearing_forces,
@@ -22,32 +23,117 @@ from gearlube.studies.helical.figures.operating_point import (
 )
 from gearlube.studies.helical.figures.speed_sweep import campbell, friction_speed_maps, order_cuts
 from gearlube.studies.helical.figures.stability import instability, separation
-from gearlube.studies.helical.figures.tooth_stiffness import (
-    constant_stiffness,
-    harris_map,
-    load_sharing,
-    loaded_stiffness,
-)
+from gearlube.studies.helical.figures.tooth_stiffness import constant_stiffness, loaded_stiffness
 
-# the dataset of the study that a figure is drawn from, and how
-HELICAL_CATALOGUE: dict[str, tuple[str, Callable[[xr.Dataset], Any]]] = {
-    "tooth_stiffness_loaded": ("contact", loaded_stiffness),
-    "tooth_stiffness_constant": ("contact", constant_stiffness),
-    "load_sharing": ("contact", load_sharing),
-    "harris_map": ("contact", harris_map),
-    "displacements": ("response", displacements),
-    "bearing_forces": ("response", bearing_forces),
-    "composites": ("response", composites),
-    "friction_harmonics": ("friction_sweep", friction_harmonics),
-    "friction_force_harmonics": ("friction_sweep", friction_force_harmonics),
-    "campbell": ("sweep", campbell),
-    "order_cuts": ("sweep", order_cuts),
-    "friction_speed_maps": ("sweep", friction_speed_maps),
-    "instability": ("stability", instability),
-    "separation": ("separation", separation),
-    "film_on_lines": ("film", film_on_lines),
-    "film_over_mesh": ("film", film_over_mesh),
-    "losses": ("losses", pair_losses),
+_MOTIONS = "u: shift of a gear; x along the line of action, y across it, z along the shaft."
+# `needs` is the dataset of the study that a figure is drawn from
+HELICAL_CATALOGUE: dict[str, Picture] = {
+    "load_sharing": Picture(
+        load_sharing,
+        "Load sharing and highest pressure",
+        "Left: one tooth pair from entry to exit. Right: all pairs. Where pressures are beyond the "
+        "axis, sharp edges press.",
+        "contact",
+    ),
+    "harris_map": Picture(
+        harris_map,
+        "Loaded transmission error",
+        "Its range and its mesh orders over the torque. Where they are least, reliefs fit best.",
+        "contact",
+    ),
+    "tooth_stiffness_loaded": Picture(
+        loaded_stiffness,
+        "Stiffness of the mesh and of its pairs",
+        "From the loaded contact with elastic teeth. Its swing over the mesh excites vibration.",
+        "contact",
+    ),
+    "tooth_stiffness_constant": Picture(
+        constant_stiffness,
+        "Stiffness with one density",
+        "The same with one stiffness per length of contact line, and where each line is.",
+        "contact",
+    ),
+    "campbell": Picture(
+        campbell,
+        "Campbell diagram of the bearing forces",
+        "Lines: mesh orders. Dotted: natural frequencies. Large bright dots: loud. A resonance is "
+        "where an order crosses a natural frequency and its dots grow.",
+        "sweep",
+    ),
+    "order_cuts": Picture(
+        order_cuts,
+        "Mesh orders over speed",
+        "Each order by itself, for several coefficients of friction and with the oil film.",
+        "sweep",
+    ),
+    "friction_speed_maps": Picture(
+        friction_speed_maps,
+        "Bearing forces over friction and speed",
+        "Root mean square of all mesh orders. A vertical ridge is a resonance.",
+        "sweep",
+    ),
+    "displacements": Picture(
+        displacements,
+        "Motions at the operating point",
+        f"Over two mesh periods. {_MOTIONS}",
+        "response",
+    ),
+    "composites": Picture(
+        composites,
+        "Relative motions at the operating point",
+        "delta_z is the dynamic transmission error, delta_x and delta_y are the tilts of the mesh.",
+        "response",
+    ),
+    "bearing_forces": Picture(
+        bearing_forces,
+        "Bearing forces at the operating point",
+        "What the gears pass on to the housing, and its mesh orders.",
+        "response",
+    ),
+    "friction_harmonics": Picture(
+        friction_harmonics,
+        "Motions against friction",
+        f"Mesh orders at one speed. {_MOTIONS}",
+        "friction_sweep",
+    ),
+    "friction_force_harmonics": Picture(
+        friction_force_harmonics,
+        "Bearing forces against friction",
+        "Mesh orders at one speed. Friction acts along y, across the line of action.",
+        "friction_sweep",
+    ),
+    "instability": Picture(
+        instability,
+        "Parametric instability",
+        "Red: small disturbances grow, because the stiffness varies. Blue: they die out.",
+        "stability",
+    ),
+    "separation": Picture(
+        separation,
+        "Tooth separation",
+        "Transmission error with teeth that can leave each other: its peak bends to lower speeds. "
+        "Between two folds the motion depends on where the speed came from.",
+        "separation",
+    ),
+    "film_on_lines": Picture(
+        film_on_lines,
+        "Film and friction of a pair on its way",
+        "A pair enters on the left. Friction is zero on the dashed pitch line, where the teeth "
+        "only roll.",
+        "film",
+    ),
+    "film_over_mesh": Picture(
+        film_over_mesh,
+        "Friction over the mesh and over speed",
+        "Green: oil film. Below: mean coefficient of friction and smallest film over speed.",
+        "film",
+    ),
+    "losses": Picture(
+        pair_losses,
+        "Losses of the pair",
+        "Power lost in the mesh over speed. Bearings, seals and churning are not in it.",
+        "losses",
+    ),
 }
 
 
@@ -58,10 +144,10 @@ def save_helical_figures(datasets: Mapping[str, xr.Dataset], directory: Path) ->
     """
     directory.mkdir(parents=True, exist_ok=True)
     files = []
-    for name, (needed, draw) in HELICAL_CATALOGUE.items():
-        if needed in datasets:
+    for name, one in HELICAL_CATALOGUE.items():
+        if one.needs in datasets:
             path = directory / f"{name}.png"
-            draw(datasets[needed]).savefig(path, dpi=150)
+            one.draw(datasets[one.needs]).savefig(path, dpi=150)
             files.append(path)
     if "geometry" in datasets:
         files += save_geometry_figures([datasets["geometry"]], directory / "geometry")

@@ -10,39 +10,61 @@ import xarray as xr
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
 from gearlube.studies.helical.figures.layout import PERIODS, RPM, closed, title
 
+_SHOWN = 1.0  # per cent of the points that lie beyond each end of a colour scale
+
 
 def film_on_lines(film: xr.Dataset) -> Any:
-    """Return coefficient, film, rise and pressure at all points of a mesh period."""
-    at = 1e3 * (film["x"].values - film.attrs["pitch_point"])
-    load = 1e-3 * film["line_load"].values
-    panels = (
-        ("coefficient", 1.0, "coefficient of friction"),
-        ("central_film", 1e6, "central film [µm]"),
-        ("temperature_rise", 1.0, "rise in the film [K]"),
-        ("mean_pressure", 1e-9, "mean Hertz pressure [GPa]"),
+    """Return maps of coefficient, film, rise and pressure over the way of a line and its width.
+
+    Every column of a map is one contact line at one instant; a pair enters on the left.
+    """
+    from matplotlib.tri import Triangulation
+
+    line = xr.DataArray(np.arange(film.sizes["friction_line"]), dims="friction_line")
+    since = (film["friction_phase"] + line).broadcast_like(film["z"])
+    age = since.transpose(*film["z"].dims).values
+    across, load = 1e3 * film["z"].values, film["line_load"].values
+    panels: tuple[tuple[str, float, str, str], ...] = (
+        ("coefficient", 1.0, "coefficient of friction, size", "viridis"),
+        ("central_film", 1e6, "central film [µm]", "viridis"),
+        ("temperature_rise", 1.0, "rise in the film [K]", "magma_r"),
+        ("mean_pressure", 1e-9, "mean Hertz pressure [GPa]", "magma_r"),
     )
-    kept = np.isfinite(at) & (film["line_load"].values > 0.0)
+    kept = np.isfinite(film["x"].values) & np.isfinite(across) & (load > 0.0)
+    # triangles between neighbours, counted in columns and points
+    columns = film.sizes["friction_phase"] * age[kept]
+    points = film.sizes["point"] * across[kept] / np.ptp(across[kept])
+    net = Triangulation(age[kept], across[kept], Triangulation(columns, points).triangles)
     with house_style():
         figure = new_figure(10.0, 6.6)
-        axes = figure.subplots(2, 2, sharex=True)
-        for ax, (name, scale, label) in zip(axes.ravel(), panels, strict=True):
-            values = scale * film[name].values
-            shown = ax.scatter(
-                at[kept], values[kept], c=load[kept], s=3.0, lw=0, cmap="viridis", rasterized=True
+        axes = figure.subplots(2, 2, sharex=True, sharey=True)
+        for ax, (name, scale, label, colours) in zip(axes.ravel(), panels, strict=True):
+            values = scale * np.abs(film[name].values)
+            low, high = np.percentile(values[kept], (_SHOWN, 100.0 - _SHOWN))
+            shown = ax.tripcolor(
+                net, values[kept], shading="gouraud", cmap=colours, vmin=low, vmax=high,
+                rasterized=True,
+            )  # fmt: skip
+            ax.tricontour(
+                net,
+                1e3 * (film["x"].values[kept] - film.attrs["pitch_point"]),
+                levels=[0.0],
+                colors=["black"],
+                linestyles="--",
+                linewidths=1.1,
             )
-            ax.axvline(0.0, color=GREY, lw=1.0, ls=":")
-            ax.set_ylabel(label)
-        mean = film.attrs["operating_mean_coefficient"]
-        axes[0, 0].step(
-            [np.nanmin(at), 0.0, np.nanmax(at)], [-mean, -mean, mean], color=VERMILLION, lw=1.3,
-            where="pre", label=f"±{mean:.4f}: same loss",
-        )  # fmt: skip
-        axes[0, 0].legend(loc="upper left")
+            ax.grid(visible=False)
+            figure.colorbar(shown, ax=ax, label=label, extend="both")
         for ax in axes[1]:
-            ax.set_xlabel("distance from the pitch line along x [mm]")
-        bar = figure.colorbar(shown, ax=axes, shrink=0.7, pad=0.015)
-        bar.set_label("line load [N/mm]")
-        figure.suptitle(_heading(film, "Film on the contact lines"), fontsize=10.5)
+            ax.set_xlabel("mesh periods since the pair enters")
+        for ax in axes[:, 0]:
+            ax.set_ylabel("from mid-face [mm]")
+        mean = film.attrs["operating_mean_coefficient"]
+        axes[0, 0].set_title(f"µ = {mean:.4f} everywhere loses the same", fontsize=9)
+        figure.suptitle(
+            f"{_heading(film, 'Film on the contact lines')}; dashed: pitch line, where µ is zero",
+            fontsize=10.5,
+        )
     return figure
 
 

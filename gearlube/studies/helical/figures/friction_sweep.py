@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import house_style, new_figure
+from gearlube.plotting.style import SERIES, house_style, new_figure
 from gearlube.studies.helical.figures.layout import NOTHING, note_no_vibration, title
+from gearlube_core.arrays import Array
+
+_NAMED = 4  # orders with a colour of their own
+_LEAST = 1e-4  # of the largest amplitude, that the scale reaches
 
 _ROWS = (
     (("u_xp", "$u_{xp}$"), ("u_yp", "$u_{yp}$"), ("u_zp", "$u_{zp}$")),
@@ -37,37 +42,54 @@ def _panels(
     unit: str,
     what: str,
 ) -> Any:
-    import matplotlib
-
     part = sweep.isel(speed=0)
     order, mu = part["harmonic"].values, part["mu"].values
-    colours = matplotlib.colormaps["viridis"].resampled(order.size)
     with house_style():
         figure = new_figure(10.5, 2.7 * len(rows) + 1.0)
         axes = figure.subplots(len(rows), len(rows[0]), sharex=True)
         for line, names in zip(axes, rows, strict=True):
             for ax, (name, symbol) in zip(line, names, strict=True):
                 values = scale * part[f"{name}_harmonic"].transpose("mu", "harmonic").values
-                for column in range(order.size):
-                    wide = 2.0 if column < 2 else 1.1
-                    ax.plot(mu, values[:, column], color=colours(column), lw=wide)
-                top = float(values.max())
+                _orders(ax, mu, order, values)
                 ax.set_title(symbol)
-                if top > NOTHING:
-                    ax.set_yscale("log")
-                    ax.set_ylim(1e-4 * top, 2.0 * top)
-                else:
-                    note_no_vibration(ax)
             line[0].set_ylabel(f"amplitude [{unit}]")
         for ax in axes[-1]:
             ax.set_xlabel("coefficient of friction µ")
             ax.set_xlim(mu[0], max(mu[-1], mu[0] + 1e-3))
-        norm = matplotlib.colors.BoundaryNorm(
-            [n - 0.5 for n in (*order, order[-1] + 1)], order.size
+        named = {
+            label: handle
+            for ax in axes.ravel()
+            for handle, label in zip(*ax.get_legend_handles_labels(), strict=True)
+        }
+        labels = sorted(named)
+        figure.legend(
+            [named[label] for label in labels], labels, ncols=5, loc="outside lower center"
         )
-        mappable = matplotlib.cm.ScalarMappable(norm=norm, cmap=colours)
-        bar = figure.colorbar(mappable, ax=axes, shrink=0.7, pad=0.015)
-        bar.set_ticks(list(order[::2]))
-        bar.set_label("mesh order n (1 and 2 drawn wide)")
         figure.suptitle(title(sweep, what), fontsize=11.0)
     return figure
+
+
+def _orders(ax: Any, mu: Array, order: Array, values: Array) -> None:
+    """Draw amplitudes over friction, shape (mu, orders), on a scale that those above µ = 0 set.
+
+    Without friction an amplitude may be zero, which a logarithmic scale cannot show.
+    """
+    rubbing = values[mu > 0.0] if (mu > 0.0).any() else values
+    top = float(rubbing.max())
+    if not top > NOTHING:
+        note_no_vibration(ax)
+        return
+    for column in reversed(range(order.size)):
+        named = column < _NAMED
+        shown = np.where(values[:, column] > NOTHING, values[:, column], np.nan)
+        ax.plot(
+            mu,
+            shown,
+            color=SERIES[column] if named else "0.78",
+            lw=1.8 if named else 0.8,
+            zorder=2.5 if named else 1.5,
+            label=f"order {order[column]}" if named else f"orders {order[_NAMED]} to {order[-1]}",
+        )
+    low = float(rubbing[:, :_NAMED][rubbing[:, :_NAMED] > NOTHING].min(initial=top))
+    ax.set_yscale("log")
+    ax.set_ylim(max(_LEAST * top, 0.1 * low), 2.0 * top)

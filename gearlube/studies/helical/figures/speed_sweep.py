@@ -16,6 +16,7 @@ from gearlube.studies.helical.figures.layout import (
     note_no_vibration,
 )
 from gearlube.studies.helical.settings import SHOWN_MU
+from gearlube_core.arrays import Array
 
 _RANGE = 60.0  # dB
 _FORCES = (("F_xp", "$F_{x}$"), ("F_yp", "$F_{y}$"), ("F_zp", "$F_{z}$"))
@@ -26,6 +27,8 @@ _CUTS = (
     ("F_zp", "$F_{z}$ [N]", 1.0),
 )
 _ORDERS = (1, 2, 3)
+_NAMED = 6  # orders with a number in a diagram
+_APART = 0.05  # between names of modes, as a share of the axis
 _CURVES = 4  # coefficients of friction in one panel
 
 
@@ -42,7 +45,7 @@ def campbell(sweep: xr.Dataset) -> Any:
     modes = distinct(1e-3 * part["natural_frequency"].values)
     ceiling = 1.25 * modes[-1]
     with house_style():
-        figure = new_figure(11.0, 4.9)
+        figure = new_figure(12.0, 5.6)
         axes = figure.subplots(1, len(_FORCES), sharex=True, sharey=True)
         shown = None
         for ax, (name, symbol) in zip(axes, _FORCES, strict=True):
@@ -58,7 +61,9 @@ def campbell(sweep: xr.Dataset) -> Any:
                 ax.axhline(mode, color=GREY, lw=1.0, ls=":", zorder=1)
             for column in range(order.size):
                 frequency = 1e-3 * order[column] * mesh
-                seen = (frequency < ceiling) & (level[:, column] > top - _RANGE)
+                below = frequency < ceiling
+                ax.plot(speed[below], frequency[below], color="0.75", lw=0.8, zorder=1)
+                seen = below & (level[:, column] > top - _RANGE)
                 size = 4.0 + 60.0 * np.clip(1.0 + (level[:, column] - top) / _RANGE, 0.0, 1.0) ** 2
                 shown = ax.scatter(
                     speed[seen],
@@ -74,12 +79,53 @@ def campbell(sweep: xr.Dataset) -> Any:
             bar = figure.colorbar(shown, ax=ax, location="bottom", shrink=0.9)
             bar.set_label("level [dB re 1 N]")
         axes[0].set(xlim=(0.0, 1.02 * speed[-1]), ylim=(0.0, ceiling), ylabel="frequency [kHz]")
+        slope = 1e-3 * mesh[-1] / speed[-1]
+        for ax in axes:
+            name_orders(ax, order[:_NAMED], slope, (1.02 * speed[-1], ceiling))
+        name_modes(axes[-1], modes, ceiling)
         figure.suptitle(
             _heading(sweep, f"Mesh orders 1 to {order[-1]}, µ = {float(part['mu']):g}")
-            + "; dotted: natural frequencies",
+            + "; lines: orders; dotted: natural frequencies [kHz]",
             fontsize=10.5,
         )
     return figure
+
+
+def name_orders(ax: Any, orders: Array, slope: float, limits: tuple[float, float]) -> None:
+    """Write the number of each order where its line leaves the axes, whose upper limits are given.
+
+    `slope` is that of the first order, frequency over speed in the units of the axes.
+    """
+    for order in orders:
+        x = min(limits[0], limits[1] / (slope * order))
+        on_top = x < limits[0]
+        ax.annotate(
+            f"{order}",
+            (0.955 * x, 0.955 * x * slope * order),
+            ha="right" if on_top else "center",
+            va="center" if on_top else "bottom",
+            xytext=(-3, 0) if on_top else (0, 4),
+            textcoords="offset points",
+            fontsize=8.0,
+            fontweight="bold",
+        )
+
+
+def name_modes(ax: Any, modes: Array, ceiling: float) -> None:
+    """Write each natural frequency [kHz] beside its line, right of the axes, apart from others."""
+    place = -np.inf
+    for number, mode in enumerate(modes, 1):
+        place = max(float(mode), place + _APART * ceiling)
+        ax.annotate(
+            f"mode {number}: {mode:.1f}",
+            (1.0, mode),
+            xycoords=("axes fraction", "data"),
+            xytext=(1.06, place),
+            textcoords=("axes fraction", "data"),
+            va="center",
+            fontsize=8.0,
+            arrowprops={"arrowstyle": "-", "color": GREY, "lw": 0.6},
+        )
 
 
 def order_cuts(sweep: xr.Dataset) -> Any:

@@ -1,0 +1,139 @@
+"""How tooth pairs share the load, their highest pressures, and the Harris map."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.edge_pressure import mark_edge_pressure
+from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
+from gearlube.studies.helical.figures.layout import closed
+from gearlube.studies.helical.figures.tooth_stiffness import followed, spread
+from gearlube_core.arrays import Array
+from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
+
+_ROOM = 1.5  # height of the axis of pressures, over that in the middle
+
+
+def load_sharing(contact: xr.Dataset) -> Any:
+    """Return shares of the torque, against length shares, and the highest pressures of a pair."""
+    with house_style():
+        figure = new_figure(10.0, 7.0)
+        axes = figure.subplots(2, 2, sharex="col")
+        torques = spread(contact["torque"].values)
+        highest: list[Array] = []
+        for row, torque in enumerate(torques):
+            part = contact.sel(torque=torque)
+            label = f"{torque:.4g} N·m"
+            phase, share = followed(part, "share")
+            axes[0, 0].plot(phase, share, color=SERIES[row], label=label)
+            phase, pressure = followed(part, "pressure_max")
+            pressure = np.where(pressure > 0.0, 1e-9 * pressure, np.nan)
+            axes[1, 0].plot(phase, pressure, color=SERIES[row], label=label)
+            highest.append(pressure)
+            x, y = closed(part["phase"].values, 100.0 * part["corner_share"].values)
+            axes[0, 1].plot(x, y, color=SERIES[row], label=label)
+            load = part["line_load"].max(("line", "station")).values
+            x, y = closed(part["phase"].values, 1e-3 * load)
+            axes[1, 1].plot(x, y, color=SERIES[row], label=label)
+        phase, share = followed(contact, "length_share")
+        axes[0, 0].plot(phase, share, color="black", ls="--", lw=1.2, label="share of length")
+        axes[0, 0].set(ylabel="share of the torque", ylim=(0.0, None), title="one pair")
+        axes[1, 0].set(
+            ylabel="highest pressure [GPa]",
+            ylim=(0.0, None),
+            xlabel="mesh periods since it enters the plane of contact",
+            xlim=(-0.5, contact["constant_line"].values[-1] + 1.0),
+        )
+        _cut_edge_pressures(axes[1, 0], followed(contact, "length_share")[0], highest)
+        axes[0, 1].set(
+            ylabel="outside the plane\nof contact [% of torque]",
+            ylim=(0.0, None),
+            title="all pairs",
+        )
+        axes[1, 1].set(
+            ylabel="highest line load [N/mm]",
+            ylim=(0.0, None),
+            xlabel="time [mesh periods]",
+            xlim=(0.0, 2.0),
+        )
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=5, loc="outside lower center")
+        figure.suptitle(f"Load sharing: {contact.attrs['name']}", fontsize=11.5)
+    return figure
+
+
+def _cut_edge_pressures(ax: Any, phase: Array, highest: Sequence[Array]) -> None:
+    """End the axis of pressures [GPa] near those of the middle; mark points beyond with triangles.
+
+    Pressures of sharp edges have no finite value, and would stretch the axis to many times that.
+    """
+    middle = max(float(one[np.nanargmin(np.abs(phase - _middle(phase, one)))]) for one in highest)
+    top = _ROOM * max(middle, 1e-9 * EDGE_PRESSURE)
+    greatest = max(float(np.nanmax(one)) for one in highest)
+    if greatest <= top:
+        mark_edge_pressure(ax)
+        return
+    limit = 1e-9 * EDGE_PRESSURE
+    ax.axhspan(limit, top, color="0.92", zorder=0)
+    for row, one in enumerate(highest):
+        beyond = one > top
+        ax.plot(
+            phase[beyond],
+            np.full(int(beyond.sum()), top * (0.985 - 0.03 * row)),
+            "^",
+            color=SERIES[row],
+            ms=3.5,
+            clip_on=False,
+        )
+    ax.set_ylim(0.0, top)
+    ax.set_title(
+        f"grey: sharp edges press; triangles: beyond the axis, up to {greatest:.3g} GPa.\n"
+        "Such a pressure has no finite value, it rises with finer cells",
+        fontsize=8.5,
+    )
+
+
+def _middle(phase: Array, values: Array) -> float:
+    """Return the phase half way from the first to the last point that has a value."""
+    found = phase[np.isfinite(values)]
+    return 0.5 * float(found.min() + found.max())
+
+
+def harris_map(contact: xr.Dataset) -> Any:
+    """Return transmission error over the mesh, and its range and orders against torque."""
+    torque = contact["torque"].values
+    error = 1e6 * contact["transmission_error"].values
+    unloaded = 1e6 * contact["unloaded_error"].values
+    with house_style():
+        figure = new_figure(10.0, 4.8)
+        left, right = figure.subplots(1, 2)
+        phase = contact["phase"].values
+        x, y = closed(phase, unloaded - unloaded.mean())
+        left.plot(x, y, color=GREY, lw=2.2, label="unloaded")
+        for row, one in enumerate(spread(torque, 5)):
+            values = error[:, int(np.argmin(np.abs(torque - one)))]
+            x, y = closed(phase, values - values.mean())
+            left.plot(x, y, color=SERIES[row], label=f"{one:.4g} N·m")
+        left.set(xlim=(0.0, 2.0), xlabel="time [mesh periods]", ylabel="closing less its mean [µm]")
+        left.set_title("transmission error")
+        right.plot(torque, np.ptp(error, axis=0), "o-", color="black", label="peak to peak")
+        orders = 2.0 * np.abs(np.fft.rfft(error, axis=0)) / phase.size
+        for order in range(1, min(4, orders.shape[0] - 1)):
+            right.plot(torque, orders[order], "s-", color=SERIES[order - 1], label=f"order {order}")
+        right.axvline(contact.attrs["pinion_torque"], color=GREY, ls=":", lw=1.2)
+        right.set(xlabel="pinion torque [N·m]", ylabel="transmission error [µm]")
+        right.set(xlim=(0.0, None), ylim=(0.0, None))
+        right.set_title("Harris map; dotted: operating point")
+        figure.legend(
+            *left.get_legend_handles_labels(), ncols=3, loc="outside lower left", fontsize=8.5
+        )
+        figure.legend(
+            *right.get_legend_handles_labels(), ncols=2, loc="outside lower right", fontsize=8.5
+        )
+        figure.suptitle(
+            f"Transmission error along the line of action: {contact.attrs['name']}", fontsize=11.5
+        )
+    return figure

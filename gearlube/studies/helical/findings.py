@@ -1,0 +1,300 @@
+"""What a study of a helical pair says, in sentences with numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube.studies.helical.settings import RPM, SHOWN_MU
+from gearlube_core.arrays import Array
+from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
+
+Datasets = Mapping[str, xr.Dataset]
+NEAR = 0.1  # of a natural frequency, within which an order is close to it
+ORDERS = (1, 2, 3)  # mesh orders that are compared with natural frequencies
+_THIN = 1.0  # film ratio below which asperities touch
+
+
+class Peak(NamedTuple):
+    """The largest mesh order of the dynamic transmission error in a speed sweep."""
+
+    amplitude: float  # um
+    order: int
+    speed: float  # rpm
+    frequency: float  # Hz
+    film: bool  # with the friction of the oil film, else with a constant coefficient
+
+
+class Meeting(NamedTuple):
+    """A mesh order and the natural frequency next to it."""
+
+    order: int
+    frequency: float  # Hz
+    natural: float  # Hz
+    margin: float  # of the order's frequency over the natural one, less 1
+
+
+def findings(datasets: Datasets) -> list[Finding]:
+    """Return the findings of a study from the datasets that it has.
+
+    Examples
+    --------
+    >>> findings({"sweep": xr.load_dataset("gearlube_helical/sweep.nc")})  # doctest: +SKIP
+    """
+    found: list[Finding] = []
+    for name, of in (
+        ("sweep", _transmission_error),
+        ("response", _margins),
+        ("separation", _separation),
+        ("contact", _edges),
+        ("stability", _stability),
+        ("film", _film),
+    ):
+        if name in datasets:
+            found += of(datasets[name])
+    return found
+
+
+def order_amplitudes(sweep: xr.Dataset) -> tuple[Array, bool]:
+    """Return mesh orders of the dynamic transmission error [um], shape (speeds, orders).
+
+    With the friction of the oil film if the sweep has it, which the second value tells; else with
+    the constant coefficient next to 0.1.
+    """
+    film = "film_delta_z_harmonic" in sweep
+    found = (
+        sweep["film_delta_z_harmonic"]
+        if film
+        else sweep["delta_z_harmonic"].sel(mu=SHOWN_MU[-1], method="nearest")
+    )
+    return 1e6 * found.transpose("speed", "harmonic").values, film
+
+
+def largest_error(sweep: xr.Dataset) -> Peak | None:
+    """Return the largest mesh order of the dynamic transmission error; None without values."""
+    amplitude, film = order_amplitudes(sweep)
+    if not np.isfinite(amplitude).any():
+        return None
+    row, column = np.unravel_index(int(np.nanargmax(amplitude)), amplitude.shape)
+    order = int(sweep["harmonic"][column])
+    return Peak(
+        float(amplitude[row, column]),
+        order,
+        float(sweep["speed"][row]) / RPM,
+        order * float(sweep["mesh_frequency"][row]),
+        film,
+    )
+
+
+def meeting(order: int, mesh_frequency: float, natural: Array) -> Meeting:
+    """Return the natural frequency [Hz] next to a mesh order, and how far it is."""
+    frequency = order * mesh_frequency
+    next_one = float(natural[int(np.argmin(np.abs(frequency / natural - 1.0)))])
+    return Meeting(order, frequency, next_one, frequency / next_one - 1.0)
+
+
+def _transmission_error(sweep: xr.Dataset) -> list[Finding]:
+    found = []
+    peak = largest_error(sweep)
+    if peak is not None:
+        met = meeting(1, peak.frequency, sweep["natural_frequency"].values)
+        near = abs(met.margin) < NEAR
+        friction = "the oil film" if peak.film else "a constant coefficient"
+        found.append(
+            Finding(
+                WARNING if near else NOTE,
+                f"The largest order of the dynamic transmission error is "
+                f"{quantity_text(peak.amplitude, 'µm')}: mesh order {peak.order} at "
+                f"{peak.speed:.0f} rpm.",
+                f"That is {quantity_text(1e-3 * peak.frequency, 'kHz')}, {_beside(met)}. Friction "
+                f"of {friction}. The sweep goes from {float(sweep['speed'][0]) / RPM:.0f} to "
+                f"{float(sweep['speed'][-1]) / RPM:.0f} rpm.",
+            )
+        )
+    margin = float(sweep["stability_margin"].min())
+    if margin <= 0.0:
+        found.append(
+            Finding(
+                WARNING,
+                "The vibration is unstable at some speeds of the sweep.",
+                "There sweep.nc has no values. More damping or less swing of the stiffness helps.",
+            )
+        )
+    return found
+
+
+def _beside(met: Meeting) -> str:
+    side = "above" if met.margin >= 0.0 else "below"
+    return (
+        f"{100.0 * abs(met.margin):.1f} % {side} the natural frequency of "
+        f"{quantity_text(1e-3 * met.natural, 'kHz')}"
+    )
+
+
+def _margins(response: xr.Dataset) -> list[Finding]:
+    natural = response["natural_frequency"].values
+    mesh = float(response.attrs["mesh_frequency"])
+    met = [meeting(order, mesh, natural) for order in ORDERS]
+    least = min(met, key=lambda one: abs(one.margin))
+    speed = f"{response.attrs['pinion_speed'] / RPM:.0f} rpm"
+    near = abs(least.margin) < NEAR
+    return [
+        Finding(
+            WARNING if near else GOOD,
+            f"At {speed} mesh order {least.order} is {_beside(least)}.",
+            "Of mesh orders 1 to 3 this is the nearest. "
+            + (
+                "Move the speed or change teeth, supports or masses."
+                if near
+                else f"None is within {100.0 * NEAR:.0f} % of a natural frequency."
+            ),
+        )
+    ]
+
+
+def _separation(separation: xr.Dataset) -> list[Finding]:
+    own = float(separation.attrs["mesh_damping_ratio"])
+    found = []
+    for ratio in separation["damping"].values:
+        at = separation.sel(damping=ratio)
+        share, speed = at["separation_share"].values, at["speed"].values / RPM
+        what = f"with damping ratio {ratio:g}"
+        apart = share > 0.0
+        if not apart.any():
+            found.append(
+                Finding(
+                    GOOD,
+                    f"The teeth stay in contact {what}.",
+                    f"From {np.nanmin(speed):.0f} to {np.nanmax(speed):.0f} rpm.",
+                )
+            )
+            continue
+        folds = int((at["special_kind"] == "fold").sum())
+        found.append(
+            Finding(
+                WARNING if np.isclose(ratio, own) else NOTE,
+                f"The teeth separate from {speed[apart].min():.0f} to {speed[apart].max():.0f} rpm "
+                f"{what}, up to {100.0 * np.nanmax(share):.0f} % of the time.",
+                f"The pair's own damping ratio is {own:g}. "
+                + (f"{folds} folds: the motion jumps there." if folds else "No jumps."),
+            )
+        )
+    return found
+
+
+def _edges(contact: xr.Dataset) -> list[Finding]:
+    at = contact.sel(torque=contact.attrs["pinion_torque"], method="nearest")
+    highest, torque = 1e-9 * float(at["pressure_max"].max()), float(at["torque"])
+    if highest <= 1e-9 * EDGE_PRESSURE:
+        return [
+            Finding(
+                GOOD,
+                f"No sharp edge presses at {torque:.4g} N·m: the highest pressure is "
+                f"{quantity_text(highest, 'GPa')}.",
+                f"Pressures above {1e-9 * EDGE_PRESSURE:g} GPa would be those of edges.",
+            )
+        ]
+    return [
+        Finding(
+            WARNING,
+            f"Sharp edges of tips or ends press at {torque:.4g} N·m, with up to "
+            f"{quantity_text(highest, 'GPa')}.",
+            "Such a pressure has no finite value, it rises with finer cells: read it as a place. "
+            "Tip and end relief in the gear file remove it.",
+        )
+    ]
+
+
+def least_unstable(stability: xr.Dataset) -> float:
+    """Return the least factor on the swing of the stiffness that is unstable; NaN if none."""
+    unstable = (stability["growth_variation"] > 0.0).any("mesh_frequency").values
+    first = stability["variation"].values[unstable]
+    return float(first[0]) if first.size else float("nan")
+
+
+def _stability(stability: xr.Dataset) -> list[Finding]:
+    factor, top = least_unstable(stability), float(stability["variation"][-1])
+    if np.isnan(factor):
+        return [
+            Finding(
+                GOOD,
+                f"No parametric instability, up to {top:g} times the swing of the mesh stiffness.",
+                "With the damping of the pair, over all mesh frequencies that were computed.",
+            )
+        ]
+    own = factor <= 1.0
+    return [
+        Finding(
+            WARNING if own else GOOD,
+            f"Parametric instability begins at {factor:.3g} times the swing of the mesh stiffness.",
+            "The pair itself is unstable at some speeds." if own else "The pair itself is stable.",
+        )
+    ]
+
+
+def _film(film: xr.Dataset) -> list[Finding]:
+    ratio = float(np.nanmin(film["film_ratio"].where(film["line_load"] > 0.0).values))
+    of = film.attrs
+    return [
+        Finding(
+            WARNING if ratio < _THIN else GOOD,
+            f"The least film ratio is {ratio:.2f}, the mean coefficient of friction "
+            f"{of['operating_mean_coefficient']:.4f}, and the mesh loses "
+            f"{quantity_text(of['operating_power_loss'], 'W')}.",
+            f"Film over a composite roughness of {1e6 * of['roughness_rms']:.3g} µm, at "
+            f"{of['oil_temperature'] - 273.15:.0f} °C. Below 1 asperities touch.",
+        )
+    ]
+
+
+def numbers(datasets: Datasets) -> list[Number]:
+    """Return the key numbers of a study, with the same names in every run."""
+    nan = float("nan")
+    peak = largest_error(datasets["sweep"]) if "sweep" in datasets else None
+    found = [
+        Number("largest order of the dynamic transmission error", peak[0] if peak else nan, "µm"),
+        Number("its mesh order", peak.order if peak else nan, digits=1),
+        Number("its speed", peak.speed if peak else nan, "rpm", 4),
+    ]
+    contact, film = datasets.get("contact"), datasets.get("film")
+    at = None
+    if contact is not None:
+        at = contact.sel(torque=contact.attrs["pinion_torque"], method="nearest")
+    found += [
+        Number("mean mesh stiffness", nan if at is None else 1e-6 * float(at["K"].mean()), "N/µm"),
+        Number(
+            "loaded transmission error, peak to peak",
+            nan if at is None else 1e6 * float(at["transmission_error_ptp"]),
+            "µm",
+        ),
+        Number(
+            "highest pressure", nan if at is None else 1e-9 * float(at["pressure_max"].max()), "GPa"
+        ),
+    ]
+    separation, stability = datasets.get("separation"), datasets.get("stability")
+    return [
+        *found,
+        Number(
+            "longest time without contact",
+            nan if separation is None else 100.0 * float(separation["separation_share"].max()),
+            "%",
+        ),
+        Number(
+            "least unstable factor on the swing of the stiffness",
+            nan if stability is None else least_unstable(stability),
+        ),
+        Number(
+            "mean coefficient of friction",
+            nan if film is None else float(film.attrs["operating_mean_coefficient"]),
+        ),
+        Number(
+            "power lost in the mesh",
+            nan if film is None else float(film.attrs["operating_power_loss"]),
+            "W",
+        ),
+    ]
