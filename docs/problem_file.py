@@ -106,7 +106,7 @@ and a search without success are said in the report.
 | File | |
 |---|---|
 | NAME.toml | gear file with the better values |
-| report.md | values, all measures before and after, limits, remarks |
+| report.html | dB at each torque, active limits, what got worse, values, all measures |
 | optimise.nc | the same as arrays, error over the mesh, all errors; with `--front` the front |
 | figures/ | transmission error, mesh orders, whine under each error, front |
 | evaluations/, positions/ | what is computed; the same command goes on from there after a stop |

@@ -119,6 +119,7 @@ def film_inputs(dataset: xr.Dataset) -> list[Input]:
 def _tables(dataset: xr.Dataset) -> list[Table]:
     kind = dataset.attrs["contact"]
     rows: list[list[Cell]] = []
+    columns: tuple[str, ...]
     if kind in STEADY:
         for row in summary_rows(dataset):
             factor, unit = _UNITS.get(row.unit, (1.0, row.unit))

@@ -15,6 +15,7 @@ from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
 from gearlube_core.checks import check_within
 
@@ -54,11 +55,13 @@ def optimise(
     """Make a pair quieter: reliefs, crowns and settings with least mesh orders under limits.
 
     Several torques, errors of assembly and making, limits of pressure, loss, sensitivity and
-    contact at edges. Writes the better gear file, report.md, optimise.nc and figures. What is
+    contact at edges. Writes the better gear file, report.html, optimise.nc and figures. What is
     computed is kept in OUT: run the same command again to go on after a stop.
     """
+    from gearlube.report.stored import PAGE
     from gearlube.studies.optimise import run
-    from gearlube.studies.optimise.summary import measure_rows, sentences
+    from gearlube.studies.optimise.findings import findings
+    from gearlube.studies.optimise.summary import measure_rows
     from gearlube_core.flank_optimisation.optimise import OptimiseSettings
     from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 
@@ -84,14 +87,20 @@ def optimise(
             results_folder(out, "optimise", overwrite=overwrite),
             progress_on(console, "optimise") as progress,
         ):
-            results = run.run_optimise(given, settings, folder=out, jobs=jobs, progress=progress)
+            results = run.run_optimise(
+                given,
+                settings,
+                folder=out,
+                jobs=jobs,
+                progress=progress,
+                command_line=command_line(),
+            )
         found = results.optimised
         console.print(_table(given.name, measure_rows(found)))
-        for sentence in sentences(found):
-            logger.warning("%s", sentence)
         logger.info("Optimised in %.1f s.", time.monotonic() - began)
         gear = out / f"{given.name}.toml"
-        logger.info("Results: %s, %s, %s", gear, out / "report.md", out / "figures")
+        logger.info("Results: %s, %s, %s", gear, out / "optimise.nc", out / "figures")
+        tell_findings(findings(results.dataset), out / PAGE)
         kind = "contact" if found.problem.is_hypoid else "helical"
         logger.info("Next: gearlube %s %s", kind, gear)
 

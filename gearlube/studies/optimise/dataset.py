@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from gearlube.studies.optimise.summary import MeasureRow, measure_rows
 from gearlube_core.flank_optimisation.evaluation import Evaluation
 from gearlube_core.flank_optimisation.optimise import Optimised
 from gearlube_core.flank_optimisation.problem import values_of
 from gearlube_core.input_file.field_notes import field_unit
 
+_COLUMNS = ("torque", "name", "unit", "before", "after", "limit")
 _EACH = ("design", "torque", "error")
 _VARIABLES = {
     "transmission_error": ((*_EACH, "phase"), "rad", "rotation of the pinion under load"),
@@ -60,11 +63,16 @@ def optimise_dataset(found: Optimised) -> xr.Dataset:
         settings.append(found.nominal.values)
     data["value"] = (("design", "parameter"), np.stack(settings), {"long_name": "as in the file"})
     data["value_unit"] = (("parameter",), [unit_of(name) for name in problem.names])
+    for name, bounds in (("low", problem.low), ("high", problem.high)):
+        data[name] = (("parameter",), bounds, {"long_name": f"{name} bound, as in the file"})
+    data |= _measures(measure_rows(found))
     if found.front:
         for name, text in (("whine", "mesh orders"), ("loss", "sliding loss")):
             front = np.array([getattr(point, name) for point in found.front])
             note = {"units": "1", "long_name": f"{text} over those before, held cells"}
             data[f"front_{name}"] = (("front",), front, note)
+        points = np.array([point.values for point in found.front])
+        data["front_value"] = (("front", "parameter"), points, {"long_name": "as in the file"})
     count = found.before.rotation.shape[-1]
     return xr.Dataset(
         data,
@@ -79,8 +87,44 @@ def optimise_dataset(found: Optimised) -> xr.Dataset:
         attrs={
             "name": given.name,
             "gear_file": found.better.file.model_dump_json(exclude_none=True),
+            "pair": problem.file.name,
+            "kind": "hypoid" if problem.is_hypoid else "helical",
+            "aim": given.aim,
+            "improved": int(any(one.kept for one in found.better.rounds[1:])),
         },
     )
+
+
+def _measures(rows: list[MeasureRow]) -> dict[str, Any]:
+    """Return the measures before and after, a row for each measure at each torque."""
+    named = {
+        "torque": ("N.m", [one.torque for one in rows]),
+        "name": ("", [one.what for one in rows]),
+        "unit": ("", [one.unit for one in rows]),
+        "before": ("as in measure_unit", [one.before for one in rows]),
+        "after": ("as in measure_unit", [one.after for one in rows]),
+        "limit": ("1", [math.nan if one.limit is None else one.limit for one in rows]),
+    }
+    return {
+        f"measure_{name}": (("measure",), np.array(values), {"units": unit})
+        for name, (unit, values) in named.items()
+    }
+
+
+def measures_of(dataset: xr.Dataset) -> list[MeasureRow]:
+    """Return the measures that a dataset keeps."""
+    columns = [dataset[f"measure_{name}"].values for name in _COLUMNS]
+    return [
+        MeasureRow(
+            float(torque),
+            str(name),
+            str(unit),
+            float(before),
+            float(after),
+            None if math.isnan(limit) else float(limit),
+        )
+        for torque, name, unit, before, after, limit in zip(*columns, strict=True)
+    ]
 
 
 def unit_of(name: str) -> str:

@@ -10,7 +10,7 @@ import xarray as xr
 from gearlube.output.toml_text import toml_text
 from gearlube.studies.optimise.dataset import optimise_dataset
 from gearlube.studies.optimise.figures import save_optimise_figures
-from gearlube.studies.optimise.summary import report
+from gearlube.studies.optimise.report import write_optimise_report
 from gearlube_core.flank_optimisation.optimise import Optimised, OptimiseSettings, optimise
 from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
@@ -41,6 +41,7 @@ def run_optimise(
     folder: Path | None = None,
     jobs: int | None = None,
     progress: Progress = no_progress,
+    command_line: str = "",
 ) -> OptimiseResults:
     """Return the flanks with least mesh orders under the limits of a problem file.
 
@@ -50,12 +51,14 @@ def run_optimise(
     settings : OptimiseSettings, optional
         Rounds, resolution of the check, front, nominal pair.
     folder : Path, optional
-        Gets the better gear file, report.md, optimise.nc and figures/. Evaluations and positions
+        Gets the better gear file, report.html, optimise.nc and figures/. Evaluations and positions
         are kept there: the same call goes on after a stop.
     jobs : int, optional
         Processes; default: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
+    command_line : str
+        For the report.
 
     Raises
     ------
@@ -74,12 +77,12 @@ def run_optimise(
     results = OptimiseResults(optimised=found, dataset=optimise_dataset(found))
     if folder is not None:
         progress(1.0, "figures")
-        write_optimise(results, folder)
+        write_optimise(results, folder, command_line)
     return results
 
 
-def write_optimise(results: OptimiseResults, folder: Path) -> Path:
-    """Write gear file, report.md, optimise.nc and figures/; return the gear file."""
+def write_optimise(results: OptimiseResults, folder: Path, command_line: str = "") -> Path:
+    """Write gear file, report.html, optimise.nc and figures/; return the gear file."""
     folder.mkdir(parents=True, exist_ok=True)
     found = results.optimised
     path = folder / f"{found.problem.given.name}.toml"
@@ -90,7 +93,7 @@ def write_optimise(results: OptimiseResults, folder: Path) -> Path:
         }
     )
     write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
-    write_text(report(found), folder / "report.md")
     write_dataset(results.dataset, folder / "optimise.nc")
     save_optimise_figures(results.dataset, folder / "figures")
+    write_optimise_report(results.dataset, folder, command_line)
     return path

@@ -12,6 +12,7 @@ from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube_core.units import rads_to_rpm
 
+_RPM = rads_to_rpm(1.0)
 _STRAIGHT = 0.3  # change over the amplitude above which a first-order change is only a hint
 _NAMED = 3
 
@@ -39,7 +40,7 @@ def movers(dataset: xr.Dataset, order: int) -> list[Mover]:
     Parameters that move nothing, or at no speed, are left out.
     """
     part = dataset.sel(order=order)
-    force, speed = part["force"].values, rads_to_rpm(part["pinion_speed"].values)
+    force, speed = part["force"].values, _RPM * part["pinion_speed"].values
     found = []
     for name in part["parameter"].values:
         one = part.sel(parameter=name)
@@ -76,7 +77,7 @@ def _crest(dataset: xr.Dataset, order: int) -> tuple[float, float]:
     """Return the largest force of an order [N] and its pinion speed [rpm]."""
     force = dataset["force"].sel(order=order).values
     at = int(np.nanargmax(force))
-    return float(force[at]), float(rads_to_rpm(dataset["pinion_speed"].values[at]))
+    return float(force[at]), float(_RPM * dataset["pinion_speed"].values[at])
 
 
 def _largest(dataset: xr.Dataset) -> Finding:
@@ -139,7 +140,7 @@ def _motions(dataset: xr.Dataset) -> list[Finding]:
     unstable = ~missing & (dataset["stable"].values < 0.5)
     if not missing.any() and not unstable.any():
         return [Finding(GOOD, f"At all {missing.size} speeds the pair has a stable motion.")]
-    speed = rads_to_rpm(dataset["pinion_speed"].values)
+    speed = _RPM * dataset["pinion_speed"].values
     found = []
     for kept, words, cure in (
         (missing, "no periodic motion was found", "They are gaps in the figures."),

@@ -19,7 +19,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.units import rads_to_rpm
 
 _SPEED = Axis("pinion speed", "rpm")
-_MICRO = 1e6
+_RPM, _MICRO = rads_to_rpm(1.0), 1e6
 _LIMITS = (
     "The pair turns with two degrees of freedom on rigid shafts and bearings; flank friction is "
     "not in it. A car has more natural frequencies.",
@@ -44,7 +44,7 @@ def write_whine_report(dataset: xr.Dataset, folder: Path | str, command_line: st
 def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
     """Return the report of a whine study."""
     attributes = dataset.attrs
-    speed = rads_to_rpm(dataset["pinion_speed"].values)
+    speed = _RPM * dataset["pinion_speed"].values
     file = HypoidGearFile.model_validate_json(attributes["gear_file"])
     settings = [
         Input("pinion torque", f"{attributes['torque']:g}", "N·m"),
@@ -102,7 +102,7 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
 
 
 def _lines(values: xr.DataArray, scale: float) -> list[Line]:
-    speed = rads_to_rpm(values["pinion_speed"].values)
+    speed = _RPM * values["pinion_speed"].values
     return [
         Line(name=f"mesh order {order}", x=speed, y=scale * values.sel(order=order).values)
         for order in values["order"].values
@@ -113,14 +113,14 @@ def _changes(dataset: xr.Dataset) -> Any:
     shown = most_moving(dataset)
     changes = order_changes(dataset)[:, shown].T
     limit = float(np.nanpercentile(np.abs(changes), 95.0)) or 1.0
-    rows = np.arange(len(shown))
+    rows = np.arange(len(shown), dtype=float)
     names = [
         f"{parameter_words(str(part['parameter'].values))} "
         f"+{tolerance_words(float(part['tolerance']), str(part['unit'].values))}"
         for part in (dataset.isel(parameter=int(k)) for k in shown)
     ]
     chart = heat_map(
-        rads_to_rpm(dataset["pinion_speed"].values),
+        _RPM * dataset["pinion_speed"].values,
         rows,
         changes,
         (_SPEED, Axis(""), Axis("change", "%")),

@@ -1,0 +1,275 @@
+"""The report of an optimisation: findings, figures, tables, inputs, limits."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.report.charts import COLOURS, Axis, Line, add_line, line_chart, panels
+from gearlube.report.file_inputs import file_inputs
+from gearlube.report.page import write_report
+from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
+from gearlube.studies.optimise.dataset import measures_of
+from gearlube.studies.optimise.findings import findings, numbers
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+
+_MICRO = 1e6
+_MOST_FIELDS = 8  # that a table of the front shows
+_NAMES = {"before": "before", "better": "better", "nominal": "best without errors"}
+_UNITS = {"um": "µm", "deg": "°", "urad": "µrad", "1": ""}
+_LIMITS = (
+    "Mesh orders are those of the static loaded transmission error, not at a resonance.",
+    "The best near the start of the search, not the best of all: try other starts.",
+    "The elastic teeth are those of the pair as it is; shafts, bearings and housing are rigid.",
+    "Errors are taken one at a time, with both signs.",
+)
+
+
+def write_optimise_report(dataset: xr.Dataset, folder: Path | str, command_line: str = "") -> Path:
+    """Write report.html into a folder; return its path.
+
+    Examples
+    --------
+    >>> found = xr.load_dataset("gearlube_optimise/optimise.nc")  # doctest: +SKIP
+    >>> write_optimise_report(found, "gearlube_optimise")  # doctest: +SKIP
+    """
+    return write_report(optimise_report(dataset, command_line), folder)
+
+
+def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:
+    """Return the report of an optimisation."""
+    attributes, sizes = dataset.attrs, dataset.sizes
+    kind = HypoidGearFile if attributes["kind"] == "hypoid" else HelicalGearFile
+    better: HypoidGearFile | HelicalGearFile = kind.model_validate_json(attributes["gear_file"])
+    torques = ", ".join(f"{one:g}" for one in dataset["torque"].values)
+    count = sizes["error"] - 1
+    return Report(
+        study="optimise",
+        title=f"Quieter flanks: {attributes['name']}",
+        subtitle=f"Better flanks of {attributes['pair']}: {sizes['parameter']} fields may change, "
+        f"at {torques} N·m, with {'no' if count == 0 else count} errors of assembly and making, "
+        f"aim {attributes['aim']}. All numbers are from the plain loaded analysis with "
+        f"{sizes['phase']} mesh phases; errors are rotations of the pinion.",
+        findings=findings(dataset),
+        numbers=numbers(dataset),
+        figures=_figures(dataset),
+        tables=[_values(dataset), _measures(dataset), *_error_tables(dataset)],
+        inputs=[
+            Input("torques", torques, "N·m"),
+            Input("aim", str(attributes["aim"])),
+            Input("mesh orders", ", ".join(str(one) for one in dataset["order"].values)),
+            *file_inputs(better),
+        ],
+        limits=_LIMITS,
+        facts=[("command", command_line)] if command_line else [],
+        files=(f"{attributes['name']}.toml", "optimise.nc", "figures/"),
+    )
+
+
+def _figures(dataset: xr.Dataset) -> list[Figure]:
+    found = [
+        Figure(
+            name="mesh_orders",
+            title="Mesh orders before and after",
+            caption="Amplitudes of the loaded transmission error without errors, at each torque.",
+            chart=_order_chart(dataset),
+        ),
+        Figure(
+            name="transmission_error",
+            title="Loaded transmission error",
+            caption="Over a mesh period, mean removed, without errors. The flatter, the quieter.",
+            chart=_error_chart(dataset),
+        ),
+    ]
+    if dataset.sizes["error"] > 1:
+        found.append(
+            Figure(
+                name="errors",
+                title="Mesh orders with errors",
+                caption="All orders together under each error of assembly and making. The nearer "
+                "the points of a pair are to each other, the less errors matter.",
+                chart=_scatter_chart(dataset),
+            )
+        )
+    if "front_whine" in dataset:
+        front = Line(name="front", x=dataset["front_whine"].values, y=dataset["front_loss"].values)
+        before = Line(name="before", x=[1.0], y=[1.0])
+        axes = (Axis("mesh orders over those before"), Axis("sliding loss over that before"))
+        found.append(
+            Figure(
+                name="front",
+                title="Mesh orders against loss",
+                caption="The least loss for each level of the mesh orders, on the coarse cells of "
+                "the search.",
+                chart=line_chart([front, before], *axes),
+            )
+        )
+    return found
+
+
+def _torque_panels(dataset: xr.Dataset, x: Axis, y: Axis, height: int = 260) -> Any:
+    titles = [f"{torque:g} N·m" for torque in dataset["torque"].values]
+    return panels(titles, x, [y] * len(titles), height=height)
+
+
+def _error_chart(dataset: xr.Dataset) -> Any:
+    x, y = Axis("mesh period"), Axis("transmission error", "µrad")
+    figure = _torque_panels(dataset, x, y)
+    phase = np.append(dataset["phase"].values, 1.0)
+    for row, torque in enumerate(dataset["torque"].values, 1):
+        for number, design in enumerate(dataset["design"].values):
+            part = dataset["transmission_error"].sel(torque=torque, design=design).isel(error=0)
+            values = _MICRO * (part.values - part.values.mean())
+            name = _NAMES[str(design)]
+            line = Line(name=name, x=phase, y=np.append(values, values[0]))
+            add_line(figure, line, number, x, y, row=row, col=1)
+            figure.data[-1].update(legendgroup=name, showlegend=row == 1)
+    figure.update_layout(showlegend=True)
+    return figure
+
+
+def _order_chart(dataset: xr.Dataset) -> Any:
+    x, y = Axis("mesh order"), Axis("amplitude", "µrad")
+    figure = _torque_panels(dataset, x, y)
+    orders = [str(order) for order in dataset["order"].values]
+    for row, torque in enumerate(dataset["torque"].values, 1):
+        for number, design in enumerate(dataset["design"].values):
+            part = dataset["amplitude"].sel(torque=torque, design=design).isel(error=0)
+            name = _NAMES[str(design)]
+            figure.add_bar(
+                x=orders,
+                y=_MICRO * part.values,
+                name=name,
+                legendgroup=name,
+                showlegend=row == 1,
+                marker_color=COLOURS[number],
+                hovertemplate=f"%{{y:.3g}} µrad, order %{{x}}<extra>{name}</extra>",
+                row=row,
+                col=1,
+            )
+    figure.update_xaxes(type="category")
+    figure.update_layout(barmode="group", showlegend=True)
+    return figure
+
+
+def _scatter_chart(dataset: xr.Dataset) -> Any:
+    names = [str(one).replace("_", " ").replace(" um", " µm") for one in dataset["error"].values]
+    x, y = Axis("all orders", "µrad"), Axis("")
+    figure = _torque_panels(dataset, x, y, height=120 + 24 * len(names))
+    for row, torque in enumerate(dataset["torque"].values, 1):
+        for number, design in enumerate(dataset["design"].values):
+            name = _NAMES[str(design)]
+            figure.add_scatter(
+                x=_MICRO * dataset["whine"].sel(torque=torque, design=design).values,
+                y=names,
+                mode="markers",
+                name=name,
+                legendgroup=name,
+                showlegend=row == 1,
+                marker={"color": COLOURS[number], "size": 9},
+                hovertemplate=f"%{{x:.3g}} µrad, %{{y}}<extra>{name}</extra>",
+                row=row,
+                col=1,
+            )
+    figure.update_yaxes(type="category", autorange="reversed", automargin=True)
+    figure.update_xaxes(rangemode="tozero")
+    figure.update_layout(showlegend=True)
+    return figure
+
+
+def _values(dataset: xr.Dataset) -> Table:
+    rows: list[list[Cell]] = []
+    for name in dataset["parameter"].values:
+        part = dataset.sel(parameter=name)
+        before = float(part["value"].sel(design="before"))
+        unit = str(part["value_unit"].values)
+        rows.append(
+            [
+                str(name),
+                "none" if math.isnan(before) else f"{before:.6g}",
+                f"{float(part['value'].sel(design='better')):.6g}",
+                f"{float(part['low']):g}",
+                f"{float(part['high']):g}",
+                _UNITS.get(unit, unit),
+            ]
+        )
+    names = ("field", "before", "after", "low", "high", "unit")
+    return Table(
+        title="Fields of the gear file",
+        caption="As the better gear file has them; low and high are the bounds.",
+        columns=[Column(one) for one in names],
+        rows=rows,
+    )
+
+
+def _measures(dataset: xr.Dataset) -> Table:
+    rows: list[list[Cell]] = [
+        [
+            f"{one.torque:g}",
+            one.what,
+            _UNITS.get(one.unit, one.unit),
+            f"{one.before:.4g}",
+            f"{one.after:.4g}",
+            one.change,
+            "" if one.limit is None else "kept" if one.is_kept else "not kept",
+        ]
+        for one in measures_of(dataset)
+    ]
+    names = ("measure", "unit", "before", "after", "change", "limit")
+    return Table(
+        title="All measures before and after",
+        columns=[Column("torque", "N·m"), *(Column(one) for one in names)],
+        rows=rows,
+        caption="Highest and mean values are taken over all errors.",
+        folded=True,
+    )
+
+
+def _error_tables(dataset: xr.Dataset) -> list[Table]:
+    found = []
+    if dataset.sizes["error"] > 1:
+        whine = _MICRO * dataset["whine"]
+        names = [str(one) for one in dataset["design"].values]
+        rows: list[list[Cell]] = [
+            [
+                f"{torque:g}",
+                str(error),
+                *(float(whine.sel(design=one, torque=torque, error=error)) for one in names),
+            ]
+            for torque in dataset["torque"].values
+            for error in dataset["error"].values
+        ]
+        columns = [Column("torque", "N·m"), Column("error")]
+        columns += [Column(_NAMES[one], "µrad") for one in names]
+        title = "With errors and without"
+        found.append(Table(title=title, columns=columns, rows=rows, folded=True))
+    if "front_whine" in dataset:
+        fields = [str(one) for one in dataset["parameter"].values[:_MOST_FIELDS]]
+        quantities = ("front_whine", "front_loss")
+        rows = [
+            [
+                *(float(point[one]) for one in quantities),
+                *(float(one) for one in point["front_value"].values[: len(fields)]),
+            ]
+            for point in (dataset.isel(front=k) for k in range(dataset.sizes["front"]))
+        ]
+        found.append(
+            Table(
+                title="Mesh orders against loss",
+                caption="Over those before, on the coarse cells of the search, with the fields of "
+                "each pair; optimise.nc has them all.",
+                columns=[
+                    Column("mesh orders"),
+                    Column("sliding loss", digits=4),
+                    *(Column(one, digits=5) for one in fields),
+                ],
+                rows=rows,
+                folded=True,
+            )
+        )
+    return found
