@@ -13,126 +13,155 @@ import typer
 
 from gearlube.cli.lazy_commands import MARKUP, LazyCommand, lazy_group
 
+# headings in the list of commands
+_AXLE = "Axle and car"
+_GEARS = "Gear pairs"
+_PARTS = "Oil, films and bearings"
+_STUDIES = "All studies"
+_TOOLS = "Other tools"
+
 # A new study needs a folder in gearlube/studies and its line here.
 COMMANDS = (
     LazyCommand(
         name="sweep",
         target="gearlube.studies.sweep.command:sweep",
         summary="Sweep vehicle speed and bearing preload of the hypoid axle.",
+        panel=_AXLE,
         command_class="SweepCommand",
     ),
     LazyCommand(
         name="runup",
         target="gearlube.studies.runup.command:runup",
         summary="Run the axle up or down in a speed ramp: waterfall, order tracks.",
+        panel=_AXLE,
     ),
     LazyCommand(
-        name="build-fmu",
-        target="gearlube.cli.build_fmu:build_fmu",
-        summary="Build the FMUs of axle, helical pair and car, for any platform.",
+        name="sound",
+        target="gearlube.studies.sound.command:sound",
+        summary="Make a run-up audible: WAV, loudness, which order one hears.",
+        panel=_AXLE,
     ),
     LazyCommand(
         name="axle",
         target="gearlube.cli.axle:axle",
         summary="Check an axle file and show its inputs.",
-    ),
-    LazyCommand(
-        name="oil",
-        target="gearlube.cli.oil:oil",
-        summary="Show an oil file; fit its stresses to measured traction.",
-    ),
-    LazyCommand(
-        name="map",
-        target="gearlube.studies.loss_map.command:loss_map",
-        summary="Map the losses of an axle over torque, speed and oil temperature.",
-        command_class="MapCommand",
-    ),
-    LazyCommand(
-        name="cycle",
-        target="gearlube.studies.drive_cycle.command:drive_cycle",
-        summary="Drive a cycle: energy lost in the axle, and the oil temperature.",
-    ),
-    LazyCommand(
-        name="vary",
-        target="gearlube.variation.command:vary",
-        summary="Vary any parameter in a study: grids, samples, scatter.",
-        command_class="VaryCommand",
-    ),
-    LazyCommand(
-        name="compare",
-        target="gearlube.cli.compare:compare",
-        summary="Compare two runs of one study: numbers, curves, inputs.",
+        panel=_AXLE,
     ),
     LazyCommand(
         name="design",
         target="gearlube.studies.design.command:design",
         summary="Design a hypoid or bevel pair: from a blank to machine settings.",
-    ),
-    LazyCommand(
-        name="optimise",
-        target="gearlube.studies.optimise.command:optimise",
-        summary="Make a gear pair quieter: reliefs and settings under limits.",
-    ),
-    LazyCommand(
-        name="measured",
-        target="gearlube.studies.measured.command:measured",
-        summary="Lay measured flanks on a hypoid pair: from CSV to a gear file.",
+        panel=_GEARS,
     ),
     LazyCommand(
         name="contact",
         target="gearlube.studies.contact.command:contact",
         summary="Analyse the tooth contact of a hypoid pair; write its mesh table.",
+        panel=_GEARS,
         command_class="ContactCommand",
+    ),
+    LazyCommand(
+        name="optimise",
+        target="gearlube.studies.optimise.command:optimise",
+        summary="Make a gear pair quieter: reliefs and settings under limits.",
+        panel=_GEARS,
+    ),
+    LazyCommand(
+        name="measured",
+        target="gearlube.studies.measured.command:measured",
+        summary="Lay measured flanks on a hypoid pair: from CSV to a gear file.",
+        panel=_GEARS,
     ),
     LazyCommand(
         name="whine",
         target="gearlube.studies.whine.command:whine",
         summary="Whine orders of a hypoid pair against its settings.",
+        panel=_GEARS,
         command_class="WhineCommand",
     ),
     LazyCommand(
         name="convert",
         target="gearlube.cli.convert:convert",
         summary="Convert a gear pair between REXS and gear files.",
+        panel=_GEARS,
         command_class="ConvertCommand",
-    ),
-    LazyCommand(
-        name="resonance",
-        target="gearlube.studies.resonance.command:resonance",
-        summary="Follow the resonance of the torsional hypoid pair.",
-    ),
-    LazyCommand(
-        name="sound",
-        target="gearlube.studies.sound.command:sound",
-        summary="Make a run-up audible: WAV, loudness, which order one hears.",
     ),
     LazyCommand(
         name="helical",
         target="gearlube.studies.helical.command:helical",
         summary="Study a helical or spur pair: contact, vibration, stability.",
+        panel=_GEARS,
         command_class="HelicalCommand",
+    ),
+    LazyCommand(
+        name="resonance",
+        target="gearlube.studies.resonance.command:resonance",
+        summary="Follow the resonance of the torsional hypoid pair.",
+        panel=_GEARS,
+    ),
+    LazyCommand(
+        name="oil",
+        target="gearlube.cli.oil:oil",
+        summary="Show an oil file; fit its stresses to measured traction.",
+        panel=_PARTS,
+    ),
+    LazyCommand(
+        name="map",
+        target="gearlube.studies.loss_map.command:loss_map",
+        summary="Map the losses of an axle over torque, speed and oil temperature.",
+        panel=_AXLE,
+        command_class="MapCommand",
+    ),
+    LazyCommand(
+        name="cycle",
+        target="gearlube.studies.drive_cycle.command:drive_cycle",
+        summary="Drive a cycle: energy lost in the axle, and the oil temperature.",
+        panel=_AXLE,
+    ),
+    LazyCommand(
+        name="vary",
+        target="gearlube.variation.command:vary",
+        summary="Vary any parameter in a study: grids, samples, scatter.",
+        panel=_STUDIES,
+        command_class="VaryCommand",
+    ),
+    LazyCommand(
+        name="compare",
+        target="gearlube.cli.compare:compare",
+        summary="Compare two runs of one study: numbers, curves, inputs.",
+        panel=_STUDIES,
+    ),
+    LazyCommand(
+        name="build-fmu",
+        target="gearlube.cli.build_fmu:build_fmu",
+        summary="Build the FMUs of axle, helical pair and car, for any platform.",
+        panel=_TOOLS,
     ),
     LazyCommand(
         name="native",
         target="gearlube.cli.native:native",
         summary="Run a program that is not Python so that it can load the FMUs.",
+        panel=_TOOLS,
         context_settings={"allow_interspersed_args": False},
     ),
     LazyCommand(
         name="ehl",
         target="gearlube.studies.films.command:ehl",
         summary="Solve lubricated contacts: film, pressure and friction.",
+        panel=_PARTS,
     ),
     LazyCommand(
         name="bearing",
         target="gearlube.studies.bearing.command:bearing",
         summary="Friction of a tapered roller bearing: torque and power loss.",
+        panel=_PARTS,
         command_class="BearingCommand",
     ),
     LazyCommand(
         name="roughness",
         target="gearlube.studies.roughness.command:roughness",
         summary="Read or make rough surfaces: statistics, filters, lay.",
+        panel=_PARTS,
     ),
 )
 

@@ -126,7 +126,7 @@ class OilSection(ModelSection):
         base = Lubricant.named(self.name or OIL)
         if self.is_shipped:
             return base
-        changes = self.changes(base) | {"name": f"the axle file's oil (from {base.name})"}
+        changes = self.changes(base) | {"name": f"own oil, rest as {base.name}"}
         if self.has(_SHEET[0]):
             # the line alone: other data may not fit together before all are changed
             line = base.with_two_viscosities(

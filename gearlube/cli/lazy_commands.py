@@ -27,6 +27,8 @@ class LazyCommand:
         its own.
     summary : str
         One sentence for the list of commands, which is shown without importing them.
+    panel : str
+        Heading over it in the list of commands.
     command_class : str
         Name of a class of commands in the same module; typer's own if empty.
     context_settings : mapping
@@ -36,6 +38,7 @@ class LazyCommand:
     name: str
     target: str
     summary: str
+    panel: str = "More"
     command_class: str = ""
     context_settings: Mapping[str, Any] = field(default_factory=dict)
 
@@ -68,7 +71,9 @@ def lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
             found = table.get(cmd_name)
             if found is None:
                 return None
-            return TyperCommand(cmd_name, help=found.summary) if self.listing else found.load()
+            if not self.listing:
+                return found.load()
+            return TyperCommand(cmd_name, help=found.summary, rich_help_panel=found.panel)
 
         def format_help(self, ctx: Any, formatter: Any) -> None:
             self.listing = True

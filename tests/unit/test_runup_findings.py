@@ -68,7 +68,7 @@ def test_the_loudest_order_rises_towards_its_resonance_and_is_told_first(ramp) -
     headlines = " ".join(one.headline for one in others)
     assert "lies above the ramp, 3 % away: 'pinion axial'" in headlines
     assert "The teeth stay in contact all the way." in headlines
-    assert {one.unit for one in numbers(ramp)} == {"N rms", "1/min", "µm rms", "", "%", "W"}
+    assert {one.unit for one in numbers(ramp)} == {"N rms", "rpm", "µm rms", "", "%", "W"}
 
 
 def test_table_and_summary_have_every_crest_and_block(ramp) -> None:

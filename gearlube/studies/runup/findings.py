@@ -25,7 +25,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     --------
     >>> from gearlube.studies.runup.run import load_runup
     >>> findings(load_runup("gearlube_runup"))[0].headline  # doctest: +SKIP
-    'The loudest is mesh order 1: 527 N rms of bearing forces at 3993 1/min (174 km/h, 865 Hz).'
+    'The loudest is mesh order 1: 527 N rms of bearing forces at 3993 rpm (174 km/h, 865 Hz).'
     """
     critical = [one for one in critical_speeds(dataset) if one.mesh_order <= _MARKED]
     return [
@@ -39,7 +39,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
 
 
 def _speed(dataset: xr.Dataset, rpm: float) -> str:
-    return f"{rpm:.0f} 1/min ({levels.kmh_per_rpm(dataset) * rpm:.0f} km/h)"
+    return f"{rpm:.0f} rpm ({levels.kmh_per_rpm(dataset) * rpm:.0f} km/h)"
 
 
 def _nearest(peak: Peak, critical: list[Critical]) -> Critical | None:
@@ -71,10 +71,10 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
     if top.at_end:
         detail += f"The crest lies at the {top.at_end} of the ramp: go further to see all of it. "
     words = "; ".join(
-        f"order {one.mesh_order} {quantity_text(one.force, 'N')} at {one.speed_rpm:.0f} 1/min"
+        f"order {one.mesh_order} {quantity_text(one.force, 'N')} at {one.speed_rpm:.0f} rpm"
         for one in others
     )
-    speed = f"{top.speed_rpm:.0f} 1/min ({levels.kmh_per_rpm(dataset) * top.speed_rpm:.0f} km/h"
+    speed = f"{top.speed_rpm:.0f} rpm ({levels.kmh_per_rpm(dataset) * top.speed_rpm:.0f} km/h"
     return [
         Finding(
             WARNING if resonant else NOTE,
@@ -203,7 +203,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
         one = by_order[order]
         found += [
             Number(f"largest bearing forces of mesh order {order}", one.force, "N rms"),
-            Number(f"pinion speed there, order {order}", one.speed_rpm, "1/min", 4),
+            Number(f"pinion speed there, order {order}", one.speed_rpm, "rpm", 4),
         ]
     overall = levels.total_force(dataset, "bearing_force_overall")
     critical = [one for one in critical_speeds(dataset) if one.mesh_order <= _MARKED]

@@ -37,7 +37,7 @@ def track_rms(dataset: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def rpm(dataset: xr.Dataset, name: str = "block_speed") -> Array:
-    """Return pinion speeds [1/min]."""
+    """Return pinion speeds [rpm]."""
     return np.asarray(rads_to_rpm(1.0) * dataset[name].values)
 
 
@@ -53,11 +53,11 @@ def kmh_per_rpm(dataset: xr.Dataset) -> float:
 
 
 def speed_axis(ax: Any, dataset: xr.Dataset, *, label: bool = True, top: bool = True) -> None:
-    """Limit the speed axis to the ramp [1/min], with the vehicle speed above."""
+    """Limit the speed axis to the ramp [rpm], with the vehicle speed above."""
     speeds = rpm(dataset, "mode_speed")
     ax.set_xlim(speeds[0], speeds[-1])
     if label:
-        ax.set_xlabel("pinion speed [1/min]")
+        ax.set_xlabel("pinion speed [rpm]")
     if top:
         factor = kmh_per_rpm(dataset)
         above = ax.secondary_xaxis("top", functions=(lambda x: factor * x, lambda v: v / factor))

@@ -25,7 +25,7 @@ class Peak:
     force : float
         All bearings and directions together, rms [N].
     speed_rpm, frequency : float
-        Of the pinion there [1/min], of the order there [Hz].
+        Of the pinion there [rpm], of the order there [Hz].
     bearing, direction : str
         Which has the largest part.
     part : float
@@ -79,7 +79,7 @@ class Critical:
     mesh_order : int
     mode : str
     speed_rpm, frequency, damping : float
-        [1/min], [Hz], ratio [-].
+        [rpm], [Hz], ratio [-].
     margin : float
         By what share of that speed it lies outside the ramp [-]; 0 inside, below 0 below the ramp.
     force : float

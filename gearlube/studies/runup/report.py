@@ -34,8 +34,8 @@ _LIMITS = (
     "Films and friction are from formulas, see docs/ehl_hypoid.md for their error.",
 )
 _INPUTS = (
-    ("start_speed", "start speed of the pinion", "1/min", rads_to_rpm),
-    ("end_speed", "end speed of the pinion", "1/min", rads_to_rpm),
+    ("start_speed", "start speed of the pinion", "rpm", rads_to_rpm),
+    ("end_speed", "end speed of the pinion", "rpm", rads_to_rpm),
     ("duration", "duration", "s", float),
     ("pinion_torque", "torque on the pinion", "N·m", float),
     ("oil_temperature", "oil temperature", "°C", kelvin_to_celsius),
@@ -114,7 +114,7 @@ def _subtitle(dataset: xr.Dataset) -> str:
     kmh = levels.kmh_per_rpm(dataset)
     return (
         f"Hypoid axle {dataset.attrs['axle']}, {levels.heading(dataset)}, from {start:.0f} to "
-        f"{end:.0f} 1/min of the pinion ({kmh * start:.0f} to {kmh * end:.0f} km/h) in "
+        f"{end:.0f} rpm of the pinion ({kmh * start:.0f} to {kmh * end:.0f} km/h) in "
         f"{dataset.attrs['setting_duration']:g} s as one continuous ramp."
     )
 
@@ -169,7 +169,7 @@ def tables(dataset: xr.Dataset, before: str = "") -> list[Table]:
             "together, and the one with the largest part.",
             columns=(
                 Column("mesh order"), Column("bearing forces", "N rms"),
-                Column("pinion speed", "1/min", 4), Column("vehicle speed", "km/h"),
+                Column("pinion speed", "rpm", 4), Column("vehicle speed", "km/h"),
                 Column("frequency", "Hz"), Column("bearing"), Column("direction"),
                 Column("its part", "N rms"),
             ),
@@ -181,7 +181,7 @@ def tables(dataset: xr.Dataset, before: str = "") -> list[Table]:
             "ramp, as a share of its end. Rate: how fast the order passes the mode, as a share of "
             "the fastest that lets it swing up (ISO 7626-2).",
             columns=(
-                Column("natural mode"), Column("mesh order"), Column("pinion speed", "1/min", 4),
+                Column("natural mode"), Column("mesh order"), Column("pinion speed", "rpm", 4),
                 Column("vehicle speed", "km/h"), Column("frequency", "Hz"),
                 Column("damping ratio", "%", 2), Column("bearing forces", "N rms"),
                 Column("margin", "%", 2), Column("rate", "%", 2),

@@ -12,7 +12,7 @@ from gearlube.studies.runup import levels
 from gearlube.studies.runup.figures.maps import DYNAMIC_RANGE, force_cells
 from gearlube.studies.runup.figures.tracks import critical_marks
 
-_SPEED = Axis("pinion speed", "1/min")
+_SPEED = Axis("pinion speed", "rpm")
 _MOST = 260  # slices of the map in the report
 
 

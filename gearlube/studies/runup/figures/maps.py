@@ -20,7 +20,7 @@ _ROWS = 170  # cells of the frequency axis; a cell shows the largest line inside
 
 
 def force_cells(dataset: xr.Dataset) -> tuple[Array, Array, Array]:
-    """Return pinion speeds [1/min], frequencies [Hz] and levels of all bearing forces [dB].
+    """Return pinion speeds [rpm], frequencies [Hz] and levels of all bearing forces [dB].
 
     Shapes (slices,), (rows,), (slices, rows); slices by ascending speed.
     """

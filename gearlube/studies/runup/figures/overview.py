@@ -31,7 +31,7 @@ def overview(dataset: xr.Dataset) -> Any:
         figure = new_figure(9.4, 6.6)
         speed, torque, loss = figure.subplots(3, 1, sharex=True, height_ratios=[1, 1, 1.6])
         speed.plot(dataset["block_time"], levels.rpm(dataset), color=BLUE)
-        speed.set_ylabel("pinion speed\n[1/min]")
+        speed.set_ylabel("pinion speed\n[rpm]")
         torque.plot(dataset["torque_time"], dataset["pinion_torque"], color=BLUE)
         torque.set_ylabel("torque on the\npinion [N m]")
         low, high = torque.get_ylim()

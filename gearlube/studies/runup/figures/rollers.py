@@ -50,7 +50,7 @@ def roller_loads(dataset: xr.Dataset, frame: int = 0) -> Any:
         speed = rads_to_rpm(float(dataset["shape_speed"]))
         turned = np.degrees(float(dataset["frame_angle"][frame]))
         figure.suptitle(
-            f"Load of each roller [N] at {speed:.0f} 1/min, pinion turned by {turned:.0f}°: "
+            f"Load of each roller [N] at {speed:.0f} rpm, pinion turned by {turned:.0f}°: "
             f"{levels.heading(dataset)}"
         )
     return figure
@@ -59,6 +59,10 @@ def roller_loads(dataset: xr.Dataset, frame: int = 0) -> Any:
 def _ring(ax: Any, angle: Array, load: Array, frame: int, colour: str) -> None:
     """Draw rollers as bars outwards; a black mark is the largest load over the turn."""
     top = float(load.max())
+    ax.set_yticks([])
+    if top == 0.0:  # the thrust of the mesh unloads this bearing
+        ax.text(0.5, 0.5, "no load", transform=ax.transAxes, ha="center", va="center")
+        return
     hub = _HUB * top
     width = _WIDTH * 2.0 * np.pi / angle.size
     ax.bar(angle, load[frame], width, bottom=hub, color=colour)

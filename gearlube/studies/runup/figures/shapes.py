@@ -34,9 +34,7 @@ def mode_shapes(dataset: xr.Dataset) -> Any:
         for ax in axes[-1]:
             ax.set_xlabel("displacement [-]")
         speed = levels.rpm(dataset, "mode_speed")[middle]
-        figure.suptitle(
-            f"Natural modes of the axle at {speed:.0f} 1/min, {levels.heading(dataset)}"
-        )
+        figure.suptitle(f"Natural modes of the axle at {speed:.0f} rpm, {levels.heading(dataset)}")
     return figure
 
 
@@ -91,7 +89,7 @@ def operating_shape(dataset: xr.Dataset) -> Any:
         right.set_xlim(0.0, 115.0)
         right.set_xlabel("share of the kinetic energy [%]")
         right.set_title("natural modes in this motion")
-        left.set_title(f"mesh H{order} at {speed:.0f} 1/min, {frequency:.0f} Hz")
+        left.set_title(f"mesh H{order} at {speed:.0f} rpm, {frequency:.0f} Hz")
         figure.suptitle(
             f"Operating shape where the bearing forces are largest: {levels.heading(dataset)}"
         )

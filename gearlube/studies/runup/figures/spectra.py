@@ -50,7 +50,7 @@ def bearing_spectra(dataset: xr.Dataset) -> Any:
                     ax.legend(loc="upper right", fontsize=7.5)
             frequency = speed[block] / 60.0 * teeth
             row[0].set_ylabel(
-                f"{speed[block]:.0f} 1/min, H1 = {frequency:.0f} Hz\n[{levels.FORCE_TEXT}]",
+                f"{speed[block]:.0f} rpm, H1 = {frequency:.0f} Hz\n[{levels.FORCE_TEXT}]",
                 fontsize=8.5,
             )
         top = 5.0 * np.ceil(top / 5.0)

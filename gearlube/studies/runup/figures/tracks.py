@@ -96,7 +96,7 @@ def _tracks(ax: Any, dataset: xr.Dataset, tracks: Array, overall: Array, referen
 
 
 def critical_marks(dataset: xr.Dataset) -> list[tuple[float, str, int]]:
-    """Return the critical speeds within the ramp [1/min], what meets there, and the mesh order."""
+    """Return the critical speeds within the ramp [rpm], what meets there, and the mesh order."""
     speeds = levels.rpm(dataset, "mode_speed")
     critical = levels.rpm(dataset, "critical_speed")
     return sorted(
