@@ -101,7 +101,7 @@ gearlube build-fmu --axle my_pair/axle.toml --out my_fmus
 ```
 
 `gearlube design` writes the gear file (named after `name`), `axle.toml`, an [axle
-file](axle_file.md) to complete, `report.md`, `design.nc` and `figures/`: contact patterns with
+file](axle_file.md) to complete, `report.html`, `design.nc` and `figures/`: contact patterns with
 ease-off, transmission error, widths of the teeth. The report says of the contact what was asked
 and found, of the teeth topland, slot, undercut and how wide blade points may be, and of every
 number whether it was given, chosen or follows. What was not met stands there with how near it

@@ -32,7 +32,7 @@ def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path):
     blank.write_text(printed.stdout.replace("hypoid_13_42", "mine"))
     assert run(blank, "--out", out).exit_code == 0
     names = {path.name for path in out.iterdir()}
-    written = {"mine.toml", "axle.toml", "report.md", "design.nc", "gearlube_results.json"}
+    written = {"mine.toml", "axle.toml", "report.html", "design.nc", "gearlube_results.json"}
     assert names == written | {"figures"}
     assert {path.stem for path in (out / "figures").iterdir()} == set(DESIGN_CATALOGUE)
     gear = HypoidGearFile.from_toml(out / "mine.toml")
@@ -45,8 +45,8 @@ def test_the_example_is_designed_and_what_is_written_can_be_used(tmp_path):
     assert heel == pytest.approx(0.15 * gear.pinion.face_width_mm, abs=1e-6)
     axle = tomllib.loads((out / "axle.toml").read_text())
     assert axle["gear_set"]["gear_file"] == "mine.toml"
-    report = (out / "report.md").read_text()
-    for part in ("asked and found", "undercut", "blade points", "chosen: a third of the face"):
+    report = (out / "report.html").read_text(encoding="utf-8")
+    for part in ("asked and found", "undercut", "blade points", "a third of the face width"):
         assert part in report
     with xr.open_dataset(out / "design.nc") as dataset:
         errors = [dataset["error"].sel(side=side).values for side in ("drive", "coast")]

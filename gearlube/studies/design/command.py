@@ -14,6 +14,7 @@ from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -32,11 +33,13 @@ def design(
 ) -> None:
     """Design a hypoid or bevel pair: from blank data and a wanted contact to machine settings.
 
-    Writes the gear file (`gearlube contact` takes it), an axle file to complete, report.md,
+    Writes the gear file (`gearlube contact` takes it), an axle file to complete, report.html,
     design.nc and figures. Takes seconds.
     """
+    from gearlube.report.stored import PAGE
     from gearlube.studies.design import run
-    from gearlube.studies.design.summary import asked_and_found, design_warnings
+    from gearlube.studies.design.findings import findings
+    from gearlube.studies.design.summary import asked_and_found
     from gearlube_core.hypoid_design.blank_file import BlankFile
 
     began = time.monotonic()
@@ -49,13 +52,14 @@ def design(
             results_folder(out, "design", overwrite=overwrite),
             progress_on(console, "design") as progress,
         ):
-            results = run.run_design(file, folder=out, progress=progress)
+            results = run.run_design(
+                file, folder=out, progress=progress, command_line=command_line()
+            )
         console.print(_table(file.name, asked_and_found(results.design)))
-        for sentence in design_warnings(results.design, results.forms):
-            logger.warning("%s", sentence)
         gear = out / f"{results.design.file.name}.toml"
         logger.info("Designed in %.1f s.", time.monotonic() - began)
-        logger.info("Results: %s, %s, %s", gear, out / "report.md", out / "figures")
+        logger.info("Results: %s, %s, %s", gear, out / "design.nc", out / "figures")
+        tell_findings(findings(results.dataset), out / PAGE)
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
         logger.info("Quieter: gearlube optimise hypoid --example, with gear = %s", gear)
         logger.info("Then: gearlube map %s, once you have completed it", out / "axle.toml")

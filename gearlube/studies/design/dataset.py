@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import json
+import math
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
+from gearlube.studies.design.summary import design_inputs, design_settings, design_warnings
 from gearlube_core.arrays import Array
 from gearlube_core.hypoid_contact.contact_dataset import (
     EASE_GRID,
@@ -12,12 +17,21 @@ from gearlube_core.hypoid_contact.contact_dataset import (
     unloaded_contact,
 )
 from gearlube_core.hypoid_contact.pair import FlankPair
-from gearlube_core.hypoid_design.design import Design
+from gearlube_core.hypoid_design.design import Design, misses
 from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm
+from gearlube_core.input_file.input_note import InputNote
 
 _PERIOD = round(1.0 / float(PATH_PHASES[1] - PATH_PHASES[0]))  # positions of the path a pitch
 _FINER = 10  # times as many of the mesh, so that it shows where one pair takes over from another
+_ASKED = (
+    ("s", "1", "profile position of the mean contact on the gear"),
+    ("t", "1", "face position of the mean contact on the gear"),
+    ("error", "rad", "transmission error, peak to peak"),
+    ("length", "m", "contact ellipse at 6.35 um"),
+    ("path_angle", "rad", "direction of the path of contact on the gear flank"),
+)
+_MISSED = ("error", "path_angle", "centre", "length")
 _VARIABLES = {
     "path_s": (("path_phase",), "1", "unloaded path of contact, root 0 to tip 1"),
     "path_t": (("path_phase",), "1", "unloaded path of contact, toe 0 to heel 1"),
@@ -60,12 +74,8 @@ def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
             np.stack([getattr(form, name) for form in forms.values()]),
             {"units": "m", "long_name": text},
         )
-    for name in ("s", "t"):
-        data[f"asked_{name}"] = (
-            ("side",),
-            np.array([getattr(design.targets[side], name) for side in SIDES]),
-            {"units": "1", "long_name": "wanted mean contact on the gear"},
-        )
+    data |= _asked_and_found(design)
+    data |= _limits(forms)
     return xr.Dataset(
         data,
         coords={
@@ -80,8 +90,69 @@ def design_dataset(design: Design, forms: dict[str, ToothForm]) -> xr.Dataset:
         attrs={
             "name": design.file.name,
             "gear_file": design.file.model_dump_json(exclude_none=True),
+            "method": design.designed.file.design_method,
+            "cut": design.designed.file.machine.gear,
+            "warnings": json.dumps(design_warnings(design, forms)),
+            "inputs": json.dumps(_noted(design_inputs(design))),
+            "blank": json.dumps(_noted(design.designed.results())),
+            "settings": json.dumps(design_settings(design)),
         },
     )
+
+
+def _asked_and_found(design: Design) -> dict[str, Any]:
+    """Return the numbers of the contact that were asked, those found, and how far they are."""
+    found: dict[str, Any] = {}
+    for name, unit, text in _ASKED:
+        asked = [getattr(design.targets[side], name) for side in SIDES]
+        values = [getattr(design.measured[side], name, math.nan) for side in SIDES]
+        found[f"asked_{name}"] = (("side",), asked, {"units": unit, "long_name": f"asked: {text}"})
+        found[f"found_{name}"] = (("side",), values, {"units": unit, "long_name": f"found: {text}"})
+    relieved = [getattr(design.relieved[side], "error", math.nan) for side in SIDES]
+    note = {"units": "rad", "long_name": "transmission error of flanks with relief"}
+    found["relieved_error"] = (("side",), relieved, note)
+    missed = [
+        [math.nan] * 4
+        if isinstance(one := design.measured[side], str)
+        else misses(design.targets[side], one, design.designed)
+        for side in SIDES
+    ]
+    for name, unit, values in zip(
+        _MISSED, ("1", "rad", "m", "1"), np.transpose(missed), strict=True
+    ):
+        note = {"units": unit, "long_name": f"what the {name} missed"}
+        found[f"missed_{name}"] = (("side",), values, note)
+    return found
+
+
+def _limits(forms: dict[str, ToothForm]) -> dict[str, Any]:
+    """Return undercut, reach of the mate and module of both members."""
+    deepest = [
+        [float(one.s[one.undercut].max()) if one.undercut.any() else math.nan
+         for one in (form.drive, form.coast)]
+        for form in forms.values()
+    ]  # fmt: skip
+    return {
+        "undercut": (
+            ("member", "side"),
+            deepest,
+            {"units": "1", "long_name": "flank undercut below, root 0 to tip 1; NaN: not undercut"},
+        ),
+        "active": (
+            ("member",),
+            [form.active for form in forms.values()],
+            {"units": "1", "long_name": "reach of the mate's tip, root 0 to tip 1"},
+        ),
+        "normal_module": (
+            ("member",),
+            [form.normal_module for form in forms.values()],
+            {"units": "m", "long_name": "mean normal module"},
+        ),
+    }
+
+
+def _noted(notes: list[InputNote]) -> list[list[str]]:
+    return [[one.field, one.value_text, one.unit, one.origin, one.why] for one in notes]
 
 
 def mesh_error(path_error: Array, sign: float) -> Array:

@@ -2,54 +2,51 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.drawn_tooth import DrawnTooth
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
+from gearlube.report.pictures import Picture
 from gearlube_core.hypoid_contact.contact_pattern import MARKING_COMPOUND
 
 _TITLES = {"drive": "drive flanks", "coast": "coast flanks"}
 
 
 def contact_patterns(dataset: xr.Dataset) -> Any:
-    """Return ease-off, path and marked pattern on the gear flank, with the place asked for."""
+    """Return ease-off, path and marked pattern on the gear tooth, with the place asked for."""
+    tooth = DrawnTooth.of_dataset(dataset)
     with house_style():
-        figure = new_figure(9.6, 6.4)
-        axes = figure.subplots(2, 1, sharex=True)
+        figure = new_figure(9.6, 5.4)
+        axes = figure.subplots(2, 1)
         top = float(np.nanpercentile(1e6 * dataset["ease_off"].values, 97))
         for ax, side in zip(axes, _TITLES, strict=True):
             part = dataset.sel(side=side)
+            grid = tooth.along(part["ease_t"]), tooth.up(part["ease_s"])
             filled = ax.contourf(
-                part["ease_t"],
-                part["ease_s"],
-                1e6 * part["ease_off"],
+                *grid,
+                1e6 * part["ease_off"].values,
                 levels=np.linspace(0.0, top, 13),
                 cmap="viridis_r",
                 extend="max",
             )
             ax.contour(
-                part["ease_t"],
-                part["ease_s"],
-                part["closest"].fillna(1.0),
+                *grid,
+                part["closest"].fillna(1.0).values,
                 levels=[MARKING_COMPOUND],
                 colors=VERMILLION,
                 linewidths=1.8,
             )
-            ax.plot(part["path_t"], part["path_s"], color="black", lw=1.8)
-            ax.plot(part["asked_t"], part["asked_s"], "o", color="white", mec="black", ms=7)
-            ax.set_title(
-                f"{_TITLES[side]}: path over {float(part['path_contact_ratio']):.2f} pitches"
-            )
-            ax.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0), ylabel="root  -  tip")
-            ax.grid(visible=False)
-        axes[-1].set_xlabel("toe  -  face width  -  heel")
+            ax.plot(tooth.along(part["path_t"]), tooth.up(part["path_s"]), color="black", lw=1.8)
+            asked = tooth.along(part["asked_t"]), tooth.up(part["asked_s"])
+            ax.plot(*asked, "o", color="white", mec="black", ms=7, zorder=7)
+            ratio = float(part["path_contact_ratio"])
+            tooth.draw(ax, f"{_TITLES[side]}: path over {ratio:.2f} pitches")
         figure.colorbar(filled, ax=axes, label="ease-off [µm]", format="%.0f")
         figure.suptitle(
-            "Gear flank: ease-off, path (black), pattern at 6.35 µm (red), asked (white dot)\n"
-            "White: out of reach of the pinion, on a grid of 21 x 41 points",
+            "Gear tooth: ease-off, path (black), pattern at 6.35 µm (red), asked (white dot)",
             fontsize=11.5,
         )
     return figure
@@ -102,18 +99,23 @@ def tooth_widths(dataset: xr.Dataset) -> Any:
 
 
 DESIGN_CATALOGUE = {
-    "contact_pattern": contact_patterns,
-    "transmission_error": transmission_error,
-    "tooth_widths": tooth_widths,
+    "contact_pattern": Picture(
+        contact_patterns,
+        "Contact on the gear tooth",
+        "How far the pinion flank stands off the conjugate one. Black: the way of the contact "
+        "without load; red: where marking compound of 6.35 µm would be wiped off; white dot: the "
+        "place asked for. White areas are out of reach of the pinion, on a grid of 21 x 41 points.",
+    ),
+    "transmission_error": Picture(
+        transmission_error,
+        "Transmission error without load",
+        "Of flanks as cut. Parabolas that meet low are quiet without load and take errors of "
+        "assembly. Gaps: edges would touch.",
+    ),
+    "tooth_widths": Picture(
+        tooth_widths,
+        "Widths of the teeth",
+        "Normal width of topland, and of the slot at the root: blade points can be at most as wide "
+        "as its least.",
+    ),
 }
-
-
-def save_design_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
-    """Draw every figure into `directory` as PNG and return the files."""
-    directory.mkdir(parents=True, exist_ok=True)
-    files = []
-    for name, draw in DESIGN_CATALOGUE.items():
-        path = directory / f"{name}.png"
-        draw(dataset).savefig(path, dpi=150)
-        files.append(path)
-    return files

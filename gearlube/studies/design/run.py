@@ -8,9 +8,10 @@ from pathlib import Path
 import xarray as xr
 
 from gearlube.output.toml_text import toml_text
+from gearlube.report.pictures import save_pictures
 from gearlube.studies.design.dataset import design_dataset
-from gearlube.studies.design.figures import save_design_figures
-from gearlube.studies.design.summary import report
+from gearlube.studies.design.figures import DESIGN_CATALOGUE
+from gearlube.studies.design.report import write_design_report
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.design import Design, design_pair
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm, tooth_form
@@ -39,7 +40,11 @@ class DesignResults:
 
 
 def run_design(
-    file: BlankFile, *, folder: Path | None = None, progress: Progress = no_progress
+    file: BlankFile,
+    *,
+    folder: Path | None = None,
+    progress: Progress = no_progress,
+    command_line: str = "",
 ) -> DesignResults:
     """Return the pair that a blank file asks for, with its unloaded contact.
 
@@ -50,6 +55,8 @@ def run_design(
         Gets the results as `write_design` writes them, once all is found.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
+    command_line : str
+        For the report.
 
     Raises
     ------
@@ -71,7 +78,7 @@ def run_design(
     results = DesignResults(design=design, forms=forms, dataset=design_dataset(design, forms))
     if folder is not None:
         progress(0.95, "figures")
-        write_design(results, folder)
+        write_design(results, folder, command_line)
     return results
 
 
@@ -89,14 +96,14 @@ gear_file = "{name}.toml"      # its loaded contact is analysed once, some minut
 """
 
 
-def write_design(results: DesignResults, folder: Path) -> Path:
-    """Write gear file, axle.toml, report.md, design.nc and figures/; return the gear file."""
+def write_design(results: DesignResults, folder: Path, command_line: str = "") -> Path:
+    """Write gear file, axle.toml, report.html, design.nc and figures/; return the gear file."""
     folder.mkdir(parents=True, exist_ok=True)
     file = results.design.file
     path = folder / f"{file.name}.toml"
     write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
     write_text(axle_stub(file.name), folder / "axle.toml")
-    write_text(report(results.design, results.forms), folder / "report.md")
     write_dataset(results.dataset, folder / "design.nc")
-    save_design_figures(results.dataset, folder / "figures")
+    save_pictures(DESIGN_CATALOGUE, folder / "figures", results.dataset)
+    write_design_report(results.dataset, folder, command_line)
     return path

@@ -1,8 +1,7 @@
-"""Report of a design: what was asked and found, the teeth, what was given and what was chosen."""
+"""What a design was asked and found, what speaks against it, what was given and chosen."""
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from gearlube_core.hypoid_contact.pair import FlankPair
@@ -110,8 +109,8 @@ def unmet_targets(design: Design) -> list[str]:
     return said
 
 
-def design_warnings(design: Design, forms: dict[str, ToothForm]) -> list[str]:
-    """Return what speaks against a design, one sentence each."""
+def design_warnings(design: Design, forms: dict[str, ToothForm]) -> dict[str, list[str]]:
+    """Return what speaks against a design: sentences on its blank, contact, pair and teeth."""
     teeth = [line for form in forms.values() for line in form.report()]
     said = [one for one in design.measured.values() if isinstance(one, str)]
     pair = [
@@ -120,38 +119,11 @@ def design_warnings(design: Design, forms: dict[str, ToothForm]) -> list[str]:
         for one in pair_warnings(design.file)
         if not any(one.startswith(reason) for reason in said)
     ]
-    return [*design.warnings, *unmet_targets(design), *pair, *teeth]
+    contact = unmet_targets(design)
+    return {"blank": list(design.warnings), "contact": contact, "pair": pair, "teeth": teeth}
 
 
-def report(design: Design, forms: dict[str, ToothForm]) -> str:
-    """Return the report as Markdown."""
-    parts = [
-        f"# {design.file.name}: designed pair\n",
-        f"Blank by ISO 23509, method {design.designed.file.design_method}, uniform depth. Gear "
-        f"{design.designed.file.machine.gear}, pinion generated with cutter tilt. Contact without "
-        "load of the flanks as cut, as the contact analysis finds it.\n",
-        "## Contact: asked and found\n",
-        _table(("Side", "What", "Asked", "Found"), asked_and_found(design)),
-        "Path directions on the gear flank, from the root line towards the heel, to the tip "
-        "positive. s: root 0 to tip 1; t: toe 0 to heel 1.\n",
-        "## Teeth\n",
-        _table(("Member", "What", "Value"), _teeth(forms)),
-    ]
-    warnings = design_warnings(design, forms)
-    parts += ["## Warnings\n", "".join(f"- {one}\n" for one in warnings) or "None.\n"]
-    designed = design.designed
-    parts += [
-        "## Given and chosen\n",
-        _table(("Field", "Value", "Unit", "Origin"), map(_origin, _inputs(design))),
-        "## Blank\n",
-        _table(("What", "Value", "Unit", "Origin"), map(_origin, designed.results())),
-        "## Settings\n",
-        _table(("Field", "Value", "Origin"), _settings(design)),
-    ]
-    return "\n".join(parts)
-
-
-def _inputs(design: Design) -> list[InputNote]:
+def design_inputs(design: Design) -> list[InputNote]:
     """Return the numbers of the blank file, and those of the contact that it leaves open."""
     notes = design.designed.file.inputs()
     named = {note.field for note in notes}
@@ -167,28 +139,8 @@ def _inputs(design: Design) -> list[InputNote]:
     return notes
 
 
-def _teeth(forms: dict[str, ToothForm]) -> list[tuple[str, str, str]]:
-    rows = []
-    for role, form in forms.items():
-        for what, width in (("topland", form.topland), ("slot at the root", form.slot)):
-            ends = f"{width[0] / MILLIMETRE:.2f} / {width[-1] / MILLIMETRE:.2f}"
-            rows.append((role, f"{what}, toe / heel [mm]", ends))
-        rows.append((role, "blade points at most [mm]", f"{form.slot.min() / MILLIMETRE:.2f}"))
-        for side, limit in (("drive", form.drive), ("coast", form.coast)):
-            lowest = float(limit.s[limit.undercut].max()) if limit.undercut.any() else math.nan
-            cut = "none" if math.isnan(lowest) else f"below s = {lowest:.2f}"
-            rows.append((role, f"undercut of the {side} flank", cut))
-        rows.append((role, "reach of the mate's tip, s", f"{form.active:.2f}"))
-    return rows
-
-
-def _origin(note: InputNote) -> tuple[str, str, str, str]:
-    words = {"given": "given", "inferred": "follows", "assumed": "chosen"}[note.origin]
-    why = f": {note.why}" if note.why and note.origin == "assumed" else ""
-    return note.field, note.value_text, note.unit, words + why
-
-
-def _settings(design: Design) -> list[tuple[str, str, str]]:
+def design_settings(design: Design) -> list[tuple[str, str, str]]:
+    """Return field, value and origin of every setting and cutter dimension of the gear file."""
     origins = {"table": "given", "inferred": "follows", "completed": "chosen"}
     rows = []
     data = design.file.model_dump(exclude_defaults=True)
@@ -198,9 +150,3 @@ def _settings(design: Design) -> list[tuple[str, str, str]]:
                 field = f"{role}.{section}.{key}"
                 rows.append((field, f"{value:.6g}", origins[design.file.origin(field)]))
     return rows
-
-
-def _table(head: tuple[str, ...], rows: object) -> str:
-    lines = [f"| {' | '.join(head)} |", f"|{'---|' * len(head)}"]
-    lines += [f"| {' | '.join(str(one) for one in row)} |" for row in rows]  # type: ignore[attr-defined]
-    return "\n".join(lines) + "\n"

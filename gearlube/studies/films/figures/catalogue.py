@@ -33,7 +33,7 @@ from gearlube.studies.films.figures.point_contact import (
 _RESIDUALS = Picture(
     residual_history,
     "Residuals",
-    "Unbalanced flow over the iterations. It falls steadily where the solution is sound.",
+    "Unbalanced flow over the iterations. It falls, but for jumps where the grid gets finer.",
 )
 # by the attribute `contact` of a dataset
 CATALOGUES: dict[str, dict[str, Picture]] = {
@@ -46,8 +46,8 @@ CATALOGUES: dict[str, dict[str, Picture]] = {
         ),
         "profile_hertz": Picture(
             line_profile_hertz,
-            "Pressure and film in units of Hertz",
-            "The same over half width and largest dry pressure, to compare with published figures.",
+            "Beside the dry contact",
+            "Dashed: dry contact of Hertz, its gap raised by the central film.",
         ),
         "shear": Picture(
             line_shear,

@@ -8,7 +8,6 @@ from typing import Any
 import xarray as xr
 
 from gearlube.report.charts import Axis, Line, add_line, panels
-from gearlube.studies.films.figures.helical_line import across_limits
 from gearlube.studies.films.figures.parts import HEADROOM, shown_range
 
 _PRESSURE = Axis("pressure", "GPa")
@@ -17,14 +16,14 @@ _SIDE = 1.6  # half widths that are shown
 
 
 def main_charts(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return charts by the names of the figures that they stand for, or stand before."""
+    """Return charts by the names of the figures that they stand for."""
     kind = dataset.attrs["contact"]
     if kind == "line":
         return {"profile": _line(dataset)}
     if kind == "point":
         return {"sections": _point(dataset)}
     if kind == "helical":
-        return {"along": _along(dataset), "sections": _middle(dataset)}
+        return {"along": _along(dataset)}
     if kind == "helical_cycle":
         return {"cycle": _cycle(dataset)}
     return {"curves": _hypoid(dataset)}
@@ -43,7 +42,7 @@ def _two(
     return figure
 
 
-def _limits(figure: Any, dataset: xr.Dataset, low_high: tuple[float, float] | None) -> Any:
+def _limits(figure: Any, dataset: xr.Dataset, low_high: tuple[float, float] | None = None) -> Any:
     """Show the loaded zone, and films up to a few central ones: outside the gap grows fast."""
     top = 1e6 * HEADROOM * dataset.attrs["central_film"]
     figure.update_yaxes(range=[0.0, top], row=2, col=1)
@@ -91,20 +90,7 @@ def _along(dataset: xr.Dataset) -> Any:
             (2, Line(name="film", x=y, y=1e6 * dataset["film"].min("x").values)),
         ],
     )
-    return _limits(figure, dataset, None)
-
-
-def _middle(dataset: xr.Dataset) -> Any:
-    section, x = dataset.sel(y=0.0, method="nearest"), 1e3 * dataset["x"].values
-    figure = _two(
-        ("Pressure across the middle of the line", "Film there"),
-        Axis("across the line", "mm"),
-        [
-            (1, Line(name="pressure", x=x, y=1e-9 * section["pressure"].values)),
-            (2, Line(name="film", x=x, y=1e6 * section["film"].values)),
-        ],
-    )
-    return _limits(figure, dataset, across_limits(dataset))
+    return _limits(figure, dataset)
 
 
 def _cycle(dataset: xr.Dataset) -> Any:
