@@ -38,6 +38,8 @@ GRID: dict[str, Any] = {
     "surface_1.cutoff_um": 42.0,
     "surface_2.cutoff_um": 42.0,
     "times.steps_per_half_width": 80,
+    "solver.tolerance": 1e-5,
+    "solver.load_tolerance": 1e-4,
     "frames.steps": [],
     "frames.every": 20,
 }

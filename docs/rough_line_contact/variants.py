@@ -80,14 +80,11 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
 
 
 def case_of(name: str) -> RoughCase:
-    """Return the case of a variant; its tolerances are shares of those of the case."""
+    """Return the case of a variant; its tolerances are shares of those of `GRID`."""
     shipped, more = VARIANTS[name]
     case = RoughCase.named(shipped)
     shares = ("solver.tolerance", "solver.load_tolerance")
-    scaled = {
-        key: value * getattr(case.solver, key.split(".")[1]) if key in shares else value
-        for key, value in more.items()
-    }
+    scaled = {key: value * GRID[key] if key in shares else value for key, value in more.items()}
     return case.varied(GRID | {"frames.every": 1000} | scaled)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import gearlube_core.ehl.transient.newton as transient_newton
+from gearlube.studies.films.rough.run import run_rough
 from gearlube_core.ehl.case.rough_case import RoughCase
 from gearlube_core.ehl.transient.history import FilmHistory
 from gearlube_core.ehl.transient.lift import lifted, lifted_off_solids
@@ -145,5 +146,30 @@ def test_lifted_peaks_leave_the_answer_and_save_steps(monkeypatch, tmp_path):
     monkeypatch.setattr(FilmHistory, "carried", lambda self, smooth, nodes: self.predicted()[0])
     plain = next_film()
     assert found.newton_steps < 0.8 * plain.newton_steps
-    # both stop at 1e-5 of unbalanced flow, which counts films of 5 nm least
+    # both stop at 1e-4 of unbalanced flow, which counts films of 5 nm least
     assert found.film == pytest.approx(plain.film, rel=1e-3, abs=0.0)
+
+
+def test_a_tenth_of_the_tolerance_changes_no_statistic_by_one_percent():
+    # three times the default changes the load on solids of a step by 2 %
+    case = RoughCase.from_data(TOUCHING, "touching")
+    tolerance = case.solver.tolerance
+    found, tight = (
+        run_rough(case.varied({"solver.tolerance": share * tolerance})) for share in (1.0, 0.1)
+    )
+    assert tight["solid_share"].max() > 1e-3  # solids touch
+    assert found["newton_steps"].sum() < tight["newton_steps"].sum()
+    for name in (
+        "pressure_max",
+        "pressure_percentile_all",
+        "film_min",
+        "film_mean",
+        "film_percentile_all",
+        "contact_share",
+        "solid_share",
+        "friction_coefficient",
+    ):
+        wanted = tight[name].values
+        # each step's number, to 1 % of the largest of the march: percentiles begin at zero
+        largest = float(np.abs(wanted).max())
+        np.testing.assert_allclose(found[name].values, wanted, rtol=0.0, atol=0.01 * largest)

@@ -91,7 +91,7 @@ class RoughSolver(Section):
         default="bdf2",
         description="Of what is stored in time; crank_nicolson has a quarter of the error",
     )
-    tolerance: Tolerance = Field(default=1e-5, description="Unbalanced flow")
+    tolerance: Tolerance = Field(default=1e-4, description="Unbalanced flow")
     load_tolerance: Tolerance = Field(default=1e-4, description="Error of the load")
     newton_steps: Steps = Field(default=60, description="Most Newton steps of a time step")
     krylov_steps: Steps = Field(default=60, description="Most iterations of a linear solution")
