@@ -6,6 +6,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from gearlube import command as cli
+from gearlube.report.stored import read_report
 from gearlube.studies.films.figures.catalogue import drawn_figures
 
 
@@ -21,5 +22,6 @@ def written(out, kind):
         if not str(name).startswith("formula_"):
             assert variable.attrs["units"], name
             assert variable.attrs["long_name"], name
+    assert read_report(out)["study"] == f"ehl {kind}"
     with (out / "summary.csv").open(newline="") as file:
         return dataset, list(csv.DictReader(file))

@@ -13,6 +13,7 @@ from rich.table import Table
 from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_if_failed, exit_on_error
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the solvers take seconds to import, other commands do without
@@ -39,6 +40,8 @@ def solve_and_show(
     `solve` takes the progress callback and writes its files into `out`, which is or becomes a
     folder of `study`.
     """
+    from gearlube.studies.films.findings import findings
+    from gearlube.studies.films.report import write_film_report
     from gearlube.studies.films.results import dataset_file
 
     with (
@@ -48,6 +51,7 @@ def solve_and_show(
         dataset = solve(progress)
     _show(dataset)
     logger.info("Results: %s, %s", dataset_file(dataset, out), out / "figures")
+    tell_findings(findings(dataset), write_film_report(dataset, out, command_line()))
     outcome = str(dataset.attrs["outcome"])
     exit_if_failed("" if dataset.attrs["converged"] else outcome)
     logger.info("%s", outcome)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import xarray as xr
 
+from gearlube.report.pictures import Picture
 from gearlube.studies.films.figures.helical_cycle import cycle_curves, cycle_map
 from gearlube.studies.films.figures.helical_line import (
     helical_along,
@@ -31,34 +30,102 @@ from gearlube.studies.films.figures.point_contact import (
     point_temperature,
 )
 
-Draw = Callable[[xr.Dataset], Any]
+_RESIDUALS = Picture(
+    residual_history,
+    "Residuals",
+    "Unbalanced flow over the iterations. It falls, but for jumps where the grid gets finer.",
+)
 # by the attribute `contact` of a dataset
-CATALOGUES: dict[str, dict[str, Draw]] = {
+CATALOGUES: dict[str, dict[str, Picture]] = {
     "line": {
-        "profile": line_profile,
-        "profile_hertz": line_profile_hertz,
-        "shear": line_shear,
-        "temperature": line_temperature,
-        "residuals": residual_history,
+        "profile": Picture(
+            line_profile,
+            "Pressure and film",
+            "The oil enters on the left. The pressure has a spike and the film its smallest place "
+            "near the outlet. Dashed or dotted: the dry contact of Hertz.",
+        ),
+        "profile_hertz": Picture(
+            line_profile_hertz,
+            "Beside the dry contact",
+            "Dashed: dry contact of Hertz, its gap raised by the central film.",
+        ),
+        "shear": Picture(
+            line_shear,
+            "Shear stress",
+            "On both bodies and at mid-film. Sliding makes most of it in the middle of the film.",
+        ),
+        "temperature": Picture(
+            line_temperature, "Temperature", "Of the film and of both surfaces above the inlet."
+        ),
+        "residuals": _RESIDUALS,
     },
     "point": {
-        "contours": point_contours,
-        "sections": point_sections,
-        "shear": point_shear,
-        "temperature": point_temperature,
-        "residuals": residual_history,
+        "contours": Picture(
+            point_contours,
+            "Pressure and film from above",
+            "The film is thinnest in two lobes at the sides and has a bar at the outlet. Grey: "
+            "thicker than the scale.",
+        ),
+        "sections": Picture(
+            point_sections,
+            "Sections through the centre",
+            "Along and across the motion. Outside the contact the gap leaves the axis.",
+        ),
+        "shear": Picture(point_shear, "Shear stress", "At mid-film, along the sliding velocity."),
+        "temperature": Picture(
+            point_temperature, "Temperature", "Of the film and of both surfaces above the inlet."
+        ),
+        "residuals": _RESIDUALS,
     },
     "helical": {
-        "contours": helical_contours,
-        "along": helical_along,
-        "sections": helical_sections,
+        "along": Picture(
+            helical_along,
+            "Pressure and film along the line",
+            "Of each section across the line its largest pressure and its smallest film.",
+        ),
+        "contours": Picture(
+            helical_contours,
+            "Pressure and film from above",
+            "Stretched across the line. Grey: thicker than the scale.",
+        ),
+        "sections": Picture(
+            helical_sections,
+            "Sections across the line",
+            "The oil enters on the left; the film has its smallest place near the outlet.",
+        ),
     },
-    "helical_cycle": {"cycle": cycle_curves, "cycle_map": cycle_map},
-    "helical_step": {"contours": step_contours, "sections": step_sections},
+    "helical_cycle": {
+        "cycle": Picture(
+            cycle_curves,
+            "The line through its cycle",
+            "With squeeze. Where the load changes fast, the film lags behind that at rest.",
+        ),
+        "cycle_map": Picture(
+            cycle_map,
+            "Pressure and film along the line, over the cycle",
+            "Each column is one step: the largest pressure and smallest film of each section.",
+        ),
+    },
+    "helical_step": {
+        "contours": Picture(step_contours, "Pressure and film from above", ""),
+        "sections": Picture(step_sections, "Sections across the line", ""),
+    },
     "hypoid": {
-        "curves": hypoid_curves,
-        "ratios": hypoid_ratios,
-        "contours": hypoid_contours,
+        "curves": Picture(
+            hypoid_curves,
+            "Film and friction through the engagement",
+            "Solved films beside the formulas that the axle model uses.",
+        ),
+        "ratios": Picture(
+            hypoid_ratios,
+            "Formulas over the solution",
+            "1: the formula gives the solved value. Entrainment at an angle is their weak point.",
+        ),
+        "contours": Picture(
+            hypoid_contours,
+            "Pressure and film from above",
+            "The minor axis is stretched. The inset with equal scales has the true directions.",
+        ),
     },
 }
 
@@ -73,7 +140,7 @@ def save_film_figures(dataset: xr.Dataset, directory: Path, prefix: str = "") ->
     files = []
     for name in drawn_figures(dataset):
         path = directory / f"{prefix}{name}.png"
-        catalogue[name](dataset).savefig(path, dpi=150)
+        catalogue[name].draw(dataset).savefig(path, dpi=150)
         files.append(path)
     return files
 

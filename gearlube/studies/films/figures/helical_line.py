@@ -59,8 +59,15 @@ def helical_along(dataset: xr.Dataset) -> Any:
         right.plot(y, smallest, color=VERMILLION, label="smallest film")
         right.set_ylim(0.0, 1e6 * HEADROOM * dataset.attrs["central_film"])
         two_scales(left, right)
+        at = int(np.argmin(smallest))
+        right.plot(y[at], smallest[at], "v", color=VERMILLION, label=f"least {smallest[at]:.3f} µm")
+        dry = 1e-9 * dataset.attrs["hertz_pressure_max"]
+        left.axhline(dry, color=BLUE, ls=":", lw=1.2, label="Hertz, mean load")
+        for end in y[loaded_rows(dataset)][[0, -1]]:
+            left.axvline(end, color=GREY, ls="--", lw=0.9)
+        left.set_title("dashed: ends of the loaded length", fontsize=9)
         left.set(xlim=(y[0], y[-1]), ylim=(0.0, None), xlabel="along the line, y [mm]")
-        figure.legend(ncols=2, loc="outside lower center")
+        figure.legend(ncols=4, loc="outside lower center")
         figure.suptitle(line_title(dataset), fontsize=11.5)
     return figure
 
@@ -79,14 +86,19 @@ def helical_sections(dataset: xr.Dataset) -> Any:
         for ax, (what, row) in zip(figure.subplots(3, 1, sharex=True), places.items(), strict=True):
             section, film = dataset.isel(y=row), ax.twinx()
             ax.plot(x, 1e-9 * section["pressure"].values, color=BLUE, label="pressure")
-            film.plot(x, 1e6 * section["film"].values, color=VERMILLION, label="film")
+            gap = 1e6 * section["film"].values
+            film.plot(x, gap, color=VERMILLION, label="film")
+            at = int(np.argmin(gap))
+            film.plot(x[at], gap[at], "v", color=VERMILLION, label="smallest film of the section")
             ax.axvline(0.0, color=GREY, lw=0.8, ls=":")
             ax.set(xlim=across_limits(dataset), ylim=(0.0, top))
             film.set_ylim(0.0, 1e6 * HEADROOM * of["central_film"])
             two_scales(ax, film)
-            ax.set_title(f"{what}, y = {1e3 * float(section['y']):.2f} mm")
+            ax.set_title(
+                f"{what}, y = {1e3 * float(section['y']):.2f} mm, smallest film {gap[at]:.3f} µm"
+            )
         ax.set_xlabel("across the line, x [mm]")
-        legend_of_both(ax, film, 2)
+        legend_of_both(ax, film, 3)
         figure.suptitle(line_title(dataset), fontsize=11.5)
     return figure
 

@@ -11,6 +11,7 @@ from gearlube.studies.films.figures.helical_line import across_limits, line_titl
 from gearlube.studies.films.figures.parts import (
     HEADROOM,
     contour_levels,
+    film_colours,
     legend_of_both,
     two_scales,
 )
@@ -30,9 +31,11 @@ def step_contours(dataset: xr.Dataset) -> Any:
         lowest = min(float(one.min()) for one in films)
         levels = contour_levels(lowest, max(_THICK * 1e6 * dataset.attrs["central_film"], lowest))
         for ax, film, state in zip(axes[:, 0], films, ("marching", "at rest"), strict=True):
-            drawn = ax.contourf(*places, film, levels=levels, cmap="viridis", extend="max")
+            drawn = ax.contourf(*places, film, levels=levels, cmap=film_colours(), extend="max")
             ax.set_title(f"film, {state}, smallest {film.min():.3f} µm")
-        figure.colorbar(drawn, ax=axes[:, 0], label="film [µm]", location="bottom", aspect=40)
+        figure.colorbar(
+            drawn, ax=axes[:, 0], label="film [µm], grey: thicker", location="bottom", aspect=40
+        )
         levels = contour_levels(0.0, max(float(one.max()) for one in pressures))[1:]
         for ax, pressure, state in zip(axes[:, 1], pressures, ("marching", "at rest"), strict=True):
             drawn = ax.contourf(*places, pressure, levels=levels, cmap="magma_r")

@@ -11,8 +11,9 @@ import xarray as xr
 from gearlube.plotting.style import BLUE, VERMILLION
 from gearlube_core.arrays import Array
 
-HEADROOM = 4.0  # films over the central one that sections show
+HEADROOM = 3.0  # films over the central one that sections show
 _LINES = 14
+_BEYOND = "0.9"  # grey of films thicker than the scale
 
 Places = tuple[Array, Array]  # along the axes of the figure [mm]
 
@@ -41,10 +42,17 @@ def film_contours(
     `line_width` is that of white lines between the colours; 0: none.
     """
     levels = contour_levels(*limits)
-    drawn = ax.contourf(*places, film, levels=levels, cmap="viridis", extend="max")
+    drawn = ax.contourf(*places, film, levels=levels, cmap=film_colours(), extend="max")
     if line_width:
         ax.contour(*places, film, levels=levels, colors="white", linewidths=line_width)
-    ax.figure.colorbar(drawn, ax=ax, label="film [µm]")
+    ax.figure.colorbar(drawn, ax=ax, label="film [µm], grey: thicker")
+
+
+def film_colours() -> Any:
+    """Return the colours of films, with grey for those beyond the scale."""
+    import matplotlib
+
+    return matplotlib.colormaps["viridis"].with_extremes(over=_BEYOND)
 
 
 def dry_outline(ax: Any, semi_axes: tuple[float, float], colour: str, line_width: float) -> None:

@@ -1,0 +1,264 @@
+"""What a film says, in sentences with numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from gearlube.report.numbers import quantity_text
+from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
+from gearlube_core.ehl.grid_error import LARGE_ERROR
+
+STEADY = ("line", "point", "helical")  # contacts with one film
+_ERRORS = (
+    ("central film", "error_central_film"),
+    ("smallest film", "error_minimum_film"),
+    ("largest pressure", "error_pressure_max"),
+    ("friction", "error_friction"),
+)
+_SOLVED = ("central film", "minimum film")
+
+
+class Ratio(NamedTuple):
+    """A film of a published formula over the solved one."""
+
+    quantity: str
+    source: str
+    ratio: float
+
+
+def findings(dataset: xr.Dataset) -> list[Finding]:
+    """Return the findings of a film, of a march or of a hypoid flank.
+
+    Examples
+    --------
+    >>> findings(xr.load_dataset("gearlube_ehl_line/line.nc"))[0].headline  # doctest: +SKIP
+    'The film converged.'
+    """
+    found = [_converged(dataset), *_grid(largest_errors(dataset))]
+    if dataset.attrs["contact"] in STEADY:
+        return found + _steady(dataset)
+    if dataset.attrs["contact"] == "hypoid":
+        return found + _hypoid(dataset)
+    return found + _march(dataset)
+
+
+def _converged(dataset: xr.Dataset) -> Finding:
+    of = dataset.attrs
+    outcome = str(of["outcome"])
+    if of["contact"] in STEADY:
+        if of["converged"]:
+            return Finding(
+                GOOD,
+                "The film converged.",
+                f"Unbalanced flow {of['residual']:.1e} of the flow, load error "
+                f"{of['load_error']:.1e}.",
+            )
+        return Finding(
+            WARNING, "The film did NOT converge: its numbers are not to be used.", outcome
+        )
+    if of["converged"]:
+        return Finding(GOOD, "All films converged.", outcome)
+    return Finding(
+        WARNING,
+        f"{of['failures']} films did NOT converge: they are marked in the figures.",
+        outcome,
+    )
+
+
+def largest_errors(dataset: xr.Dataset) -> dict[str, float]:
+    """Return the estimated errors of the grid by their quantities, those that are known [-]."""
+    of = dataset.attrs
+    found = {name: float(of.get(key, math.nan)) for name, key in _ERRORS}
+    if "steady_grid_error" in dataset:
+        found["films"] = float(dataset["steady_grid_error"].max())
+    return {name: error for name, error in found.items() if math.isfinite(error)}
+
+
+def _grid(errors: dict[str, float]) -> list[Finding]:
+    if not errors:
+        return []
+    worst = max(errors, key=lambda name: errors[name])
+    large = errors[worst] > LARGE_ERROR
+    listed = ", ".join(f"{name} {100.0 * error:.2g} %" for name, error in errors.items())
+    return [
+        Finding(
+            WARNING if large else GOOD,
+            f"The grid makes an error of about {100.0 * errors[worst]:.2g} % of the {worst}.",
+            f"Estimated from coarser grids: {listed}."
+            + (" Take more nodes, or give --film-error where the command has it." if large else ""),
+        )
+    ]
+
+
+def formula_ratios(dataset: xr.Dataset) -> list[Ratio]:
+    """Return films of published formulas over solved ones."""
+    if "formula_film" not in dataset:
+        return []
+    solved = {name: dataset.attrs[name.replace(" ", "_")] for name in _SOLVED}
+    return [
+        Ratio(str(quantity), str(source), float(film) / solved[str(quantity)])
+        for quantity, source, film in zip(
+            dataset["formula_quantity"].values,
+            dataset["formula_source"].values,
+            dataset["formula_film"].values,
+            strict=True,
+        )
+        if str(quantity) in solved
+    ]
+
+
+def _steady(dataset: xr.Dataset) -> list[Finding]:
+    of = dataset.attrs
+    hertz = of["pressure_max"] / of["hertz_pressure_max"] - 1.0
+    dry = "of a line with the mean load" if of["contact"] == "helical" else "of the dry contact"
+    found = [
+        Finding(
+            NOTE,
+            f"The smallest film is {quantity_text(1e6 * of['minimum_film'], 'µm')}, the central "
+            f"one {quantity_text(1e6 * of['central_film'], 'µm')}.",
+            _place(dataset),
+        ),
+        Finding(
+            NOTE,
+            f"The largest pressure is {quantity_text(1e-9 * of['pressure_max'], 'GPa')}.",
+            f"{100.0 * hertz:+.1f} % against Hertz {dry}.",
+        ),
+    ]
+    friction = abs(of["friction_coefficient"])
+    if friction > 0.0:
+        power = of.get("sliding_power", math.nan)
+        lost = f"{quantity_text(power, 'W')} are lost to sliding. " if power > 0.0 else ""
+        warm = "With" if math.isfinite(of.get("temperature_max", math.nan)) else "Without"
+        found.append(
+            Finding(
+                NOTE,
+                f"The coefficient of friction of the film is {friction:.4f}.",
+                f"{lost}{warm} heat in the film.",
+            )
+        )
+    return found + _compared(formula_ratios(dataset), "is")
+
+
+def _place(dataset: xr.Dataset) -> str:
+    of = dataset.attrs
+    if of["contact"] == "helical":
+        return f"It is at y = {1e3 * of['minimum_film_y']:.2f} mm along the line."
+    return "The surfaces are those of the case; without heights in it they are smooth."
+
+
+def _compared(ratios: Sequence[Ratio], verb: str) -> list[Finding]:
+    central = [one for one in ratios if one.quantity == "central film"]
+    if not central:
+        return []
+    best = min(central, key=lambda one: abs(math.log(one.ratio)))
+    others = "; ".join(f"{one.source}, {one.quantity}: {one.ratio:.2f}" for one in ratios)
+    return [
+        Finding(
+            NOTE,
+            f"The central film of {best.source} {verb} {best.ratio:.2f} times the solved one.",
+            f"Formula over solution: {others}.",
+        )
+    ]
+
+
+def _march(cycle: xr.Dataset) -> list[Finding]:
+    step = cycle["step"].values
+    pressure, film = 1e-9 * cycle["pressure_max"].values, 1e6 * cycle["minimum_film"].values
+    high, thin = int(np.nanargmax(pressure)), int(np.nanargmin(film))
+    return [
+        Finding(
+            NOTE,
+            f"The smallest film is {quantity_text(film[thin], 'µm')}, at step {step[thin]:g}.",
+            f"Over steps {step[0]:g} to {step[-1]:g} of the meshing cycle, with squeeze.",
+        ),
+        Finding(
+            NOTE,
+            f"The largest pressure is {quantity_text(pressure[high], 'GPa')}, at step "
+            f"{step[high]:g}.",
+        ),
+    ]
+
+
+def mean_ratios(dataset: xr.Dataset) -> list[Ratio]:
+    """Return formulas over the solved central film of a hypoid flank, means by load."""
+    weight = dataset["steady_load"].values / dataset["steady_load"].values.sum()
+    solved = dataset["steady_central_film"].values
+    return [
+        Ratio("central film", source, float((weight * dataset[name].values / solved).sum()))
+        for source, name in (
+            ("Chittenden et al. 1985", "chittenden_central"),
+            ("Chittenden, minor-axis component", "component_central"),
+            ("Grubin 1949", "grubin"),
+        )
+        if name in dataset
+    ]
+
+
+def _hypoid(dataset: xr.Dataset) -> list[Finding]:
+    phase = dataset["steady_phase"].values
+    film = 1e6 * dataset["steady_minimum_film"].values
+    pressure = 1e-9 * dataset["steady_pressure_max"].values
+    friction = dataset["steady_traction_heated"].values
+    thin, high = int(np.nanargmin(film)), int(np.nanargmax(pressure))
+    found = [
+        Finding(
+            NOTE,
+            f"The smallest steady film is {quantity_text(film[thin], 'µm')}, at phase "
+            f"{phase[thin]:.2f}.",
+            f"From phase {phase[0]:.2f} to {phase[-1]:.2f} the smallest films are up to "
+            f"{quantity_text(np.nanmax(film), 'µm')}.",
+        ),
+        Finding(
+            NOTE,
+            f"The largest pressure is {quantity_text(pressure[high], 'GPa')}, at phase "
+            f"{phase[high]:.2f}.",
+        ),
+        Finding(
+            NOTE,
+            f"The coefficient of friction of the film is {np.nanmin(friction):.4f} to "
+            f"{np.nanmax(friction):.4f}.",
+            _asperities(dataset),
+        ),
+    ]
+    return found + _compared(mean_ratios(dataset), "is on the mean")
+
+
+def _asperities(dataset: xr.Dataset) -> str:
+    if "asperity_share" not in dataset:
+        return "Eyring, heated across the film."
+    share = 100.0 * float(dataset["asperity_share"].max())
+    return f"Eyring, heated across the film. In the axle asperities add up to {share:.0f} %."
+
+
+def numbers(dataset: xr.Dataset) -> list[Number]:
+    """Return the key numbers, with the same names in every run of one kind of contact."""
+    of, errors = dataset.attrs, largest_errors(dataset)
+    worst = 100.0 * max(errors.values(), default=math.nan)
+    if of["contact"] in STEADY:
+        ratios = {one.quantity: one.ratio for one in reversed(formula_ratios(dataset))}
+        return [
+            Number("smallest film", 1e6 * of["minimum_film"], "µm"),
+            Number("central film", 1e6 * of["central_film"], "µm"),
+            Number("largest pressure", 1e-9 * of["pressure_max"], "GPa"),
+            Number("coefficient of friction", abs(of["friction_coefficient"])),
+            Number("largest estimated error", worst, "%", 2),
+            Number("first formula over central film", ratios.get("central film", math.nan)),
+        ]
+    prefix = "steady_" if of["contact"] == "hypoid" else ""
+    found = [
+        Number("smallest film", 1e6 * float(dataset[f"{prefix}minimum_film"].min()), "µm"),
+        Number("largest pressure", 1e-9 * float(dataset[f"{prefix}pressure_max"].max()), "GPa"),
+        Number("largest estimated error", worst, "%", 2),
+        Number("films not converged", int(of["failures"])),
+    ]
+    if prefix:
+        found += [
+            Number("largest friction", float(dataset["steady_traction_heated"].max())),
+            *(Number(f"{one.source} over central film", one.ratio) for one in mean_ratios(dataset)),
+        ]
+    return found

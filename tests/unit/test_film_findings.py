@@ -1,0 +1,157 @@
+"""Findings and key numbers of films, from datasets with known answers."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from gearlube.report.parts import GOOD, NOTE, WARNING
+from gearlube.studies.films.findings import findings, formula_ratios, mean_ratios, numbers
+from gearlube.studies.films.report import film_inputs
+
+
+def line(converged=1, error=0.01, **more):
+    return xr.Dataset(
+        {
+            "formula_film": ("formula", np.array([0.30e-6, 0.24e-6])),
+            "formula_source": ("formula", np.array(["A", "B"], dtype=object)),
+            "formula_quantity": (
+                "formula",
+                np.array(["central film", "minimum film"], dtype=object),
+            ),
+        },
+        coords={"x": np.linspace(0.0, 1.0, 11)},
+        attrs={
+            "contact": "line",
+            "converged": converged,
+            "outcome": "as it ended",
+            "residual": 1e-9,
+            "load_error": 1e-12,
+            "error_central_film": error,
+            "error_minimum_film": 0.5 * error,
+            "error_pressure_max": float("nan"),
+            "minimum_film": 0.2e-6,
+            "central_film": 0.25e-6,
+            "pressure_max": 1.1e9,
+            "hertz_pressure_max": 1.0e9,
+            "friction_coefficient": -0.03,
+            "temperature_inlet": 313.15,
+            "radius": 0.014,
+            "line_load": 360e3,
+        }
+        | more,
+    )
+
+
+def cycle(failures=0):
+    return xr.Dataset(
+        {
+            "pressure_max": ("step", np.array([0.8e9, 1.3e9, 1.0e9])),
+            "minimum_film": ("step", np.array([0.3e-6, 0.25e-6, 0.1e-6])),
+        },
+        coords={"step": [10, 11, 12]},
+        attrs={
+            "contact": "helical_cycle",
+            "converged": int(failures == 0),
+            "failures": failures,
+            "outcome": "as it ended",
+        },
+    )
+
+
+def hypoid():
+    """Loads 1 and 3: means count the second position three times."""
+    at = "position"
+    return xr.Dataset(
+        {
+            "steady_load": (at, np.array([100.0, 300.0])),
+            "steady_phase": (at, np.array([-0.5, 0.5])),
+            "steady_central_film": (at, np.array([0.2e-6, 0.4e-6])),
+            "steady_minimum_film": (at, np.array([0.15e-6, 0.3e-6])),
+            "steady_pressure_max": (at, np.array([0.5e9, 0.9e9])),
+            "steady_traction_heated": (at, np.array([0.02, 0.03])),
+            "steady_grid_error": (at, np.array([0.02, 0.14])),
+            "chittenden_central": (at, np.array([0.4e-6, 0.4e-6])),
+            "asperity_share": (at, np.array([0.05, 0.2])),
+        },
+        attrs={"contact": "hypoid", "converged": 1, "failures": 0, "outcome": "as it ended"},
+    )
+
+
+def headline(dataset, words):
+    (one,) = [one for one in findings(dataset) if words in one.headline]
+    return one
+
+
+def test_a_film_that_did_not_converge_is_a_warning():
+    assert headline(line(), "converged").level == GOOD
+    failed = headline(line(converged=0), "NOT converge")
+    assert (failed.level, failed.detail) == (WARNING, "as it ended")
+    assert headline(cycle(failures=2), "2 films did NOT converge").level == WARNING
+
+
+@pytest.mark.parametrize(("error", "level"), [(0.01, GOOD), (0.2, WARNING)])
+def test_the_largest_known_error_of_the_grid_is_told(error, level):
+    one = headline(line(error=error), "The grid makes an error")
+    assert one.level == level
+    assert f"{100.0 * error:.2g} % of the central film" in one.headline
+
+
+def test_without_an_estimate_nothing_is_said_of_the_grid():
+    unknown = line(error=float("nan"))
+    assert not [one for one in findings(unknown) if "grid" in one.headline]
+
+
+def test_film_pressure_and_friction_of_a_line_are_told_in_everyday_units():
+    film = headline(line(), "smallest film")
+    assert "0.200 µm" in film.headline
+    assert "0.250 µm" in film.headline
+    pressure = headline(line(), "largest pressure")
+    assert "1.10 GPa" in pressure.headline
+    assert "+10.0 % against Hertz" in pressure.detail
+    assert "0.0300" in headline(line(), "friction").headline
+
+
+def test_rolling_without_sliding_has_no_finding_of_friction():
+    rolling = line(friction_coefficient=0.0)
+    assert not [one for one in findings(rolling) if "friction" in one.headline]
+
+
+def test_formulas_are_told_as_ratios_to_the_solution():
+    # 0.30 over 0.25 and 0.24 over 0.20, exact but for rounding
+    assert [one.ratio for one in formula_ratios(line())] == pytest.approx([1.2, 1.2], rel=1e-12)
+    one = headline(line(), "central film of A")
+    assert one.level == NOTE
+    assert "1.20 times" in one.headline
+
+
+def test_a_march_tells_the_steps_of_its_extremes():
+    assert "0.100 µm, at step 12" in headline(cycle(), "smallest film").headline
+    assert "1.30 GPa, at step 11" in headline(cycle(), "largest pressure").headline
+
+
+def test_a_hypoid_flank_tells_its_extremes_and_ratios_by_load():
+    flank = hypoid()
+    assert "0.150 µm, at phase -0.50" in headline(flank, "smallest steady film").headline
+    assert "0.900 GPa, at phase 0.50" in headline(flank, "largest pressure").headline
+    assert "20 %" in headline(flank, "friction").detail
+    assert headline(flank, "14 % of the films").level == WARNING
+    # a quarter of 2 and three quarters of 1
+    (ratio,) = mean_ratios(flank)
+    assert ratio.ratio == pytest.approx(1.25, rel=1e-12)
+
+
+@pytest.mark.parametrize("dataset", [line(), cycle(), hypoid()], ids=["line", "cycle", "hypoid"])
+def test_key_numbers_hold_the_smallest_film_and_largest_pressure(dataset):
+    value = {one.name: one.value for one in numbers(dataset)}
+    expected = {"line": (0.2, 1.1), "helical_cycle": (0.1, 1.3), "hypoid": (0.15, 0.9)}
+    film, pressure = expected[dataset.attrs["contact"]]
+    assert value["smallest film"] == pytest.approx(film)
+    assert value["largest pressure"] == pytest.approx(pressure)
+
+
+def test_inputs_are_told_in_everyday_units():
+    told = {one.name: (one.value, one.unit) for one in film_inputs(line())}
+    assert told["radius"] == ("14", "mm")
+    assert told["load per length"] == ("360", "N/mm")
+    assert told["oil temperature"] == ("40", "°C")
+    assert told["nodes of the finest grid"] == ("11", "")
