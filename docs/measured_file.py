@@ -174,7 +174,7 @@ wrong hand, where its middle point still is zero.
 ## The smooth surface
 
 Each flank gets a polynomial of a low degree in the profile and the face position, fitted to the
-mean of its teeth. What it leaves is told as a root mean square and shown in flanks.png. Beside
+mean of its teeth. What it leaves is told as a root mean square and shown in report.html. Beside
 it stands how far single teeth lie from their mean.
 
 A surface through all points would follow the noise of the probe, and contact feels curvature. A

@@ -173,7 +173,6 @@ def command_line(commands: Sequence[LazyCommand]) -> typer.Typer:
         name="gearlube",
         help="Lubricated gears: tooth contact, vibration, FMUs, speed sweeps and their report.",
         no_args_is_help=True,
-        add_completion=False,
         pretty_exceptions_show_locals=False,
         rich_markup_mode=MARKUP,
     )

@@ -210,6 +210,15 @@ def test_a_bad_field_is_named_and_ends_with_bad_argument(
         assert word in caplog.text
 
 
+def test_the_example_is_a_gear_file_to_start_from(asked, tmp_path):
+    printed = run("--example")
+    assert printed.exit_code == 0
+    path = tmp_path / "mine.toml"
+    path.write_text(printed.stdout)
+    assert HypoidGearFile.from_toml(path) == HypoidGearFile.named("mohammadpour_2015")
+    assert not asked  # nothing was analysed
+
+
 @pytest.mark.parametrize("name", ["no_such_pair", "no_such_file.toml"])
 def test_an_unknown_pair_or_file_ends_with_bad_argument(name, asked, caplog):
     with caplog.at_level(logging.ERROR, "gearlube"):

@@ -34,6 +34,7 @@ def test_the_example_becomes_a_gear_file_with_a_picture(tmp_path):
     ends = file.correction("pinion", "coast").bends([0.9, 0.3], [0.1, 0.9], 1.0, 1.0).value
     assert 15e-6 < ends[0] - ends[1] < 25e-6
     assert (tmp_path / "m" / "flanks.png").stat().st_size > 10_000
+    assert "Deviation of the pinion coast flank" in (tmp_path / "m" / "report.html").read_text()
 
 
 def test_fitted_settings_are_those_with_which_the_example_was_made(tmp_path):
@@ -87,6 +88,7 @@ def test_pitch_goes_into_a_mesh_table_that_an_axle_runs_with(tmp_path, monkeypat
     axle.initialise(pinion_speed=145.0, pinion_torque=60.0, wheel_torque=160.0, oil_temperature=OIL)
     axle.step(1e-3, 60.0, 160.0, OIL)
     assert (tmp_path / "m" / "tooth_errors.png").is_file()
+    assert "sideband of the pinion" in (tmp_path / "m" / "report.html").read_text()
 
 
 def test_a_table_without_anything_to_add_is_refused(tmp_path, caplog):

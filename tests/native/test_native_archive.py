@@ -59,6 +59,13 @@ def test_the_standards_have_these_functions() -> None:
     assert {"fmi2DoStep", "fmi2GetFMUstate", "fmi3DoStep", "fmi3SetBinary"} <= FUNCTIONS
 
 
+def test_nothing_of_fftw_is_in_the_library() -> None:
+    """FFTW is GPL, and gearlube's film solvers load it; a native FMU must not."""
+    content = linux_library().read_bytes().lower()
+    assert b"instantiate" in content  # names are stored as they are read here
+    assert b"fftw" not in content
+
+
 def has_all_functions(binary: Binary) -> bool:
     """Whether all functions of co-simulation are exported, and nothing else."""
     exports = {name.removeprefix("_") for name in binary.exports} - MACH_O_OWN

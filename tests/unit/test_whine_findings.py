@@ -19,7 +19,7 @@ FORCE = np.array([[10.0, 5.0], [40.0, 90.0], [20.0, 30.0]])
 def whine(strong=1.0, unstable=False):
     """Order 2 is largest at 2000 rpm; the radial setting moves it by 9 N, the position by 2 N."""
     rate = np.zeros((3, 3, 2))
-    rate[1, 0, 1], rate[1, 1, 1], rate[2, 1, 1] = 0.2e6, -900.0 * strong, 300.0
+    rate[1, 0, 1], rate[1, 1, 1], rate[2, 1, 1] = -0.2e6, 900.0 * strong, 300.0
     rate[0, 0, 0] = 0.1e6
     return xr.Dataset(
         {
@@ -49,13 +49,13 @@ def whine(strong=1.0, unstable=False):
 
 def test_the_setting_that_moves_an_order_most_is_named_with_size_sign_and_speed():
     order_1, order_2 = movers(whine(), 1), movers(whine(), 2)
-    # rate times tolerance: 0.1e6 N/m 10 um, -900 N/mm 0.01 mm, 0.2e6 N/m 10 um
+    # rate times tolerance: 0.1e6 N/m 10 um, 900 N/mm 0.01 mm, -0.2e6 N/m 10 um
     assert [(one.parameter, one.change) for one in order_1] == [(NAMES[0], pytest.approx(1.0))]
-    assert [one.change for one in order_2] == pytest.approx([-9.0, 2.0])
+    assert [one.change for one in order_2] == pytest.approx([9.0, -2.0])
     assert order_2[0].speed_rpm == pytest.approx(2000.0)
     told = next(one for one in findings(whine()) if "Mesh order 2" in one.headline)
     assert told.level == NOTE
-    assert "pinion radial setting, +0.01 mm: −9.00 N at 2000 rpm, 10 % of its force" in (
+    assert "pinion radial setting, +0.01 mm: 9.00 N at 2000 rpm, 10 % of its force" in (
         told.headline
     )
 

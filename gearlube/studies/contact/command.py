@@ -14,7 +14,7 @@ from rich.table import Table
 from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
-from gearlube.cli.options import JobsOption, OverwriteOption
+from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.report_end import command_line, tell_findings
 from gearlube.cli.results_folder import results_folder
@@ -92,6 +92,7 @@ def contact(
             "per small error. At one of --torques, default 50; 8 positions.",
         ),
     ] = False,
+    example: ExampleOption = False,
     overwrite: OverwriteOption = False,
 ) -> None:
     """Analyse the tooth contact of a hypoid pair; write its mesh table, data and report.
@@ -120,6 +121,9 @@ def contact(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped. Run the same command again to go on from {out / run.POSITIONS}."):
+        if example:
+            typer.echo(HypoidGearFile.shipped_text("mohammadpour_2015"), nl=False)
+            return
         file = HypoidGearFile.given(gear)
         usual = QUICK if quick else ContactSettings()
         cycle = replace(

@@ -111,8 +111,8 @@ def _asked_and_found(design: Design) -> dict[str, Any]:
     relieved = [getattr(design.relieved[side], "error", math.nan) for side in SIDES]
     note = {"units": "rad", "long_name": "transmission error of flanks with relief"}
     found["relieved_error"] = (("side",), relieved, note)
-    missed = [
-        [math.nan] * 4
+    missed: list[Array] = [
+        np.full(4, math.nan)
         if isinstance(one := design.measured[side], str)
         else misses(design.targets[side], one, design.designed)
         for side in SIDES

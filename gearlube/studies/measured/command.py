@@ -13,6 +13,7 @@ from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
+from gearlube.cli.report_end import finish_with_report
 from gearlube.cli.results_folder import results_folder
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -53,13 +54,16 @@ def measured(
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_measured"),
     overwrite: OverwriteOption = False,
 ) -> None:
-    """Lay measured flanks on a hypoid pair; write its gear file for `gearlube contact`.
+    """Lay measured flanks on a hypoid pair; write its gear file and report.html.
 
     With --fit: settings that explain the deviations, and corrective ones.
     With --table: the mesh table with the errors of single teeth, tooth_errors.nc and a figure.
     Finished positions are kept in OUT: run the same command again to go on after a stop.
     """
+    from gearlube.studies.measured.flank_dataset import flank_dataset
+    from gearlube.studies.measured.report import flank_report
     from gearlube.studies.measured.run import run_measured
+    from gearlube_core.storage.atomic_file import write_dataset
 
     with exit_on_error():
         if table is not None:
@@ -69,11 +73,14 @@ def measured(
         with results_folder(out, "measured", overwrite=overwrite):
             flanks = run_measured(file, folder=out)
             fits = _fits(flanks, fit or [], out)
+            dataset = flank_dataset(flanks, fits)
+            write_dataset(dataset, out / "flanks.nc")
         console.print(_table(flanks))
         for one in fits:
             console.print(_settings(flanks.file.name, one))
         gear = out / f"{flanks.file.name}.toml"
-        logger.info("Results: %s (gear file), %s", gear, out / "flanks.png")
+        logger.info("Results: %s (gear file), %s", gear, out / "flanks.nc")
+        finish_with_report(flank_report(dataset, out / "flanks.png"), out)
         logger.info("Next: gearlube contact %s --out %s", gear, out / "contact")
 
 
@@ -97,6 +104,7 @@ def _settings(name: str, fit: SettingsFit) -> Table:
 
 
 def _teeth(file: str, table: str, positions: int, out: Path, jobs: int | None) -> None:
+    from gearlube.studies.measured.report import tooth_report
     from gearlube.studies.measured.teeth import run_tooth_errors
 
     with progress_on(console, "measured", 2 * positions) as progress:
@@ -106,6 +114,7 @@ def _teeth(file: str, table: str, positions: int, out: Path, jobs: int | None) -
     console.print(_orders(found))
     mesh = out / f"{found.flanks.file.name}.nc"
     logger.info("Results: %s (mesh table), %s", mesh, out / "tooth_errors.png")
+    finish_with_report(tooth_report(found.dataset), out)
     logger.info("Next: gearlube sweep --mesh-table %s", mesh)
 
 

@@ -46,6 +46,11 @@ class ToothErrorResults:
     cycle: ToothErrorCycle
     mesh_table: MeshTable
 
+    @property
+    def dataset(self) -> xr.Dataset:
+        """The errors and their orders as arrays, see `tooth_error_dataset`."""
+        return tooth_error_dataset(self.cycle, self.flanks.file.name)
+
 
 def run_tooth_errors(
     path: str | Path,
@@ -114,12 +119,12 @@ def run_tooth_errors(
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
         write_mesh_table(results.mesh_table, folder / f"{file.name}.nc")
-        write_dataset(tooth_error_dataset(cycle), folder / "tooth_errors.nc")
+        write_dataset(results.dataset, folder / "tooth_errors.nc")
         tooth_errors(cycle, file.name).savefig(folder / "tooth_errors.png")
     return results
 
 
-def tooth_error_dataset(cycle: ToothErrorCycle) -> xr.Dataset:
+def tooth_error_dataset(cycle: ToothErrorCycle, name: str = "") -> xr.Dataset:
     """Return the added transmission error over the hunting turn, and its orders, as a dataset."""
     data = {
         "error": (
@@ -147,4 +152,9 @@ def tooth_error_dataset(cycle: ToothErrorCycle) -> xr.Dataset:
             for member, orders in cycle.orders().items()
         },
     }
-    return xr.Dataset(data, coords=coords)
+    attributes = {
+        "name": name,
+        "pinion_teeth": cycle.pinion_teeth,
+        "gear_teeth": cycle.gear_teeth,
+    }
+    return xr.Dataset(data, coords=coords, attrs=attributes)

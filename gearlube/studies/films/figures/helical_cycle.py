@@ -82,6 +82,8 @@ def cycle_map(dataset: xr.Dataset) -> Any:
 def compared_cycles(cycles: dict[str, xr.Dataset], film_exponent: float = 0.0) -> Any:
     """Return largest pressures and smallest films of several marches over their steps.
 
+    Beside them the differences from the first march, at the steps that both have.
+
     Parameters
     ----------
     cycles
@@ -89,34 +91,56 @@ def compared_cycles(cycles: dict[str, xr.Dataset], film_exponent: float = 0.0) -
     film_exponent
         Films are divided by the pinion speed, over that of the first march, to this power.
     """
+    from matplotlib.ticker import MaxNLocator
+
     with house_style():
-        figure = new_figure(8.6, 7.2)
-        top, bottom = figure.subplots(2, 1, sharex=True)
-        speed = next(iter(cycles.values())).attrs["pinion_speed"]
+        figure = new_figure(11.0, 6.8)
+        axes = figure.subplots(2, 2, sharex=True)
+        first = next(iter(cycles.values()))
         for k, (label, cycle) in enumerate(cycles.items()):
             look: dict[str, Any] = {
                 "color": SERIES[k % len(SERIES)],
-                "ls": _DASHES[k // len(SERIES) % len(_DASHES)],
-                "lw": 1.4,
+                "ls": _DASHES[k % len(_DASHES)],
+                "lw": 1.6,
             }
-            step, failed = cycle["step"].values, cycle["converged"].values == 0.0
-            scale = (cycle.attrs["pinion_speed"] / speed) ** film_exponent
-            for ax, values in (
-                (top, 1e-9 * cycle["pressure_max"].values),
-                (bottom, 1e6 * cycle["minimum_film"].values / scale),
+            failed = cycle["converged"].values == 0.0
+            for row, (values, reference) in enumerate(
+                zip(_shown(cycle, first, film_exponent), _shown(first, first, 0.0), strict=True)
             ):
-                ax.plot(step, values, label=label if ax is top else None, **look)
-                ax.plot(step[failed], values[failed], "x", color=look["color"])
-        top.set(ylabel="largest pressure [GPa]", ylim=(0.0, None))
-        divided = f" over (speed ratio)$^{{{film_exponent:g}}}$" if film_exponent else ""
-        bottom.set(ylabel=f"smallest film{divided} [µm]", ylim=(0.0, None))
-        bottom.set_xlabel("step of the meshing cycle")
+                ax, beside = axes[row]
+                ax.plot(cycle["step"], values, label=label if row == 0 else None, **look)
+                ax.plot(cycle["step"][failed], values[failed], "x", color=look["color"])
+                if k:
+                    difference = 100.0 * (values / reference - 1.0)
+                    beside.plot(difference["step"], difference, **look)
+        for ax, what in zip(axes[:, 0], _quantities(film_exponent), strict=True):
+            highest = max(float(np.nanmax(line.get_ydata(), initial=0.0)) for line in ax.lines)
+            ax.set(ylabel=what, ylim=(0.0, 1.12 * max(highest, 1e-12)))
+        for ax in axes[:, 1]:
+            ax.axhline(0.0, color="black", lw=0.8)
+            ax.set_ylabel(f"difference from {next(iter(cycles))} [%]")
+        for ax in axes[1]:
+            ax.set_xlabel("step of the meshing cycle")
+            ax.xaxis.set_major_locator(MaxNLocator(integer=True))
         figure.legend(ncols=min(len(cycles), 4), loc="outside lower center")
         failures = sum(int(cycle.attrs["failures"]) for cycle in cycles.values())
         state = f", {failures} steps NOT CONVERGED (crosses)" if failures else ""
         names = dict.fromkeys(cycle.attrs["name"] for cycle in cycles.values())
         figure.suptitle(f"{', '.join(names)}{state}", fontsize=11.5)
     return figure
+
+
+def _quantities(film_exponent: float) -> tuple[str, str]:
+    divided = f" over (speed ratio)$^{{{film_exponent:g}}}$" if film_exponent else ""
+    return "largest pressure [GPa]", f"smallest film{divided} [µm]"
+
+
+def _shown(
+    cycle: xr.Dataset, first: xr.Dataset, film_exponent: float
+) -> tuple[xr.DataArray, xr.DataArray]:
+    """Return largest pressures [GPa] and smallest films [µm] over the steps, as drawn."""
+    scale = (cycle.attrs["pinion_speed"] / first.attrs["pinion_speed"]) ** film_exponent
+    return 1e-9 * cycle["pressure_max"], 1e6 * cycle["minimum_film"] / scale
 
 
 def _position_scale(ax: Any, dataset: xr.Dataset) -> None:

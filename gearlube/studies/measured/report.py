@@ -1,0 +1,222 @@
+"""The reports of measured flanks and of errors of single teeth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.report.charts import COLOURS, Axis, Line, heat_map, line_chart, panels
+from gearlube.report.file_inputs import file_inputs
+from gearlube.report.parts import Column, Figure, Input, Report, Table
+from gearlube.studies.measured.findings import (
+    flank_findings,
+    flank_numbers,
+    members_of,
+    tooth_findings,
+    tooth_numbers,
+)
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+
+_MICRO = 1e6
+
+
+def flank_report(flanks: xr.Dataset, picture: Path) -> Report:
+    """Return the report of measured flanks; `picture` is the PNG of them."""
+    attributes = flanks.attrs
+    tables = [_settings_table(flanks)] if "setting" in flanks else []
+    return Report(
+        study="measured",
+        title=f"Measured flanks of {attributes['name']}",
+        subtitle=f"{flanks.sizes['flank']} flanks, {attributes['source']}; smooth surfaces of "
+        f"degree {attributes['degree']} are laid on the nominal flanks.",
+        findings=flank_findings(flanks),
+        numbers=flank_numbers(flanks),
+        figures=[
+            *(_map(flanks, str(name)) for name in flanks["flank"].values),
+            Figure(
+                name="flanks",
+                title="Deviations, smooth surfaces and what they leave",
+                caption="Red: more material than nominal. A pattern in the rest is a form that the "
+                "surface is too smooth for; noise without pattern is that of measuring.",
+                picture=picture.read_bytes(),
+            ),
+        ],
+        tables=[*tables, _flank_table(flanks)],
+        inputs=file_inputs(HypoidGearFile.model_validate_json(attributes["gear_file"])),
+        limits=(
+            "The mean of the measured teeth is laid on all teeth.",
+            "Outside of the measured grid the surface is carried on; keep its degree low.",
+            "Roughness is not in a smooth surface.",
+        ),
+        facts=[("source", str(attributes["source"]))],
+        files=(f"{attributes['name']}.toml", "flanks.nc", "flanks.png"),
+    )
+
+
+def _map(flanks: xr.Dataset, name: str) -> Figure:
+    part = flanks.sel(flank=name)
+    rows, columns = (np.isfinite(part["s"].values).any(axis=axis) for axis in (1, 0))
+    values = _MICRO * part["deviation"].values[rows][:, columns]
+    top = max(float(np.max(np.abs(values))), 1e-3)
+    chart = heat_map(
+        part["t"].values[0, columns],
+        part["s"].values[rows, 0],
+        values,
+        (Axis("toe 0 to heel 1"), Axis("root 0 to tip 1"), Axis("deviation", "µm")),
+        limits=(-top, top),
+        height=260,
+    )
+    chart.update_traces(colorscale="RdBu", reversescale=True)
+    return Figure(
+        name=name.replace(" ", "_"),
+        title=f"Deviation of the {name} flank",
+        caption="Mean of the measured teeth from nominal; red: more material.",
+        chart=chart,
+    )
+
+
+def _flank_table(flanks: xr.Dataset) -> Table:
+    return Table(
+        title="Measured flanks",
+        caption="Rest: what the smooth surface leaves. Apart: how far teeth are from their mean.",
+        columns=[
+            Column("flank"),
+            Column("teeth"),
+            Column("least deviation", "µm"),
+            Column("largest deviation", "µm"),
+            Column("rest", "µm rms"),
+            Column("apart", "µm rms"),
+        ],
+        rows=[
+            [
+                str(name),
+                int(part["teeth"]),
+                _MICRO * float(part["deviation"].min()),
+                _MICRO * float(part["deviation"].max()),
+                _MICRO * float(part["rest_rms"]),
+                _MICRO * float(part["scatter_rms"]),
+            ]
+            for name, part in ((name, flanks.sel(flank=name)) for name in flanks["flank"].values)
+        ],
+    )
+
+
+def _settings_table(flanks: xr.Dataset) -> Table:
+    columns = ("nominal", "change", "uncertainty", "corrective")
+    return Table(
+        title="Settings that explain the deviations",
+        caption="The flanks were cut with the nominal setting and the change; the corrective one "
+        "brings them back to nominal, to first order.",
+        columns=[Column("setting"), Column("unit"), *(Column(one) for one in columns)],
+        rows=[
+            [
+                str(part["setting"].values),
+                str(part["setting_unit"].values),
+                *(f"{float(part[f'setting_{one}']):.6g}" for one in columns),
+            ]
+            for part in (flanks.isel(setting=k) for k in range(flanks.sizes["setting"]))
+        ],
+    )
+
+
+def tooth_report(teeth: xr.Dataset) -> Report:
+    """Return the report of errors of single teeth."""
+    attributes = teeth.attrs
+    torques = ", ".join(f"{one:g}" for one in teeth["torque"].values)
+    return Report(
+        study="measured --table",
+        title=f"Errors of single teeth of {attributes['name']}",
+        subtitle="What pitch, eccentricity and waves add to the transmission error, at "
+        f"{torques} N·m on the pinion.",
+        findings=tooth_findings(teeth),
+        numbers=tooth_numbers(teeth),
+        figures=[
+            Figure(
+                name="orders",
+                title="Orders of the turns",
+                caption="Amplitudes added to the transmission error, by orders of each member's "
+                "turn, at the highest torque on the drive flanks. Sidebands stand on both sides of "
+                "the mesh orders.",
+                chart=_order_chart(teeth),
+            ),
+            *(_turn(teeth, member) for member in members_of(teeth)),
+        ],
+        tables=[_order_table(teeth, member) for member in members_of(teeth)],
+        inputs=[
+            Input("torques", torques, "N·m"),
+            Input("positions of a mesh period", str(teeth.sizes["phase"])),
+        ],
+        limits=(
+            "Quasi-static: the mesh table carries these errors into the dynamics.",
+            "What repeats with the hunting turn alone is not in the mesh table.",
+            "Orders above a quarter of the positions times the teeth are not kept.",
+        ),
+        files=(f"{attributes['name']}.nc", "tooth_errors.nc", "tooth_errors.png"),
+    )
+
+
+def _top(teeth: xr.Dataset) -> int:
+    return int(np.argmax(teeth["torque"].values))
+
+
+def _order_chart(teeth: xr.Dataset) -> Any:
+    members = members_of(teeth)
+    y = Axis("amplitude", "µm", log=True)
+    titles = [
+        f"Orders of the {one}; mesh order {int(teeth.attrs[f'{one}_teeth'])}" for one in members
+    ]
+    figure = panels(titles, Axis("order"), [y] * len(members), height=300)
+    figure.update_xaxes(matches=None, showticklabels=True)
+    for row, member in enumerate(members, 1):
+        amplitude = teeth[f"{member}_amplitude"].isel(torque=_top(teeth))
+        figure.add_bar(
+            x=amplitude[f"{member}_order"].values,
+            y=_MICRO * amplitude.values,
+            marker_color=COLOURS[row - 1],
+            hovertemplate="%{y:.3g} µm, order %{x}<extra></extra>",
+            row=row,
+            col=1,
+        )
+    figure.update_layout(showlegend=False)
+    return figure
+
+
+def _turn(teeth: xr.Dataset, member: str) -> Figure:
+    count = int(teeth.attrs[f"{member}_teeth"])
+    levels = dict.fromkeys((int(np.argmin(np.abs(teeth["torque"].values))), _top(teeth)))
+    lines = []
+    for level in levels:
+        error = _MICRO * teeth["error"].isel(torque=level).values
+        own = error.reshape(-1, count, error.shape[1]).mean(axis=0).ravel()
+        place = np.arange(own.size) / own.size
+        lines.append(Line(name=f"{float(teeth['torque'][level]):g} N·m", x=place, y=own))
+    return Figure(
+        name=f"{member}_turn",
+        title=f"Added error over a turn of the {member}",
+        caption="The mean over all turns after which the same teeth meet again.",
+        chart=line_chart(lines, Axis(f"turns of the {member}"), Axis("added error", "µm")),
+    )
+
+
+def _order_table(teeth: xr.Dataset, member: str) -> Table:
+    amplitude = _MICRO * teeth[f"{member}_amplitude"]
+    torques = teeth["torque"].values
+    largest = np.argsort(-amplitude.max("torque").values)[:12]
+    return Table(
+        title=f"Largest orders of the {member}",
+        columns=[
+            Column("order"),
+            *(Column(f"{one:g} N·m", "µm") for one in torques[:10]),
+        ],
+        rows=[
+            [
+                int(amplitude[f"{member}_order"].values[k]),
+                *(float(one) for one in amplitude.values[:10, k]),
+            ]
+            for k in largest
+        ],
+        folded=True,
+    )
