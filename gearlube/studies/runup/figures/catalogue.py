@@ -41,7 +41,7 @@ CATALOGUE = (
         title="Order tracks",
         caption="Mesh orders 1 to 4 and everything together, of the bearing forces (above) and of "
         "the dynamic transmission error (below). Dotted: speeds at which a mesh order meets a "
-        f"natural frequency. A crest on a dotted line is that resonance. {_ALL}",
+        f"natural frequency. A peak on a dotted line is that resonance. {_ALL}",
         draw=order_tracks,
         chart=track_chart,
     ),
