@@ -57,8 +57,8 @@ CATALOGUE = (
     Entry(
         name="waterfall_orders",
         title="Waterfall: speed and order",
-        caption="The same over orders: what is tied to the shaft lies level, natural frequencies "
-        "are the dotted curves.",
+        caption="The same over orders: orders of the shaft are horizontal lines, natural "
+        "frequencies are the dotted curves.",
         draw=order_map,
     ),
     Entry(
