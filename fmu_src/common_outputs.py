@@ -46,8 +46,8 @@ def tilt_speeds(member: str, word: str) -> tuple[Variable, ...]:
 
 def load_level() -> Variable:
     """Return the state by which the load level of the mesh data follows the pinion torque."""
-    return local("mesh.load_torque", "N.m", "Pinion torque at which the mesh data are taken: its "
-                 "size, filtered with 20 ms", 100.0)  # fmt: skip
+    return local("mesh.load_torque", "N.m", "Pinion torque at which the mesh data are read: "
+                 "absolute value, low-pass filtered with 20 ms", 100.0)  # fmt: skip
 
 
 def energies(words: dict[str, str]) -> tuple[Variable, ...]:
@@ -61,14 +61,14 @@ def ranges() -> tuple[Variable, ...]:
     return (
         Variable(
             name="range.exceeded", type="Integer", causality="output",
-            description="0: all within their ranges; else the sum of 1 torque, 2 film_load, "
+            description="0: all quantities are in range; else the sum of 1 torque, 2 film_load, "
             "4 film_material, 8 traction, 16 temperature, 32 pressure, see docs/fmu.md",
         ),
-        output("range.torque", "N.m", "Pinion torque of the mesh data, or that the teeth carry if "
-               "that is more; negative on the coast flanks", 100.0),
+        output("range.torque", "N.m", "Pinion torque of the mesh data, or the torque of the "
+               "teeth if larger; negative on the coast flanks", 100.0),
         output("range.film_load", "1", f"Load group M of Moes {at}", 1e3),
         output("range.film_material", "1", f"Material group L of Moes {at}", 10.0),
-        output("range.traction", "1", f"Number of the traction map {at}", 10.0),
+        output("range.traction", "1", f"Dimensionless group of the traction map {at}", 10.0),
         output("range.temperature", "K", f"Film temperature {at}", 300.0, "degC"),
         output("range.pressure", "Pa", f"Largest Hertz pressure {at}", 1e9, "GPa"),
     )  # fmt: skip

@@ -32,19 +32,19 @@ from gearlube_core.dynamics.helical_pair.march.continuous import STATE_NAMES
 CUSTOM, LINE_MESH = "custom", "line_mesh"  # literals with a meaning to the model's start
 
 _INPUTS = (
-    input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives",
+    input_("pinion.torque", "N.m", "Torque on the pinion shaft, positive when it drives",
            start=225.97, minimum=-1e5, maximum=1e5, nominal=100.0),
-    input_("wheel.torque", "N.m", "Load torque on the gear shaft; positive resists forward motion",
+    input_("wheel.torque", "N.m", "Load torque on the gear shaft, positive against forward motion",
            start=280.2028, minimum=-1e5, maximum=1e5, nominal=100.0),
     input_("oil.temperature", "K", "Bulk oil temperature", display_unit="degC",
            start=333.15, minimum=273.15, maximum=423.15, nominal=300.0),
 )  # fmt: skip
 
 _PARAMETERS = (
-    option("gear.name", "Gear pair; custom is the gear file that the FMU carries",
+    option("gear.name", "Gear pair; custom takes the gear file inside the FMU",
            "he_2007", "jamali_2015_a", "jamali_2015_b", CUSTOM, start="he_2007",
            argument="gear_name"),
-    parameter("pinion.speed_start", "rad/s", "Speed of the pinion at the start",
+    parameter("pinion.speed_start", "rad/s", "Initial speed of the pinion",
               display_unit="rpm", start=104.71975511965977, minimum=-5e3, maximum=5e3,
               nominal=100.0, argument="pinion_speed"),
     option("friction.model", "Flank friction: mixed film at every contact point, or Coulomb",
@@ -60,30 +60,31 @@ _PARAMETERS = (
               display_unit="um", start=100e-6, minimum=0.0, maximum=2e-3, nominal=1e-4,
               argument="backlash"),
     option("mesh.stiffness_model",
-           "Stiffness of the teeth: one density along all contact lines, or the loaded contact "
-           "analysis that ships for he_2007 or that the FMU carries",
+           "Tooth stiffness: uniform along all contact lines, or from a loaded contact analysis "
+           "(shipped for he_2007, or a file inside the FMU)",
            "uniform", LINE_MESH, start="uniform", argument="stiffness_model"),
     parameter("mesh.stiffness_density", "N/m2",
-              "Stiffness per length of contact line when uniform; 0 takes that of ISO 6336-1",
+              "Stiffness per length of contact line, if uniform; 0 takes ISO 6336-1",
               display_unit="N/(mm.um)", start=0.0, minimum=0.0, maximum=1e12, nominal=1e10,
               argument="stiffness_density"),
     parameter("mesh.damping_ratio", "1", "Damping ratio of the relative rotation",
               start=0.05, minimum=0.0, maximum=1.0, nominal=0.1, argument="mesh_damping_ratio"),
-    parameter("support.damping_ratio", "1", "Damping ratio of every motion on its bearings",
+    parameter("support.damping_ratio", "1", "Damping ratio of all motions on the bearings",
               start=0.05, minimum=0.0, maximum=1.0, nominal=0.1, argument="support_damping_ratio"),
     parameter("support.radial_stiffness", "N/m",
-              "Radial stiffness of both bearings of a shaft together; 0 takes that of the gear",
+              "Radial stiffness of both bearings of a shaft together; 0 takes the gear data",
               start=0.0, minimum=0.0, maximum=1e12, nominal=1e9, argument="radial_stiffness"),
     parameter("support.axial_stiffness", "N/m",
-              "Axial stiffness of both bearings of a shaft together; 0 takes that of the gear",
+              "Axial stiffness of both bearings of a shaft together; 0 takes the gear data",
               start=0.0, minimum=0.0, maximum=1e12, nominal=1e9, argument="axial_stiffness"),
     parameter("support.bearing_distance", "m",
-              "Distance of each bearing from mid-face; 0 takes that of the gear",
+              "Distance of each bearing from mid-face; 0 takes the gear data",
               display_unit="mm", start=0.0, minimum=0.0, maximum=10.0, nominal=0.1,
               argument="bearing_distance"),
-    option("model.form", "Degrees of freedom; six hold axial motion and tilt",
+    option("model.form", "Degrees of freedom; six_dof has no axial motion and no tilt",
            "twelve_dof", "six_dof", start="twelve_dof", argument="form"),
-    option("model.equations", "Equations of motion: with the work of moving lines, or the paper's",
+    option("model.equations",
+           "Equations of motion: with the work of moving contact lines, or as in the paper",
            "consistent", "he_2007", start="consistent", argument="equations"),
     count("solver.steps_per_mesh_period", "Integration steps in one mesh period", 64, 16, 4096,
           argument="steps_per_mesh_period"),
@@ -91,25 +92,26 @@ _PARAMETERS = (
           "Integration steps in one period of the highest natural frequency", 8, 6, 4096,
           argument="steps_per_highest_period"),
     count("friction.updates_per_mesh_period",
-          "How often in a mesh period the friction of the film is computed anew", 16, 4, 4096,
+          "Updates of the film friction in one mesh period", 16, 4, 4096,
           argument="friction_updates_per_mesh_period"),
 )  # fmt: skip
 
 
 _MESH = (
     output("mesh.dte", "m",
-           "Dynamic transmission error along the line of action, deflection of the shafts included;"
-           " positive with the drive flanks pressed", 1e-5, "um"),
-    output("mesh.load", "N", "Load normal to the flanks, of the drive less the coast flanks",
+           "Dynamic transmission error along the line of action, with shaft deflection; "
+           "positive when the drive flanks are in contact", 1e-5, "um"),
+    output("mesh.load", "N", "Load normal to the flanks: drive flanks minus coast flanks",
            1e3, "kN"),
     *(output(f"mesh.force.{axis}", "N", f"Force of the flanks on the pinion along {axis}",
              1e3, "kN") for axis in "xyz"),
     Variable(name="mesh.separated", type="Boolean", causality="output",
-             description="True while no flank is in contact"),
+             description="True while the teeth are separated: no flank in contact"),
     Variable(name="mesh.coast_contact", type="Boolean", causality="output",
              description="True while coast flanks are in contact"),
-    output("mesh.stiffness", "N/m", "Mesh stiffness along the line of action of what touches", 1e8),
-    output("mesh.frequency", "Hz", "Mesh frequency: pinion teeth times revolutions", 100.0),
+    output("mesh.stiffness", "N/m", "Mesh stiffness along the line of action, flanks in contact",
+           1e8),
+    output("mesh.frequency", "Hz", "Mesh frequency: pinion teeth times turns per second", 100.0),
     output("mesh.film_thickness_min", "m", "Thinnest central film of all contact lines",
            1e-6, "um"),
 )  # fmt: skip
@@ -119,10 +121,10 @@ def _line(i: int) -> tuple[Variable, ...]:
     line = f"of contact line {i}"
     return (
         output(f"line[{i}].load", "N", f"Normal load {line}", 1e3, "kN"),
-        output(f"line[{i}].length", "m", f"Length {line} in the plane of contact", 1e-2, "mm"),
+        output(f"line[{i}].length", "m", f"Length {line}", 1e-2, "mm"),
         output(f"line[{i}].film_thickness_min", "m", f"Thinnest central film {line}", 1e-6, "um"),
         output(f"line[{i}].film_thickness_mean", "m", f"Mean central film {line}", 1e-6, "um"),
-        output(f"line[{i}].film_ratio", "1", f"Thinnest film over composite roughness {line}"),
+        output(f"line[{i}].film_ratio", "1", f"Film ratio (least film over roughness) {line}"),
         output(f"line[{i}].friction_coefficient", "1", f"Mean friction coefficient {line}", 0.05),
         output(f"line[{i}].sliding_speed", "m/s", f"Mean sliding speed {line}"),
         output(f"line[{i}].temperature", "K", f"Mean film temperature {line}", 300.0, "degC"),
@@ -130,9 +132,9 @@ def _line(i: int) -> tuple[Variable, ...]:
 
 
 _LOSSES = (
-    output("friction.power_loss", "W", "Flank friction loss", 100.0),
-    output("damping.power_loss", "W", "Loss in mesh damping", 10.0),
-    output("bearing.power_loss", "W", "Loss in the damping of the bearings", 10.0),
+    output("friction.power_loss", "W", "Power lost in flank friction", 100.0),
+    output("damping.power_loss", "W", "Power lost in the mesh damping", 10.0),
+    output("bearing.power_loss", "W", "Power lost in the damping of the bearings", 10.0),
     output("efficiency", "1", "Efficiency of the gear mesh, mean over the communication step"),
     output("pair.efficiency", "1", "Efficiency with all losses, mean over the communication step"),
 )
@@ -159,7 +161,7 @@ _ENERGIES = energies(
         "wheel_work": "Work of the pair against the wheel torque since initialisation",
         "friction": "Heat of flank friction since initialisation",
         "mesh_damping": "Heat of mesh damping since initialisation",
-        "bearing_damping": "Heat of the bearings' damping since initialisation",
+        "bearing_damping": "Heat of bearing damping since initialisation",
         "stored": "Kinetic and elastic energy in the pair",
     }
 )
@@ -180,19 +182,19 @@ _FIRST: tuple[Variable, ...] = (
 
 # what model exchange needs besides
 _STATES = (
-    local("mesh.rotation", "m", "Base radius times rotation of the pinion less that of the gear",
+    local("mesh.rotation", "m", "Base radius times rotation: pinion minus gear",
           1e-5, "um"),
     *(one for member in MEMBERS for one in (*velocities(*member), *tilt_speeds(*member))),
     load_level(),
 )  # fmt: skip
 _BY_NAME = {variable.name: variable for variable in _FIRST + _STATES}
 _EVENTS = (
-    local("event.drive_flank", "1", "Drive flanks may touch where it is above 0: bound of their "
-          "deflection over 1 um"),
-    local("event.coast_flank", "1", "Coast flanks may touch where it is above 0: bound of their "
-          "deflection over 1 um"),
-    local("event.friction_update", "1", "Friction of the film is computed anew where its sign "
-          "changes: sine of pi times the updates since phase zero"),
+    local("event.drive_flank", "1", "Drive flanks can be in contact when this is above 0: upper "
+          "bound of their deflection over 1 um"),
+    local("event.coast_flank", "1", "Coast flanks can be in contact when this is above 0: upper "
+          "bound of their deflection over 1 um"),
+    local("event.friction_update", "1", "The film friction is updated when this changes sign: "
+          "sine of pi times the number of updates since phase zero"),
 )  # fmt: skip
 
 HELICAL_PAIR: tuple[Variable, ...] = (

@@ -43,11 +43,11 @@ def option(name: str, description: str, *literals: str, start: str, argument: st
 
 
 def options_by_number(variables: Sequence[Variable]) -> tuple[Variable, ...]:
-    """Return an Integer parameter for each enumeration, for hosts that know no enumerations."""
+    """Return an Integer parameter for each enumeration, for hosts without enumerations."""
     return tuple(
         Variable(
             name=f"{one.name}.number", type="Integer", causality="parameter",
-            description=f"{one.name} by number, from 1 on; 0 leaves {one.name} as it is",
+            description=f"{one.name} by number, starting at 1; 0 keeps the value of {one.name}",
             start=0, minimum=0, maximum=len(one.literals), option_of=one.name,
         )
         for one in variables if one.literals
@@ -75,7 +75,7 @@ def rates(states: Sequence[Variable]) -> tuple[Variable, ...]:
     """Return the derivative by time of each continuous state."""
     return tuple(
         replace(
-            local(f"der({one.name})", unit, f"Derivative by time: {_in_a_sentence(one)}", nominal),
+            local(f"der({one.name})", unit, f"Time derivative: {_in_a_sentence(one)}", nominal),
             rate_of=one.name,
         )
         for one in states

@@ -36,10 +36,10 @@ from gearlube_core.friction.flank_rolling import FLANK_ROLLING_LAWS
 SHARED_PRELOAD = -1.0  # N, start value of the preload of the gear's shaft: that of the pinion's
 
 _INPUTS = (
-    input_("pinion.torque", "N.m", "Torque on the pinion shaft; positive drives; refused "
-           "beyond 1.5 times the end of the mesh table",
+    input_("pinion.torque", "N.m", "Torque on the pinion shaft, positive when it drives; an "
+           "error beyond 1.5 times the largest torque of the mesh table",
            start=60.0, minimum=-1e4, maximum=1e4, nominal=100.0),
-    input_("wheel.torque", "N.m", "Load torque on the gear shaft; positive resists forward motion",
+    input_("wheel.torque", "N.m", "Load torque on the gear shaft, positive against forward motion",
            start=160.0, minimum=-3e4, maximum=3e4, nominal=300.0),
     input_("oil.temperature", "K", "Bulk oil temperature", display_unit="degC",
            start=313.15, minimum=273.15, maximum=423.15, nominal=300.0),
@@ -52,25 +52,25 @@ _PARAMETERS = (
     parameter("flank.roughness_rms", "m", "Composite root-mean-square roughness of the flanks",
               display_unit="um", start=0.5e-6, minimum=1e-9, maximum=2e-5, nominal=1e-6,
               argument="roughness_rms"),
-    parameter("mesh.backlash", "m", "Total backlash along the line of action, 2 b",
+    parameter("mesh.backlash", "m", "Total backlash 2 b along the line of action",
               display_unit="um", start=150e-6, minimum=0.0, maximum=2e-3, nominal=1e-4,
               argument="backlash"),
-    parameter("pinion.speed_start", "rad/s", "Speed of the pinion at the start",
+    parameter("pinion.speed_start", "rad/s", "Initial speed of the pinion",
               display_unit="rpm", start=200.0, minimum=-5e3, maximum=5e3, nominal=100.0,
               argument="pinion_speed"),
     parameter("mesh.modal_loss_factor", "1", "Loss factor of the mesh when mesh.damping = modal",
               start=0.06, minimum=0.0, maximum=1.0, nominal=0.1, argument="modal_loss_factor"),
-    option("model.equations", "Equations of motion: with corrected misprints, or as printed",
+    option("model.equations", "Equations of motion: misprints corrected, or as printed",
            "consistent", "as_printed", start="consistent", argument="equations"),
-    option("model.radii", "Radii on which the mesh force acts",
+    option("model.radii", "Lever arms of the mesh force",
            "consistent", "paper", "mean", start="consistent", argument="radii"),
     option("mesh.damping", "Law of the mesh damping", "hysteretic", "modal", start="hysteretic",
            argument="mesh_damping"),
-    option("friction.model", "Flank friction",
+    option("friction.model", "Model of the flank friction",
            "consistent", "as_printed", "off", "printed_traction_circular", "zhou_hoeprich_1991",
            start="consistent",
            argument="friction"),
-    option("bearing.approach", "Roller approach under shaft displacement",
+    option("bearing.approach", "Formula of the roller deflection under shaft displacement",
            "full", "as_printed", start="full", argument="bearing_approach"),
     option("bearing.torque_loss", "Drag torque of the bearings",
            *TORQUE_LOSSES, start="palmgren", argument="bearing_torque_loss"),
@@ -89,9 +89,9 @@ _MESH = (
            1e-5, "um"),
     output("mesh.force", "N", "Dynamic mesh force", 1e3, "kN"),
     Variable(name="mesh.separated", type="Boolean", causality="output",
-             description="True while neither flank is in contact"),
-    output("mesh.stiffness", "N/m", "Mesh stiffness at the present mesh phase", 1e8),
-    output("mesh.frequency", "Hz", "Mesh frequency: pinion teeth times revolutions", 100.0),
+             description="True while the teeth are separated: no flank in contact"),
+    output("mesh.stiffness", "N/m", "Mesh stiffness at the current mesh phase", 1e8),
+    output("mesh.frequency", "Hz", "Mesh frequency: pinion teeth times turns per second", 100.0),
 )  # fmt: skip
 
 
@@ -100,17 +100,17 @@ def _flank(i: int) -> tuple[Variable, ...]:
     return (
         output(f"flank[{i}].load", "N", f"Load {pair}", 1e3, "kN"),
         output(f"flank[{i}].film_thickness", "m", f"Central film thickness {pair}", 1e-6, "um"),
-        output(f"flank[{i}].film_ratio", "1", f"Film thickness over composite roughness {pair}"),
+        output(f"flank[{i}].film_ratio", "1", f"Film ratio (film thickness over roughness) {pair}"),
         output(f"flank[{i}].friction_coefficient", "1", f"Friction coefficient {pair}", 0.05),
         output(f"flank[{i}].temperature", "K", f"Film temperature {pair}", 300.0, "degC"),
     )
 
 
 _LOSSES = (
-    output("friction.power_loss", "W", "Flank friction loss, viscous and boundary", 100.0),
-    output("friction.power_loss_boundary", "W", "Flank friction loss, boundary share", 10.0),
-    output("bearing.power_loss", "W", "Drag torque loss of all four bearings", 100.0),
-    output("damping.power_loss", "W", "Loss in mesh and roller damping", 10.0),
+    output("friction.power_loss", "W", "Power lost in flank friction, viscous and boundary", 100.0),
+    output("friction.power_loss_boundary", "W", "Power lost in boundary friction of flanks", 10.0),
+    output("bearing.power_loss", "W", "Power lost in the drag of all four bearings", 100.0),
+    output("damping.power_loss", "W", "Power lost in the damping of mesh and rollers", 10.0),
     output("efficiency", "1", "Efficiency of the gear mesh, mean over the communication step"),
     output("axle.efficiency", "1", "Efficiency with all losses, mean over the communication step"),
 )
@@ -150,29 +150,29 @@ _ENERGIES = energies(
 
 # parameters younger than the first release: appended, so that value references stay
 _LATER_PARAMETERS = (
-    option("model.mesh_stiffness", "Spring of the mesh: tangent at its load, or secant",
+    option("model.mesh_stiffness", "Mesh stiffness: tangent at the current load, or secant",
            "tangent", "secant", start="tangent", argument="mesh_stiffness"),
 )  # fmt: skip
 
 # ditto; those that an axle file gives too
 _AXLE_NUMBERS = (
-    *(parameter(f"{name}.mass", "kg", f"Mass of the {word} and of all that moves with it",
+    *(parameter(f"{name}.mass", "kg", f"Mass of the {word} with its shaft and parts",
                 start=start, minimum=0.05, maximum=2000.0, nominal=10.0, argument=f"{word}_mass")
       for (name, word), start in zip(MEMBERS, (12.0, 49.9), strict=True)),
-    *(parameter(f"{name}.inertia", "kg.m2", f"Inertia of the {word} and of all that turns with it",
+    *(parameter(f"{name}.inertia", "kg.m2", f"Inertia of the {word} with its shaft and parts",
                 start=start, minimum=1e-6, maximum=500.0, nominal=0.01, argument=f"{word}_inertia")
       for (name, word), start in zip(MEMBERS, (1734e-6, 5.81e-2), strict=True)),
-    parameter("wheel.bearing.preload", "N", "Axial preload of each bearing of the gear's shaft; "
-              "below 0: bearing.preload holds there too", display_unit="kN",
+    parameter("wheel.bearing.preload", "N", "Axial preload of each bearing of the gear shaft; "
+              "a negative value takes bearing.preload", display_unit="kN",
               start=SHARED_PRELOAD, minimum=SHARED_PRELOAD, maximum=1e5, nominal=1e3,
               argument="gear_bearing_preload"),
     *(parameter(f"{name}.bearing.contact_angle", "rad", "Contact angle of the bearings of the "
-                f"{word}'s shaft, at the outer race", display_unit="deg",
+                f"{word} shaft, at the outer race", display_unit="deg",
                 start=math.radians(15.0), minimum=math.radians(5.0), maximum=math.radians(45.0),
                 nominal=0.1, argument=f"{word}_contact_angle")
       for name, word in MEMBERS),
-    *(parameter(f"{name}.bearing.{factor}", "1", f"{words} of the drag of the bearings of the "
-                f"{word}'s shaft", start=start, minimum=0.0, maximum=most,
+    *(parameter(f"{name}.bearing.{factor}", "1", f"{words} of the bearing drag on the "
+                f"{word} shaft", start=start, minimum=0.0, maximum=most,
                 argument=f"{word}_{factor}")
       for factor, words, start, most in (("f0", "Viscous factor", 6.0, 100.0),
                                          ("f1", "Load factor", 4e-4, 0.1))
@@ -200,30 +200,30 @@ _FIRST: tuple[Variable, ...] = (
 _STATES = (*(one for member in MEMBERS for one in velocities(*member)), load_level())
 _BY_NAME = {variable.name: variable for variable in _FIRST + _STATES}
 _EVENTS = (
-    local("event.drive_flank", "1", "Drive flanks touch where it is not below 0: transmission "
-          "error over 1 um"),
-    local("event.coast_flank", "1", "Coast flanks touch where it is not above 0: transmission "
-          "error and backlash over 1 um"),
-    local("event.side", "1", "The mesh data are those of the coast flanks from the event at which "
-          "it falls below 0: place within the gap over 1 um"),
+    local("event.drive_flank", "1", "Drive flanks are in contact when this is 0 or more: "
+          "transmission error over 1 um"),
+    local("event.coast_flank", "1", "Coast flanks are in contact when this is 0 or less: "
+          "transmission error plus backlash, over 1 um"),
+    local("event.side", "1", "The model takes the mesh data of the coast flanks after this falls "
+          "below 0: position within the backlash over 1 um"),
 )  # fmt: skip
 
 # churning and seals, younger than the rest
 _DRAG = (
-    option("churning.model", "Law of the churning of the gear in its oil", *CHURNING_LAWS,
+    option("churning.model", "Law of the churning loss of the gear", *CHURNING_LAWS,
            start="none", argument="churning"),
     parameter("churning.ring_diameter", "m", "Outside diameter of the gear", display_unit="mm",
               start=0.165, minimum=0.01, maximum=3.0, nominal=0.1, argument="ring_diameter"),
     parameter("churning.ring_width", "m", "Width of the teeth of the gear", display_unit="mm",
               start=0.03, minimum=1e-3, maximum=1.0, nominal=0.01, argument="ring_width"),
-    parameter("churning.immersion", "m", "Depth of the lowest tooth of the gear in the oil at rest",
+    parameter("churning.immersion", "m", "Depth of the lowest gear tooth below the oil at rest",
               display_unit="mm", start=0.04, minimum=0.0, maximum=3.0, nominal=0.01,
               argument="immersion"),
     parameter("churning.oil_volume", "m3", "Volume of the oil in the axle", display_unit="l",
               start=1.2e-3, minimum=1e-5, maximum=1.0, nominal=1e-3, argument="oil_volume"),
     *(parameter(f"{name}.seal.torque", "N.m", f"Friction torque of {words}",
                 start=0.0, minimum=0.0, maximum=100.0, argument=f"{name}_seal_torque")
-      for name, words in (("pinion", "the seal of the pinion's shaft"),
+      for name, words in (("pinion", "the pinion shaft seal"),
                           ("wheel", "the seals of both wheels, at the gear"))),
 )  # fmt: skip
 _DRAG_ENERGIES = energies(
@@ -233,8 +233,8 @@ _DRAG_ENERGIES = energies(
     }
 )
 _DRAG_LOSSES = (
-    output("churning.power_loss", "W", "Loss by churning of the gear in its oil", 100.0),
-    output("seal.power_loss", "W", "Loss in the shaft seals", 10.0),
+    output("churning.power_loss", "W", "Power lost by churning of the gear in the oil", 100.0),
+    output("seal.power_loss", "W", "Power lost in the shaft seals", 10.0),
 )
 
 # rolling of the flanks, younger still
@@ -244,10 +244,10 @@ _ROLLING = (
 )  # fmt: skip
 _ROLLING_LOSSES = (
     output("friction.power_loss_rolling", "W",
-           "Rolling loss of the flanks, beside friction.power_loss", 10.0),
+           "Power lost in rolling of the flanks, not included in friction.power_loss", 10.0),
 )  # fmt: skip
 _ROLLING_ENERGIES = energies(
-    {"friction_rolling": "Rolling loss of the flanks since initialisation"}
+    {"friction_rolling": "Energy lost in rolling of the flanks since initialisation"}
 )
 _LATER_ENERGIES = _DRAG_ENERGIES + _ROLLING_ENERGIES
 _LATER_STATES = tuple(variable.name for variable in _LATER_ENERGIES)

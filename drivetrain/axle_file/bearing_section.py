@@ -124,7 +124,9 @@ class BearingSection(ModelSection):
         if len(races) == 1:
             problems.append(f"the race diameters come in pairs, got {races[0]} alone; give both")
         if races and self.has("pitch_diameter_mm"):
-            problems.append("pitch_diameter_mm and the race diameters say the same; give one")
+            problems.append(
+                "pitch_diameter_mm and the race diameters are two ways to give it; give one"
+            )
         if not problems:
             try:
                 problems = self._geometry_problems(self.bearing())

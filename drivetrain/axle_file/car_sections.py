@@ -65,7 +65,8 @@ class VehicleSection(ModelSection):
             self.has("frontal_area_m2") or self.has("drag_coefficient")
         ):
             raise ValueError(
-                "drag_area_m2 and frontal_area_m2 with drag_coefficient say the same; give one"
+                "drag_area_m2 and frontal_area_m2 with drag_coefficient are "
+                "two ways to give it; give one"
             )
         if problems := or_problem(self.vehicle):
             raise ValueError(problems[0])
@@ -106,7 +107,7 @@ class TyreSection(ModelSection):
     @model_validator(mode="after")
     def _check_tyre(self) -> TyreSection:
         if self.has("size") and (self.has("rolling_radius_mm") or self.has("unladen_radius_mm")):
-            raise ValueError("size and the radii say the same; give one")
+            raise ValueError("size and the radii are two ways to give one value; give one")
         if problems := or_problem(self.tyre):
             raise ValueError(problems[0])
         return self

@@ -79,16 +79,18 @@ class Seals(ModelSection):
     }
 
     pinion_diameter_mm: ShaftSize | None = Field(
-        default=None, description="Of the pinion's shaft under the lip; or give its torque"
+        default=None,
+        description="Diameter of the pinion shaft under the seal lip; or give the torque",
     )
     wheel_diameter_mm: ShaftSize | None = Field(
-        default=None, description="Of either wheel's shaft under the lip; or give their torque"
+        default=None,
+        description="Diameter of each wheel shaft under the seal lip; or give the torque",
     )
     material: SealMaterial | None = Field(
-        default=None, description="Of the lips: fluorocarbon or nitrile rubber; absent: fkm"
+        default=None, description="Lip material: fluorocarbon (fkm) or nitrile rubber; absent: fkm"
     )
     pinion_torque_n_m: Torque | None = Field(
-        default=None, description="Friction torque of the pinion's seal"
+        default=None, description="Friction torque of the pinion seal"
     )
     wheel_torque_n_m: Torque | None = Field(
         default=None, description="Friction torque of the seals of both wheels together"
@@ -99,7 +101,8 @@ class Seals(ModelSection):
         for shaft in ("pinion", "wheel"):
             if self.has(f"{shaft}_diameter_mm") and self.has(f"{shaft}_torque_n_m"):
                 raise ValueError(
-                    f"{shaft}_diameter_mm and {shaft}_torque_n_m say the same; give one of them"
+                    f"{shaft}_diameter_mm and {shaft}_torque_n_m are two ways "
+                    f"to give one value; give one of them"
                 )
         return self
 

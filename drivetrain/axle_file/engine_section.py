@@ -70,10 +70,10 @@ class EngineSection(ModelSection):
         description="Torque orders: periods per revolution of crank or rotor; []: smooth",
     )
     order_amplitudes: Amplitudes | None = Field(
-        default=None, description="Of the orders, over the mean torque"
+        default=None, description="Amplitudes of the orders, over the mean torque"
     )
     order_phases_deg: Phases | None = Field(
-        default=None, description="Of the orders, at the firing dead centre of cylinder 1"
+        default=None, description="Phases of the orders, at the firing dead centre of cylinder 1"
     )
     primary_inertia_kg_m2: Inertia | None = Field(
         default=None, description="Crankshaft and primary flywheel mass; of a motor its rotor"
@@ -86,7 +86,7 @@ class EngineSection(ModelSection):
         default=None, description="Arc springs of the flywheel; of a motor its shaft"
     )
     flywheel_damping_n_m_s_per_rad: Damping | None = Field(
-        default=None, description="Of the same springs, viscous"
+        default=None, description="Viscous damping of the same springs"
     )
     idle_speed_rpm: Speed | None = Field(default=None, description="Lowest speed of crank or rotor")
     highest_speed_rpm: Speed | None = Field(

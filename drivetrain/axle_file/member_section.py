@@ -65,24 +65,26 @@ class Member(ModelSection):
     """Pinion or gear with all that turns and moves with it."""
 
     mass_kg: Mass | None = Field(
-        default=None, description="Of all that moves with the member; absent: of its frusta"
+        default=None,
+        description="Mass of the member with its shaft and parts; absent: from its frusta",
     )
     inertia_kg_m2: Inertia | None = Field(
         default=None,
-        description="Of all that turns with the member, about its axis; absent: of its frusta",
+        description="Inertia of the member with its shaft and parts, about its "
+        "axis; absent: from its frusta",
     )
     frusta_lengths_mm: Frusta | None = Field(
         default=None,
         description="Blank and shaft as cone frusta of the steel on one axis: length of each",
     )
     frusta_first_diameters_mm: Diameters | None = Field(
-        default=None, description="Of the frusta: outside diameter at one end"
+        default=None, description="Outside diameter of each frustum at one end"
     )
     frusta_last_diameters_mm: Diameters | None = Field(
-        default=None, description="Of the frusta: outside diameter at the other end"
+        default=None, description="Outside diameter of each frustum at the other end"
     )
     frusta_bores_mm: Bores | None = Field(
-        default=None, description="Of the frusta: diameter of the bore; absent: solid"
+        default=None, description="Bore diameter of each frustum; absent: solid"
     )
     bearing: BearingSection | None = None
 

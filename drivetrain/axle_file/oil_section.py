@@ -44,7 +44,7 @@ class OilSection(ModelSection):
         description="Oil file (.toml), its path relative to the axle file, in place of all others",
     )
     viscosity_40_degc_mm2_s: Viscosity | None = Field(
-        default=None, description="Kinematic, at 40 degC; with that at 100 degC"
+        default=None, description="Kinematic viscosity at 40 degC; give that at 100 degC too"
     )
     viscosity_100_degc_mm2_s: Viscosity | None = Field(
         default=None, description="Kinematic, at 100 degC"
@@ -54,7 +54,7 @@ class OilSection(ModelSection):
         description="A of log log(nu + 0.7) = A - B log T, nu in mm2/s, T in K; with walther_b, in "
         "place of the two viscosities",
     )
-    walther_b: WaltherB | None = Field(default=None, description="B of the same line")
+    walther_b: WaltherB | None = Field(default=None, description="B of the same equation")
     density_kg_m3: Density | None = Field(default=None, description="At any temperature")
     alpha_per_gpa: PressureViscosity | None = Field(
         default=None, description="Pressure-viscosity coefficient at low pressure"
@@ -63,13 +63,13 @@ class OilSection(ModelSection):
         default=None, description="Where alpha holds"
     )
     eyring_stress_mpa: Stress | None = Field(
-        default=None, description="Shear stress where thinning begins"
+        default=None, description="Shear stress at which shear thinning begins (Eyring)"
     )
     limiting_shear_stress_mpa: Strength | None = Field(
         default=None, description="Shear strength of boundary junctions without pressure"
     )
     boundary_friction: Share | None = Field(
-        default=None, description="Slope of that strength with pressure"
+        default=None, description="Increase of that strength per unit of pressure"
     )
     conductivity_w_m_k: Conductivity | None = Field(default=None, description="Of heat")
     conductivity_temperature_degc: Temperature | None = Field(
@@ -106,7 +106,10 @@ class OilSection(ModelSection):
             if len(given) == 1:
                 problems.append(f"{pair[0]} and {pair[1]} come together, got {given[0]} alone")
         if self.has(_SHEET[0]) and self.has(_WALTHER[0]):
-            problems.append("the two viscosities and walther_a, walther_b say the same; give one")
+            problems.append(
+                "the two viscosities and walther_a, walther_b are "
+                "two ways to give the viscosity; give one"
+            )
         if not problems and not self.is_shipped:
             try:
                 self.oil()

@@ -44,7 +44,7 @@ def array_variables(variables: Sequence[Variable]) -> list[ArrayVariable]:
         if len(family) > 1 and sorted(family) == list(range(1, len(family) + 1)):
             members = tuple(family[i] for i in sorted(family))
             first = variables[members[0]]
-            described = re.sub(r",? (of )?[a-z ]+ 1$", "", first.description)
+            described = re.sub(r"(,| of) [a-z]+( [a-z]+)? 1$", "", first.description)
             variable = replace(first, name=name, description=described + _each(first.name))
             found[members[0]] = ArrayVariable(variable, members)
     inside = {reference for one in found.values() for reference in one.references}

@@ -9,7 +9,9 @@ import typer
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption
 
-axle = typer.Typer(name="axle", help="Axle files: an axle and its car.", no_args_is_help=True)
+axle = typer.Typer(
+    name="axle", help="Check and show an axle file (an axle and its car).", no_args_is_help=True
+)
 
 
 @axle.callback()
@@ -23,7 +25,7 @@ def show(
         str, typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE")
     ] = "mohammadpour_2015",
     assumed: Annotated[
-        bool, typer.Option("--assumed", help="Only the inputs that the file does not give.")
+        bool, typer.Option("--assumed", help="Print only the inputs that the file does not give.")
     ] = False,
     example: ExampleOption = False,
 ) -> None:

@@ -27,7 +27,7 @@ def build_fmu(
     ] = None,
     mesh_table: Annotated[
         Path | None,
-        typer.Option(help="Mesh table (.nc) of another hypoid pair. Default: the one that ships."),
+        typer.Option(help="Mesh table (.nc) of another hypoid pair. Default: the shipped one."),
     ] = None,
     axle: Annotated[
         str | None,
@@ -54,7 +54,7 @@ def build_fmu(
         bool,
         typer.Option(
             "--python",
-            help="FMUs of FMI 2 that compute in this installed package, for development.",
+            help="Build FMI 2 FMUs that run in this Python installation, for development.",
         ),
     ] = False,
 ) -> None:

@@ -41,16 +41,19 @@ def convert(
         typer.Option(help="File to write. Default: PAIR with the other ending, in this folder."),
     ] = None,
     stage: Annotated[
-        int | None, typer.Option(help="Number of the stage in a REXS file of several.", metavar="N")
+        int | None,
+        typer.Option(help="Number of the gear stage, if the REXS file has several.", metavar="N"),
     ] = None,
     given: Annotated[
         list[str] | None,
         typer.Option(
-            "--set", help="Fields that the REXS file lacks, FIELD=VALUE.", metavar="FIELD=VALUE"
+            "--set",
+            help="Value of a field that is missing in the REXS file.",
+            metavar="FIELD=VALUE",
         ),
     ] = None,
     overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Write also where the file is there.")
+        bool, typer.Option("--overwrite", help="Replace the file if it exists.")
     ] = False,
 ) -> None:
     """Convert a pair between REXS and gear files, and say what does not fit.
@@ -100,8 +103,8 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _MEANING = {
     "taken": "Taken:",
     "inferred": "Follows from other numbers:",
-    "lacking": "Not in the REXS file; this stands for it:",
-    "left out": "LEFT OUT, the written file has no place for it:",
+    "lacking": "Not in the REXS file; these values were assumed:",
+    "left out": "LEFT OUT, the written file cannot hold these data:",
 }
 
 

@@ -11,15 +11,21 @@ if TYPE_CHECKING:
 
 AirTemperatureOption = Annotated[
     float | None,
-    typer.Option(help="Of the air, for the steady temperature [degC]. Default: 23."),
+    typer.Option(help="Air temperature for --steady-temperature [degC]. Default: 23."),
 ]
 ConductanceAtRestOption = Annotated[
     float | None,
-    typer.Option(help="Housing to air at rest [W/K]; default 7, assumed, 4.5 to 10."),
+    typer.Option(
+        help="Thermal conductance, housing to air, car at rest [W/K]; "
+        "assumed, 4.5 to 10. Default: 7."
+    ),
 ]
 ConductanceAt100Option = Annotated[
     float | None,
-    typer.Option(help="Ditto at 100 km/h [W/K]; default 18, assumed, 9 to 30."),
+    typer.Option(
+        help="Thermal conductance, housing to air, at 100 km/h [W/K]; "
+        "assumed, 9 to 30. Default: 18."
+    ),
 ]
 
 

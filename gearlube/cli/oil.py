@@ -20,7 +20,7 @@ logger = logging.getLogger("gearlube")
 oil = typer.Typer(
     name="oil",
     cls=ShowByDefault,
-    help="Oil files: `gearlube oil my_oil.toml` shows one.",
+    help="Check and show an oil file, or fit one to measured traction.",
     no_args_is_help=True,
 )
 
@@ -42,7 +42,7 @@ def show(
         Path | None, typer.Option(help="Draw the properties into this file (.png).")
     ] = None,
     assumed: Annotated[
-        bool, typer.Option("--assumed", help="Only the numbers that the file does not give.")
+        bool, typer.Option("--assumed", help="Print only the numbers that the file does not give.")
     ] = False,
     example: Annotated[
         bool, typer.Option("--example", help="Print an oil file to start from, and stop.")

@@ -34,9 +34,12 @@ RoughnessOption = Annotated[
     float, typer.Option(help="Composite rms roughness of the flanks [um].", metavar="UM")
 ]
 JobsOption = Annotated[
-    int | None, typer.Option(help="Local processes. Default: all processors.", metavar="N")
+    int | None,
+    typer.Option(help="Number of parallel processes. Default: all processors.", metavar="N"),
 ]
 OverwriteOption = Annotated[
     bool,
-    typer.Option("--overwrite", help="Write into OUT also if it is of another study or version."),
+    typer.Option(
+        "--overwrite", help="Write into OUT even if it holds results of another study or version."
+    ),
 ]

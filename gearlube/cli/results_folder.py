@@ -11,7 +11,7 @@ from gearlube_core import __version__
 from gearlube_core.errors import ParameterError
 
 MARK = "gearlube_results.json"  # says which study wrote a folder, and which version
-_CURE = "Give another --out, or --overwrite to write there all the same."
+_CURE = "Give another --out, or --overwrite to write there anyway."
 # what studies write: a folder with one of these and no mark holds results of an older version
 _RESULTS = frozenset(
     {

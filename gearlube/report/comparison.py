@@ -123,7 +123,9 @@ def _findings(
         found.append(Finding(GOOD, "All key numbers are the same."))
     elif len(moved) > _NAMED:
         found.append(
-            Finding(NOTE, f"{len(moved)} of {len(changes)} key numbers differ; the table has all.")
+            Finding(
+                NOTE, f"{len(moved)} of {len(changes)} key numbers differ; the table lists all."
+            )
         )
     words = "; ".join(f"{name}: {a} in A, {b} in B" for name, a, b in differing[:_NAMED])
     more = f"; and {len(differing) - _NAMED} more" if len(differing) > _NAMED else ""
@@ -180,7 +182,7 @@ def _numbers(changes: Sequence[Change]) -> Table:
             ]
             for one in changes
         ],
-        caption="The difference is B less A.",
+        caption="The difference is B minus A.",
     )
 
 

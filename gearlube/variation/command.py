@@ -29,7 +29,10 @@ class VaryCommand(MultiValueCommand):
 
 def vary(
     study: Annotated[
-        str, typer.Argument(help="map, sweep, cycle, bearing, helical or contact.", metavar="STUDY")
+        str,
+        typer.Argument(
+            help="map, sweep, cycle, bearing, helical, contact or resonance.", metavar="STUDY"
+        ),
     ],
     file: Annotated[
         str | None,
@@ -59,11 +62,11 @@ def vary(
         bool,
         typer.Option("--scatter", help="Sample the [tolerances] of the file as well."),
     ] = False,
-    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    seed: Annotated[int, typer.Option(help="Random seed of the samples.")] = 1,
     limit: Annotated[
         list[str] | None,
         typer.Option(
-            help="Tell the share of points above: QUANTITY=VALUE in its unit.",
+            help="Report the share of points above a limit: QUANTITY=VALUE, in the unit of --keys.",
             metavar="QUANTITY=VALUE...",
         ),
     ] = None,
@@ -75,17 +78,22 @@ def vary(
     block: Annotated[
         int | None,
         typer.Option(
-            help="Points that are computed and kept together. Default: some seconds of work.",
+            help="Points in one block; a block is computed and saved as a "
+            "whole. Default: some seconds of work.",
             metavar="N",
         ),
     ] = None,
     quick: Annotated[
-        bool, typer.Option("--quick", help="sweep, helical, contact, resonance: coarse.")
+        bool,
+        typer.Option(
+            "--quick", help="Coarse settings for a first look (sweep, helical, contact, resonance)."
+        ),
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_vary"),
     overwrite: OverwriteOption = False,
     keys: Annotated[
-        bool, typer.Option("--keys", help="List what can be varied and what is computed; stop.")
+        bool,
+        typer.Option("--keys", help="List the parameters and the computed quantities, and stop."),
     ] = False,
 ) -> None:
     """Vary any parameter of an axle, bearing or gear pair in a study: a grid, or samples.
@@ -125,7 +133,7 @@ def vary(
         given = varied_from(vary or [], chosen.keys)
         limits = limits_from(limit or [], [one.name for one in chosen.quantities])
         if block is not None:
-            check_within("--block", block, 1, MOST_BLOCK, "", "Leave it out for the usual.")
+            check_within("--block", block, 1, MOST_BLOCK, "", "Leave it out for the default.")
         if scheduler is not None:
             check_address(scheduler)
         spreads = given.spreads

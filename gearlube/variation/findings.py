@@ -115,7 +115,7 @@ def _strongest(summary: xr.Dataset, name: str) -> list[str]:
         if abs(np.nan_to_num(mean)[i]) >= _STRONG
     ]
     if not strong:
-        return ["It follows no single input much (rank correlations below 0.5)."]
+        return ["No single input dominates (rank correlations below 0.5)."]
     return [f"It follows most {' and '.join(strong)}, by rank correlation."]
 
 

@@ -2,6 +2,7 @@
 
 from fmu_src.native.array_variables import array_variables
 from fmu_src.variable import Variable
+from fmu_src.variables import HYPOID_AXLE
 
 
 def real(name, description="Load"):
@@ -41,3 +42,9 @@ def test_what_is_not_numbered_from_one_to_n_stays_scalar():
         ("a[1].x[1]", (0,)), ("a[1].x[2]", (1,))
     ]  # fmt: skip
     assert found(real("a[1].x"), real("a[2].y")) == [("a[1].x", (0,)), ("a[2].y", (1,))]
+
+
+def test_an_array_keeps_the_whole_description_of_its_first_element():
+    found = {one.variable.name: one.variable.description for one in array_variables(HYPOID_AXLE)}
+    assert found["flank.film_thickness"] == "Central film thickness, of each flank"
+    assert found["bearing.roller_load_max"] == "Largest roller load, of each bearing"

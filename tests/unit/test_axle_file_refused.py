@@ -78,7 +78,10 @@ def refusal(changes):
         ),
         ({"pinion.bearing.inner_race_diameter_mm": 50.0}, ["come in pairs"]),
         ({"tyre.size": "big"}, ["195/65R16", "'big'"]),
-        ({"tyre.size": "195/65R16", "tyre.rolling_radius_mm": 320.0}, ["say the same; give one"]),
+        (
+            {"tyre.size": "195/65R16", "tyre.rolling_radius_mm": 320.0},
+            ["are two ways to give one value; give one"],
+        ),
         ({"engine.orders": [2]}, ["the same number of entries, got 1, 0 and 0"]),
         ({"engine.idle_speed_rpm": 7000.0}, ["highest_speed_rpm must be within 7000"]),
         ({"vehicle.drag_area_m2": 0.7, "vehicle.frontal_area_m2": 2.2}, ["give one"]),

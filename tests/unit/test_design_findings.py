@@ -117,8 +117,8 @@ def test_sound_teeth_say_their_least_widths_and_that_nothing_is_undercut():
 
 
 def test_a_path_shorter_than_a_pitch_is_a_warning():
-    assert told(design(), "path of contact lasts").level == NOTE
-    assert told(design(ratio=0.9), "path of contact lasts").level == WARNING
+    assert told(design(), "contact ratio").level == NOTE
+    assert told(design(ratio=0.9), "contact ratio").level == WARNING
 
 
 def test_what_was_chosen_is_told_and_the_report_has_it_all(tmp_path):

@@ -64,10 +64,10 @@ def test_the_loudest_order_rises_towards_its_resonance_and_is_told_first(ramp) -
     assert first.level == "warning"
     assert first.headline.startswith("The loudest is mesh order 1: ")
     assert "mode 'pinion axial'" in first.detail
-    assert "The crest lies at the end of the ramp" in first.detail
+    assert "The peak lies at the end of the ramp" in first.detail
     headlines = " ".join(one.headline for one in others)
     assert "lies above the ramp, 3 % away: 'pinion axial'" in headlines
-    assert "The teeth stay in contact all the way." in headlines
+    assert "The teeth stay in contact at all speeds." in headlines
     assert {one.unit for one in numbers(ramp)} == {"N rms", "rpm", "µm rms", "", "%", "W"}
 
 

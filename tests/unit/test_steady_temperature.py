@@ -102,7 +102,7 @@ def test_the_command_writes_the_steady_temperature(tmp_path, caplog):
         gl.steady_temperature(
             CAR, torque=300.0, speed=2000.0 * np.pi / 30.0, air_temperature=283.15, heat=heat
         )
-    assert "1 of 2 torques and speeds come to no rest" in caplog.text
+    assert "1 of 2 torques and speeds reach no steady temperature" in caplog.text
     with xr.open_dataset(out / "map.nc", engine="scipy") as found:
         assert found["steady_temperature"].dims == ("speed", "torque")
         assert found["steady_temperature"].attrs["units"] == "degC"

@@ -222,7 +222,7 @@ def test_bearing_says_its_largest_loss_the_laws_and_the_oil(a_bearing):
     assert "rolling 75 %, rib 25 %" in largest.detail
     assert "factor of 2: Palmgren has the least" in found(said, "laws differ").headline
     assert "from 40 to 80 °C lowers the mean torque by 50 %" in found(said, "Warming").headline
-    assert found(said, "No law left its range").level == GOOD
+    assert found(said, "All laws are within their range").level == GOOD
     a_bearing["film_ratio"][0, 0] = 0.4
     assert found(bearing.findings(a_bearing), "film of the raceways falls to 0.4").level == WARNING
     known = {one.name: one.value for one in bearing.numbers(a_bearing)}

@@ -101,7 +101,7 @@ def test_film_contact_and_rollers_have_the_levels_of_their_numbers(sweep):
     one = found(apart, "teeth separate")
     assert "at 2 of 3 points: 20, 100 km/h" in one.headline
     assert "At most 25 % of the time" in one.detail
-    assert "At 1 points the back flanks hit too" in one.detail
+    assert "At 1 points the coast flanks come into contact too" in one.detail
     free = sweep.copy(deep=True)
     free["bearing_roller_load_min"][:] = 5.0
     assert found(free, "Every roller stays loaded: at least 5.00 N").level == GOOD

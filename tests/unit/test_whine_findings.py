@@ -60,10 +60,10 @@ def test_the_setting_that_moves_an_order_most_is_named_with_size_sign_and_speed(
     )
 
 
-def test_a_change_as_large_as_the_force_is_a_warning_that_it_is_a_hint():
+def test_a_change_as_large_as_the_force_is_a_warning_that_the_size_is_rough():
     told = next(one for one in findings(whine(strong=20.0)) if "Mesh order 2" in one.headline)
     assert told.level == WARNING
-    assert "the size is a hint" in told.detail
+    assert "the size is a rough estimate" in told.detail
 
 
 def test_the_largest_order_is_told_with_its_speed_and_where_it_meets_the_natural_frequency():

@@ -73,11 +73,15 @@ def bearing(
     ] = None,
     inlet_layer_um: Annotated[
         float,
-        typer.Option(help="Oil at the inlet of the raceways [um]; 0: flooded.", metavar="UM"),
+        typer.Option(
+            help="Thickness of the oil layer at the raceway inlet [um]; 0: flooded.", metavar="UM"
+        ),
     ] = 0.0,
     temperature_rise: Annotated[
         float,
-        typer.Option(help="Of the oil in the contacts over the temperature [K].", metavar="K"),
+        typer.Option(
+            help="Temperature rise of the oil in the contacts above --temperature [K].", metavar="K"
+        ),
     ] = 0.0,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_bearing"),
     overwrite: OverwriteOption = False,

@@ -82,7 +82,7 @@ def _laws(dataset: xr.Dataset) -> list[Finding]:
             f"The laws differ by a factor of {_spread(dataset):.2g}: {_name(low)} has the least "
             f"mean torque, {quantity_text(float(low), 'N·m')}, {_name(high)} the largest, "
             f"{quantity_text(float(high), 'N·m')}.",
-            "A measured torque in the bearing file settles it.",
+            "A measured torque in the bearing file removes this doubt.",
         )
     ]
 
@@ -114,7 +114,7 @@ def _warned(dataset: xr.Dataset) -> list[Finding]:
     said = bearing_warnings(dataset)
     if said:
         return [Finding(WARNING, *_split(one)) for one in said]
-    return [Finding(GOOD, "No law left its range, and the raceways run on a full film.")]
+    return [Finding(GOOD, "All laws are within their range, and the raceways have a full film.")]
 
 
 def _name(at: xr.Dataset | xr.DataArray) -> str:

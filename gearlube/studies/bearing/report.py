@@ -125,7 +125,7 @@ def _table(dataset: xr.Dataset) -> Table:
             ]
             for row in rows
         ],
-        caption="Up to 24 conditions, spread over all; bearing.csv has all laws and conditions.",
+        caption="Up to 24 conditions, spread over all; bearing.csv lists all laws and conditions.",
     )
 
 

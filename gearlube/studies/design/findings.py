@@ -121,14 +121,14 @@ def _teeth(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
 
 def _path(dataset: xr.Dataset) -> Finding:
     ratios = {side: float(dataset["path_contact_ratio"].sel(side=side)) for side in SIDES}
-    told = ", ".join(f"{ratio:.2f} pitches on the {side} flanks" for side, ratio in ratios.items())
+    told = ", ".join(f"{ratio:.2f} on the {side} flanks" for side, ratio in ratios.items())
     low = min(ratios.values()) < 1.0
     return Finding(
         WARNING if low else NOTE,
-        f"The path of contact lasts {told}.",
-        "Below 1 the next pair meets at an edge: a longer path, or more depth, is needed."
+        f"The contact ratio is {told}.",
+        "Below 1 the next pair starts contact at an edge: lengthen the path, or make deeper teeth."
         if low
-        else "Above 1 the next pair takes over before the last one leaves.",
+        else "Above 1 the next pair is in contact before the last one leaves.",
     )
 
 
@@ -142,7 +142,7 @@ def _chosen(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             NOTE,
             f"{len(chosen)} of {len(notes)} fields were chosen, not given.",
-            f"Give those that you know better: {_with_signs(told)}.",
+            f"Give the values that you know better: {_with_signs(told)}.",
         )
     ]
 

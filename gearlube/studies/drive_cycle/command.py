@@ -30,9 +30,9 @@ def drive_cycle(
         ),
     ] = "nedc",
     start_temperature: Annotated[
-        float, typer.Option(help="Of oil and housing at the start [degC].")
+        float, typer.Option(help="Initial temperature of oil and housing [degC].")
     ] = 23.0,
-    air_temperature: Annotated[float, typer.Option(help="Of the air [degC].")] = 23.0,
+    air_temperature: Annotated[float, typer.Option(help="Air temperature [degC].")] = 23.0,
     regeneration: Annotated[
         float,
         typer.Option(
@@ -46,28 +46,35 @@ def drive_cycle(
         ),
     ] = 30.0,
     heat_capacity: Annotated[
-        float, typer.Option(help="Of oil and housing [kJ/K]; assumed, 15 to 20.")
+        float, typer.Option(help="Heat capacity of oil and housing [kJ/K]; assumed, 15 to 20.")
     ] = 18.0,
     conductance_at_rest: Annotated[
-        float, typer.Option(help="Housing to air at rest [W/K]; assumed, 4.5 to 10.")
+        float,
+        typer.Option(
+            help="Thermal conductance, housing to air, car at rest [W/K]; assumed, 4.5 to 10."
+        ),
     ] = 7.0,
     conductance_at_100: Annotated[
-        float, typer.Option(help="Ditto at 100 km/h [W/K]; assumed, 9 to 30.")
+        float,
+        typer.Option(
+            help="Thermal conductance, housing to air, at 100 km/h [W/K]; assumed, 9 to 30."
+        ),
     ] = 18.0,
     check_grid: Annotated[
         bool,
         typer.Option(
-            "--check-grid", help="Compute once more with a map twice as fine; tell the change."
+            "--check-grid", help="Repeat with a loss map twice as fine and report the change."
         ),
     ] = False,
     draws: Annotated[
         int, typer.Option(help="Samples of the uncertain data for the error bars; 0: none.")
     ] = 60,
-    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    seed: Annotated[int, typer.Option(help="Random seed of the samples.")] = 1,
     calibrated_bearings: Annotated[
         bool,
         typer.Option(
-            "--calibrated-bearings", help="f0 and f1 of the file are from measured torques."
+            "--calibrated-bearings",
+            help="f0 and f1 of the file come from measured torques: smaller error bars.",
         ),
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_cycle"),

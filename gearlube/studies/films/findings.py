@@ -58,9 +58,7 @@ def _converged(dataset: xr.Dataset) -> Finding:
                 f"Unbalanced flow {of['residual']:.1e} of the flow, load error "
                 f"{of['load_error']:.1e}.",
             )
-        return Finding(
-            WARNING, "The film did NOT converge: its numbers are not to be used.", outcome
-        )
+        return Finding(WARNING, "The film did NOT converge: do not use its numbers.", outcome)
     if of["converged"]:
         return Finding(GOOD, "All films converged.", outcome)
     return Finding(

@@ -115,7 +115,7 @@ def helical(
             metavar="N",
         ),
     ] = 60,
-    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    seed: Annotated[int, typer.Option(help="Random seed of the samples.")] = 1,
     roughness_um: RoughnessOption = 0.5,
     parts: Annotated[
         str,

@@ -81,7 +81,7 @@ def loss_map(
         int,
         typer.Option(help="Samples of the uncertain data for error bars; 0: none.", metavar="N"),
     ] = 60,
-    seed: Annotated[int, typer.Option(help="Of the samples.")] = 1,
+    seed: Annotated[int, typer.Option(help="Random seed of the samples.")] = 1,
     calibrated_bearings: Annotated[
         bool,
         typer.Option(

@@ -234,8 +234,8 @@ def _steady(dataset: xr.Dataset) -> list[Finding]:
         found.append(
             Finding(
                 WARNING,
-                f"{missing} of {steady.size} torques and speeds come to no rest within the data of "
-                "the oil.",
+                f"{missing} of {steady.size} torques and speeds reach no steady temperature within "
+                "the oil data.",
                 "Their steady temperature is empty: the axle would overheat, or the data end too "
                 "early.",
             )

@@ -93,7 +93,7 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
                 name="sensitivity",
                 title="What makes the loss uncertain",
                 caption="Mean change of the loss torque when one uncertain input goes to its "
-                "factor. The longest bar is what a measurement should settle first.",
+                "factor. Measure the input with the longest bar first.",
                 chart=bar_chart(
                     names, [100.0 * one for one in swings.values()], Axis("change of loss", "%")
                 ),
@@ -169,7 +169,7 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
                 [float(torque), *(float(x) for x in row)]
                 for torque, row in zip(one["torque"].values, one.values, strict=True)
             ],
-            caption="Some torques and speeds of the map; map.csv has all.",
+            caption="Some torques and speeds of the map; map.csv lists all.",
             folded=i > 0,
         )
         for i, one in enumerate(

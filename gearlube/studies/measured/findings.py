@@ -84,7 +84,7 @@ def _settings(flanks: xr.Dataset) -> Finding:
         f"Other settings explain the deviations from {quantity_text(before, 'µm')} rms down to "
         f"{quantity_text(after, 'µm', 2)}: {', '.join(told)}.",
         "The table has corrective settings."
-        + (f" Not told apart from zero: {', '.join(unsure)}." if unsure else ""),
+        + (f" Not significantly different from zero: {', '.join(unsure)}." if unsure else ""),
     )
 
 

@@ -177,12 +177,12 @@ def _bounds(dataset: xr.Dataset) -> list[Finding]:
     ]
     if not told:
         return []
-    verb = "stands on its bound" if len(told) == 1 else "stand on their bounds"
+    verb = "is at its bound" if len(told) == 1 else "are at their bounds"
     return [
         Finding(
             NOTE,
             f"{len(told)} of {value.size} fields {verb}: {'; '.join(told)}.",
-            "Wider bounds, where they can be made, may give lower mesh orders.",
+            "Wider bounds, if they can be manufactured, may give lower mesh orders.",
         )
     ]
 

@@ -94,7 +94,7 @@ def findings(response: xr.Dataset, load: xr.Dataset | None = None) -> list[Findi
     'The largest response is 26.1 µm peak to peak, at 0.859 of the natural frequency.'
     """
     stopped = Finding(
-        WARNING, "The study was stopped: what it did not reach is missing.", "Run it again."
+        WARNING, "The study was stopped early: the remaining results are missing.", "Run it again."
     )
     said = [stopped] if response.attrs.get("interrupted") else []
     if "model" not in response:
@@ -162,10 +162,10 @@ def _parted(response: xr.Dataset, one: ModelSummary) -> Finding:
     part = response.sel(model=one.model)
     share = np.where(part["stable"].values > 0.5, part["separation_share"].values, 0.0)
     if not one.separated_up and not one.separated_down:
-        return Finding(GOOD, "The teeth never part along slow sweeps up and down.")
+        return Finding(GOOD, "The teeth never separate in slow sweeps up and down.")
     return Finding(
         WARNING,
-        f"The teeth part: with rising speed {_ranges(one.separated_up)}, with falling speed "
+        f"The teeth separate: with rising speed {_ranges(one.separated_up)}, with falling speed "
         f"{_ranges(one.separated_down)} of the natural frequency.",
         f"For at most {100.0 * float(np.nanmax(share)):.0f} % of the time there is no contact; "
         "each return is an impact. More mean torque, or a smaller transmission error, keeps the "
@@ -189,7 +189,7 @@ def _unstable(response: xr.Dataset, model: str) -> list[Finding]:
         ]
     part = response.sel(model=model)
     longer = sorted({int(one) for one in part["periods"].values if one > 1.0})
-    detail = "Such motions do not run by themselves; they part the stable ones. "
+    detail = "An unstable motion does not persist; it separates the stable ones. "
     if longer:
         periods = " and ".join(map(str, longer))
         detail += f"Motions that repeat after {periods} mesh periods exist: orders between mesh "

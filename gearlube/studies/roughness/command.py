@@ -52,16 +52,18 @@ roughness.command("flow-factors")(flow_factors)
 def read(
     file: FileArgument,
     level: Annotated[
-        int, typer.Option(help="Degree of the polynomial taken off first.", metavar="0...8")
+        int, typer.Option(help="Degree of the polynomial that is removed first.", metavar="0...8")
     ] = 1,
     cutoff_long_um: Annotated[
-        float | None, typer.Option(help="Cut-off lambda_c [um]: no longer waves.", metavar="UM")
+        float | None,
+        typer.Option(help="Cut-off lambda_c [um]: longer waves are removed.", metavar="UM"),
     ] = None,
     cutoff_short_um: Annotated[
-        float | None, typer.Option(help="Cut-off lambda_s [um]: no shorter waves.", metavar="UM")
+        float | None,
+        typer.Option(help="Cut-off lambda_s [um]: shorter waves are removed.", metavar="UM"),
     ] = None,
     ends: Annotated[
-        str, typer.Option(help="Ends under the filter.", metavar="regression|cut")
+        str, typer.Option(help="End correction of the filter.", metavar="regression|cut")
     ] = "regression",
     cut_peaks_um: PeaksOption = None,
     out: OutOption = _OUT,
@@ -124,9 +126,11 @@ def make(
         float | None,
         typer.Option(help="Period along y [mm], for a map. Default: a profile.", metavar="MM"),
     ] = None,
-    points: Annotated[int, typer.Option(help="In a period along x.")] = 1024,
-    rows: Annotated[int, typer.Option(help="In a period along y, for a map.")] = 256,
-    seed: Annotated[int, typer.Option(help="Same seed, same surface.")] = 1,
+    points: Annotated[int, typer.Option(help="Points in one period along x.")] = 1024,
+    rows: Annotated[int, typer.Option(help="Rows in one period along y, for a map.")] = 256,
+    seed: Annotated[
+        int, typer.Option(help="Random seed; the same seed gives the same surface.")
+    ] = 1,
     cut_peaks_um: PeaksOption = None,
     out: OutOption = _OUT,
     overwrite: OverwriteOption = False,
@@ -181,7 +185,9 @@ def make(
 @roughness.command("extrude")
 def extrude(
     file: FileArgument,
-    width_mm: Annotated[float, typer.Option(help="Over which it repeats along y [mm].")] = 1.0,
+    width_mm: Annotated[
+        float, typer.Option(help="Width along y after which the map repeats [mm].")
+    ] = 1.0,
     turns: Annotated[
         int | None,
         typer.Option(help="Periods that a crest moves over the width. Default: 1.", metavar="N"),
@@ -198,7 +204,7 @@ def extrude(
             metavar="UM:UM",
         ),
     ] = None,
-    rows: Annotated[int, typer.Option(help="Of the map, along y.")] = 128,
+    rows: Annotated[int, typer.Option(help="Rows of the map along y.")] = 128,
     out: OutOption = _OUT,
     overwrite: OverwriteOption = False,
 ) -> None:
@@ -229,7 +235,9 @@ def extrude(
 
 @roughness.command("stand-in")
 def stand_in(
-    case: Annotated[str, typer.Argument(help="Of Jamali 2015, chapter 7.", metavar="A|B|C")],
+    case: Annotated[
+        str, typer.Argument(help="Profile of Jamali 2015, chapter 7.", metavar="A|B|C")
+    ],
     seed: Annotated[int, typer.Option(help="1 to 5 are the five of the results.")] = 1,
     same_ra: Annotated[
         bool, typer.Option("--same-ra", help="Scale both parts to Ra 0.31 um too.")

@@ -32,18 +32,18 @@ def flow_factors(
     ] = None,
     rq_um: Annotated[float, typer.Option(help="Rms height of made patches [um].")] = 0.4,
     correlation_um: Annotated[
-        float, typer.Option(help="Their autocorrelation length to 0.2, along x [um].")
+        float, typer.Option(help="Autocorrelation length of made patches to 0.2, along x [um].")
     ] = 20.0,
     peklenik: Annotated[
-        float, typer.Option(help="That along x, the motion, over that along y.")
+        float, typer.Option(help="Autocorrelation length along x (motion) over that along y.")
     ] = 1.0,
     seeds: Annotated[int, typer.Option(help="Number of made patches.")] = 5,
-    points: Annotated[int, typer.Option(help="Along each side of made patches.")] = 192,
+    points: Annotated[int, typer.Option(help="Points along each side of made patches.")] = 192,
     film_ratios: Annotated[
         str, typer.Option(help="Distances of the mean planes over the rms height.")
     ] = "0.5,0.75,1,1.5,2,3,4,6",
     contact: Annotated[
-        bool, typer.Option("--contact/--no-contact", help="Also the dry elastic contact.")
+        bool, typer.Option("--contact/--no-contact", help="Also solve the dry elastic contact.")
     ] = True,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_flow_factors"),
     overwrite: OverwriteOption = False,

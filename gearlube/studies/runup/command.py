@@ -48,11 +48,15 @@ def runup(
         typer.Option("--rpm", help="--from, --to and --rate are of the pinion in rpm, not km/h."),
     ] = False,
     duration: Annotated[
-        float | None, typer.Option(help="Of the ramp [s]. Default: 30.", metavar="S")
+        float | None, typer.Option(help="Duration of the ramp [s]. Default: 30.", metavar="S")
     ] = None,
     rate: Annotated[
         float | None,
-        typer.Option(help="In place of the duration: speed gained in a second.", metavar="RATE"),
+        typer.Option(
+            help="Speed change per second [km/h per s, with --rpm rpm "
+            "per s], instead of --duration.",
+            metavar="RATE",
+        ),
     ] = None,
     torque: Annotated[
         float | None,
@@ -70,7 +74,8 @@ def runup(
         ),
     ] = False,
     coast_down: Annotated[
-        bool, typer.Option("--coast-down", help="Afterwards come back down at the same rate.")
+        bool,
+        typer.Option("--coast-down", help="Add a coast-down at the same rate after the run-up."),
     ] = False,
     coast_torque: Annotated[
         float | None,
@@ -91,7 +96,7 @@ def runup(
     ] = None,
     order_resolution: Annotated[
         float | None,
-        typer.Option(help="Orders of the pinion that are told apart. Default: 0.25."),
+        typer.Option(help="Order resolution, in orders of the pinion. Default: 0.25."),
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_runup"),
     quick: Annotated[

@@ -69,7 +69,7 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
         f"'{dataset['mode'].values[most]}'. "
     )
     if top.at_end:
-        detail += f"The crest lies at the {top.at_end} of the ramp: go further to see all of it. "
+        detail += f"The peak lies at the {top.at_end} of the ramp: extend the ramp. "
     words = "; ".join(
         f"order {one.mesh_order} {quantity_text(one.force, 'N')} at {one.speed_rpm:.0f} rpm"
         for one in others
@@ -116,7 +116,7 @@ def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
                 f"The next critical speed of mesh order {loudest} lies {where} the ramp, "
                 f"{100.0 * abs(near.margin):.0f} % away: '{near.mode}' at "
                 f"{_speed(dataset, near.speed_rpm)}.",
-                "Its flank already raises the level at the end of the ramp." if narrow else "",
+                "This resonance already raises the level at the end of the ramp." if narrow else "",
             )
         )
     return found
@@ -132,8 +132,8 @@ def _rate(critical: list[Critical]) -> list[Finding]:
                 WARNING,
                 f"The ramp passes {len(fast)} critical speeds too fast: the worst is mesh order "
                 f"{worst.mesh_order} with '{worst.mode}', {worst.hurry:.1f} times the rate that "
-                "lets it swing up.",
-                "These crests read too low. Take a slower ramp. Rate after ISO 7626-2.",
+                "allows full build-up.",
+                "These peaks are too low. Use a slower ramp. Highest rate from ISO 7626-2.",
             )
         ]
     if inside:
@@ -141,7 +141,7 @@ def _rate(critical: list[Critical]) -> list[Finding]:
         return [
             Finding(
                 GOOD,
-                "The ramp is slow enough for every mode to swing up: at most "
+                "The ramp is slow enough for every resonance to build up: at most "
                 f"{100.0 * worst.hurry:.0f} % of the fastest rate of ISO 7626-2.",
             )
         ]
@@ -151,7 +151,7 @@ def _rate(critical: list[Critical]) -> list[Finding]:
 def _contact(dataset: xr.Dataset) -> list[Finding]:
     share = float(dataset["separated_fraction"])
     if share <= 0.0:
-        return [Finding(GOOD, "The teeth stay in contact all the way.")]
+        return [Finding(GOOD, "The teeth stay in contact at all speeds.")]
     return [
         Finding(
             WARNING,

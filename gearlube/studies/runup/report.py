@@ -179,7 +179,7 @@ def tables(dataset: xr.Dataset, before: str = "") -> list[Table]:
             title=_joined(before, "Critical speeds"),
             caption="Where a mesh order meets a natural frequency. Margin: how far outside the "
             "ramp, as a share of its end. Rate: how fast the order passes the mode, as a share of "
-            "the fastest that lets it swing up (ISO 7626-2).",
+            "the fastest that allows full build-up (ISO 7626-2).",
             columns=(
                 Column("natural mode"), Column("mesh order"), Column("pinion speed", "rpm", 4),
                 Column("vehicle speed", "km/h"), Column("frequency", "Hz"),

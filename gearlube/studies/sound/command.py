@@ -27,7 +27,7 @@ def sound(
         ),
     ],
     other: Annotated[
-        Path | None, typer.Argument(help="A second run to lay beside it.", metavar="[OTHER]")
+        Path | None, typer.Argument(help="A second run to compare with.", metavar="[OTHER]")
     ] = None,
     against: Annotated[
         Path | None,
@@ -42,7 +42,7 @@ def sound(
     ] = None,
     band: Annotated[
         str | None,
-        typer.Option(help="Frequencies that are kept [Hz], as 50:4000.", metavar="LOW:HIGH"),
+        typer.Option(help="Frequency band to keep [Hz], for instance 50:4000.", metavar="LOW:HIGH"),
     ] = None,
     order: Annotated[
         list[float] | None,
@@ -53,9 +53,11 @@ def sound(
     ] = None,
     full_scale: Annotated[
         float | None,
-        typer.Option(help="Pressure at full scale of the WAV [Pa].", metavar="PA"),
+        typer.Option(help="Sound pressure at full scale of the WAV [Pa].", metavar="PA"),
     ] = None,
-    wav_rate: Annotated[int, typer.Option(help="Rate of the WAV [Hz].", metavar="HZ")] = 48000,
+    wav_rate: Annotated[
+        int, typer.Option(help="Sampling rate of the WAV [Hz].", metavar="HZ")
+    ] = 48000,
     metrics: Annotated[
         str,
         typer.Option(
@@ -70,7 +72,7 @@ def sound(
 ) -> None:
     """Make a run audible: sound pressure, WAV, loudness and which order one hears.
 
-    Two runs are laid side by side. Writes sound.nc, WAV files, summary.csv, figures, report.html.
+    Two runs are compared. Writes sound.nc, WAV files, summary.csv, figures, report.html.
     """
     from gearlube.cli.console import console
     from gearlube.cli.progress_report import progress_on

@@ -38,7 +38,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             Finding(
                 WARNING,
                 f"{failed} of {points} points failed.",
-                "The table of failed points says why.",
+                "The reasons are in the table of failed points.",
             )
         )
     if failed < points:
@@ -142,7 +142,7 @@ def _resonance(dataset: xr.Dataset) -> list[Finding]:
             f"Mesh orders 1 to {ORDERS[-1]} meet natural frequencies {len(inside)} times {span}; "
             f"{len(first_order)} of these are order 1.",
             f"At preload {told[0].preload:g} N: {'; '.join(map(_crossing, told[:_NAMED]))}{more}. "
-            "The table of natural frequencies has all.",
+            "The table of natural frequencies lists all.",
         )
     ]
 
@@ -176,9 +176,9 @@ def _contact(dataset: xr.Dataset) -> list[Finding]:
             f"The teeth separate at {int(apart.sum())} of {int(known.sum())} points: {speeds}.",
             f"At most {share:.0f} % of the time is without contact. "
             + (
-                f"At {double} points the back flanks hit too."
+                f"At {double} points the coast flanks come into contact too."
                 if double
-                else "The back flanks do not hit."
+                else "The coast flanks do not come into contact."
             ),
         )
     ]
@@ -222,9 +222,9 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
     row, column = _place(-ratio)
     least, point = float(ratio[row, column]), dataset.isel(preload=row, speed=column)
     level, words = (
-        (GOOD, "The flanks run on a full film, above 3.")
+        (GOOD, "Above 3: full film on the flanks.")
         if least >= _FULL_FILM
-        else (NOTE, "Below 3 the highest asperities touch: mixed lubrication.")
+        else (NOTE, "Below 3 the highest asperities are in contact: mixed lubrication.")
         if least >= _MIXED
         else (WARNING, "Below 1 asperities carry much of the load; watch wear and friction.")
     )
@@ -291,7 +291,7 @@ def _balance(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             WARNING,
             f"The energy balance is open by up to {size}.",
-            "Take more time steps a mesh period.",
+            "Use more time steps per mesh period.",
         )
     ]
 

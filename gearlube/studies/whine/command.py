@@ -59,13 +59,21 @@ def whine(
     ] = None,
     pinion_inertia: Annotated[
         float | None,
-        typer.Option(help="About its axis [kg m2]. Default: shipped pair's.", metavar="KGM2"),
+        typer.Option(
+            help="Moment of inertia about its axis [kg m2]. Default: that of the shipped pair.",
+            metavar="KGM2",
+        ),
     ] = None,
     gear_inertia: Annotated[
         float | None,
-        typer.Option(help="About its axis [kg m2]. Default: shipped pair's.", metavar="KGM2"),
+        typer.Option(
+            help="Moment of inertia about its axis [kg m2]. Default: that of the shipped pair.",
+            metavar="KGM2",
+        ),
     ] = None,
-    damping_ratio: Annotated[float, typer.Option(help="Of the mesh mode.", metavar="RATIO")] = 0.03,
+    damping_ratio: Annotated[
+        float, typer.Option(help="Damping ratio of the mesh mode [-].", metavar="RATIO")
+    ] = 0.03,
     positions: Annotated[int, typer.Option(help="Positions over a mesh period.", metavar="N")] = 16,
     jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_whine"),

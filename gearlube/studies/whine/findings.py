@@ -119,14 +119,15 @@ def _moved(dataset: xr.Dataset) -> list[Finding]:
         detail = f"Next: {next_ones}. " if next_ones else ""
         if share > _STRAIGHT:
             detail += (
-                f"It is a first-order change of {100.0 * share:.0f} % of the force there: the sign "
-                "and the rank hold, the size is a hint. Halve the tolerance, or compute the "
+                f"It is a first-order change of {100.0 * share:.0f} % of the force there: sign "
+                "and ranking are right, the size is a rough estimate. Halve "
+                "the tolerance, or compute the "
                 "changed pair."
             )
         found.append(
             Finding(
                 WARNING if share > 1.0 else NOTE,
-                f"Mesh order {order} is moved most by {top.words}: "
+                f"Mesh order {order} is most sensitive to {top.words}: "
                 f"{quantity_text(top.change, 'N')} at {top.speed_rpm:.0f} rpm, "
                 f"{100.0 * share:.0f} % of its force.",
                 detail.strip(),
@@ -144,7 +145,11 @@ def _motions(dataset: xr.Dataset) -> list[Finding]:
     found = []
     for kept, words, cure in (
         (missing, "no periodic motion was found", "They are gaps in the figures."),
-        (unstable, "the motion is not stable", "The pair moves otherwise there."),
+        (
+            unstable,
+            "the motion is not stable",
+            "The real motion differs from the computed one there.",
+        ),
     ):
         if kept.any():
             found.append(

@@ -80,7 +80,7 @@ def _figures(dataset: xr.Dataset) -> list[Figure]:
         Figure(
             name="force",
             title="Mesh force over the speed",
-            caption="Amplitudes of the mesh orders. A crest is where an order meets the natural "
+            caption="Amplitudes of the mesh orders. A peak is where an order meets the natural "
             "frequency of the mesh.",
             chart=force,
         ),

@@ -27,12 +27,13 @@ _SlideRoll = Annotated[
 ]
 _Cavitation = Annotated[
     str | None,
-    typer.Option(help="Where the film breaks.", metavar="reynolds|mass_conserving"),
+    typer.Option(help="Cavitation model.", metavar="reynolds|mass_conserving"),
 ]
 _Temperature = Annotated[
     str | None,
     typer.Option(
-        help="thermal: with the energy balance of oil and bodies.", metavar="isothermal|thermal"
+        help="isothermal, or thermal: with the energy equation of oil and solids.",
+        metavar="isothermal|thermal",
     ),
 ]
 
@@ -49,7 +50,10 @@ def line(
     ] = None,
     stencil: Annotated[
         str | None,
-        typer.Option(help="Of the wedge.", metavar="upwind-2|central|upwind-1|galerkin"),
+        typer.Option(
+            help="Difference scheme of the wedge term.",
+            metavar="upwind-2|central|upwind-1|galerkin",
+        ),
     ] = None,
     cavitation: _Cavitation = None,
     temperature: _Temperature = None,
@@ -98,7 +102,9 @@ def point(
     ] = None,
     wedge: Annotated[
         str | None,
-        typer.Option(help="Stencil of the wedge.", metavar="upwind-2|upwind-1|central|quick"),
+        typer.Option(
+            help="Difference scheme of the wedge term.", metavar="upwind-2|upwind-1|central|quick"
+        ),
     ] = None,
     cavitation: _Cavitation = None,
     film_error: FilmErrorOption = None,

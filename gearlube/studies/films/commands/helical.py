@@ -38,7 +38,7 @@ def helical(
     march: Annotated[
         str | None,
         typer.Option(
-            help="March in time over these steps of the cycle, with squeeze.",
+            help="Transient solution over these steps of the cycle, with squeeze.",
             metavar="all|FIRST:LAST",
         ),
     ] = None,
@@ -46,13 +46,13 @@ def helical(
     speed_rpm: SpeedOfFileOption = None,
     oil: Annotated[
         str | None,
-        typer.Option(help="Oil of the library. Default: that of the gear file."),
+        typer.Option(help="Shipped oil. Default: that of the gear file."),
     ] = None,
     oil_temperature: Annotated[
-        float, typer.Option(help="Temperature of an oil of the library [degC].", metavar="DEGC")
+        float, typer.Option(help="Temperature of the shipped oil [degC].", metavar="DEGC")
     ] = 80.0,
     newtonian: Annotated[
-        bool, typer.Option("--newtonian", help="Leave the oil's Eyring stress out.")
+        bool, typer.Option("--newtonian", help="Newtonian oil: ignore its Eyring stress.")
     ] = False,
     facets: Annotated[
         int | None,

@@ -47,7 +47,7 @@ def hypoid(
             metavar="mesh_table|moving_contact",
         ),
     ] = None,
-    oil: Annotated[str | None, typer.Option(help="Oil of the library.")] = None,
+    oil: Annotated[str | None, typer.Option(help="Shipped oil.")] = None,
     oil_temperature: Annotated[
         float | None, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
     ] = None,
@@ -82,7 +82,7 @@ def hypoid(
         int | None, typer.Option(help="Positions with a steady film.", metavar="N")
     ] = None,
     no_march: Annotated[
-        bool, typer.Option("--no-march", help="Steady films only, without squeeze.")
+        bool, typer.Option("--no-march", help="Steady films only, no squeeze term.")
     ] = False,
     quick: Annotated[
         bool, typer.Option("--quick", help="Few nodes and steps, for a first look.")

@@ -21,22 +21,24 @@ def rough(
     case: CaseArgument = "jamali_2015_a",
     steps: Annotated[
         int | None,
-        typer.Option(help="Time steps to march; default: all. A later run goes on.", metavar="N"),
+        typer.Option(
+            help="Time steps to compute. Default: all. A later run continues.", metavar="N"
+        ),
     ] = None,
     nodes: Annotated[int | None, typer.Option(help="Nodes along x.", metavar="N")] = None,
     rows: Annotated[int | None, typer.Option(help="Rows along y.", metavar="N")] = None,
     sides: Annotated[
-        str | None, typer.Option(help="What the film meets along y.", metavar="cyclic|no_flow")
+        str | None, typer.Option(help="Boundary condition along y.", metavar="cyclic|no_flow")
     ] = None,
     threads: Annotated[
-        int, typer.Option(help="Threads that share the work; results do not depend on it.")
+        int, typer.Option(help="Number of threads; results do not depend on it.")
     ] = 1,
     statistics: Annotated[
         bool,
-        typer.Option("--statistics", help="Statistics of the kept films in OUT; nothing marches."),
+        typer.Option("--statistics", help="Only compute statistics of the films stored in OUT."),
     ] = False,
     animation: Annotated[
-        bool, typer.Option("--animation", help="Also draw the kept films as animation.gif.")
+        bool, typer.Option("--animation", help="Also write the stored films as animation.gif.")
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_rough"),
     overwrite: OverwriteOption = False,

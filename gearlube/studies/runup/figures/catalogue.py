@@ -41,7 +41,7 @@ CATALOGUE = (
         title="Order tracks",
         caption="Mesh orders 1 to 4 and everything together, of the bearing forces (above) and of "
         "the dynamic transmission error (below). Dotted: speeds at which a mesh order meets a "
-        f"natural frequency. A crest on a dotted line is that resonance. {_ALL}",
+        f"natural frequency. A peak on a dotted line is that resonance. {_ALL}",
         draw=order_tracks,
         chart=track_chart,
     ),
@@ -57,8 +57,8 @@ CATALOGUE = (
     Entry(
         name="waterfall_orders",
         title="Waterfall: speed and order",
-        caption="The same over orders: what is tied to the shaft lies level, natural frequencies "
-        "are the dotted curves.",
+        caption="The same over orders: orders of the shaft are horizontal lines, natural "
+        "frequencies are the dotted curves.",
         draw=order_map,
     ),
     Entry(

@@ -84,7 +84,7 @@ CATALOGUE = (
     Entry(
         name="dte_orders",
         title="Mesh orders of the transmission error",
-        caption="Amplitudes of the first three mesh orders of the transmission error. A crest is a "
+        caption="Amplitudes of the first three mesh orders of the transmission error. A peak is a "
         "resonance or a change of the contact.",
         draw=order_cuts,
         chart=charts.order_chart,
