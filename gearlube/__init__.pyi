@@ -201,6 +201,9 @@ from gearlube.variation.run import run_variation as run_variation
 from gearlube.variation.store import open_variation as open_variation
 from gearlube.variation.store import gridded as gridded
 
+# -- Results for other tools
+from gearlube.output.exports.export import export_results as export_results
+
 # -- FMUs
 from fmu_src.build import build_hypoid_axle as build_hypoid_axle
 from fmu_src.build import build_helical_pair as build_helical_pair

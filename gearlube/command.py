@@ -132,6 +132,12 @@ COMMANDS = (
         panel=_STUDIES,
     ),
     LazyCommand(
+        name="export",
+        target="gearlube.cli.export:export",
+        summary="Write results of any study for other tools: CSV, MATLAB.",
+        panel=_STUDIES,
+    ),
+    LazyCommand(
         name="build-fmu",
         target="gearlube.cli.build_fmu:build_fmu",
         summary="Build the FMUs of axle, helical pair and car, for any platform.",

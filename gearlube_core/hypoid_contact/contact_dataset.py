@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
@@ -109,14 +110,20 @@ def contact_dataset(
             list(settings.torques),
             {"units": "N.m", "long_name": "pinion torque"},
         ),
-        "pair": np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1),
         "axis": ["x", "y", "z"],
-        "map_s": (np.arange(MAP_SHAPE[0]) + 0.5) / MAP_SHAPE[0],
-        "map_t": (np.arange(MAP_SHAPE[1]) + 0.5) / MAP_SHAPE[1],
-        "fine_phase": np.arange(ERROR_POSITIONS) / ERROR_POSITIONS,
-        "path_phase": PATH_PHASES,
-        "ease_s": np.linspace(0.0, 1.0, EASE_GRID[0]),
-        "ease_t": np.linspace(0.0, 1.0, EASE_GRID[1]),
+    }
+    places: dict[str, tuple[NDArray[Any], str]] = {
+        "pair": (np.arange(-PAIRS_BESIDE, PAIRS_BESIDE + 1), "pair of teeth, 0 in the middle"),
+        "map_s": ((np.arange(MAP_SHAPE[0]) + 0.5) / MAP_SHAPE[0], "root 0 to tip 1"),
+        "map_t": ((np.arange(MAP_SHAPE[1]) + 0.5) / MAP_SHAPE[1], "toe 0 to heel 1"),
+        "fine_phase": (np.arange(ERROR_POSITIONS) / ERROR_POSITIONS, "mesh phase"),
+        "path_phase": (PATH_PHASES, "mesh phase of one pair"),
+        "ease_s": (np.linspace(0.0, 1.0, EASE_GRID[0]), "root 0 to tip 1"),
+        "ease_t": (np.linspace(0.0, 1.0, EASE_GRID[1]), "toe 0 to heel 1"),
+    }
+    coords |= {
+        name: (name, values, {"units": "1", "long_name": text})
+        for name, (values, text) in places.items()
     }
     return xr.Dataset(
         data,

@@ -90,7 +90,7 @@ def test_file_tells_settings_version_and_fmu_and_can_be_read_by_speed_in_kmh(fin
     assert dataset.attrs["command_line"] == "gearlube sweep"
     assert dataset.attrs["setting_equations"] == "consistent"
     assert float(dataset["dte_pp"].sel(speed_kmh=40.0, preload=2500.0)) == pytest.approx(42.5e-9)
-    assert (out / "summary.csv").read_text().startswith("preload,")
+    assert (out / "summary.csv").read_text().startswith("preload [N],speed_kmh [km/h],")
 
 
 def test_second_run_computes_nothing_and_gives_the_same_dataset(copied):

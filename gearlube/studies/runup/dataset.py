@@ -56,6 +56,18 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "frequency": ("Hz", "frequency"),
     "dte_waterfall": ("m", "amplitude of the dynamic transmission error"),
     "bearing_force_waterfall": ("N", "amplitude of the bearing force"),
+    "separated_fraction": ("1", "share of time without contact"),
+    "mode_speed": ("rad s-1", "pinion speed at which the modes were found"),
+    "mode_frequency": ("Hz", "natural frequency"),
+    "mode_damping": ("1", "damping ratio"),
+    "mode_shape": ("m kg^-1/2", "mode shape, modal mass 1; turning as motion at the contact"),
+    "critical_speed": ("rad s-1", "pinion speed at which a mesh order meets a mode"),
+    "critical_damping": ("1", "damping ratio at the critical speed"),
+    "shape_amplitude": ("m", "motion where the forces are largest; turning as at the contact"),
+    "shape_phase": ("rad", "phase of this motion"),
+    "shape_share": ("1", "part of a mode in the kinetic energy of this motion"),
+    "shape_speed": ("rad s-1", "pinion speed of this motion"),
+    "shape_mesh_order": ("1", "mesh order of this motion"),
 }
 
 

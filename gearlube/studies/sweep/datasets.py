@@ -10,8 +10,12 @@ import numpy as np
 import xarray as xr
 
 from gearlube.studies.sweep.quantities import GRID, described
-from gearlube.studies.sweep.summary import summary_table
-from gearlube_core.storage.atomic_file import read_compressed_dataset, write_compressed_dataset
+from gearlube.studies.sweep.summary import summary_csv
+from gearlube_core.storage.atomic_file import (
+    read_compressed_dataset,
+    write_compressed_dataset,
+    write_text,
+)
 from gearlube_core.units import kmh_to_ms
 
 _POINT_COORDINATES = ("speed", "speed_kmh", "preload")
@@ -92,7 +96,7 @@ def save(dataset: xr.Dataset, directory: Path) -> Path:
     directory.mkdir(parents=True, exist_ok=True)
     path = directory / "sweep.nc"
     write_compressed_dataset(dataset, path)
-    summary_table(dataset).to_csv(directory / "summary.csv", index=False)
+    write_text(summary_csv(dataset), directory / "summary.csv")
     return path
 
 

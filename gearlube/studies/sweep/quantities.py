@@ -87,6 +87,8 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "flank_film_ratio": ("1", "film ratio, mean over the cycles"),
     "flank_friction_coefficient": ("1", "coefficient of friction, mean over the cycles"),
     "flank_temperature": ("K", "film temperature, mean over the cycles"),
+    "flank": ("1", "number of the flank"),
+    "bearing": ("1", "number of the bearing"),
     "cage_angle": ("rad", "angle of the pinion bearing cage"),
     "roller_zone_mean": ("N", "mean load of roller 1 at this cage angle"),
     "roller_zone_min": ("N", "smallest load of roller 1 at this cage angle"),

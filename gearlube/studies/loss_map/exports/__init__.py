@@ -10,7 +10,7 @@ import xarray as xr
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.loss_map.exports.gem import gem_text
 from gearlube.studies.loss_map.exports.lossy_gear import lossy_gear_text
-from gearlube.studies.loss_map.exports.mat import write_mat
+from gearlube.studies.loss_map.exports.mat import write_map_mat
 from gearlube.studies.loss_map.exports.table import table_rows
 from gearlube.studies.loss_map.exports.vtlm import regulation_text, vtlm_text
 from gearlube.studies.loss_map.regulation import OIL_DEGC, regulation_map
@@ -39,7 +39,7 @@ def write_exports(dataset: xr.Dataset, folder: Path) -> None:
             old.unlink()
     head, rows = table_rows(dataset)
     write_text(csv_text(head, rows), folder / "map.csv")
-    write_mat(dataset, folder / "map.mat")
+    write_map_mat(dataset, folder / "map.mat")
     for temperature in dataset["temperature"].values:
         one = dataset.sel(temperature=temperature)
         name = f"{temperature:g}degC"

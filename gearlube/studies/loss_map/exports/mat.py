@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
-from scipy.io import savemat
 
-from gearlube_core.storage.atomic_file import atomic_write
+from gearlube.output.mat_file import write_mat
 
 _ORDER = ("speed", "torque", "temperature")
 
 
-def write_mat(dataset: xr.Dataset, path: Path) -> None:
+def write_map_mat(dataset: xr.Dataset, path: Path) -> None:
     """Write breakpoints and tables over (speed, torque, temperature).
 
     `torque_loss_Nm` for a look-up of the loss; `efficiency` is NaN near zero torque, where a table
@@ -27,5 +25,4 @@ def write_mat(dataset: xr.Dataset, path: Path) -> None:
         "efficiency": dataset["efficiency"].transpose(*_ORDER).values,
         "ratio": float(dataset.attrs["ratio"]),
     }
-    with atomic_write(path) as partial, partial.open("wb") as file:
-        savemat(file, {k: np.asarray(v) for k, v in content.items()}, oned_as="row")
+    write_mat(content, path)

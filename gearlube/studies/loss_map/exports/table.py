@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 import xarray as xr
 
+from gearlube.output.csv_text import number_text
 from gearlube.studies.loss_map.datasets import GRID
 
 _COLUMNS = {
@@ -57,12 +57,8 @@ def _rows(
                     f"{temperature:.10g}",
                     f"{speed:.10g}",
                     f"{torque:.10g}",
-                    *(_number(one[i, j, k]) for one in values),
-                    *(_number(one) for one in losses[i, j, k]),
-                    *(_number(one[j, k]) for one in at_rest),
+                    *(number_text(one[i, j, k]) for one in values),
+                    *(number_text(one) for one in losses[i, j, k]),
+                    *(number_text(one[j, k]) for one in at_rest),
                     reasons.get(str(int(statuses[i, j, k])), ""),
                 )
-
-
-def _number(value: float) -> str:
-    return "" if math.isnan(value) else f"{value:.7g}"

@@ -1,0 +1,1 @@
+"""Results of any study as files for other tools."""

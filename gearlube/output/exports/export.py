@@ -1,0 +1,87 @@
+"""Export of a study's results."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+
+import xarray as xr
+
+from gearlube.output.exports.mat import write_dataset_mat
+from gearlube.output.exports.source import Span, chosen, dataset_file, read_dataset, without_unit
+from gearlube.output.exports.tables import write_tables
+from gearlube_core.errors import ParameterError
+
+logger = logging.getLogger("gearlube")
+
+
+def _mat(dataset: xr.Dataset, path: Path) -> list[Path]:
+    write_dataset_mat(dataset, path)
+    return [path]
+
+
+# format: ending of the file, or of the folder where there are several, and what writes it
+FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], list[Path]]]] = {
+    "csv": ("_csv", write_tables),
+    "mat": (".mat", _mat),
+}
+
+
+def export_results(
+    run: str | Path,
+    to: str,
+    out: str | Path | None = None,
+    *,
+    variables: Iterable[str] = (),
+    spans: Mapping[str, Span] | None = None,
+    overwrite: bool = False,
+) -> list[Path]:
+    """Write the dataset of a study in a format for other tools; return the paths.
+
+    Parameters
+    ----------
+    run : str or Path
+        Folder of results with one NetCDF file, or a NetCDF file.
+    to : str
+        csv or mat.
+    out : str or Path, optional
+        File, with csv a folder. Default: the name of the dataset, in this folder.
+    variables : iterable of str
+        Names; empty: all.
+    spans : mapping
+        First and last value as text, both inside, by dimension or variable over one dimension,
+        {"time": ("2", "5")}; in the unit of the dataset.
+    overwrite : bool
+        Write also where `out` is there.
+
+    Raises
+    ------
+    ParameterError
+        An unknown format, variable or span, a dataset that the format cannot hold, or `out` is
+        there.
+    FileError
+        No dataset, or a package is missing.
+
+    Examples
+    --------
+    >>> export_results("gearlube_runup", "mat", variables=["dte"])  # doctest: +SKIP
+    [PosixPath('runup.mat')]
+    """
+    if to not in FORMATS:
+        raise ParameterError(f"The format must be one of {', '.join(FORMATS)}, got {to}.")
+    ending, write = FORMATS[to]
+    file = dataset_file(Path(run))
+    path = Path(f"{file.stem}{ending}") if out is None else Path(out)
+    if path.exists() and not overwrite:
+        raise ParameterError(f"{path} is there already. Choose another --out, or --overwrite.")
+    if path.exists() and path.is_dir() != ending.startswith("_"):
+        wanted = "a folder" if ending.startswith("_") else "a file"
+        raise ParameterError(f"--out must be {wanted} for {to}, got {path}. Choose another.")
+    with read_dataset(file) as dataset:
+        part = chosen(dataset, variables, spans)
+        if unknown := without_unit(part):
+            logger.warning("No unit is stated for: %s", ", ".join(unknown))
+        if not path.parent.is_dir():
+            path.parent.mkdir(parents=True)
+        return write(part, path)

@@ -1,0 +1,155 @@
+"""Exported results are read back by other libraries and are those of the dataset."""
+
+import logging
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.io import loadmat
+from typer.testing import CliRunner
+
+import gearlube as gl
+from gearlube.command import app
+from gearlube.output import mat_file
+from gearlube.output.exports import tables
+from gearlube.output.units import unit_text
+from tests.helpers.small_results import small_results
+
+DATASET = small_results()
+
+
+@pytest.fixture
+def run(tmp_path):
+    folder = tmp_path / "run"
+    folder.mkdir()
+    DATASET.to_netcdf(folder / "small.nc")
+    return folder
+
+
+def test_csv_tables_hold_the_dataset_with_units_in_the_headings(run, tmp_path):
+    out = tmp_path / "tables"
+    written = gl.export_results(run, "csv", out)
+    assert set(written) == set(out.iterdir())
+    time = pd.read_csv(out / "time.csv")
+    assert np.array_equal(time["time [s]"], DATASET["time"])
+    for bearing in ("pinion", "gear"):
+        for direction in ("axial", "radial 1"):
+            column = time[f"bearing_force.{bearing}.{direction} [N]"]
+            values = DATASET["bearing_force"].sel(bearing=bearing, direction=direction)
+            assert np.allclose(column, values, rtol=5e-7, atol=0.0)  # seven digits
+    bins = pd.read_csv(out / "speed_bin.csv")
+    assert list(bins)[:3] == ["speed [m/s]", "bin [index from 0]", "frequency [Hz]"]
+    assert np.array_equal(
+        bins["frequency [Hz]"], DATASET["frequency"].values.ravel(), equal_nan=True
+    )
+    speed = pd.read_csv(out / "speed.csv", keep_default_na=False)
+    assert list(speed) == ["speed [m/s]", "torque [N m]", "message"]
+    assert list(speed["message"]) == ["", "left, a range"]
+    values = pd.read_csv(out / "values.csv", index_col="name")
+    assert values.loc["share", "value"] == "0.25"
+    assert values.loc["teeth", "value"] == "13"
+    index = pd.read_csv(out / "tables.csv", index_col="variable")
+    assert index.loc["bearing_force", "meaning"] == "force on the shaft"
+    assert index.loc["share", "unit"] == "not stated"
+    assert set(index["table"]) < {path.name for path in written}
+
+
+def test_mat_holds_arrays_units_and_dimensions(run, tmp_path):
+    gl.export_results(run, "mat", tmp_path / "small.mat")
+    stored = loadmat(tmp_path / "small.mat", simplify_cells=True)
+    for name in ("bearing_force", "dte", "frequency", "dte_spectrum", "torque", "time", "speed"):
+        assert np.array_equal(stored[name], DATASET[name].values, equal_nan=True), name
+    assert list(stored["bearing"]) == ["pinion", "gear"]
+    assert stored["units"]["torque"] == "N m"
+    assert stored["units"]["speed"] == "m/s"
+    assert stored["units"]["share"] == "not stated"
+    assert stored["dimensions"]["bearing_force"] == "time bearing direction"
+    assert stored["attributes"]["teeth"] == 13
+
+
+def test_variables_and_spans_choose_a_part(run, tmp_path):
+    gl.export_results(
+        run, "mat", tmp_path / "a.mat", variables=["dte"], spans={"time": ("0.01", "0.02")}
+    )
+    stored = loadmat(tmp_path / "a.mat", simplify_cells=True)
+    inside = DATASET["dte"].sel(time=slice(0.01, 0.02))
+    assert np.array_equal(stored["dte"], inside)
+    assert "torque" not in stored
+    gl.export_results(run, "mat", tmp_path / "b.mat", spans={"bearing": ("gear", "gear")})
+    stored = loadmat(tmp_path / "b.mat", simplify_cells=True)
+    assert np.array_equal(
+        stored["bearing_force"], DATASET["bearing_force"].sel(bearing=["gear"])[:, 0]
+    )
+
+
+def test_what_a_format_cannot_hold_is_refused_and_nothing_is_written(run, tmp_path, monkeypatch):
+    monkeypatch.setattr(tables, "ROW_LIMIT", 50)
+    with pytest.raises(gl.ParameterError, match=r"at most 50 rows, got 64 over time .*--span"):
+        gl.export_results(run, "csv", tmp_path / "out")
+    monkeypatch.setattr(mat_file, "SIZE_LIMIT", 1000)
+    with pytest.raises(gl.ParameterError, match=r"1000 bytes, got 1024 in bearing_force"):
+        gl.export_results(run, "mat", tmp_path / "out.mat")
+    assert [path.name for path in tmp_path.iterdir()] == ["run"]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--to", "xls"], "must be one of csv"),
+        (["--to", "csv", "--variable", "dtee"], "no variable dtee. It has: bearing_force"),
+        (["--to", "csv", "--span", "time"], "NAME=FIRST:LAST"),
+        (["--to", "csv", "--span", "time=a:b"], "must have numbers, got 'a'"),
+        (["--to", "csv", "--span", "time=5:6"], "the dataset has 0.0 to 0.0615234375 s"),
+        (["--to", "csv", "--span", "bearing=rear"], "pinion"),
+        (["--to", "csv", "--span", "frequency=1:2"], "over one dimension, got frequency"),
+    ],
+)
+def test_bad_options_are_refused(run, tmp_path, caplog, options, said):
+    command = ["export", str(run), "--out", str(tmp_path / "out"), *options]
+    assert CliRunner().invoke(app, command).exit_code == 2
+    assert said in caplog.text
+    assert not (tmp_path / "out").exists()
+
+
+def test_command_writes_once_and_says_what_has_no_unit(run, tmp_path, caplog):
+    caplog.set_level(logging.INFO, logger="gearlube")
+    command = ["export", str(run / "small.nc"), "--to", "mat", "--out", str(tmp_path / "a.mat")]
+    assert CliRunner().invoke(app, command).exit_code == 0
+    assert "No unit is stated for: share" in caplog.text
+    assert CliRunner().invoke(app, command).exit_code == 2
+    assert "is there already" in caplog.text
+    assert CliRunner().invoke(app, [*command, "--overwrite"]).exit_code == 0
+
+
+def test_a_folder_needs_one_dataset(run, tmp_path):
+    DATASET.to_netcdf(run / "other.nc")
+    with pytest.raises(gl.ParameterError, match=r"has 2: other.nc, small.nc. Name one"):
+        gl.export_results(run, "csv", tmp_path / "out")
+    with pytest.raises(gl.GearLubeError, match="got none"):
+        gl.export_results(tmp_path, "csv", tmp_path / "out")
+    (run / "broken.nc").write_text("no dataset")
+    with pytest.raises(gl.GearLubeError, match="must be a NetCDF file"):
+        gl.export_results(run / "broken.nc", "csv", tmp_path / "out")
+
+
+@pytest.mark.parametrize(
+    ("stated", "shown"),
+    [
+        ("N m", "N m"),
+        ("N.m", "N m"),
+        ("rad s-1", "rad/s"),
+        ("rad/s", "rad/s"),
+        ("kg/(m s)", "kg/(m s)"),
+        ("W/m/K", "W/(m K)"),
+        ("m s^-2", "m/s2"),
+        ("m**2", "m2"),
+        ("1", "1"),
+        ("1/K", "1/K"),
+        ("degC", "degC"),
+        ("%", "%"),
+        ("N/(m/s)", "N/(m/s)"),
+        ("", ""),
+    ],
+)
+def test_units_have_one_spelling(stated, shown):
+    assert unit_text(stated) == shown
