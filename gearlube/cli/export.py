@@ -17,7 +17,7 @@ def export(
     run: Annotated[
         Path, typer.Argument(help="Folder of results of any study, or a NetCDF file (.nc).")
     ],
-    to: Annotated[str, typer.Option(help="csv or mat.", metavar="FORMAT")],
+    to: Annotated[str, typer.Option(help="csv, mat or uff58.", metavar="FORMAT")],
     out: Annotated[
         Path | None,
         typer.Option(
@@ -39,10 +39,10 @@ def export(
         bool, typer.Option("--overwrite", help="Write also where OUT is there.")
     ] = False,
 ) -> None:
-    """Write results of any study for other tools: tables with units, MATLAB.
+    """Write results of any study for other tools: tables with units, MATLAB, UFF58.
 
     csv writes a folder with one table for each set of dimensions, and tables.csv, which says what
-    is where.
+    is where. uff58 holds time histories and spectra, and needs pip install 'gearlube[sound]'.
     """
     from gearlube.output.exports.export import export_results
 

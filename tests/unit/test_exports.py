@@ -1,17 +1,19 @@
 """Exported results are read back by other libraries and are those of the dataset."""
 
 import logging
+import sys
 
 import numpy as np
 import pandas as pd
 import pytest
+import pyuff
 from scipy.io import loadmat
 from typer.testing import CliRunner
 
 import gearlube as gl
 from gearlube.command import app
 from gearlube.output import mat_file
-from gearlube.output.exports import tables
+from gearlube.output.exports import tables, uff58
 from gearlube.output.units import unit_text
 from tests.helpers.small_results import small_results
 
@@ -65,6 +67,51 @@ def test_mat_holds_arrays_units_and_dimensions(run, tmp_path):
     assert stored["units"]["share"] == "not stated"
     assert stored["dimensions"]["bearing_force"] == "time bearing direction"
     assert stored["attributes"]["teeth"] == 13
+
+
+def test_uff58_holds_each_history_and_spectrum_with_names_and_units(run, tmp_path):
+    gl.export_results(run, "uff58", tmp_path / "small.uff")
+    units, *sets = pyuff.UFF(str(tmp_path / "small.uff")).read_sets()
+    assert units["units_description"].strip() == "SI"
+    found = {(one["id1"].strip(), one["id3"].strip()): one for one in sets}
+    forces = [key for key in found if key[0].startswith("bearing_force")]
+    assert len(found) == len(sets)
+    assert len(forces) == 4
+    one = found["bearing_force gear radial 1", "NONE"]
+    values = DATASET["bearing_force"].sel(bearing="gear", direction="radial 1")
+    assert np.allclose(one["data"], values, rtol=1e-11)  # twelve digits
+    assert np.allclose(one["x"], DATASET["time"], rtol=1e-5)  # the step has six
+    assert one["id2"].strip() == "force on the shaft"
+    assert one["ordinate_axis_units_lab"].strip() == "N"
+    assert one["abscissa_axis_units_lab"].strip() == "s"
+    assert (one["abscissa_spec_data_type"], one["func_type"]) == (17, 1)
+    assert (one["rsp_node"], one["rsp_dir"], one["rsp_ent_name"].strip()) == (2, 2, "gear")
+    for k, speed in enumerate((5.0, 10.0)):
+        spectrum = found["dte_spectrum", f"speed {speed:g} m/s"]
+        there = ~np.isnan(DATASET["frequency"][k].values)
+        assert np.allclose(spectrum["x"], DATASET["frequency"][k][there], rtol=1e-5)
+        assert np.allclose(spectrum["data"], DATASET["dte_spectrum"][k][there], rtol=1e-11)
+        assert spectrum["abscissa_spec_data_type"] == 18
+        assert spectrum["z_axis_value"] == speed
+        assert spectrum["ordinate_axis_units_lab"].strip() == "m"
+
+
+def test_uff58_refuses_what_it_cannot_hold(run, tmp_path, monkeypatch):
+    out = tmp_path / "out.uff"
+    with pytest.raises(gl.ParameterError, match="time histories or spectra, got torque"):
+        gl.export_results(run, "uff58", out, variables=["torque"])
+    gap = DATASET.copy(deep=True)
+    gap["dte"][3] = np.nan
+    gap.to_netcdf(run / "gap.nc")
+    with pytest.raises(gl.ParameterError, match="none at 1 of 64 points of dte"):
+        gl.export_results(run / "gap.nc", "uff58", out)
+    monkeypatch.setattr(uff58, "RECORD_LIMIT", 6)
+    with pytest.raises(gl.ParameterError, match="at most 6 records, got 7"):
+        gl.export_results(run / "small.nc", "uff58", out)
+    monkeypatch.setitem(sys.modules, "pyuff", None)
+    with pytest.raises(gl.GearLubeError, match=r"gearlube\[sound\]"):
+        gl.export_results(run / "small.nc", "uff58", out)
+    assert [path.name for path in tmp_path.iterdir()] == ["run"]
 
 
 def test_variables_and_spans_choose_a_part(run, tmp_path):

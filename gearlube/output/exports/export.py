@@ -11,6 +11,7 @@ import xarray as xr
 from gearlube.output.exports.mat import write_dataset_mat
 from gearlube.output.exports.source import Span, chosen, dataset_file, read_dataset, without_unit
 from gearlube.output.exports.tables import write_tables
+from gearlube.output.exports.uff58 import write_uff58
 from gearlube_core.errors import ParameterError
 
 logger = logging.getLogger("gearlube")
@@ -25,6 +26,7 @@ def _mat(dataset: xr.Dataset, path: Path) -> list[Path]:
 FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], list[Path]]]] = {
     "csv": ("_csv", write_tables),
     "mat": (".mat", _mat),
+    "uff58": (".uff", write_uff58),
 }
 
 
@@ -44,7 +46,7 @@ def export_results(
     run : str or Path
         Folder of results with one NetCDF file, or a NetCDF file.
     to : str
-        csv or mat.
+        csv, mat or uff58.
     out : str or Path, optional
         File, with csv a folder. Default: the name of the dataset, in this folder.
     variables : iterable of str
