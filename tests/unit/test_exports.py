@@ -3,10 +3,12 @@
 import logging
 import sys
 
+import meshio
 import numpy as np
 import pandas as pd
 import pytest
 import pyuff
+import xarray as xr
 from scipy.io import loadmat
 from typer.testing import CliRunner
 
@@ -15,6 +17,8 @@ from gearlube.command import app
 from gearlube.output import mat_file
 from gearlube.output.exports import tables, uff58
 from gearlube.output.units import unit_text
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from tests.helpers.small_results import small_results
 
 DATASET = small_results()
@@ -112,6 +116,57 @@ def test_uff58_refuses_what_it_cannot_hold(run, tmp_path, monkeypatch):
     with pytest.raises(gl.GearLubeError, match=r"gearlube\[sound\]"):
         gl.export_results(run / "small.nc", "uff58", out)
     assert [path.name for path in tmp_path.iterdir()] == ["run"]
+
+
+def test_vtk_holds_film_and_pressure_over_the_plane(tmp_path):
+    x, y = np.linspace(-1e-3, 1e-3, 4), np.linspace(0.0, 2e-3, 3)
+    pressure = np.random.default_rng(3).random((2, 4, 3))
+    fields = xr.Dataset(
+        {
+            "pressure": (("instant", "x", "y"), pressure, {"units": "Pa"}),
+            "film": (("instant", "y", "x"), 1e-7 * pressure.swapaxes(1, 2), {"units": "m"}),
+        },
+        {"x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"})},
+    )
+    fields.to_netcdf(tmp_path / "film.nc")
+    written = gl.export_results(tmp_path / "film.nc", "vtk", tmp_path / "out")
+    assert {path.name for path in written} == {"pressure_instant_0.vtu", "pressure_instant_1.vtu"}
+    mesh = meshio.read(tmp_path / "out" / "pressure_instant_1.vtu")
+    for k, (px, py, _) in enumerate(mesh.points):
+        i, j = np.abs(x - px).argmin(), np.abs(y - py).argmin()
+        assert mesh.point_data["pressure [Pa]"][k] == pressure[1, i, j]
+        assert mesh.point_data["film [m]"][k] == 1e-7 * pressure[1, i, j]
+    assert len(mesh.cells_dict["quad"]) == 3 * 2
+
+
+def test_vtk_lays_the_pressure_on_the_gear_flank(tmp_path):
+    file = HypoidGearFile.named("mohammadpour_2015")
+    cells = np.arange(12.0).reshape(1, 3, 4)
+    contact = xr.Dataset(
+        {"pressure_map": (("side", "map_s", "map_t"), cells, {"units": "Pa"})},
+        {
+            "side": ["drive"],
+            "map_s": (np.arange(3) + 0.5) / 3,
+            "map_t": (np.arange(4) + 0.5) / 4,
+        },
+        {"gear_file": file.model_dump_json(exclude_none=True)},
+    )
+    contact.to_netcdf(tmp_path / "contact.nc")
+    gl.export_results(tmp_path / "contact.nc", "vtk", tmp_path / "out")
+    mesh = meshio.read(tmp_path / "out" / "pressure_map_drive.vtu")
+    middles = mesh.points[mesh.cells_dict["quad"]].mean(axis=1)
+    flank = FlankPair.from_file(file, "drive").gear
+    for value, middle in zip(mesh.cell_data["pressure_map [Pa]"][0], middles, strict=True):
+        s, t = (int(value) // 4 + 0.5) / 3, (int(value) % 4 + 0.5) / 4
+        on_flank = flank.sample(np.array([s]), np.array([t])).r[0]
+        # a flat cell leaves the curved flank by less than a tenth of its length
+        assert np.linalg.norm(middle - on_flank) < 0.1 * file.gear.face_width_mm * 1e-3 / 4
+
+
+def test_vtk_refuses_a_dataset_without_fields(run, tmp_path):
+    with pytest.raises(gl.ParameterError, match="fields over x and y"):
+        gl.export_results(run, "vtk", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
 
 
 def test_variables_and_spans_choose_a_part(run, tmp_path):
