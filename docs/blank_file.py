@@ -44,7 +44,7 @@ offset, cradle angle and swivel angle change their signs.
 | Method | For | Needs | Condition for the pitch cones |
 |---|---|---|---|
 | 0 | bevel gears, no offset | outer diameter, gear spiral angle | the cones meet in one apex |
-| 1 | hypoid gears | outer diameter, pinion spiral angle | tooth has the limit curvature of the cones |
+| 1 | hypoid gears | outer diameter, pinion spiral angle | tooth has the cones' limit curvature |
 | 2 | hypoid gears | mean diameter, gear spiral angle | apexes and cutter centre lie on one line |
 | 3 | hypoid gears | outer diameter, gear spiral angle | the cones meet the cutter condition |
 
