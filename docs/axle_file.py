@@ -35,9 +35,10 @@ HEAD = """# The axle file
 The tables are written by `python -m docs.axle_file` from the data model
 (`drivetrain/axle_file/axle_file.py`), the text with them; not edited by hand.
 
-Your hypoid axle and the car around it in one TOML file: gear set, masses, bearings, oil, vehicle,
-tyre, gearbox, engine and driveline. From it come the speed sweep, the FMU and the Python model. The
-axle of Mohammadpour et al. 2015 ships as `mohammadpour_2015`; with it all is as without a file.
+An axle file describes your hypoid axle and the car around it in one TOML file: gear set, masses,
+bearings, oil, vehicle, tyre, gearbox, engine and driveline. The speed sweep, the FMU and the Python
+model all read this file. The axle of Mohammadpour et al. 2015 ships as `mohammadpour_2015`. This
+shipped file gives the same results as a run without an axle file.
 
 ```
 gearlube sweep --example > my_axle.toml       # every field, at the paper's values
@@ -46,7 +47,7 @@ gearlube sweep my_axle.toml --speeds 40 60
 gearlube build-fmu --axle my_axle.toml --out DIR
 ```
 
-`examples/my_axle.toml` is a made-up van, with bearings of its own on either shaft.
+`examples/my_axle.toml` describes an invented van. Its two shafts have different bearings.
 
 ```python
 import gearlube as gl
@@ -57,67 +58,91 @@ for note in paper.assumed:
     print(note.field, note.value_text, note.unit, note.origin, note.why)
 ```
 
-- Only the gears are required: `gear_set.gear_file` names [your gear file](gear_file.md), as
-  `gearlube design` writes it or you fill it in from the machine settings; or `gear_set.mesh_table`
-  names a shipped table or one that `gearlube contact` wrote. The numbers of teeth, and so the final
-  drive, are theirs.
-- With `gear_file = "my_gears.toml"` the first command or call that reads the axle file analyses the
-  loaded contact, 2 to 4 minutes on two processors, with a bar. Its mesh table is kept
-  beside the gear file as `my_gears.mesh.nc`, or in the user's cache folder where nothing can be
-  written there. It carries hashes of the gear file's content, the torques and the code of the
-  analysis: when one of them has changed it is computed anew, and the command says why. Comments and
-  `[tolerances]` of the gear file do not count. Stopped by Ctrl-C, the same command goes on from the
-  finished positions. `gearlube contact my_gears.toml` at its usual settings, or with `--torques`,
-  keeps the same table and draws the figures as well.
-- The analysis has the torques of `gearlube contact`, 5 to 400 N.m on the pinion; a truck needs its
-  own `contact_torques_n_m`. Misaligned pairs, other positions: `gearlube contact`, and its table as
-  `mesh_table`.
-- What the file gives is **given**. What it leaves out is **inferred** where it follows from given
-  fields, else **assumed**: the default in the tables below. `gearlube axle show` and the report of
-  a sweep list what is inferred and assumed, with values, units and reasons.
-- Without `[gear.bearing]` the bearings of the gear's shaft are as the pinion's. With it, what it
-  leaves out is at the defaults, not as the pinion's; only the preload is then the pinion's.
-- A bearing is given by bore, outside diameter, pitch diameter, number, mean diameter and effective
-  length of the rollers, and contact angle. Races follow from the pitch diameter: it less and plus
-  roller diameter times cosine of the contact angle. The stiffness follows from the roller length,
-  d = 3.84e-5 Q^0.9/l^0.8 [mm, N] for each of the two contacts (Palmgren; Harris and Kotzalas 2007).
-  Without a roller length it is the paper's, which is 2.5 times softer for the paper's rollers.
-- `frusta_lengths_mm` and the lists beside it describe a member as cone frusta of the steel on its
-  axis, from the drawing: blank, shaft, and for the gear the ring, bolted flange and differential
-  case. Mass and inertia that the file does not give are theirs. A tooth zone is a frustum halfway
-  between root and tip.
-- `drag_area_m2` stands for drag coefficient times frontal area, `rolling_radius_mm` for the tyre's
-  size, `interference_um` for the preload, the two race diameters for the pitch diameter, and
-  `walther_a` with `walther_b` for the two viscosities: give one of each. The engine's orders have
-  their three lists together.
-- `kind = "electric_motor"` in `[engine]` puts a smooth motor with one gear in the place of the
-  engine, with defaults of its own: rotor, shaft, speeds from standstill. `orders` are then those of
-  its torque ripple, in periods per revolution of the rotor, at most 24.
-- `asperity_table` takes what `gearlube roughness flow-factors` computed of
-  [rough patches](rough_contact.md) in the place of the usual constants of Greenwood and Tripp's
-  law. The kernels keep the law: its two products are fitted to load and area of the table between
-  h/sigma 0.5 and 3. `gearlube axle show` tells the fit and by what factor it misses the table, up
-  to 2.6 for Gaussian surfaces. Left out, `roughness_rms_um` is that of the table; given, it scales
-  the film ratio alone.
-- An `asperity_table` of surfaces pressed dry puts far more load on asperities than the usual
-  constants: oil that flattens roughness before it touches is not in it. See
-  [loss_map.md](loss_map.md#mixed-friction-of-the-flanks).
-- Rolling of the flanks is not modelled until `flank_rolling` of `[model]` names its law.
-- `bearing_torque_loss` of `[model]` other than palmgren takes the forces of each bearing or the
-  load of each roller, anew at least once in 12 integrator steps. With the sums over rollers a
-  communication step of 0.1 ms takes 2 to 4 times as long.
-- `oil.file` names an [oil file](oil_file.md), your oil by its data sheet, in place of all other
-  fields of `[oil]`.
-- Churning and seals are not modelled until the file has a field of `[housing]` and of `[seals]`.
-  Immersion matters most; oil that is thrown off lowers it, and the laws differ by a
-  factor of three. A seal's torque is free of speed, `wheel_torque_n_m` that of both wheels' seals.
-- `[tolerances]` says how fields scatter from part to part, each by its dotted name:
+### Gears
+
+- Only the gears are required. There are two ways to give them. `gear_set.gear_file` names
+  [your gear file](gear_file.md): `gearlube design` writes one, or you fill it in from the machine
+  settings. `gear_set.mesh_table` names a shipped mesh table, or one that `gearlube contact` wrote.
+  The numbers of teeth, and so the final drive ratio, are taken from the gear file or mesh table.
+- With `gear_file = "my_gears.toml"` the first command or call that reads the axle file computes the
+  loaded tooth contact. This takes 2 to 4 minutes on two processors and shows a progress bar. The
+  resulting mesh table is stored beside the gear file as `my_gears.mesh.nc`. If that folder is not
+  writable, the table goes to the user's cache folder. If you stop the computation by Ctrl-C, the
+  same command later continues from the finished positions.
+- The stored mesh table carries hashes of the gear file's content, of the torques and of the
+  analysis code. If one of these changes, the table is computed again and the command says why.
+  Comments and `[tolerances]` of the gear file have no effect on the hash.
+  `gearlube contact my_gears.toml` at its usual settings, or with `--torques`, stores the same table
+  and draws the figures as well.
+- The analysis uses the torques of `gearlube contact`: 5 to 400 N.m on the pinion. For a truck, set
+  `contact_torques_n_m`. For misaligned gears or other mesh positions run `gearlube contact` and
+  name its table as `mesh_table`.
+
+### Values that the file leaves out
+
+- A value in the file counts as **given**. A missing value is **inferred** if it follows from given
+  fields. Otherwise it is **assumed**: the default in the tables below. `gearlube axle show` and the
+  report of a sweep list all inferred and assumed values, with units and reasons.
+- Without a section `[gear.bearing]` the gear's shaft has the same bearings as the pinion's shaft.
+  With this section, its missing fields take the defaults in the tables below. The one exception is
+  the preload: if it is missing, it is the preload of the pinion's bearings.
+- Some fields replace others; give only one of each pair. `drag_area_m2` replaces the drag
+  coefficient and the frontal area. `rolling_radius_mm` replaces the tyre size. `interference_um`
+  replaces the preload. The two race diameters replace the pitch diameter. `walther_a` and
+  `walther_b` replace the two viscosities. The engine's orders need all three of their lists.
+
+### Bearings, masses and engine
+
+- A bearing is described by its bore, outside diameter, pitch diameter and contact angle, and by the
+  number, mean diameter and effective length of its rollers. The race diameters are the pitch
+  diameter minus and plus the roller diameter times the cosine of the contact angle. The stiffness
+  follows from the roller length: d = 3.84e-5 Q^0.9/l^0.8 [mm, N] for each of the two contacts of a
+  roller (Palmgren; Harris and Kotzalas 2007). Without a roller length the stiffness is that of the
+  paper. For the paper's rollers this is 2.5 times softer.
+- `frusta_lengths_mm` and the lists beside it describe the pinion or the gear as a row of steel cone
+  frusta on its axis, taken from the drawing: blank and shaft, and for the gear also the ring, the
+  bolted flange and the differential case. If the file gives no mass or inertia, these are computed
+  from the frusta. Describe the toothed zone by a frustum whose surface is halfway between root and
+  tip.
+- `kind = "electric_motor"` in `[engine]` replaces the engine by a motor with one gear and smooth
+  torque. It has its own defaults for rotor, shaft and speeds; its speeds start at standstill.
+  `orders` are then the orders of its torque ripple, in periods per revolution of the rotor, at most
+  24.
+
+### Friction and losses
+
+- `asperity_table` names a table that `gearlube roughness flow-factors` computed from
+  [rough patches](rough_contact.md). It replaces the usual constants of Greenwood and Tripp's law.
+  The form of the law stays: its two products are fitted to the load and the area of the table
+  between h/sigma 0.5 and 3. `gearlube axle show` prints the fit and the factor by which it misses
+  the table, up to 2.6 for Gaussian surfaces. If `roughness_rms_um` is left out, the roughness is
+  that of the table. If it is given, it changes the film ratio only.
+- An `asperity_table` of surfaces pressed together without oil puts far more load on the asperities
+  than the usual constants do. It does not include the oil pressure that flattens the roughness
+  before the surfaces touch. See [loss_map.md](loss_map.md#mixed-friction-of-the-flanks).
+- Rolling friction of the flanks is only modelled if `flank_rolling` of `[model]` names its law.
+- `bearing_torque_loss` of `[model]` selects the law of the bearing drag. All laws except palmgren
+  use the forces of each bearing or the load of each roller, updated at least once in 12 integrator
+  steps. With the laws that sum over the rollers a communication step of 0.1 ms takes 2 to 4 times
+  as long.
+- `oil.file` names an [oil file](oil_file.md), which describes your oil by its data sheet. It
+  replaces all other fields of `[oil]`.
+- Churning is only modelled if the file has a field of `[housing]`, seals only if it has a field of
+  `[seals]`. For churning the immersion depth matters most. The rotating gear throws oil off, which
+  lowers the immersion, and the laws differ by a factor of three. The torque of a seal does not
+  depend on speed. `wheel_torque_n_m` is the torque of the seals of both wheels together.
+
+### Scatter and errors in the file
+
+- `[tolerances]` says how fields vary from part to part. Each field is named with its section:
   `gear_set.backlash_um = { plus_minus = 30.0 }`, or `plus_minus_percent`, or
-  `standard_deviation`. Without `distribution = "uniform"` it is normal with three standard
-  deviations to the tolerance; parts beyond are sorted out.
-  [`gearlube vary --scatter`](vary.md#scatter-from-part-to-part) samples them.
-- All wrong fields of a file are named at once, each with the value, its limits and unit, and, if
-  another unit would bring the number within them, that unit. Nothing is compiled before.
+  `standard_deviation`. The distribution is normal unless `distribution = "uniform"` is set. For
+  a normal distribution the tolerance is three standard deviations, and parts outside the
+  tolerance are rejected. [`gearlube vary --scatter`](vary.md#scatter-from-part-to-part) samples
+  these fields.
+- All wrong fields of a file are reported together, before anything is compiled. Each message gives
+  the value, its limits and its unit. If the value would be within the limits in another unit, the
+  message names that unit.
 
 ## Fields
 """
@@ -125,45 +150,53 @@ for note in paper.assumed:
 _TAIL = """
 ## The sweep
 
-`gearlube sweep my_axle.toml` takes its options from the file: oil, roughness, equations, friction
-and drag torque; an option on the command line goes before the file. Without `--preload` it runs the
-preload that the file gives, else 2500 and 6000 N. `--preload` sets the bearings of the pinion's
-shaft; those of the gear's follow unless the file gives them a preload of their own. The oil
-temperature is that of `--oil-temperature`, 95 degC; with `--steady-temperature` each point has its
-own, see [drive_cycle.md](drive_cycle.md). If the road asks for more than 1.5 times the
-torque of the mesh table, the sweep refuses before it builds anything; beyond the table it warns.
+`gearlube sweep my_axle.toml` takes oil, roughness, equations, friction and drag torque from the
+file. An option on the command line overrides the file. Without `--preload` the sweep runs the
+preload of the file; if the file gives none, it runs 2500 and 6000 N. `--preload` sets the bearings
+of the pinion's shaft. The bearings of the gear's shaft get the same preload, unless the file gives
+them their own. The oil temperature is set by `--oil-temperature`, by default 95 degC. With
+`--steady-temperature` each point has its own steady oil temperature, see
+[drive_cycle.md](drive_cycle.md). If the road load needs a torque above that of the mesh table, the
+sweep warns. If it needs more than 1.5 times that torque, the sweep stops before it builds anything.
 
 ## The FMU
 
-`gearlube build-fmu --axle my_axle.toml` builds native [FMUs](fmu.md), with `--python` one that
-computes in this package. The FMU carries the file as `resources/axle.toml`, a mesh table of its own
-or that of its gear file as `resources/mesh_table.nc`, an asperity table as
-`resources/asperity_table.nc` and an oil file as `resources/oil.toml`; the paths in
-the file have no meaning there, and the gear file itself is not in it. Its GUID depends on every
-byte of all of them. Start values of its parameters are the file's. An oil of the file's own is the
-literal `custom` of `oil.name`. `--mesh-table` does not go with `--axle`: the file names its gears.
-A sweep keeps one such FMU in the cache for each content of file and tables. The FMU has no car:
-vehicle, tyre, gearbox, engine and driveline of the file are those of the sweep.
+`gearlube build-fmu --axle my_axle.toml` builds native [FMUs](fmu.md). With `--python` it builds an
+FMU that computes in this Python package. The FMU contains these files:
 
-These inputs are parameters of the FMU and can be set at run time; all others are built in:
+- the axle file as `resources/axle.toml`; paths in this copy have no effect
+- your mesh table, or the one computed from the gear file, as `resources/mesh_table.nc`; the gear
+  file itself is not in the FMU
+- the asperity table, if any, as `resources/asperity_table.nc`
+- the oil file, if any, as `resources/oil.toml`
+
+The GUID of the FMU depends on every byte of these files. The start values of its parameters are
+those of the axle file. If the axle file describes its own oil, `oil.name` has the value `custom`.
+`--mesh-table` cannot be used with `--axle`, because the axle file names its gears. A sweep stores
+one such FMU in the cache for each content of file and tables. The FMU does not contain the car: the
+vehicle, tyre, gearbox, engine and driveline of the file are used by the sweep only.
+
+These inputs are parameters of the FMU and can be set at run time. All others are built in.
 
 | Parameter | Input |
 |---|---|
 {parameters}
 ## Limits
 
-- Two opposed and equal bearings on each shaft; no distances between them: the model has no tilt
-  of the shafts. For two unlike bearings give sizes halfway between them: with bearings of 45 and
-  40 mm bore (pitch 74 and 66 mm) the loss of an axle is then within 1 % of the mean of the axles
-  with either, by palmgren, skf_2013 and zhou_hoeprich_1991. A radial load that an overhung pinion
-  shares 6 to 2 kN between its bearings and not 4 to 4 changes the drag of both together by 0.6 % at
-  most by zhou_hoeprich_1991, less by the others; the axial forces that come with tilt are not in
-  that. Dynamics of the bearings at either end are another matter.
-- Masses and inertias are given, those of the member's frusta, or the paper's. Nothing takes them
-  from the teeth: a frustum between root and tip stands for them.
-- The stiffness of the rollers is that of steel, whatever `[steel]` says.
-- The contact angle is that of the outer race for both races; for the rib the inner race has the
-  angle with which rollers and races share one apex.
+- Each shaft has two equal bearings in opposed arrangement. The distance between them is not an
+  input, because the model has no tilt of the shafts.
+- For two unlike bearings give sizes halfway between them. An example with bearings of 45 and 40 mm
+  bore (pitch diameters 74 and 66 mm): the loss of the axle is within 1 % of the mean of two axles,
+  one with each bearing, by palmgren, skf_2013 and zhou_hoeprich_1991.
+- The two bearings of an overhung pinion share the radial load unequally. With 6 and 2 kN in place
+  of 4 and 4 kN the drag of both together changes by at most 0.6 % by zhou_hoeprich_1991, and by
+  less with the other laws. The axial forces caused by tilt are not included in this number. These
+  numbers hold for the losses, not for the dynamics of the two bearings.
+- Masses and inertias are those given, those computed from the frusta, or those of the paper. They
+  are not computed from the tooth shape: a frustum between root and tip replaces the teeth.
+- The stiffness of the rollers is always that of steel, whatever `[steel]` says.
+- Both races use the contact angle of the outer race. The rib contact uses another angle for the
+  inner race: the angle at which rollers and races share one apex.
 """
 _FIELDS = {
     "bearing_preload": "`pinion.bearing.preload_n`",

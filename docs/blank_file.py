@@ -23,33 +23,35 @@ HEAD = """# The blank file
 The tables are written by `python -m docs.blank_file` from the data model
 (`gearlube_core/hypoid_design/blank_file.py`), the text with them; not edited by hand.
 
-The few numbers from which a hypoid or bevel pair is designed: teeth, offset, size, spiral angle and
-cutter. From them follow pitch cones, faces, heights and thicknesses by ISO 23509. One blank ships,
-`hypoid_13_42` (`gearlube_core/hypoid_design/data/hypoid_13_42.toml`).
+A blank file gives the few numbers from which a hypoid or bevel pair is designed: teeth, offset,
+size, spiral angle and cutter. Pitch cones, face widths, tooth heights and thicknesses are computed
+from them by ISO 23509. One blank ships, `hypoid_13_42`
+(`gearlube_core/hypoid_design/data/hypoid_13_42.toml`).
 
-Teeth are equally deep from toe to heel, as in [gear files](gear_file.md): pitch, face and root cone
-of a member are parallel. Axes stand at 90 degrees.
+The tooth depth is the same from toe to heel, as in [gear files](gear_file.md): the pitch, face and
+root cones of a member are parallel. The axes are at 90 degrees.
 
-**Hand**: a pair with a left-handed pinion is the mirror image of the computed one, y -> -y in the
-[frame of the pair](conventions.md#frame-of-the-hypoid-pair). All numbers stay: pitch cones,
-contact, transmission error, stiffness, axial forces. The drive flanks are the pinion's concave
-ones for both hands; the sense of rotation is the other one. With `pinion_hand = "left"` exported
-flanks and bodies, nominal measured points and REXS files are those of the left-handed pair. On the
-machine its settings lie on the other side: vertical setting, blank offset, cradle angle and swivel
-angle change their signs.
+**Hand**: a pair with a left-handed pinion is computed as the mirror image of a right-handed pair, y
+-> -y in the [frame of the pair](conventions.md#frame-of-the-hypoid-pair). All numbers are the same:
+pitch cones, contact, transmission error, stiffness, axial forces. For both hands the drive flanks
+are the concave flanks of the pinion. The sense of rotation is reversed. With `pinion_hand = "left"`
+the exported flanks and bodies, the nominal measured points and the REXS files are those of the
+left-handed pair. On the machine some settings are on the other side: vertical setting, blank
+offset, cradle angle and swivel angle change their signs.
 
 ## The four methods
 
-| Method | For | Needs | Cones |
+| Method | For | Needs | Condition for the pitch cones |
 |---|---|---|---|
-| 0 | bevel gears, no offset | outer diameter, spiral of the gear | that meet in one apex |
-| 1 | hypoid gears | outer diameter, spiral of the pinion | whose limit curvature the tooth has |
-| 2 | hypoid gears | mean diameter, spiral of the gear | apexes and cutter centre on a line |
-| 3 | hypoid gears | outer diameter, spiral of the gear | that meet the cutter condition |
+| 0 | bevel gears, no offset | outer diameter, gear spiral angle | the cones meet in one apex |
+| 1 | hypoid gears | outer diameter, pinion spiral angle | tooth has the cones' limit curvature |
+| 2 | hypoid gears | mean diameter, gear spiral angle | apexes and cutter centre lie on one line |
+| 3 | hypoid gears | outer diameter, gear spiral angle | the cones meet the cutter condition |
 
-Diameters are those of the gear. The other spiral angle follows: a pair of touching cones leaves one
-free. Method 1 puts the calculation point where its first guess of the pitch angle says, which is
-not the middle of the face; the other methods take the middle.
+Diameters are those of the gear. Only one spiral angle can be chosen, because the two pitch cones
+must touch. The other one follows. In method 1 the place of the calculation point follows from the
+first estimate of the pitch angle and is not the middle of the face. The other methods use the
+middle.
 """
 
 TAIL = """
@@ -66,31 +68,31 @@ for note in (*designed.file.inputs(), *designed.results()):
     print(note.field, note.value_text, note.unit, note.origin, note.why)
 ```
 
-Every number carries its origin: `given` in the file, `assumed` because the file is silent, or
-`inferred`, which follows from the others.
+Every number has an origin: `given` in the file, `assumed` because the file does not give it, or
+`inferred` because it follows from the others.
 
-- **Heights**: working depth k_d m_mn, gear addendum c_ham of it, clearance k_c of it. Without
-  `gear_addendum_factor` the gear gets 0.21 + 0.29 (z_1/z_2)^2. The shipped pair has 0.25, and this
-  gives 0.248.
-- **Face of the pinion**: so wide that it covers the gear's. Method 1 extends both ends by the turn
-  of the root plane, method 2 multiplies by 1 + tan^2 of the offset angle, method 3 adds 3 m_mn tan
-  of it and rounds up to whole millimetres.
+- **Heights**: the working depth is k_d m_mn, the gear addendum is c_ham times the working depth,
+  the clearance is k_c times the working depth. Without `gear_addendum_factor`, c_ham is 0.21 + 0.29
+  (z_1/z_2)^2. For the shipped pair this gives 0.248; the pair has 0.25.
+- **Face width of the pinion**: wide enough to cover the gear's face. Method 1 extends both ends by
+  the rotation of the root plane. Method 2 multiplies by 1 + tan^2 of the offset angle. Method 3
+  adds 3 m_mn times the tangent of the offset angle and rounds up to whole millimetres.
 - **Thickness**: teeth and slots are equally wide at the middle of the working depth, because a gear
-  file has one point radius for the blades of both flanks. There is no backlash in it.
-- **Blade angles**: the effective pressure angle plus the limit pressure angle on the gear's drive
-  flank, less it on the coast flank. Both flanks then roll alike.
+  file has one point radius for the blades of both flanks. There is no backlash in this thickness.
+- **Blade angles**: effective pressure angle plus limit pressure angle on the gear's drive flank,
+  and effective minus limit pressure angle on its coast flank. Both flanks then roll alike.
 
 ## Machine settings
 
 ```
-gearlube design my_blank.toml --out my_design     # some ten seconds
-gearlube contact my_design/my_blank.toml --out my_design/contact   # under load; the file as it is
+gearlube design my_blank.toml --out my_design     # about ten seconds gearlube contact
+my_design/my_blank.toml --out my_design/contact   # under load, with the gear file as written
 gearlube map my_design/axle.toml                  # losses; also sweep, cycle, build-fmu --axle
 gearlube design --example > my_blank.toml         # a blank file to start from
 ```
 
-From "13 to 42 teeth, 15 mm offset" to loss map and FMU in five commands, about seven minutes on a
-small machine, five of them for the FMUs of five platforms:
+These five commands lead from "13 to 42 teeth, 15 mm offset" to a loss map and FMUs. They take about
+seven minutes on a small machine, five of them for the FMUs of five platforms:
 
 ```
 gearlube design --example > my_blank.toml
@@ -100,12 +102,18 @@ gearlube map my_pair/axle.toml --out my_map
 gearlube build-fmu --axle my_pair/axle.toml --out my_fmus
 ```
 
-`gearlube design` writes the gear file (named after `name`), `axle.toml`, an [axle
-file](axle_file.md) to complete, `report.html`, `design.nc` and `figures/`: contact patterns with
-ease-off, transmission error, widths of the teeth. The report says of the contact what was asked
-and found, of the teeth topland, slot, undercut and how wide blade points may be, and of every
-number whether it was given, chosen or follows. What was not met stands there with how near it
-came and what to relax. If both flanks do not even touch, nothing is written.
+`gearlube design` writes:
+
+- the gear file, named after `name`
+- `axle.toml`, an [axle file](axle_file.md) for you to complete
+- `report.html` and `design.nc`
+- `figures/`: contact patterns with ease-off, transmission error, widths of the teeth
+
+The report compares for the contact what was asked and what was found. For the teeth it gives
+topland, slot width, undercut and the largest possible blade point width. For every number it says
+whether it was given, chosen or computed. If a target was not met, the report says how close the
+design came and which requirement to relax. If one of the two flanks does not touch at all, nothing
+is written.
 
 In Python:
 
@@ -113,80 +121,88 @@ In Python:
 from gearlube_core.hypoid_design.design import design_pair
 
 design = design_pair(designed.file)
-design.file  # a gear file, as `gearlube contact` takes it
-design.measured["drive"]  # what the contact analysis finds of what was asked
+design.file  # a gear file for `gearlube contact`
+design.measured["drive"]  # result of the contact analysis for each target
 ```
 
-1. **Gear**: form-cut (Formate), or generated by a rolling cradle (`gear = "generated"`). Its cutter
-   stands where the blade passes the calculation point at the spiral angle of the blank, the
-   reference plane at the middle of the working depth.
-2. **Start of the pinion**: beside a form-cut gear, what the gear itself would cut, the cradle
-   turning as the gear does in the mesh. Such flanks are conjugate: without crowning and without
-   transmission error. Beside a generated gear, a pinion that a crown gear generates: conjugate
-   without offset, 0.1 mm off with 15 mm.
-3. **Wanted gap**: a parabola along every line of contact, 6.35 um at the ends of the ellipse, and
-   along the path a parabolic transmission error. Error, ellipse and path direction are the three
-   numbers of the second-order gap at the mean contact.
-4. **Fit**: eleven settings of the pinion's machine and cutter, and what `[machine]` allows besides:
-   the edge radius of its blades, one for each flank, modified roll, helical motion; by least
-   squares over both flanks, the coast flank as a whole with 0.3 of the
-   weight; mean contact and path count ten times, on both sides. The
-   cutter's reference plane stays in the middle of the working depth, the backlash at zero.
-5. **Judgement**: the unloaded contact analysis of the finished gear file. What it finds too much or
-   too little is taken off the targets, and the fit goes on, up to six rounds. If a side still fails
-   whose path is left open, a path nearer to across the lines of contact is tried.
+1. **Gear**: form-cut (Formate), or generated by a rolling cradle (`gear = "generated"`). The cutter
+   is placed so that its blade passes the calculation point at the spiral angle of the blank. The
+   reference plane is at the middle of the working depth.
+2. **Start of the pinion**: for a form-cut gear, the start is the pinion that the gear itself would
+   cut if the cradle turned as the gear does in mesh. Such flanks are conjugate: they have no
+   crowning and no transmission error. For a generated gear, the start is a pinion generated by a
+   crown gear. It is conjugate without offset, and 0.1 mm off with 15 mm offset.
+3. **Target gap** (ease-off): a parabola along every contact line, 6.35 um at the ends of the
+   contact ellipse, and a parabolic transmission error along the path of contact. Transmission
+   error, ellipse length and path direction are the three coefficients of the second-order gap at
+   the mean contact point.
+4. **Fit**: a least-squares fit over both flanks changes eleven settings of the pinion's machine and
+   cutter. It also changes what `[machine]` allows: the edge radii of the blades (one for each
+   flank), modified roll, helical motion. The coast flank has 0.3 of the weight of the drive flank.
+   On both flanks the mean contact point and the path have ten times the weight. The reference plane
+   of the cutter stays at the middle of the working depth, and the backlash stays zero.
+5. **Check**: the unloaded contact analysis of the finished gear file. Its deviations from the
+   targets are subtracted from the targets, and the fit is repeated, for up to six rounds. If a
+   flank with a free path direction still fails, a path direction closer to normal to the contact
+   lines is tried.
 
-Both flanks of the pinion are cut in one set-up (completing). Not here: a set-up of its own for each
-flank, and tapered teeth.
+Both flanks of the pinion are cut in one set-up (completing). Separate set-ups for the two flanks
+and tapered teeth are not implemented.
 
-**What was found on the samples** (`tests/analytical/test_designed_pair.py`): hypoid 13/42 with
-offset 15, the bevel pair 14/39 and the face-hobbed 13/42 meet 50 and 80 urad within 1 %, path
-directions within 1 deg and the mean contact within 0.2 mm. So do 13/42 and 14/39 with a generated
-gear, 13/42 also face-hobbed. This takes a freedom besides the eleven settings:
+**Results on samples** (`tests/analytical/test_designed_pair.py`): three pairs meet their targets of
+50 and 80 urad within 1 %, path directions within 1 deg and the mean contact point within 0.2 mm.
+They are hypoid 13/42 with 15 mm offset, the bevel pair 14/39 and the face-hobbed 13/42. With a
+generated gear 13/42 and 14/39 meet them too, 13/42 also face-hobbed. The fit needs one more free
+parameter besides the eleven settings:
 
 | Blades | Modified roll | Helical motion | 13/42 face-milled, form-cut gear |
 |---|---|---|---|
-| curved, a radius for each flank | no | no | as asked |
-| straight | no | no | no extreme of the error on the coast flanks |
-| straight | yes | no | error of the drive flanks 92 instead of 50 urad |
-| straight | yes | yes | as asked; so it is with a generated gear |
+| curved, a radius for each flank | no | no | targets met |
+| straight | no | no | no extreme of the transmission error on the coast flanks |
+| straight | yes | no | transmission error of the drive flanks 92 instead of 50 urad |
+| straight | yes | yes | targets met, also with a generated gear |
 
-**The pair of the papers from its blank alone** (`tests/literature/test_designed_shipped_pair.py`):
-165 mm, 46 deg, offset 24, cutter 64 mm with 11 blade groups, and on each side the place, error,
-ellipse and path that the paper's settings have. Ease-offs then differ by 4.5 um (drive) and 3.4 um
-(coast, rms) of 135 and 121 um, by 1.4 and 1.0 um where the flanks are closer than 30 um. What
-differs are the corners: the design's second order is that of the paper, its third is not. The
-settings themselves differ, tilt by 2 deg: many settings give nearly one flank.
+**The shipped pair, designed from its blank only**
+(`tests/literature/test_designed_shipped_pair.py`): outer diameter 165 mm, spiral angle 46 deg,
+offset 24 mm, cutter radius 64 mm with 11 blade groups. On each flank the targets are the contact
+place, transmission error, ellipse and path of the paper's settings. The ease-offs of the design and
+of the paper then differ by 4.5 um (drive) and 3.4 um (coast) rms, of 135 and 121 um. Where the
+flanks are closer than 30 um, they differ by 1.4 and 1.0 um. The difference is in the corners of the
+flanks: the second-order terms agree, the third-order terms do not. The machine settings differ, the
+tilt by 2 deg: many different settings give almost the same flank.
 
 **48 designs** of five ratios, offsets of 10 to 45 mm, milled and hobbed, form-cut and generated:
-[designs.md](designs.md). What fails are offsets of nearly half the gear's radius.
+[designs.md](designs.md). The designs that fail have offsets of nearly half the gear's radius.
 
-**Relief**: designed flanks get tip relief on both members and end relief on the pinion, because
-without it edges carry from small torques on: 13/42 then has 4.4 GPa at 150 N.m and more than three
-pairs of teeth in contact, with it 1.3 GPa. The targets are those of the flanks as cut, without it.
-It is enough up to some torque. A face-milled 11/43 of 200 mm has 1.22 GPa at 150 N.m, within 0.3 %
-the same with 48 x 72 and 96 x 144 cells. At 300 N.m the gear's tip digs into the pinion's root:
-1.56 GPa, then 2.10. With `tip_relief_um = 40` it is 1.68 GPa with both. So choose the relief for
-the torque that counts: `gearlube contact` names the edges that carry, and from which torque on.
+**Relief**: designed flanks get tip relief on both members and end relief on the pinion. Without
+relief the edges carry load even at small torques: 13/42 then has 4.4 GPa at 150 N.m and more than
+three pairs of teeth in contact. With relief it has 1.3 GPa. The targets are for the flanks as cut,
+without relief. A given relief is enough up to some torque. Example: a face-milled 11/43 of 200 mm
+has 1.22 GPa at 150 N.m, the same within 0.3 % with 48 x 72 and 96 x 144 cells. At 300 N.m the
+gear's tip edge carries load in the pinion's root, and the pressure depends on the cells: 1.56 GPa
+and 2.10 GPa. With `tip_relief_um = 40` it is 1.68 GPa with both. So choose the relief for the
+torque that matters. `gearlube contact` names the edges that carry load, and the torque from which
+they do.
 
-Limits for a remark in the report: transmission error 10 % on drive and 15 % on coast flanks, path
-direction 2 deg, mean contact 0.5 mm, ellipse length 25 %.
+The report contains a remark if a result misses its target by more than this: transmission error 10
+% on drive flanks and 15 % on coast flanks, path direction 2 deg, mean contact point 0.5 mm, ellipse
+length 25 %.
 
 ## Against printed samples
 
-ISO 23509:2016, annex F, hypoid samples F.3 (method 1), F.4 (2) and F.5 (3), in
-`tests/literature/test_designed_blanks.py`. The standard stops its iterations early; here the
-conditions are solved to rounding. The difference is the standard's own tolerance: cone distances
-of F.4 by 0.18 mm, all else of F.3 and F.5 within 0.02 mm. F.3 is tapered in the standard; its cones
-and faces are compared, not its depths.
+`tests/literature/test_designed_blanks.py` compares with ISO 23509:2016, annex F, hypoid samples F.3
+(method 1), F.4 (method 2) and F.5 (method 3). The standard stops its iterations early. Here the
+conditions are solved to rounding. The difference is due to the tolerance of the standard: 0.18 mm
+for the cone distances of F.4, and within 0.02 mm for all values of F.3 and F.5. F.3 has tapered
+teeth in the standard. Its cones and face widths are compared, but not its tooth depths.
 
 ## Blanks that cannot exist
 
 | Check | Refused | Warning |
 |---|---|---|
-| Offset, spiral angle, cutter radius: cones that meet the method's condition | none found | |
-| Spiral angle that the offset leaves to the gear | 0 or less | |
-| Blade angle: pressure angle with the limit pressure angle | outside 5 to 40 deg | |
+| Offset, spiral angle, cutter radius: cones that meet the condition of the method | none found | |
+| Spiral angle of the gear, after subtraction of the offset angle | 0 or less | |
+| Blade angle: pressure angle plus or minus limit pressure angle | outside 5 to 40 deg | |
 | Cutter over the gear's face | does not reach; spiral above 65 deg | spiral of the other hand |
 | Face width over outer cone distance | above 0.45 | above 0.35 |
 | Calculation point | not on the face | |
@@ -194,12 +210,13 @@ and faces are compared, not its depths.
 | Topland at mid-face | none (pointed) | below 0.2 normal modules |
 | Undercut at mid-face by the mate's tip | any | |
 
-Topland and undercut are those of the virtual spur gear in the normal section, an estimate to choose
-a blank by. `gearlube_core/hypoid_geometry/flank/tooth_form.py` examines the teeth as cut.
+Topland and undercut are those of the virtual spur gear in the normal section. This is an estimate,
+good enough to choose a blank. `gearlube_core/hypoid_geometry/flank/tooth_form.py` checks the teeth
+as cut.
 
-ISO 23509 has more that is not here: tapered depth (standard, duplex, tilted root line), shaft
-angles other than 90 degrees, thickness factors and backlash, and the pinion's offset angle in
-the root plane, for which that in the axial plane stands.
+These parts of ISO 23509 are not implemented: tapered depth (standard, duplex, tilted root line),
+shaft angles other than 90 degrees, thickness factors and backlash, and the pinion's offset angle in
+the root plane. The offset angle in the axial plane is used instead.
 """
 
 

@@ -37,62 +37,68 @@ HEAD = """# The gear file
 The tables are written by `python -m docs.gear_file` from the data model
 (`gearlube_core/hypoid_geometry/gear_file.py`), the text with them; not edited by hand.
 
-A hypoid pair as a workshop describes it: blank, cutters and machine settings, in millimetres and
-degrees, in one TOML file. From it come the flank surfaces, and from them tooth contact,
-transmission error, load sharing and the mesh table of the axle.
+A gear file describes a hypoid pair as a workshop does: blank, cutters and machine settings, in
+millimetres and degrees, in one TOML file. The flank surfaces are computed from it, and from them
+tooth contact, transmission error, load sharing and the mesh table of the axle.
 
 ![Pinion and gear in mesh](images/gear_pair.png)
 
-*The shipped pair as its machine settings cut it, 13 to 36 teeth, offset 24 mm, face-hobbed. Right:
-the teeth in mesh, seen from the toe.*
+*The shipped pair, computed from its machine settings: 13 and 36 teeth, offset 24 mm, face-hobbed.
+Right: the teeth in mesh, seen from the toe.*
 
-Uniform depth, axes at right angles; gear form-cut or generated, pinion generated with cutter tilt;
-face-hobbed or, with no blade groups, face-milled. Frame, hands and the driving side:
-[conventions](conventions.md#frame-of-the-hypoid-pair).
+The tooth depth is uniform and the axes are at right angles. The gear is form-cut or generated. The
+pinion is generated with cutter tilt. The pair is face-hobbed, or face-milled if the number of blade
+groups is 0. [Conventions](conventions.md#frame-of-the-hypoid-pair) defines the frame, the hands and
+the driving side.
 
 ## Signs
 
-What drawings differ about, as this package reads it. With these signs the printed settings of the
-shipped pair bring the pinion's cutter to within 0.002 mm of the gear's tooth; every other choice
-of signs misses by 0.23 mm or more (`tests/literature/test_flank_surface_karagiannis_2012.py`).
+Drawings use different sign conventions. This section says which ones this package uses. With these
+signs the printed settings of the shipped pair bring the pinion's cutter within 0.002 mm of the
+gear's tooth. Every other choice of signs misses it by 0.23 mm or more
+(`tests/literature/test_flank_surface_karagiannis_2012.py`).
 
-- **Reference plane**: the plane at the middle of the working depth. `point_radius_mm` holds there,
-  not at the blade tips, and for the blades of both flanks.
-- **Blade angles are named after the flank they cut**, convex or concave, because tables disagree
-  about "inside" and "outside". Taken the other way round, mating flanks of the shipped pair differ
-  by 11.6 deg of pressure angle.
-- **Apexes** count positive beyond the crossing point of the axes. The gear's
-  `machine_center_to_back_mm` is the same kind of length, for the reference plane.
-- **Modified roll and helical motion**: counted from the basic cradle position, where the mean point
-  is cut. A machine root angle of the pinion above 10 deg makes its cradle a crown gear: the mean
-  point is then cut where the pinion's cone touches the plane across the cradle axis.
-- **Generated gear**: without tilt. Its cradle axis meets the gear axis in the machine centre.
-- **Cradle axis**: the gear axis of the assembled pair, if nothing is crowned. The cutter axis
-  leans by the tilt angle i from it, to the azimuth q - j - 90 deg (q basic cradle, j basic swivel
-  angle). The pinion axis lies a sliding base from the cutter centre's plane, on the side of the
-  blade tips.
-- **`blade_edge_radius_mm`**: a hollow blade, which crowns the tooth along its profile; without it
-  the edge is straight. The blades of either flank may have their own radius,
-  `convex_flank_edge_radius_mm` and `concave_flank_edge_radius_mm`.
-- **Reliefs** take material off the flank that the cutter left, along its normal: the amount at the
-  edge times (1 - d/extent)^2 at the distance d from it, nothing beyond the extent. Distances from
-  tip and root are tooth heights, those from toe and heel lie along the pitch cone. An edge radius r
-  is a relief of r/2 over r: where it begins it has the curvature 1/r. Crowns are parabolas over the
-  whole flank, zero in its middle; reliefs and crowns of a flank add up.
-- Root fillets are not described: below the flanks the tooth ends on the root cone.
+- **Reference plane**: the plane at the middle of the working depth. `point_radius_mm` is the radius
+  in this plane, not at the blade tips. It holds for the blades of both flanks.
+- **Blade angles are named after the flank they cut**, convex or concave, because tables use
+  "inside" and "outside" in different ways. If the two angles are exchanged, the pressure angles of
+  the mating flanks of the shipped pair differ by 11.6 deg.
+- **Apexes** are positive beyond the crossing point of the axes. The gear's
+  `machine_center_to_back_mm` is measured in the same way, for the reference plane.
+- **Modified roll and helical motion** start from the basic cradle position, where the mean point is
+  cut. If the machine root angle of the pinion is above 10 deg, the cradle represents a crown gear.
+  Then the mean point is cut where the pinion's cone touches the plane normal to the cradle axis.
+- **Generated gear**: cut without tilt. Its cradle axis meets the gear axis in the machine centre.
+- **Cradle axis of the pinion**: the gear axis of the assembled pair, if nothing is crowned. The
+  cutter axis leans from it by the tilt angle i, towards the azimuth q - j - 90 deg (q basic cradle
+  angle, j basic swivel angle). The distance from the plane of the cutter centre to the pinion axis
+  is the sliding base. The pinion axis is on the side of the blade tips.
+- **`blade_edge_radius_mm`**: radius of a hollow blade edge, which crowns the tooth along its
+  profile. Without this field the edge is straight. The blades of each flank may have their own
+  radius, `convex_flank_edge_radius_mm` and `concave_flank_edge_radius_mm`.
+- **Reliefs** remove material from the flank as cut, along its normal. The amount at the distance d
+  from the edge is the amount at the edge times (1 - d/extent)^2, and zero beyond the extent.
+  Distances from tip and root are tooth heights. Distances from toe and heel are measured along the
+  pitch cone.
+- **Edge radius**: a radius r is a relief of r/2 over the length r. Where it begins its curvature is
+  1/r.
+- **Crowns** are parabolas over the whole flank, zero in its middle. Reliefs and crowns of a flank
+  add up.
+- Root fillets are not described. Below the flanks the tooth ends on the root cone.
 
 ## Where a number is from
 
-`inferred` and `completed` list fields by their dotted names: what the source implies, and what was
-chosen because the source is silent. All other fields count as printed.
+`inferred` and `completed` list fields by section and name, such as `pinion.pitch_angle_deg`.
+`inferred` lists the values that the source does not print but implies. `completed` lists the values
+that were chosen because the source does not give them. All other fields count as printed.
 """
 
 TAIL = """
 ## Write your own
 
 1. Copy `gearlube_core/hypoid_geometry/data/mohammadpour_2015.toml` (face-hobbed) or
-   `examples/gears/face_milled.toml` and put your summary sheet's numbers in.
-2. Read it. Every wrong field is named, with its value and its range:
+   `examples/gears/face_milled.toml` and enter the numbers of your summary sheet.
+2. Read the file in Python. An error names every wrong field with its value and its range:
 
    ```python
    from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -100,7 +106,7 @@ TAIL = """
    file = HypoidGearFile.from_toml("my_gear.toml")
    ```
 
-3. Ask whether the flanks meet. `gearlube contact` asks first, too:
+3. Check whether the flanks can mesh. `gearlube contact` makes the same check first:
 
    ```python
    from gearlube_core.hypoid_contact.refusal import check_pair, pair_warnings
@@ -109,15 +115,15 @@ TAIL = """
    print(*pair_warnings(file), sep="\\n")
    ```
 
-   `check_pair` refuses a pair whose flanks do not meet, in one to five seconds. It says which check
-   failed and which setting is most likely wrong:
+   `check_pair` refuses a pair whose flanks cannot mesh. It takes one to five seconds. It says which
+   check failed and which setting is most likely wrong:
 
    > The flanks cannot mesh. The distance of the pinion cutter's reference plane from the middle of
    > the working depth must be within 0.1 mm, got -36.9 mm. Most likely wrong: the flanks meet with
    > pinion.machine.sliding_base_mm from -20.647 to 20.647 mm (the sign).
 
-   `pair_warnings` says what only shifts the contact.
-4. Look at the tooth: thin toplands, pointed teeth, undercut.
+   `pair_warnings` lists faults that only shift the contact.
+4. Check the tooth form for thin toplands, pointed teeth and undercut:
 
    ```python
    from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form
@@ -125,18 +131,20 @@ TAIL = """
    print(*tooth_form(file, "pinion").report(), sep="\\n")
    ```
 
-5. Take it elsewhere: `gearlube contact my_gear.toml --export` writes the flanks as points (CSV) and
-   as exact surfaces (STEP), teeth and gears as triangles (STL, GLB). In Python: `write_flank_csv`
-   and `write_solid` in `gearlube_core/hypoid_geometry/flank/export.py`, `write_step` in
-   `step_file.py`. These are the flanks as cut: reliefs and crowns are left out. A STEP file has
-   both flanks of one tooth as bicubic B-splines, within 0.01 um of the flank, from where the flank
-   is sound over the whole face up to the tip. Bodies are not in it: roots and blanks belong to the
-   CAD model, and a library that could build them (Open CASCADE) takes 380 MB.
+5. Export the gears: `gearlube contact my_gear.toml --export` writes the flanks as points (CSV) and
+   as exact surfaces (STEP), and teeth and gears as triangles (STL, GLB). In Python use
+   `write_flank_csv` and `write_solid` in `gearlube_core/hypoid_geometry/flank/export.py`, and
+   `write_step` in `step_file.py`. The exported flanks are the flanks as cut, without reliefs and
+   crowns. A STEP file contains both flanks of one tooth as bicubic B-splines, within 0.01 um of the
+   flank. They start at the height from which the flank has no undercut over the whole face width,
+   and end at the tip. The STEP file contains no bodies: root and blank are part of the CAD model. A
+   library that could build them (Open CASCADE) needs 380 MB.
 
 ## Relieve the edges
 
-Sharp teeth press into each other from some 50 N.m of the shipped pair on, and that pressure has no
-finite value ([tooth contact](tooth_contact.md#edges-and-relief)). Add for instance
+In the shipped pair, sharp tooth edges come into contact from about 50 N.m on. The pressure at a
+sharp edge has no finite value ([tooth contact](tooth_contact.md#edges-and-relief)). Add a relief,
+for example
 
 ```toml
 [pinion.drive_flank]
@@ -148,15 +156,15 @@ heel_relief_um = 30.0
 heel_relief_length_mm = 5.0
 ```
 
-and the same for the gear. Contact analysis, mesh table and what is made of it (transmission error,
-stiffness, radii of curvature, films, losses) are those of the relieved flanks. Whether the flanks
-meet at all is checked on the flanks as cut. `gearlube vary contact my_gear.toml --vary
-pinion.drive_flank.tip_relief_um=10:40:5` compares amounts.
+and the same for the gear. Contact analysis and mesh table are then computed with the relieved
+flanks, and so are transmission error, stiffness, radii of curvature, films and losses. The check
+whether the flanks can mesh uses the flanks as cut. `gearlube vary contact my_gear.toml --vary
+pinion.drive_flank.tip_relief_um=10:40:5` compares several amounts of relief.
 
 ## What is checked
 
-The checks run in this order, the cheapest first. Each limit lies between what sound and wrong pairs
-show. Sound pairs stay well below them.
+The checks run in this order, the fastest first. Each limit lies between the values of correct and
+wrong pairs. Correct pairs stay well below the limits.
 
 | Check | Refused above | Warning above |
 |---|---|---|
@@ -175,15 +183,16 @@ show. Sound pairs stay well below them.
 | Extreme of the unloaded transmission error on the teeth | | none |
 | Unloaded transmission error of the pinion, peak to peak | | 1000 urad |
 
-For a file that fails, these changes of one setting are tried: the other sign, ten times or a tenth,
-inches, radians, some teeth or blade groups more or less, two settings exchanged. If none helps, the
-value is looked for at which the misfit vanishes. A change is offered if all checks then pass and
-both flanks touch. The sentence names the change that fits best and up to two others.
+If a file fails, the program tries these changes of one setting: the other sign, ten times or a
+tenth of the value, inches, radians, a few teeth or blade groups more or fewer, two settings
+exchanged. If none of them helps, it searches the value at which the misfit is zero. It suggests a
+change if all checks then pass and both flanks touch. The message names the change that fits best
+and up to two others.
 
-A difference of the pressure angles of both blades is no fault: summary sheets often omit hook
-angles and blade edge curvature, and tilt changes the angles of sound pairs by up to a degree. The
-slopes between the flanks are checked instead. If the transmission error has no extreme on the
-teeth, change the two angle corrections of the pinion.
+A difference between the pressure angles of the two blades is not an error: summary sheets often
+omit hook angles and the curvature of the blade edge, and tilt changes the angles of correct pairs
+by up to a degree. The program checks the slopes between the flanks instead. If the transmission
+error has no extreme on the teeth, change the two angle corrections of the pinion.
 """
 
 

@@ -32,6 +32,7 @@ PURPOSES = {
     "native": "compiler of native FMUs",
     "surfaces": "measured surfaces",
     "sound": "loudness, tonality; measured transfer paths",
+    "export": "VTK files",
     "cycles": "driving cycles",
     "docs": "this site",
     "test": "tests",

@@ -25,9 +25,10 @@ HEAD = """# The oil file
 The tables are written by `python -m docs.oil_file` from the data model
 (`gearlube_core/oil/oil_file.py`), the text with them; not edited by hand.
 
-Your oil as its data sheet describes it, in one TOML file: class of the base oil, density, and two
-of viscosity at 40 degC, viscosity at 100 degC and viscosity index. The rest is estimated where
-the sheet says nothing, and each number is marked given, inferred or assumed.
+An oil file describes your oil by its data sheet, in one TOML file. It needs the class of the base
+oil, the density, and two of these three: viscosity at 40 degC, viscosity at 100 degC, viscosity
+index. Values that the data sheet does not give are estimated. Each value is marked as given,
+inferred or assumed.
 
 ```
 gearlube oil --example > my_oil.toml          # a file to start from
@@ -37,8 +38,9 @@ gearlube map my_axle.toml --oil my_oil.toml
 gearlube sweep my_axle.toml --oil my_oil.toml
 ```
 
-In an axle file, also for sweeps and FMUs: `[oil]` with `file = "my_oil.toml"`, relative to the axle
-file. An FMU carries the oil file as `resources/oil.toml`.
+In an axle file, name the oil file in section `[oil]`: `file = "my_oil.toml"`. The path is relative
+to the axle file. Sweeps and FMUs then use this oil. An FMU contains the oil file as
+`resources/oil.toml`.
 
 ```python
 import gearlube as gl
@@ -54,29 +56,32 @@ for note in oil.assumed:
 _TAIL = """
 ## What is estimated, and how well
 
-Factors: the true value is within value/factor and value times factor with 95 % (k = 2).
+The uncertainty is given as a factor. With a probability of 95 % (k = 2) the true value lies between
+value / factor and value times factor.
 
 {classes}
-Eyring stress: factor {eyring:g}, 2 to 5 MPa being in use.
+Eyring stress: factor {eyring:g}. Values of 2 to 5 MPa are in use.
 
-- **Pressure-viscosity coefficient**: the mean slope of ln eta up to 200 MPa is s nu^t with s and t
-  of the class (Gold et al. 2001), turned into the slope at ambient pressure by Roelands' law. The
-  constants are from memory, not compared with the printed paper. Compared with published
-  measurements the mean slope is 3 % low at 25 and 6 % low at 80 degC for FVA 3A, 3 % low at
-  40 degC for a paraffinic oil and a PAO of ISO VG 100, and 32 % low for a naphthenic oil. The slope
-  at ambient pressure is within 5 % for the paraffinic oil and at most 13 % high for the PAO.
-  Nothing was at hand to check esters and polyglycols. Correlations with density, such as So and
-  Klaus 1980, are left out: no text of theirs could be read.
-- **Eyring stress**: 2 Lambda/alpha with Lambda the limiting coefficient (Bair and Winer 1990,
-  quoted by Arana et al. 2019). Arana et al. take alpha at the pressure of the contact, where it is
-  smaller and the stress larger: 7 MPa at 1 GPa for 4.5 MPa at ambient pressure.
-- **Limiting coefficient** Lambda: Höglund 1999, quoted by Arana et al. 2019. The law of the axle's
-  flanks has no such limit; there it only sets the Eyring stress where none is given.
-  The fit below has it.
-- **Viscosity index**: quadratic forms of ASTM D2270, read in a published copy. They give the
-  printed 97 of FVA 3A.
-- The density counts as constant in all computations, at its value at 70 degC: dynamic viscosity is
-  2 % low at 40 and 2 % high at 100 degC.
+- **Pressure-viscosity coefficient** alpha: the mean slope of ln eta up to 200 MPa is s nu^t. The
+  constants s and t depend on the class of the base oil (Gold et al. 2001). Roelands' law converts
+  this mean slope to the slope at ambient pressure. The constants are quoted from memory and have
+  not been compared with the printed paper.
+  Compared with published measurements the mean slope is 3 % low at 25 degC and 6 % low at 80 degC
+  for FVA 3A, 3 % low at 40 degC for a paraffinic oil and a PAO of ISO VG 100, and 32 % low for a
+  naphthenic oil. The slope at ambient pressure is within 5 % for the paraffinic oil and at most
+  13 % high for the PAO. No measurements were available to check esters and polyglycols.
+  Correlations with density, such as So and Klaus 1980, are not used, because their text was not
+  available.
+- **Eyring stress**: 2 Lambda/alpha, where Lambda is the limiting coefficient (Bair and Winer 1990,
+  quoted by Arana et al. 2019). Arana et al. use alpha at the pressure of the contact. There alpha
+  is smaller and the stress is larger: 7 MPa at 1 GPa, compared with 4.5 MPa at ambient pressure.
+- **Limiting coefficient** Lambda: Höglund 1999, quoted by Arana et al. 2019. The friction law of
+  the axle's flanks has no limiting shear stress. There Lambda only sets the Eyring stress if none
+  is given. The fit to measured traction below does use this limit.
+- **Viscosity index**: quadratic formulas of ASTM D2270, read in a published copy. They give the
+  printed value of 97 for FVA 3A.
+- All computations use a constant density, the value at 70 degC. The dynamic viscosity is therefore
+  2 % low at 40 degC and 2 % high at 100 degC.
 
 ## Fit to measured traction
 
@@ -84,59 +89,66 @@ Eyring stress: factor {eyring:g}, 2 to 5 MPa being in use.
 gearlube oil fit measurements.csv --oil my_oil.toml --radius-mm 9.525 --out fitted_oil.toml
 ```
 
-The table has a line of column names and then one point a line:
+The first line of the CSV file has the column names. Each further line is one measured point:
 
 | Column | Unit | Meaning |
 |---|---|---|
-| `slide_roll_ratio` | - | Sliding speed over mean speed; or the next |
+| `slide_roll_ratio` | - | Sliding speed divided by mean speed; or give `sliding_speed_m_s` |
 | `sliding_speed_m_s` | m/s | Difference of the surface speeds |
 | `entrainment_speed_m_s` | m/s | Mean of the surface speeds |
-| `mean_pressure_gpa` | GPa | Load over area; or the next |
-| `hertz_pressure_gpa` | GPa | The largest |
+| `mean_pressure_gpa` | GPa | Load divided by contact area; or give `hertz_pressure_gpa` |
+| `hertz_pressure_gpa` | GPa | Maximum Hertz pressure |
 | `temperature_degc` | degC | Of the oil at the inlet |
-| `traction_coefficient` | - | Traction over load |
+| `traction_coefficient` | - | Traction force divided by load |
 
-Film from the formula of a circle (`--contact point`, Chittenden) or a line (`--contact line`,
-Dowson and Toyoda); traction by the law of the axle's flanks, Evans and Johnson 1986, no greater
-than Lambda times pressure. Least squares find the Eyring stress, and Lambda where three points or
-more lie on it and an F test gives it less than 1 % by chance. Factors are 95 % intervals from the
-Jacobian and the residual. On made-up points of the law with scatter, 56 points on 8 curves, 1000
-sets each, the interval held the Eyring stress in {coverage}
+The film thickness comes from the formula for a circular contact (`--contact point`, Chittenden) or
+for a line contact (`--contact line`, Dowson and Toyoda). The traction law is that of the axle's
+flanks, Evans and Johnson 1986. The shear stress is limited to Lambda times the pressure.
 
-- The factor counts scatter alone. Errors of film, alpha, viscosity and law bend a whole curve; the
-  mean residual of the worst curve shows them, and the command says when it is beyond scatter.
-- Many points of little scatter give a factor near 1, and the loss map then shows next to no error
-  bar by the Eyring stress. Enlarge `eyring_stress_factor` where pressures or temperatures of the
-  map lie outside the measured range.
-- Use the fitted stress with the alpha that it was fitted with: their errors balance in traction.
-- Smooth surfaces: with films below three times the roughness, asperities rub too.
-- The written file keeps the fields of `--oil`; comments are lost.
+A least-squares fit finds the Eyring stress. It also finds Lambda if at least three points lie on
+the limit and if an F test gives a probability below 1 % that the limit appears by chance. The
+factors are 95 % intervals from the Jacobian and the residual. They were tested on invented points
+of the law with scatter: 56 points on 8 curves, 1000 sets for each case. The interval contained the
+true Eyring stress in 94 of 100 sets if no point reaches the limit, in 95 if a third of the points
+lie on the limit, and in 90 if nine tenths do.
+
+- The factor covers scatter only. Errors of film, alpha, viscosity and law shift a whole curve. The
+  mean residual of the worst curve shows such an error. The command prints a message if this
+  residual is too large to be scatter.
+- Many points with little scatter give a factor near 1. The loss map then shows almost no error bar
+  due to the Eyring stress. If pressures or temperatures of the map lie outside the measured range,
+  enlarge `eyring_stress_factor`.
+- Use the fitted Eyring stress together with the alpha used in the fit, because their errors
+  compensate each other in the traction.
+- The fit assumes smooth surfaces. If the film is thinner than three times the roughness, asperity
+  friction adds to the measured traction.
+- The written file keeps the fields of the file given by `--oil`, but not its comments.
 
 ## In the loss map
 
-`gearlube map` draws alpha and the Eyring stress within the factors of the oil (`alpha_factor`,
-`eyring_stress_factor`). Oils of the library have none; for them it takes 1.15 and 2.
+For its error bars `gearlube map` varies alpha and the Eyring stress within the factors of the oil
+(`alpha_factor`, `eyring_stress_factor`). The oils of the library have no factors. For them the map
+uses 1.15 and 2.
 
 ## Shipped oils
 
-`--oil NAME`, `gl.read_oil("NAME")` and, but for the last one, `[oil] name` of an axle file.
-`gearlube oil NAME` shows where each number is from.
+Choose a shipped oil by `--oil NAME`, by `gl.read_oil("NAME")` or by `name` in section `[oil]` of an
+axle file. The last oil of the table cannot be named in an axle file.
+`gearlube oil NAME` shows the source of each value.
 
 {oils}
-Of the reference oils FVA 1, 2 and 4 no published data could be read.
+No published data of the reference oils FVA 1, 2 and 4 were available.
 
 ## Limits
 
-- One line of viscosity after ASTM D341, above 2 mm2/s; oils with much polymer depart from it.
-- Conductivity and heat capacity have no temperature dependence.
-- Beside oil files `gearlube sweep --oil` takes the two oils of the hypoid papers alone.
+- The viscosity follows the straight line of ASTM D341 and holds above 2 mm2/s. Oils with much
+  polymer deviate from this line.
+- Thermal conductivity and heat capacity do not depend on temperature.
+- `gearlube sweep --oil` accepts oil files and the two oils of the hypoid papers, no other shipped
+  oils.
 """
 
 # 4 MPa without and with a limit of 0.055 (scatter 0.001, 0.002), 8 MPa with a limit of 0.05 (0.001)
-_COVERAGE = (
-    "94 of 100 where no limit is reached, in\n95 where a third of the points lie on one, and in 90 "
-    "where nine of ten do."
-)
 _CLASS = "by class"
 _WITHOUT = {
     "density_temperature_degc": "15",
@@ -214,8 +226,8 @@ def _oils() -> str:
 
 def page() -> str:
     """Return docs/oil_file.md."""
-    classes = _classes() + "\nEach pair is value and factor. Where they are from:\n\n" + _sources()
-    tail = _TAIL.format(classes=classes, eyring=EYRING_FACTOR, coverage=_COVERAGE, oils=_oils())
+    classes = _classes() + "\nEach pair is a value and its factor. Sources:\n\n" + _sources()
+    tail = _TAIL.format(classes=classes, eyring=EYRING_FACTOR, oils=_oils())
     return HEAD + "## Fields\n" + field_tables(OilFile, {"": "The file"}, _WITHOUT) + tail
 
 

@@ -52,7 +52,7 @@ class GearSet(ModelSection):
         "either flank; absent: 5, 10, 20, 50, 100, 200, 300, 400",
     )
     backlash_um: Backlash | None = Field(
-        default=None, description="Total, along the line of action"
+        default=None, description="Total backlash, along the line of action"
     )
     roughness_rms_um: Roughness | None = Field(
         default=None, description="Composite root mean square of both flanks"
@@ -78,7 +78,7 @@ class GearSet(ModelSection):
         default=None, description="Coefficient of the hysteretic damping"
     )
     frequency_floor_hz: Floor | None = Field(
-        default=None, description="Lowest mesh frequency that the hysteresis sees"
+        default=None, description="Lowest mesh frequency used in the law of the hysteretic damping"
     )
 
     @model_validator(mode="after")
@@ -129,11 +129,15 @@ class GearSet(ModelSection):
 class Steel(ModelSection):
     """The solid of flanks, rollers and races."""
 
-    youngs_modulus_gpa: Modulus | None = Field(default=None, description="E")
-    poisson_ratio: Poisson | None = Field(default=None, description="nu")
-    density_kg_m3: Density | None = Field(default=None, description="Of the solid")
-    conductivity_w_m_k: Conductivity | None = Field(default=None, description="Of heat")
-    heat_capacity_j_kg_k: HeatCapacity | None = Field(default=None, description="Per mass")
+    youngs_modulus_gpa: Modulus | None = Field(default=None, description="Young's modulus E")
+    poisson_ratio: Poisson | None = Field(default=None, description="Poisson's ratio nu")
+    density_kg_m3: Density | None = Field(default=None, description="Density of the solid")
+    conductivity_w_m_k: Conductivity | None = Field(
+        default=None, description="Thermal conductivity"
+    )
+    heat_capacity_j_kg_k: HeatCapacity | None = Field(
+        default=None, description="Specific heat capacity"
+    )
 
 
 class ModelOptions(ModelSection):
@@ -142,12 +146,12 @@ class ModelOptions(ModelSection):
     renamed: ClassVar[Mapping[str, str]] = {"flank_rolling": "rolling"}
 
     equations: Literal["consistent", "as_printed"] | None = Field(
-        default=None, description="Of motion: with corrected misprints, or as printed"
+        default=None, description="Equations of motion: with corrected misprints, or as printed"
     )
     friction: Friction | None = Field(
         default=None,
-        description="Of the flanks; zhou_hoeprich_1991: as consistent, but asperities carry a "
-        "share of the load that goes to 1 without a film",
+        description="Friction law of the flanks; zhou_hoeprich_1991: as consistent, but asperities "
+        "carry a share of the load that goes to 1 without a film",
     )
     flank_rolling: Literal["none", "biboulet_houpert_2010"] | None = Field(
         default=None, description="Rolling loss of the flanks"
@@ -165,5 +169,5 @@ class ModelOptions(ModelSection):
         default=None, description="Integration steps in one mesh period"
     )
     steps_per_highest_period: Annotated[int, Field(ge=8, le=4096)] | None = Field(
-        default=None, description="Ditto in one period of the highest natural frequency"
+        default=None, description="Integration steps in one period of the highest natural frequency"
     )

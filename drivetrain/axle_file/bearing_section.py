@@ -54,12 +54,16 @@ class BearingSection(ModelSection):
         "rib_boundary_friction": "default of `gearlube bearing`",
     }
 
-    bore_diameter_mm: Diameter | None = Field(default=None, description="Of the inner ring")
-    outside_diameter_mm: Diameter | None = Field(default=None, description="Of the outer ring")
+    bore_diameter_mm: Diameter | None = Field(
+        default=None, description="Bore diameter of the inner ring"
+    )
+    outside_diameter_mm: Diameter | None = Field(
+        default=None, description="Outside diameter of the outer ring"
+    )
     pitch_diameter_mm: Diameter | None = Field(
         default=None,
-        description="Of the middles of the rollers; absent: the mean of the races, or of bore and "
-        "outside diameter where one of these is given",
+        description="Of the circle through the roller centres; absent: the mean of the races, or "
+        "of bore and outside diameter where one of these is given",
     )
     inner_race_diameter_mm: Diameter | None = Field(
         default=None,
@@ -67,15 +71,20 @@ class BearingSection(ModelSection):
         "times the cosine of the contact angle",
     )
     outer_race_diameter_mm: Diameter | None = Field(
-        default=None, description="At the middle of the rollers; absent: likewise, with plus"
+        default=None,
+        description="At the middle of the rollers; absent: pitch diameter plus roller diameter "
+        "times the cosine of the contact angle",
     )
     rollers: Rollers | None = Field(default=None, description="Number of rollers")
-    roller_diameter_mm: RollerSize | None = Field(default=None, description="Mean, at mid-length")
+    roller_diameter_mm: RollerSize | None = Field(
+        default=None, description="Mean roller diameter, at mid-length"
+    )
     roller_length_mm: RollerSize | None = Field(
-        default=None, description="Effective: without chamfers and undercuts"
+        default=None, description="Effective roller length: without chamfers and undercuts"
     )
     contact_angle_deg: Angle | None = Field(
-        default=None, description="Of the outer race: half the included angle of the cup"
+        default=None,
+        description="Contact angle of the outer race: half the included angle of the cup",
     )
     stiffness_constant: Stiffness | None = Field(
         default=None,
@@ -89,27 +98,30 @@ class BearingSection(ModelSection):
         default=None, description="Axial force of either bearing at rest; or give the interference"
     )
     interference_um: Interference | None = Field(
-        default=None, description="Approach of every roller at rest, in place of the preload"
+        default=None,
+        description="Interference of every roller at standstill, in place of the preload",
     )
     loss: Share | None = Field(default=None, description="Coefficient of the rollers' hysteresis")
     film: Literal["squeeze", "steady", "off"] | None = Field(
-        default=None, description="Of the rollers: with squeeze factor, without, or none"
+        default=None,
+        description="Oil film of the rollers: with squeeze factor, without it, or no film",
     )
     f0: ViscousFactor | None = Field(
         default=None, description="Viscous factor of Palmgren's drag torque"
     )
     f1: LoadFactor | None = Field(default=None, description="Load factor of the drag torque")
     series: Literal["302", "303", "313", "320X", "322", "other"] | None = Field(
-        default=None, description="Of the catalogue, for the drag by skf_2013"
+        default=None, description="Series in the catalogue, for the drag by skf_2013"
     )
 
     rib_height_mm: RibHeight | None = Field(
         default=None,
-        description="Of the contact of roller ends and rib above the inner race, for the drag by "
-        "the laws of rolling; absent: 0.15 roller diameters, assumed; 0: no rib",
+        description="Height of the contact of roller ends and rib above the inner race, for the "
+        "drag by the laws of rolling; absent: 0.15 roller diameters, assumed; 0: no rib",
     )
     rib_boundary_friction: RibFriction | None = Field(
-        default=None, description="Of the asperities between roller ends and rib"
+        default=None,
+        description="Friction coefficient of the asperities between roller ends and rib",
     )
 
     @model_validator(mode="after")

@@ -46,16 +46,16 @@ def or_problem(build: Any) -> list[str]:
 class VehicleSection(ModelSection):
     """The vehicle as the road sees it."""
 
-    mass_kg: Mass | None = Field(default=None, description="Of the loaded vehicle")
+    mass_kg: Mass | None = Field(default=None, description="Mass of the loaded vehicle")
     drag_area_m2: Area | None = Field(
-        default=None, description="Drag coefficient times frontal area, in place of these two"
+        default=None, description="Drag coefficient times frontal area, in place of the next two"
     )
-    frontal_area_m2: Area | None = Field(default=None, description="A_f")
-    drag_coefficient: Drag | None = Field(default=None, description="C_D")
+    frontal_area_m2: Area | None = Field(default=None, description="Frontal area A_f")
+    drag_coefficient: Drag | None = Field(default=None, description="Drag coefficient C_D")
     rolling_coefficient: Rolling | None = Field(
-        default=None, description="Rolling resistance over weight"
+        default=None, description="Rolling resistance divided by weight"
     )
-    air_density_kg_m3: AirDensity | None = Field(default=None, description="Of the air")
+    air_density_kg_m3: AirDensity | None = Field(default=None, description="Density of the air")
     grade: Grade | None = Field(default=None, description="Rise over horizontal distance")
     gravity_m_s2: Gravity | None = Field(default=None, description="g")
 
@@ -144,16 +144,17 @@ class DrivelineSection(ModelSection):
         default=None, description="Gearbox output shaft and propshaft"
     )
     propshaft_stiffness_n_m_per_rad: Stiffness | None = Field(
-        default=None, description="Between gearbox output and pinion flange"
+        default=None, description="Torsional stiffness between gearbox output and pinion flange"
     )
     propshaft_damping_n_m_s_per_rad: Damping | None = Field(
-        default=None, description="Of the same shaft"
+        default=None, description="Torsional damping between gearbox output and pinion flange"
     )
     half_shaft_stiffness_n_m_per_rad: Stiffness | None = Field(
-        default=None, description="Both half-shafts together, ring gear to hubs"
+        default=None,
+        description="Torsional stiffness of both half-shafts together, ring gear to hubs",
     )
     half_shaft_damping_n_m_s_per_rad: Damping | None = Field(
-        default=None, description="Of the same shafts"
+        default=None, description="Torsional damping of both half-shafts together"
     )
     wheel_inertia_kg_m2: Inertia | None = Field(
         default=None, description="One wheel with tyre and brake disc"

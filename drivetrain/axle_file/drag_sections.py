@@ -38,13 +38,15 @@ class Housing(ModelSection):
             "section has a field, else none",
         )
     )
-    ring_diameter_mm: Size | None = Field(default=None, description="Outside, of the gear")
-    ring_width_mm: Width | None = Field(default=None, description="Of the teeth of the gear")
+    ring_diameter_mm: Size | None = Field(default=None, description="Outside diameter of the gear")
+    ring_width_mm: Width | None = Field(default=None, description="Face width of the gear")
     immersion_mm: Depth | None = Field(
         default=None,
         description="Depth of the lowest tooth of the gear below the surface of the oil at rest",
     )
-    oil_volume_l: Litres | None = Field(default=None, description="Filled in")
+    oil_volume_l: Litres | None = Field(
+        default=None, description="Volume of oil filled into the axle"
+    )
 
     @model_validator(mode="after")
     def _check_depth(self) -> Housing:

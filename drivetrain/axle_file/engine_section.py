@@ -70,7 +70,7 @@ class EngineSection(ModelSection):
         description="Torque orders: periods per revolution of crank or rotor; []: smooth",
     )
     order_amplitudes: Amplitudes | None = Field(
-        default=None, description="Amplitudes of the orders, over the mean torque"
+        default=None, description="Amplitudes of the orders, divided by the mean torque"
     )
     order_phases_deg: Phases | None = Field(
         default=None, description="Phases of the orders, at the firing dead centre of cylinder 1"
@@ -83,10 +83,11 @@ class EngineSection(ModelSection):
         description="Secondary flywheel mass, clutch and gearbox input; of a motor the last alone",
     )
     flywheel_stiffness_n_m_per_rad: Stiffness | None = Field(
-        default=None, description="Arc springs of the flywheel; of a motor its shaft"
+        default=None,
+        description="Stiffness of the arc springs of the flywheel; for a motor that of its shaft",
     )
     flywheel_damping_n_m_s_per_rad: Damping | None = Field(
-        default=None, description="Viscous damping of the same springs"
+        default=None, description="Viscous damping of the arc springs"
     )
     idle_speed_rpm: Speed | None = Field(default=None, description="Lowest speed of crank or rotor")
     highest_speed_rpm: Speed | None = Field(

@@ -37,7 +37,7 @@ class OilSection(ModelSection):
     """A shipped oil, or what differs from it."""
 
     name: Text | None = Field(
-        default=None, description="Shipped oil; fields that are absent are taken from it"
+        default=None, description="Name of a shipped oil; absent fields are taken from it"
     )
     file: Text | None = Field(
         default=None,
@@ -47,38 +47,44 @@ class OilSection(ModelSection):
         default=None, description="Kinematic viscosity at 40 degC; give that at 100 degC too"
     )
     viscosity_100_degc_mm2_s: Viscosity | None = Field(
-        default=None, description="Kinematic, at 100 degC"
+        default=None, description="Kinematic viscosity at 100 degC"
     )
     walther_a: WaltherA | None = Field(
         default=None,
         description="A of log log(nu + 0.7) = A - B log T, nu in mm2/s, T in K; with walther_b, in "
         "place of the two viscosities",
     )
-    walther_b: WaltherB | None = Field(default=None, description="B of the same equation")
-    density_kg_m3: Density | None = Field(default=None, description="At any temperature")
+    walther_b: WaltherB | None = Field(default=None, description="B of the equation of walther_a")
+    density_kg_m3: Density | None = Field(
+        default=None, description="Density, taken as constant at all temperatures"
+    )
     alpha_per_gpa: PressureViscosity | None = Field(
         default=None, description="Pressure-viscosity coefficient at low pressure"
     )
     alpha_temperature_degc: Temperature | None = Field(
-        default=None, description="Where alpha holds"
+        default=None, description="Temperature at which alpha holds"
     )
     eyring_stress_mpa: Stress | None = Field(
         default=None, description="Shear stress at which shear thinning begins (Eyring)"
     )
     limiting_shear_stress_mpa: Strength | None = Field(
-        default=None, description="Shear strength of boundary junctions without pressure"
+        default=None, description="Shear strength of boundary junctions at zero pressure"
     )
     boundary_friction: Share | None = Field(
-        default=None, description="Increase of that strength per unit of pressure"
+        default=None, description="Increase of limiting_shear_stress_mpa per unit of pressure"
     )
-    conductivity_w_m_k: Conductivity | None = Field(default=None, description="Of heat")
+    conductivity_w_m_k: Conductivity | None = Field(
+        default=None, description="Thermal conductivity"
+    )
     conductivity_temperature_degc: Temperature | None = Field(
-        default=None, description="Where that conductivity holds"
+        default=None, description="Temperature at which conductivity_w_m_k holds"
     )
     conductivity_slope_w_m_k2: Slope | None = Field(
         default=None, description="Change of the conductivity with temperature"
     )
-    heat_capacity_j_kg_k: HeatCapacity | None = Field(default=None, description="Per mass")
+    heat_capacity_j_kg_k: HeatCapacity | None = Field(
+        default=None, description="Specific heat capacity"
+    )
     temperature_low_degc: Temperature | None = Field(
         default=None, description="Lowest oil temperature that the data are meant for"
     )

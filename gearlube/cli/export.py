@@ -17,11 +17,11 @@ def export(
     run: Annotated[
         Path, typer.Argument(help="Folder of results of any study, or a NetCDF file (.nc).")
     ],
-    to: Annotated[str, typer.Option(help="csv or mat.", metavar="FORMAT")],
+    to: Annotated[str, typer.Option(help="csv, mat, uff58 or vtk.", metavar="FORMAT")],
     out: Annotated[
         Path | None,
         typer.Option(
-            help="File, with csv a folder. Default: the name of the dataset, in this folder."
+            help="File; a folder for csv and vtk. Default: the name of the dataset, in this folder."
         ),
     ] = None,
     variable: Annotated[
@@ -39,10 +39,11 @@ def export(
         bool, typer.Option("--overwrite", help="Write also where OUT is there.")
     ] = False,
 ) -> None:
-    """Write results of any study for other tools: tables with units, MATLAB.
+    """Write results of any study for other tools: tables with units, MATLAB, UFF58, VTK.
 
     csv writes a folder with one table for each set of dimensions, and tables.csv, which says what
-    is where.
+    is where. uff58 holds time histories and spectra, and needs pip install 'gearlube[sound]'.
+    vtk writes a folder of fields (contact, ehl), and needs pip install 'gearlube[export]'.
     """
     from gearlube.output.exports.export import export_results
 

@@ -54,7 +54,7 @@ class BlankFile(InputFile):
     title: ClassVar[str] = "blank file"
     unmodelled: ClassVar[Mapping[str, str]] = UNMODELLED
 
-    name: Text = Field(description="What reports and the designed gear file call the pair")
+    name: Text = Field(description="Name of the pair in reports and in the designed gear file")
     method: Method | None = Field(
         None,
         description="Method of ISO 23509 for the pitch cones; absent: the one that the given "

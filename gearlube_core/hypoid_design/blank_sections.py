@@ -34,10 +34,10 @@ class BlankPair(Section):
     )
     face_width_mm: Length = Field(description="Face width of the gear along its pitch cone")
     outer_pitch_diameter_mm: Length | None = Field(
-        default=None, description="Of the gear at the heel; methods 0, 1 and 3"
+        default=None, description="Outer diameter of the gear, at the heel; methods 0, 1 and 3"
     )
     mean_pitch_diameter_mm: Length | None = Field(
-        default=None, description="Of the gear at mid-face; method 2"
+        default=None, description="Mean diameter of the gear, at mid-face; method 2"
     )
     pinion_spiral_angle_deg: SpiralAngle | None = Field(
         default=None, description="Mean spiral angle of the pinion; method 1"
@@ -123,16 +123,17 @@ class BlankRelief(Section):
     """Relief of the designed flanks; sharp edges would carry from small torques on."""
 
     tip_relief_um: Removal = Field(
-        default=20.0, description="Taken off at the tips of pinion and gear, both flanks; 0: none"
+        default=20.0, description="Removed at the tips of pinion and gear, both flanks; 0: none"
     )
     tip_relief_share: Share = Field(
-        default=0.25, description="Of the tooth height, over which tip relief falls to nothing"
+        default=0.25, description="Share of the tooth height over which tip relief falls to 0"
     )
     end_relief_um: Removal = Field(
-        default=30.0, description="Taken off at toe and heel of the pinion, both flanks; 0: none"
+        default=30.0, description="Removed at toe and heel of the pinion, both flanks; 0: none"
     )
     end_relief_share: Share = Field(
-        default=0.15, description="Of the pinion's face, over which either end relief falls"
+        default=0.15,
+        description="Share of the pinion's face width over which each end relief falls to 0",
     )
 
 

@@ -74,7 +74,7 @@ class Cutter(Section):
         ge=0,
         le=60,
         description="Blade groups of the cutter head; the work turns by one tooth per group (face "
-        "hobbing). 0: it stands still, single indexing (face milling)",
+        "hobbing). 0: the work does not turn, single indexing (face milling)",
     )
     blade_edge_radius_mm: EdgeRadius | None = Field(
         None,
@@ -145,7 +145,7 @@ class GeneratorMachine(Section):
     """
 
     machine_root_angle_deg: Slant = Field(
-        description="Of the pinion axis from the plane at right angles to the cradle axis; "
+        description="Angle of the pinion axis to the plane normal to the cradle axis; "
         "positive with the pinion leaning to the side of the blade tips"
     )
     machine_center_to_back_mm: Millimetres = Field(
@@ -157,12 +157,14 @@ class GeneratorMachine(Section):
         "along the cradle axis; positive with the pinion axis on the side of the blade tips"
     )
     blank_offset_mm: Millimetres = Field(
-        description="Of the pinion axis from the cradle axis, positive as the offset of the pair"
+        description="Distance of the pinion axis from the cradle axis; sign as the pair's offset"
     )
-    radial_setting_mm: Length = Field(description="Cutter centre from the cradle axis")
+    radial_setting_mm: Length = Field(
+        description="Distance of the cutter centre from the cradle axis"
+    )
     basic_cradle_angle_deg: Angle = Field(
         description="q: azimuth of the cutter centre about the cradle axis, from the direction of "
-        "the pinion axis towards that of the offset; only a phase"
+        "the pinion axis towards that of the offset; it only sets a phase"
     )
     basic_swivel_angle_deg: Angle = Field(
         description="j: the cutter axis leans to the azimuth q - j - 90 deg"
@@ -180,34 +182,34 @@ class GeneratorMachine(Section):
         0.0, description="6D [1/rad^2]: the next coefficient of modified roll"
     )
     helical_motion_mm_per_rad: HelicalMotion = Field(
-        0.0, description="Growth of the sliding base per cradle angle (helical motion)"
+        0.0, description="Increase of the sliding base per cradle angle (helical motion)"
     )
 
 
 class FlankRelief(Section):
     """Material taken off one flank as it is cut, along its normal."""
 
-    tip_relief_um: Removal = Field(0.0, description="At the tip edge; 0: none")
+    tip_relief_um: Removal = Field(0.0, description="Amount at the tip edge; 0: none")
     tip_relief_depth_mm: Extent | None = Field(
-        None, description="Tooth height from the tip over which it falls to nothing, a parabola"
+        None, description="Tooth height from the tip over which the relief falls to 0, a parabola"
     )
-    root_relief_um: Removal = Field(0.0, description="At the root line; 0: none")
+    root_relief_um: Removal = Field(0.0, description="Amount at the root line; 0: none")
     root_relief_depth_mm: Extent | None = Field(
-        None, description="Tooth height from the root line, likewise"
+        None, description="Tooth height from the root line over which this relief falls to 0"
     )
-    toe_relief_um: Removal = Field(0.0, description="At the toe; 0: none")
+    toe_relief_um: Removal = Field(0.0, description="Amount at the toe; 0: none")
     toe_relief_length_mm: Extent | None = Field(
-        None, description="Length from the toe along the pitch cone, likewise"
+        None, description="Length along the pitch cone, from the toe, over which it falls to 0"
     )
-    heel_relief_um: Removal = Field(0.0, description="At the heel; 0: none")
+    heel_relief_um: Removal = Field(0.0, description="Amount at the heel; 0: none")
     heel_relief_length_mm: Extent | None = Field(
-        None, description="Length from the heel along the pitch cone, likewise"
+        None, description="Length along the pitch cone, from the heel, over which it falls to 0"
     )
     tip_edge_radius_mm: Rounding = Field(
-        0.0, description="Rounding of the tip edge; 0: sharp. Half of it is taken off at the edge"
+        0.0, description="Radius of the tip edge; 0: sharp. Half of it is removed at the edge"
     )
     end_edge_radius_mm: Rounding = Field(
-        0.0, description="Rounding of the edges at toe and heel, likewise"
+        0.0, description="Radius of the edges at toe and heel; 0: sharp"
     )
     profile_crown_um: Crown = Field(
         0.0, description="Parabola over the tooth height: removed at tip and root"
@@ -217,8 +219,8 @@ class FlankRelief(Section):
     )
     twist_um: Crown = Field(
         0.0,
-        description="Removed at the tip of the heel and the root of the toe, left standing as much "
-        "at the other corners, none along the middle lines",
+        description="Removed at the tip of the heel and at the root of the toe, the same amount "
+        "added at the other two corners, zero along the middle lines",
     )
     surface_um: Coefficients = Field(
         (),
@@ -295,7 +297,7 @@ class Gear(Member):
 class Pair(Section):
     """How the members stand to each other; axes at 90 degrees."""
 
-    offset_mm: PairOffset = Field(description="Distance of the axes (pinion offset)")
+    offset_mm: PairOffset = Field(description="Distance between the axes (pinion offset)")
     pinion_hand: Literal["right", "left"] = Field(
         default="right",
         description="Hand of the pinion's teeth; left: the pair is the mirror image of what is "
@@ -303,6 +305,6 @@ class Pair(Section):
     )
     clearance_mm: Clearance | None = Field(
         None,
-        description="Between the top of one member and the root of the other; absent: an eighth of "
-        "the working depth",
+        description="Gap between the tip of one member and the root of the other; absent: an "
+        "eighth of the working depth",
     )

@@ -105,20 +105,20 @@ class OilFile(InputFile):
     package: ClassVar[str] = "gearlube_core.oil"
     title: ClassVar[str] = "oil file"
 
-    name: Text = Field(description="What results call the oil")
+    name: Text = Field(description="Name of the oil in results")
     source: Text | None = Field(default=None, description="Where the numbers are from")
     base_oil: Literal["mineral", "pao", "ester", "pag"] = Field(
         description="Class of the base oil: paraffinic mineral, polyalphaolefin, ester, polyglycol"
     )
-    density_kg_m3: Density = Field(description="At density_temperature_degc")
+    density_kg_m3: Density = Field(description="Density at density_temperature_degc")
     density_temperature_degc: Temperature | None = Field(
-        default=None, description="Where that density holds"
+        default=None, description="Temperature at which the density holds"
     )
     density_slope_kg_m3_k: DensitySlope | None = Field(
         default=None, description="Change of the density with temperature"
     )
     viscosity_40_degc_mm2_s: Viscosity | None = Field(
-        default=None, description="Kinematic, at 40 degC; two of this and the next two"
+        default=None, description="Kinematic, at 40 degC; give two of this field and the next two"
     )
     viscosity_100_degc_mm2_s: Viscosity | None = Field(
         default=None, description="Kinematic, at 100 degC"
@@ -130,31 +130,37 @@ class OilFile(InputFile):
         default=None, description="Pressure-viscosity coefficient at low pressure"
     )
     alpha_temperature_degc: Temperature | None = Field(
-        default=None, description="Where alpha holds"
+        default=None, description="Temperature at which alpha holds"
     )
     alpha_factor: Factor | None = Field(
-        default=None, description="The true alpha is within this factor, either way, k = 2"
+        default=None,
+        description="Uncertainty of alpha: within alpha / factor and alpha * factor, k = 2",
     )
     eyring_stress_mpa: Stress | None = Field(
-        default=None, description="Shear stress where thinning begins"
+        default=None, description="Shear stress at which shear thinning begins (Eyring)"
     )
     eyring_stress_factor: Factor | None = Field(
-        default=None, description="The true Eyring stress is within this factor, k = 2"
+        default=None, description="Uncertainty of the Eyring stress, a factor as above, k = 2"
     )
     limiting_coefficient: Limit | None = Field(
-        default=None, description="Limiting shear stress of the film over pressure"
+        default=None, description="Limiting shear stress of the film divided by the pressure"
     )
     limiting_coefficient_factor: Factor | None = Field(
-        default=None, description="The true coefficient is within this factor, k = 2"
+        default=None,
+        description="Uncertainty of the limiting coefficient, a factor as above, k = 2",
     )
     limiting_shear_stress_mpa: Strength | None = Field(
-        default=None, description="Shear strength of boundary junctions without pressure"
+        default=None, description="Shear strength of boundary junctions at zero pressure"
     )
     boundary_friction: Share | None = Field(
-        default=None, description="Slope of that strength with pressure"
+        default=None, description="Increase of this shear strength per unit of pressure"
     )
-    conductivity_w_m_k: Conductivity | None = Field(default=None, description="Of heat")
-    heat_capacity_j_kg_k: HeatCapacity | None = Field(default=None, description="Per mass")
+    conductivity_w_m_k: Conductivity | None = Field(
+        default=None, description="Thermal conductivity"
+    )
+    heat_capacity_j_kg_k: HeatCapacity | None = Field(
+        default=None, description="Specific heat capacity"
+    )
     temperature_low_degc: Temperature | None = Field(
         default=None, description="Lowest oil temperature that the data are meant for"
     )

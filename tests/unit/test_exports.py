@@ -1,18 +1,24 @@
 """Exported results are read back by other libraries and are those of the dataset."""
 
 import logging
+import sys
 
+import meshio
 import numpy as np
 import pandas as pd
 import pytest
+import pyuff
+import xarray as xr
 from scipy.io import loadmat
 from typer.testing import CliRunner
 
 import gearlube as gl
 from gearlube.command import app
 from gearlube.output import mat_file
-from gearlube.output.exports import tables
+from gearlube.output.exports import tables, uff58
 from gearlube.output.units import unit_text
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from tests.helpers.small_results import small_results
 
 DATASET = small_results()
@@ -65,6 +71,106 @@ def test_mat_holds_arrays_units_and_dimensions(run, tmp_path):
     assert stored["units"]["share"] == "not stated"
     assert stored["dimensions"]["bearing_force"] == "time bearing direction"
     assert stored["attributes"]["teeth"] == 13
+
+
+def test_uff58_holds_each_history_and_spectrum_with_names_and_units(run, tmp_path):
+    gl.export_results(run, "uff58", tmp_path / "small.uff")
+    units, *sets = pyuff.UFF(str(tmp_path / "small.uff")).read_sets()
+    assert units["units_description"].strip() == "SI"
+    found = {(one["id1"].strip(), one["id3"].strip()): one for one in sets}
+    forces = [key for key in found if key[0].startswith("bearing_force")]
+    assert len(found) == len(sets)
+    assert len(forces) == 4
+    one = found["bearing_force gear radial 1", "NONE"]
+    values = DATASET["bearing_force"].sel(bearing="gear", direction="radial 1")
+    assert np.allclose(one["data"], values, rtol=1e-11)  # twelve digits
+    assert np.allclose(one["x"], DATASET["time"], rtol=1e-5)  # the step has six
+    assert one["id2"].strip() == "force on the shaft"
+    assert one["ordinate_axis_units_lab"].strip() == "N"
+    assert one["abscissa_axis_units_lab"].strip() == "s"
+    assert (one["abscissa_spec_data_type"], one["func_type"]) == (17, 1)
+    assert (one["rsp_node"], one["rsp_dir"], one["rsp_ent_name"].strip()) == (2, 2, "gear")
+    for k, speed in enumerate((5.0, 10.0)):
+        spectrum = found["dte_spectrum", f"speed {speed:g} m/s"]
+        there = ~np.isnan(DATASET["frequency"][k].values)
+        assert np.allclose(spectrum["x"], DATASET["frequency"][k][there], rtol=1e-5)
+        assert np.allclose(spectrum["data"], DATASET["dte_spectrum"][k][there], rtol=1e-11)
+        assert spectrum["abscissa_spec_data_type"] == 18
+        assert spectrum["z_axis_value"] == speed
+        assert spectrum["ordinate_axis_units_lab"].strip() == "m"
+
+
+def test_uff58_refuses_what_it_cannot_hold(run, tmp_path, monkeypatch):
+    out = tmp_path / "out.uff"
+    with pytest.raises(gl.ParameterError, match="time histories or spectra, got torque"):
+        gl.export_results(run, "uff58", out, variables=["torque"])
+    gap = DATASET.copy(deep=True)
+    gap["dte"][3] = np.nan
+    gap.to_netcdf(run / "gap.nc")
+    with pytest.raises(gl.ParameterError, match="none at 1 of 64 points of dte"):
+        gl.export_results(run / "gap.nc", "uff58", out)
+    monkeypatch.setattr(uff58, "RECORD_LIMIT", 6)
+    with pytest.raises(gl.ParameterError, match="at most 6 records, got 7"):
+        gl.export_results(run / "small.nc", "uff58", out)
+    monkeypatch.setitem(sys.modules, "pyuff", None)
+    with pytest.raises(gl.GearLubeError, match=r"gearlube\[sound\]"):
+        gl.export_results(run / "small.nc", "uff58", out)
+    assert [path.name for path in tmp_path.iterdir()] == ["run"]
+
+
+def test_vtk_holds_film_and_pressure_over_the_plane(tmp_path):
+    x, y = np.linspace(-1e-3, 1e-3, 4), np.linspace(0.0, 2e-3, 3)
+    pressure = np.random.default_rng(3).random((2, 4, 3))
+    fields = xr.Dataset(
+        {
+            "pressure": (("instant", "x", "y"), pressure, {"units": "Pa"}),
+            "film": (("instant", "y", "x"), 1e-7 * pressure.swapaxes(1, 2), {"units": "m"}),
+        },
+        {"x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"})},
+    )
+    fields.to_netcdf(tmp_path / "film.nc")
+    written = gl.export_results(tmp_path / "film.nc", "vtk", tmp_path / "out")
+    assert {path.name for path in written} == {"pressure_instant_0.vtu", "pressure_instant_1.vtu"}
+    mesh = meshio.read(tmp_path / "out" / "pressure_instant_1.vtu")
+    for k, (px, py, _) in enumerate(mesh.points):
+        i, j = np.abs(x - px).argmin(), np.abs(y - py).argmin()
+        assert mesh.point_data["pressure [Pa]"][k] == pressure[1, i, j]
+        assert mesh.point_data["film [m]"][k] == 1e-7 * pressure[1, i, j]
+    corners = mesh.points[mesh.cells_dict["quad"]]
+    assert len(corners) == 3 * 2
+    across = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    area = 0.5 * np.abs(across[0][:, 0] * across[1][:, 1] - across[0][:, 1] * across[1][:, 0])
+    assert np.allclose(area, 2e-3 / 3 * 1e-3)  # corners go around the cell
+
+
+def test_vtk_lays_the_pressure_on_the_gear_flank(tmp_path):
+    file = HypoidGearFile.named("mohammadpour_2015")
+    cells = np.arange(12.0).reshape(1, 3, 4)
+    contact = xr.Dataset(
+        {"pressure_map": (("side", "map_s", "map_t"), cells, {"units": "Pa"})},
+        {
+            "side": ["drive"],
+            "map_s": (np.arange(3) + 0.5) / 3,
+            "map_t": (np.arange(4) + 0.5) / 4,
+        },
+        {"gear_file": file.model_dump_json(exclude_none=True)},
+    )
+    contact.to_netcdf(tmp_path / "contact.nc")
+    gl.export_results(tmp_path / "contact.nc", "vtk", tmp_path / "out")
+    mesh = meshio.read(tmp_path / "out" / "pressure_map_drive.vtu")
+    middles = mesh.points[mesh.cells_dict["quad"]].mean(axis=1)
+    flank = FlankPair.from_file(file, "drive").gear
+    for value, middle in zip(mesh.cell_data["pressure_map [Pa]"][0], middles, strict=True):
+        s, t = (int(value) // 4 + 0.5) / 3, (int(value) % 4 + 0.5) / 4
+        on_flank = flank.sample(np.array([s]), np.array([t])).r[0]
+        # a flat cell leaves the curved flank by less than a tenth of its length
+        assert np.linalg.norm(middle - on_flank) < 0.1 * file.gear.face_width_mm * 1e-3 / 4
+
+
+def test_vtk_refuses_a_dataset_without_fields(run, tmp_path):
+    with pytest.raises(gl.ParameterError, match="fields over x and y"):
+        gl.export_results(run, "vtk", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
 
 
 def test_variables_and_spans_choose_a_part(run, tmp_path):

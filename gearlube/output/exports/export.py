@@ -11,6 +11,8 @@ import xarray as xr
 from gearlube.output.exports.mat import write_dataset_mat
 from gearlube.output.exports.source import Span, chosen, dataset_file, read_dataset, without_unit
 from gearlube.output.exports.tables import write_tables
+from gearlube.output.exports.uff58 import write_uff58
+from gearlube.output.exports.vtk import write_vtk
 from gearlube_core.errors import ParameterError
 
 logger = logging.getLogger("gearlube")
@@ -25,6 +27,8 @@ def _mat(dataset: xr.Dataset, path: Path) -> list[Path]:
 FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], list[Path]]]] = {
     "csv": ("_csv", write_tables),
     "mat": (".mat", _mat),
+    "uff58": (".uff", write_uff58),
+    "vtk": ("_vtk", write_vtk),
 }
 
 
@@ -44,9 +48,9 @@ def export_results(
     run : str or Path
         Folder of results with one NetCDF file, or a NetCDF file.
     to : str
-        csv or mat.
+        csv, mat, uff58 or vtk.
     out : str or Path, optional
-        File, with csv a folder. Default: the name of the dataset, in this folder.
+        File, with csv and vtk a folder. Default: the name of the dataset, in this folder.
     variables : iterable of str
         Names; empty: all.
     spans : mapping

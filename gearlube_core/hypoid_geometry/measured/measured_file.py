@@ -39,28 +39,30 @@ class MeasuredFile(InputFile):
     title: ClassVar[str] = "measured-gear file"
     prefix: ClassVar[str] = "measured_"
 
-    name: Text = Field(description="What reports and plots call the measured pair")
-    source: Text = Field(description="Who measured what; say so where the data are made")
+    name: Text = Field(description="Name of the measured pair in reports and plots")
+    source: Text = Field(description="Who measured what; say so if the data are invented")
     gear_file: Text = Field(
         description="Gear file of the nominal flanks, or a shipped one's name; a path is relative "
         "to this file"
     )
-    deviations: Text | None = Field(None, description="CSV file of normal deviations, likewise")
+    deviations: Text | None = Field(
+        None, description="CSV file of normal deviations; path as above"
+    )
     nominal_points: Text | None = Field(
         None,
-        description="CSV file of the nominal points of the grids, likewise: checked against the "
-        "flanks; then no grid needs a section",
+        description="CSV file of the nominal points of the grids; path as above. They are checked "
+        "against the flanks, and the grids need no sections",
     )
     middle_point: Literal["zero", "measured"] = Field(
         "zero",
         description="Whether the member was turned so that the middle point of each grid is zero",
     )
-    degree: int = Field(3, ge=0, le=5, description="Of the smooth surface through the deviations")
-    pitch: Text | None = Field(None, description="CSV file of pitch deviations, likewise")
+    degree: int = Field(3, ge=0, le=5, description="Degree of the smooth surface")
+    pitch: Text | None = Field(None, description="CSV file of pitch deviations; path as above")
     pitch_kind: PitchKind = Field(
-        "cumulative", description="Whether they are summed up from tooth to tooth or not"
+        "cumulative", description="Whether the pitch deviations are cumulative or single"
     )
-    waviness: Text | None = Field(None, description="CSV file of waves, likewise")
+    waviness: Text | None = Field(None, description="CSV file of waves; path as above")
     pinion: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
     gear: MeasuredMember = Field(default_factory=MeasuredMember.model_construct)
 
