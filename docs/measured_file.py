@@ -26,12 +26,13 @@ these deviations as numbers on a grid of each flank. A measured-gear file (TOML)
 gear file and the CSV files with the measured values:
 
 ```
-gearlube measured examples/measured/axle_17.toml --out m   # reads, smooths, writes m/axle_17.toml
-gearlube contact m/axle_17.toml --out m/contact            # contact of the measured flanks
-gearlube sweep --mesh-table m/contact/axle_17.nc           # the axle with these flanks
+gearlube measured --example mine                  # an example: axle_17.toml and its CSV files
+gearlube measured mine/axle_17.toml --out m       # reads, smooths, writes m/axle_17.toml
+gearlube contact m/axle_17.toml --out m/contact   # contact of the measured flanks
+gearlube sweep --mesh-table m/contact/axle_17.nc  # the axle with these flanks
 ```
 
-The first command fits a smooth surface to each flank. It writes a gear file, a table of the
+The second command fits a smooth surface to each flank. It writes a gear file, a table of the
 residuals of these fits, and a figure of every flank. The gear file stores the measured surfaces in
 `surface_um` of its flanks. Every command that reads gear files accepts it. The data of the example
 are invented, and its files say so.
@@ -65,7 +66,7 @@ the tip down, for example, reverse the row numbers.
 ## Wrong and corrective machine settings
 
 ```
-gearlube measured examples/measured/axle_17.toml --fit pinion.machine.tilt_angle_deg \\
+gearlube measured mine/axle_17.toml --fit pinion.machine.tilt_angle_deg \\
     --fit pinion.machine.radial_setting_mm
 ```
 
@@ -84,7 +85,7 @@ Pitch errors, eccentricity, wobble and waves make each tooth differ from the nex
 not change the flanks of the gear file. They are added to the mesh table after the contact analysis:
 
 ```
-gearlube measured examples/measured/axle_17.toml --table m/contact/axle_17.nc --out m/teeth
+gearlube measured mine/axle_17.toml --table m/contact/axle_17.nc --out m/teeth
 gearlube sweep --mesh-table m/teeth/axle_17.nc     # the axle with teeth that differ
 gearlube build-fmu --mesh-table m/teeth/axle_17.nc
 ```

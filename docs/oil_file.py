@@ -86,6 +86,7 @@ Eyring stress: factor {eyring:g}. Values of 2 to 5 MPa are in use.
 ## Fit to measured traction
 
 ```
+gearlube oil fit --example > measurements.csv      # a table to start from, computed
 gearlube oil fit measurements.csv --oil my_oil.toml --radius-mm 9.525 --out fitted_oil.toml
 ```
 

@@ -1,12 +1,10 @@
-"""Make the measured data of examples/measured: python -m docs.measured.data.
+"""Make the measured data of gearlube measured --example: python -m docs.measured.data.
 
 Nothing here was measured. The flanks are those of changed machine settings,
 with noise of the probe.
 """
 
 from __future__ import annotations
-
-from pathlib import Path
 
 import numpy as np
 
@@ -15,6 +13,7 @@ from gearlube_core.hypoid_contact.flank_deviation import flank_deviation
 from gearlube_core.hypoid_geometry.flank.flank import Flank, Role
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.deviation_grid import COLUMNS
+from gearlube_core.hypoid_geometry.measured.example import EXAMPLE
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
 from gearlube_core.hypoid_geometry.measured.tooth_error_files import (
     PITCH_COLUMNS,
@@ -22,7 +21,7 @@ from gearlube_core.hypoid_geometry.measured.tooth_error_files import (
 )
 from gearlube_core.storage.atomic_file import write_text
 
-FOLDER = Path(__file__).parents[2] / "examples" / "measured"
+FOLDER = EXAMPLE
 MADE = "# made, not measured: python -m docs.measured.data"
 NOISE_UM = 0.3
 TEETH: dict[Role, tuple[int, ...]] = {"pinion": (1, 5, 9), "gear": (1, 13, 25)}

@@ -1,8 +1,8 @@
 """Rewrite the spectrum of docs/measured_file.md: python -m docs.measured.make [workdir].
 
-From the made data of examples/measured to the contact of the measured flanks, the mesh table with
-the errors of single teeth and the axle that runs with it: some five minutes. What is finished is
-kept in the folder given as argument, by default build/measured.
+From the made data of `gearlube measured --example` to the contact of the measured flanks, the mesh
+table with the errors of single teeth and the axle that runs with it: some five minutes. What is
+finished is kept in the folder given as argument, by default build/measured.
 """
 
 from __future__ import annotations
@@ -26,12 +26,13 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.hypoid_contact.analysis import ContactSettings
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
+from gearlube_core.hypoid_geometry.measured.example import EXAMPLE
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.spectra import AngleWindow, order_spectrum, resample
 
 ROOT = Path(__file__).parents[2]
-FILE = ROOT / "examples" / "measured" / "axle_17.toml"
+FILE = EXAMPLE / "axle_17.toml"
 NUMBERS = Path(__file__).with_name("spectrum.csv")
 PICTURE, TEETH_PICTURE = "measured_spectrum.png", "measured_teeth.png"
 CYCLE = CycleSettings(torques=(20.0, 50.0, 100.0, 200.0), positions=12)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gearlube.cli.example_file import prints_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
 
@@ -26,6 +27,13 @@ class ConvertCommand(MultiValueCommand):
 
     multi_value = frozenset({"--set"})
     value = re.compile(r"^[a-z_]\w*(\.\w+)*=")
+
+
+def _example() -> str:
+    from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    from gearlube_core.rexs.exchange import rexs_text
+
+    return rexs_text(HelicalGearFile.named("he_2007"))[0]
 
 
 def convert(
@@ -55,6 +63,7 @@ def convert(
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace the file if it exists.")
     ] = False,
+    example: Annotated[bool, prints_example(_example, "a REXS file of a helical pair")] = False,
 ) -> None:
     """Convert a pair between REXS and gear files, and say what does not fit.
 

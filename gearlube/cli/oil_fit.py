@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from gearlube.cli.example_file import prints_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.output.toml_text import toml_text
 
@@ -20,6 +21,12 @@ if TYPE_CHECKING:
 logger = logging.getLogger("gearlube")
 
 _DOUBT = 3.5  # standard deviations of a curve's mean: the worst of ten curves by chance 1 in 200
+
+
+def _example() -> str:
+    from gearlube_core.friction.traction_example import example_text
+
+    return example_text()
 
 
 def fit(
@@ -40,6 +47,12 @@ def fit(
         "fitted_oil.toml"
     ),
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace OUT.")] = False,
+    example: Annotated[
+        bool,
+        prints_example(
+            _example, "a table (CSV; computed for iso_vg_220_pao and 10 mm, not measured)"
+        ),
+    ] = False,
 ) -> None:
     """Fit Eyring stress and limiting shear stress to measured traction; write an oil file.
 

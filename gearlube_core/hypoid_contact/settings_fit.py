@@ -74,7 +74,7 @@ def fit_settings(
     Examples
     --------
     >>> from gearlube_core.hypoid_geometry.measured.measured_flanks import read_measured_flanks
-    >>> flanks = read_measured_flanks("examples/measured/axle_17.toml")  # doctest: +SKIP
+    >>> flanks = read_measured_flanks("axle_17.toml")  # doctest: +SKIP
     >>> pinion = [grid for (role, _), grid in flanks.grids.items() if role == "pinion"]
     ... # doctest: +SKIP
     >>> fit_settings(flanks.nominal, pinion, ["pinion.machine.tilt_angle_deg"])  # doctest: +SKIP

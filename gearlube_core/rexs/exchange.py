@@ -124,15 +124,27 @@ def write_rexs(file: PairFile, path: str | Path) -> tuple[ExchangeNote, ...]:
     >>> left_out[0].what
     'source'
     """
+    document, notes = _document(file)
+    document.write(Path(path))
+    return notes
+
+
+def rexs_text(file: PairFile) -> tuple[str, tuple[ExchangeNote, ...]]:
+    """Return what `write_rexs` writes, as text, and what could not be written."""
+    document, notes = _document(file)
+    return document.text(), notes
+
+
+def _document(file: PairFile) -> tuple[Document, tuple[ExchangeNote, ...]]:
     document = Document()
     taken = _WRITERS[type(file)](file, document)
-    document.write(Path(path))
     found: dict[str, list[str]] = {}
     for name, value in flat(file.model_dump(exclude_unset=True, exclude_none=True)).items():
         if name not in taken:
             section, _, key = name.rpartition(".")
             found.setdefault(section or key, []).append(f"{key} {value}" if section else f"{value}")
-    return tuple(ExchangeNote("left out", name, ", ".join(keys)) for name, keys in found.items())
+    notes = (ExchangeNote("left out", name, ", ".join(keys)) for name, keys in found.items())
+    return document, tuple(notes)
 
 
 def pair_file(name: str) -> PairFile:

@@ -77,9 +77,7 @@ def write_surface(surface: Surface, path: str | Path) -> None:
     if where.suffix.lower() != kind:
         raise ParameterError(f"{surface.name} is written to a file {kind}, got {where.name}.")
     if isinstance(surface, Profile):
-        rows = zip(surface.x / MILLIMETRE, surface.height / MICROMETRE, strict=True)
-        text = "".join(f"{x:.9g},{z:.9g}\n" for x, z in rows)
-        write_text(f"x_mm,height_um\n{text}", where)
+        write_text(profile_csv(surface), where)
         return
     arrays = {
         "x": surface.x / MILLIMETRE,
@@ -87,6 +85,12 @@ def write_surface(surface: Surface, path: str | Path) -> None:
         "height": surface.height / MICROMETRE,
     }
     write_arrays(where, arrays, compress=True)
+
+
+def profile_csv(profile: Profile) -> str:
+    """Return a profile as the text of a CSV file, columns x_mm and height_um."""
+    rows = zip(profile.x / MILLIMETRE, profile.height / MICROMETRE, strict=True)
+    return "x_mm,height_um\n" + "".join(f"{x:.9g},{z:.9g}\n" for x, z in rows)
 
 
 def _read_sdf(path: Path) -> Surface:

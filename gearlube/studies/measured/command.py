@@ -25,6 +25,19 @@ logger = logging.getLogger("gearlube")
 _SHOWN = 4  # orders of a member in a row
 
 
+def _write_example(folder: Path | None) -> None:
+    """Write the example and stop; needs no other argument."""
+    from gearlube_core.hypoid_geometry.measured.example import write_example
+
+    if folder is None:
+        return
+    with exit_on_error():
+        written = write_example(folder)
+    logger.info("Written: %s", ", ".join(str(path) for path in written))
+    logger.info("Next: gearlube measured %s", written[0])
+    raise typer.Exit
+
+
 def measured(
     file: Annotated[
         str,
@@ -53,6 +66,16 @@ def measured(
     jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_measured"),
     overwrite: OverwriteOption = False,
+    example: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write an example into this folder, a measured-gear file and its CSV files, and "
+            "stop.",
+            metavar="DIR",
+            callback=_write_example,
+            is_eager=True,
+        ),
+    ] = None,
 ) -> None:
     """Lay measured flanks on a hypoid pair; write its gear file and report.html.
 

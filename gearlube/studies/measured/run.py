@@ -30,7 +30,7 @@ def run_measured(path: str | Path, *, folder: Path | None = None) -> MeasuredFla
 
     Examples
     --------
-    >>> found = run_measured("examples/measured/axle_17.toml")  # doctest: +SKIP
+    >>> found = run_measured("axle_17.toml")  # doctest: +SKIP
     >>> found.surfaces["gear", "drive"].residual_rms  # [m]  # doctest: +SKIP
     """
     flanks = read_measured_flanks(path)

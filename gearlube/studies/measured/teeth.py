@@ -90,7 +90,7 @@ def run_tooth_errors(
     Examples
     --------
     >>> found = run_tooth_errors(
-    ...     "examples/measured/axle_17.toml", "m/contact/axle_17.nc"
+    ...     "axle_17.toml", "m/contact/axle_17.nc"
     ... )  # doctest: +SKIP
     >>> found.mesh_table.shaft_error["gear"].shape  # doctest: +SKIP
     """

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gearlube.cli.console import console
+from gearlube.cli.example_file import prints_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
@@ -40,6 +41,23 @@ PeaksOption = Annotated[
 ]
 _OUT = Path("gearlube_roughness")
 
+
+def _example() -> str:
+    import numpy as np
+
+    from gearlube_core.surface.files import profile_csv
+    from gearlube_core.surface.generator import generated_profile
+    from gearlube_core.surface.generator_request import RoughnessRequest
+
+    request = RoughnessRequest(arithmetic_mean=0.3e-6, correlation_length=20e-6)
+    made = generated_profile(request, 1.0 * MILLIMETRE, 500, np.random.default_rng(1))
+    return profile_csv(made.surface)
+
+
+ExampleOption = Annotated[
+    bool, prints_example(_example, "a profile (CSV; made, not measured: Ra 0.3 um, periodic)")
+]
+
 roughness = typer.Typer(
     name="roughness",
     help="Rough surfaces: read or make them, filter them, draw them out along a lay.",
@@ -68,6 +86,7 @@ def read(
     cut_peaks_um: PeaksOption = None,
     out: OutOption = _OUT,
     overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
 ) -> None:
     """Read heights, level and filter them; write heights, statistics and a figure."""
 
@@ -204,9 +223,10 @@ def extrude(
             metavar="UM:UM",
         ),
     ] = None,
-    rows: Annotated[int, typer.Option(help="Rows of the map along y.")] = 128,
+    rows: Annotated[int, typer.Option(help="Rows of the map along y.")] = 512,
     out: OutOption = _OUT,
     overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
 ) -> None:
     """Draw a periodic profile out along a lay so that it repeats over a width."""
 

@@ -11,11 +11,18 @@ from typing import Annotated
 
 import typer
 
+from gearlube.cli.example_file import prints_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.results_folder import results_folder
 
 logger = logging.getLogger("gearlube")
+
+
+def _example() -> str:
+    from gearlube.studies.sound.transfer_csv import example_text
+
+    return example_text()
 
 
 def sound(
@@ -69,6 +76,9 @@ def sound(
     field: Annotated[str, typer.Option(help="Sound field: free or diffuse.")] = "free",
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_sound"),
     overwrite: OverwriteOption = False,
+    example: Annotated[
+        bool, prints_example(_example, "a transfer path of the hypoid axle (CSV; not measured)")
+    ] = False,
 ) -> None:
     """Make a run audible: sound pressure, WAV, loudness and which order one hears.
 

@@ -8,10 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
+from gearlube.studies.sound.generic_path import generic_path
 from gearlube.studies.sound.transfer_path import Complex, TransferPath
 from gearlube_core.arrays import Array
 from gearlube_core.errors import FileError, ParameterError, why
 
+AXLE_FORCES = tuple(
+    f"{bearing}.{direction}"
+    for bearing in ("pinion", "gear")
+    for direction in ("axial", "radial 1", "radial 2")
+)
 _HEADING = re.compile(r"^\s*(?P<what>.+?)\s*\[(?P<unit>[^\]]*)\]\s*$")
 _PARTS: dict[str, dict[str, float | None]] = {
     "real": {"Pa/N": 1.0},
@@ -53,6 +59,21 @@ def read_csv_path(file: Path) -> TransferPath:
     paths = list(dict.fromkeys(path for path, _ in columns))
     responses = {path: _response(path, columns, file) for path in paths}
     return TransferPath(source=file.name, frequency=frequency, responses=responses)
+
+
+def example_text() -> str:
+    """Return the generic path of the hypoid axle's six bearing forces as the text of a CSV file."""
+    path = generic_path(AXLE_FORCES)
+    low, high = path.band
+    count = round(12.0 * np.log2(high / low))  # 12 in an octave
+    frequency = low * (high / low) ** np.linspace(0.0, 1.0, count + 1)
+    head, columns = ["frequency [Hz]"], [frequency]
+    for name in AXLE_FORCES:
+        response = path.at(name, frequency)
+        head += [f"{name} magnitude [dB re 20 uPa/N]", f"{name} phase [deg]"]
+        columns += [20.0 * np.log10(np.abs(response) / 20e-6), np.angle(response, deg=True)]
+    rows = "".join(",".join(f"{one:.6g}" for one in row) + "\n" for row in np.column_stack(columns))
+    return f"# {path.source}. Put measured values in place.\n{','.join(head)}\n{rows}"
 
 
 def _table(file: Path) -> tuple[list[str], Array]:

@@ -14,7 +14,7 @@ from rich.table import Table
 from gearlube.cli.console import console
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.multi_value_options import MultiValueCommand
-from gearlube.cli.options import JobsOption, OverwriteOption
+from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
 from gearlube.cli.progress_report import progress_on
 from gearlube.cli.ranges import numbers_from
 from gearlube.cli.report_end import command_line, tell_findings
@@ -78,6 +78,7 @@ def whine(
     jobs: JobsOption = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_whine"),
     overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
 ) -> None:
     """Whine orders of a hypoid pair over the speed, and what each setting changes of them.
 
@@ -94,6 +95,9 @@ def whine(
 
     began = time.monotonic()
     with exit_on_error(f"Stopped. Run the same command again to go on from {out}."):
+        if example:
+            typer.echo(HypoidGearFile.shipped_text(gear), nl=False)
+            return
         file = HypoidGearFile.given(gear)
         check_within("--positions", positions, 7, 400, "", "Three mesh orders need seven.")
         rpm = numbers_from(

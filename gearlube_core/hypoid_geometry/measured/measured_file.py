@@ -31,7 +31,7 @@ class MeasuredFile(InputFile):
 
     Examples
     --------
-    >>> MeasuredFile.from_toml("examples/measured/axle_17.toml").degree  # doctest: +SKIP
+    >>> MeasuredFile.from_toml("axle_17.toml").degree  # doctest: +SKIP
     3
     """
 

@@ -9,6 +9,7 @@ import typer
 
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import (
+    ExampleOption,
     HelicalGearArgument,
     OverwriteOption,
     SpeedOfFileOption,
@@ -111,6 +112,7 @@ def helical(
     ] = "embedded",
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
     overwrite: OverwriteOption = False,
+    example: ExampleOption = False,
 ) -> None:
     """Solve the film on a helical pair's contact line, steady at one position or in time.
 
@@ -123,6 +125,9 @@ def helical(
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 
     with exit_on_errors(out):
+        if example:
+            typer.echo(HelicalGearFile.shipped_text(gear), nl=False)
+            return
         _check_options(step, position, march, snapshots)
         check_option("--time-error", time_error, ("embedded", "repeat"))
         goal = film_error_of(film_error)

@@ -1,0 +1,88 @@
+"""What `--example` prints or writes can be read by the command that it is for."""
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import gearlube as gl
+from gearlube.command import app
+from gearlube.studies.sound.generic_path import generic_path
+from gearlube.studies.sound.transfer_csv import read_csv_path
+from gearlube_core.surface.statistics import profile_statistics
+
+
+def printed(*words):
+    done = CliRunner().invoke(app, [*words, "--example"])
+    assert done.exit_code == 0, done.output
+    return done.stdout
+
+
+def test_measured_gears_are_written_with_their_tables_and_nothing_is_replaced(tmp_path, caplog):
+    words = ["measured", "--example", str(tmp_path / "mine")]
+    assert CliRunner().invoke(app, words).exit_code == 0
+    file = gl.MeasuredFile.from_toml(tmp_path / "mine" / "axle_17.toml")
+    tables = {file.deviations, file.pitch, file.waviness}
+    assert {one.name for one in (tmp_path / "mine").iterdir()} == {"axle_17.toml", *tables}
+    (tmp_path / "mine" / "axle_17.toml").write_text("mine", encoding="utf-8")
+    assert CliRunner().invoke(app, words).exit_code != 0
+    assert "Choose another folder" in caplog.text
+    assert (tmp_path / "mine" / "axle_17.toml").read_text(encoding="utf-8") == "mine"
+
+
+def test_a_rexs_file_holds_the_pair_of_he_2007(tmp_path):
+    (tmp_path / "pair.rexs").write_text(printed("convert"), encoding="utf-8")
+    pair, given = (
+        one.helical_pair()
+        for one in (
+            gl.read_rexs(tmp_path / "pair.rexs").file,
+            gl.HelicalGearFile.named("he_2007"),
+        )
+    )
+    assert pair.centre_distance == pytest.approx(given.centre_distance, rel=1e-9)
+    assert pair.face_width == pytest.approx(given.face_width, rel=1e-9)
+
+
+def test_a_transfer_path_is_the_generic_one_also_between_its_lines(tmp_path):
+    (tmp_path / "path.csv").write_text(printed("sound"), encoding="utf-8")
+    read = read_csv_path(tmp_path / "path.csv")
+    frequency = np.geomspace(25.0, 15000.0, 400)
+    generic = generic_path(tuple(read.responses))
+    assert len(read.responses) == 6
+    for path in read.responses:
+        ratio = read.at(path, frequency) / generic.at(path, frequency)
+        # twelve points in an octave: 0.1 dB
+        assert np.abs(ratio - 1.0).max() < 0.012
+
+
+@pytest.mark.parametrize("command", ["read", "extrude"])
+def test_a_profile_has_the_stated_roughness(command, tmp_path):
+    (tmp_path / "profile.csv").write_text(printed("roughness", command), encoding="utf-8")
+    profile = gl.read_surface(tmp_path / "profile.csv")
+    # as stated by the option; micrometres are written with nine digits
+    assert profile_statistics(profile).Ra == pytest.approx(0.3e-6, rel=1e-3)
+    words = ["roughness", command, str(tmp_path / "profile.csv"), "--out", str(tmp_path / "out")]
+    assert CliRunner().invoke(app, words).exit_code == 0
+
+
+def test_a_traction_table_gives_the_stress_of_which_it_was_made(tmp_path):
+    (tmp_path / "table.csv").write_text(printed("oil", "fit"), encoding="utf-8")
+    (tmp_path / "oil.toml").write_text(printed("oil"), encoding="utf-8")
+    out = tmp_path / "fitted.toml"
+    words = ["oil", "fit", "table.csv", "--oil", "oil.toml", "--radius-mm", "10", "--out", str(out)]
+    words = [str(tmp_path / one) if one in ("table.csv", "oil.toml") else one for one in words]
+    assert CliRunner().invoke(app, words).exit_code == 0
+    # five decimals of a traction of 0.05: 1e-4
+    assert gl.read_oil(out).lubricant.eyring_stress == pytest.approx(5e6, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("words", "kind", "name"),
+    [
+        (("whine",), gl.HypoidGearFile, "mohammadpour_2015"),
+        (("ehl", "helical"), gl.HelicalGearFile, "jamali_2015_a"),
+        (("ehl", "helical", "jamali_2015_b"), gl.HelicalGearFile, "jamali_2015_b"),
+    ],
+)
+def test_a_gear_file_is_read(words, kind, name, tmp_path):
+    (tmp_path / "gear.toml").write_text(printed(*words), encoding="utf-8")
+    assert kind.from_toml(tmp_path / "gear.toml").name == name
