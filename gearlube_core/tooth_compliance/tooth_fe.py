@@ -10,6 +10,7 @@ from skfem import Basis, ElementHexS2, FacetBasis
 
 from gearlube_core.arrays import Array, Indices
 from gearlube_core.contact.solid import Solid
+from gearlube_core.errors import ParameterError
 from gearlube_core.tooth_compliance.hat_grid import hat_values
 from gearlube_core.tooth_compliance.layer_elimination import energy_products
 from gearlube_core.tooth_compliance.tooth_mesh import ToothMesh
@@ -65,8 +66,20 @@ def normal_hat_loads(
         (3 nodes, mh nh) [-]: newtons per newton. Their transpose averages the displacement.
     gram
         Integral of hat_h hat_k dA [m2], (mh nh, mh nh); a row adds up to A_h.
+
+    Raises
+    ------
+    ParameterError
+        An element is so distorted that no point on its face can be found.
     """
-    basis = FacetBasis(mesh.solid, _ELEMENT, facets=mesh.flank_facets(side), intorder=_DEGREE)
+    try:
+        basis = FacetBasis(mesh.solid, _ELEMENT, facets=mesh.flank_facets(side), intorder=_DEGREE)
+    except Exception as error:  # the library has no class of its own for it
+        raise ParameterError(
+            f"The elements on the {side} flank of a tooth must be nearly bricks, got distorted "
+            f"ones ({error}). A pinion that is undercut deep or nearly pointed makes them so: give "
+            "it more addendum, more teeth or another pressure angle."
+        ) from error
     s_all, t_all = mesh.flank_parameters()
     # on a flank the mesh's trilinear map carries the parameters too
     corners = FacetBasis(

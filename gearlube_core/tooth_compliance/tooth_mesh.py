@@ -188,6 +188,7 @@ def tooth_mesh(geometry: ToothGeometry, density: MeshDensity) -> ToothMesh:
         raise ParameterError(
             f"the mesh's smallest scaled Jacobian must be above 0, got {quality:.3g}. "
             "Seen from the toe with the tip upwards `left` must lie on the left (swap the "
-            "flanks if not); else reduce base_depth or slot_depth."
+            "flanks if not); else reduce base_depth or slot_depth. A pointed tooth has no such "
+            "mesh: give it more topland."
         )
     return ToothMesh(solid, logical, across, down, s, t)

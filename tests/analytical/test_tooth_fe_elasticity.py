@@ -10,7 +10,7 @@ from scipy.sparse.linalg import spsolve
 from skfem import Basis, ElementHexS2
 
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015 as STEEL
-from gearlube_core.errors import ConvergenceError
+from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.tooth_compliance.layer_elimination import energy_products
 from gearlube_core.tooth_compliance.tooth_fe import (
     normal_hat_loads,
@@ -119,3 +119,12 @@ def test_a_body_that_is_not_held_is_refused(tooth):
         energy_products(
             (K - shift * eye_array(3 * basis.N)).tocsr(), np.zeros((3 * basis.N, 1)), layer
         )
+
+
+def test_distorted_elements_are_refused_in_words(tooth):
+    mesh, _, _ = tooth
+    shaken = mesh.solid.p + 2e-3 * np.random.default_rng(1).standard_normal(mesh.solid.p.shape)
+    distorted = replace(mesh, solid=replace(mesh.solid, doflocs=shaken))
+    ends = np.linspace(0.0, 1.0, 3)
+    with pytest.raises(ParameterError, match=r"on the left flank .* nearly bricks, got distorted"):
+        normal_hat_loads(distorted, "left", ends, ends)

@@ -136,7 +136,11 @@ def test_vtk_holds_film_and_pressure_over_the_plane(tmp_path):
         i, j = np.abs(x - px).argmin(), np.abs(y - py).argmin()
         assert mesh.point_data["pressure [Pa]"][k] == pressure[1, i, j]
         assert mesh.point_data["film [m]"][k] == 1e-7 * pressure[1, i, j]
-    assert len(mesh.cells_dict["quad"]) == 3 * 2
+    corners = mesh.points[mesh.cells_dict["quad"]]
+    assert len(corners) == 3 * 2
+    across = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    area = 0.5 * np.abs(across[0][:, 0] * across[1][:, 1] - across[0][:, 1] * across[1][:, 0])
+    assert np.allclose(area, 2e-3 / 3 * 1e-3)  # corners go around the cell
 
 
 def test_vtk_lays_the_pressure_on_the_gear_flank(tmp_path):
