@@ -112,8 +112,8 @@ def steady_temperature(
     if not cooled.size:
         left = seen[-1]
         raise ParameterError(
-            f"The steady oil temperature must be below {oil.temperature_high:g} K, the end of the data "
-            f"of {oil.name}; got {left:.4g} W more lost there than the air takes, with "
+            f"The steady oil temperature must be below {oil.temperature_high:g} K, the end of the "
+            f"data of {oil.name}; got {left:.4g} W more lost there than the air takes, with "
             f"{conductance:.3g} W/K. Take less torque or speed, or a larger conductance."
         )
     at = int(cooled[0])
