@@ -69,7 +69,7 @@ where the film leaves the contact. The rest of this page describes line and poin
 
 - Body 1 is below the film, body 2 above. Speeds are those of the surfaces relative to the contact,
   positive along x. The entrainment speed is their mean. The sliding speed is that of body 2 minus
-  that of body 1. Upstream positions are negative.
+  that of body 1. Speeds against x are negative.
 - `reduced_modulus_gpa` is E' = 2 E*, with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. If it is left
   out, it is computed from the two bodies. By default the bodies are steel.
 - Give either an oil of the library and a temperature, or the oil's own values. An Eyring stress
