@@ -66,6 +66,8 @@ the highest W^2 of all torques and errors least.
 | `sensitivity` | how far errors move the mesh orders, complex numbers; root mean square |
 | `force_swing` | mesh orders of the normal force over its mean, rms over errors; of hypoid pairs |
 | `edge_share` | largest part of the load in a border along tip, toe and heel of either flank |
+| `other_side_pressure` | `pressure` of the other flanks, at each of `other_side_torques_n_m` |
+| `other_side_edge_share` | `edge_share` of the other flanks, likewise |
 
 `force_swing` needs a word. The arm of the mesh force about the pinion's axis swings with the mesh.
 At constant torque so does the force, and bearings feel it though the transmission error does not
@@ -73,14 +75,17 @@ show it. A hypoid pair with less error and no such limit can shake its bearings 
 low speeds above all; [optimise.md](optimise.md) has an example. A helical pair's force keeps its
 arm.
 
-All but `edge_share` are relative to the pair as it is. The loss is that at one coefficient of
+All but the edge shares are relative to the pair as it is. The loss is that at one coefficient of
 friction: oil and film are not in it. The root of a flank has no border; of a helical pair both ends
 of the face have.
 
 Both flanks of a hypoid member are cut in one set-up: where machine or cutter may change, the slopes
 between the flanks of the other side at the mean point stay below 4 mrad, and the reference plane of
-the pinion's cutter within 0.05 mm of mid-depth. Name the blade angle of that side as a parameter
-too, so that it can follow, and look at that side with `gearlube contact`.
+the pinion's cutter within 0.05 mm of mid-depth. That is not enough: the bias of those flanks may
+change until they bear on an edge. `other_side_torques_n_m` lets them carry torques of their own, of
+coast where `side` is drive, under two limits; they are no part of what is made least. Then their
+corrections, as `pinion.coast_flank.lead_crown_um`, and the blade angle that cuts them may be named
+as parameters too, so that they can follow.
 
 ## How it is found
 
