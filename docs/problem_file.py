@@ -80,8 +80,8 @@ pair with a smaller transmission error and without this limit can excite its bea
 before, above all at low speeds. [optimise.md](optimise.md) has an example. In a helical pair the
 lever arm is constant.
 
-All limits except the two edge shares are relative to the original pair. The loss is computed with one
-coefficient of friction, without oil and film. The border includes no strip along the root of a
+All limits except the two edge shares are relative to the original pair. The loss is computed with
+one coefficient of friction, without oil and film. The border includes no strip along the root of a
 flank. In a helical pair it includes both ends of the face.
 
 Both flanks of a hypoid member are cut in one set-up. So if machine or cutter may change, the coast
