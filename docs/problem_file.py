@@ -70,6 +70,8 @@ at each torque and error. All orders together give W^2 = sum |c_k|^2 at one torq
 | `sensitivity` | change of the mesh orders (complex numbers) by the errors, root mean square |
 | `force_swing` | mesh orders of the normal force / its mean, rms over errors; hypoid only |
 | `edge_share` | largest share of the load in a border along tip, toe and heel of either flank |
+| `other_side_pressure` | `pressure` of the other flanks, at each of `other_side_torques_n_m` |
+| `other_side_edge_share` | `edge_share` of the other flanks, at each of these torques |
 
 `force_swing` limits the variation of the mesh force at constant torque. The lever arm of the mesh
 force about the pinion's axis varies over the mesh cycle. At constant torque the force must vary
@@ -78,15 +80,18 @@ pair with a smaller transmission error and without this limit can excite its bea
 before, above all at low speeds. [optimise.md](optimise.md) has an example. In a helical pair the
 lever arm is constant.
 
-All limits except `edge_share` are relative to the original pair. The loss is computed with one
-coefficient of friction, without oil and film. The border includes no strip along the root of a
+All limits except the two edge shares are relative to the original pair. The loss is computed with
+one coefficient of friction, without oil and film. The border includes no strip along the root of a
 flank. In a helical pair it includes both ends of the face.
 
 Both flanks of a hypoid member are cut in one set-up. So if machine or cutter may change, the coast
 side changes too. Two limits hold there: the slopes between the coast flanks at the mean point stay
-below 4 mrad, and the reference plane of the pinion's cutter stays within 0.05 mm of mid-depth. Make
-the blade angle of that side a parameter too, so that it can follow. Check that side with `gearlube
-contact`.
+below 4 mrad, and the reference plane of the pinion's cutter stays within 0.05 mm of mid-depth.
+
+These two limits are not enough: the contact may still move to an edge of the coast flanks. Give
+`other_side_torques_n_m` and the limits of that side. These torques are not part of what is
+minimised. With them the fields of the coast flanks, for example `pinion.coast_flank.lead_crown_um`,
+and the blade angle that cuts them can be parameters too.
 
 ## How it is found
 

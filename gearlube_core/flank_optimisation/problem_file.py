@@ -109,6 +109,30 @@ class Limits(Section):
         default=0.05,
         description="Width of that border at tip, toe and heel, in parts of height and face width",
     )
+    other_side_torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False)] = Field(
+        default=(),
+        description="Torques on the other flanks of a hypoid pair, for the next two limits alone: "
+        "of coast where side is drive",
+    )
+    other_side_pressure: Times | None = Field(
+        default=1.0, description="Highest pressure there, errors included, times that before"
+    )
+    other_side_edge_share: Share | None = Field(
+        default=None,
+        description="Largest part of the load in the border there; absent: no limit",
+    )
+
+    @model_validator(mode="after")
+    def _check_other_side(self) -> Limits:
+        torques = self.other_side_torques_n_m
+        if any(later <= earlier for earlier, later in pairwise(torques)):
+            raise ValueError(f"other_side_torques_n_m must rise, got {list(torques)}")
+        if self.other_side_edge_share is not None and not torques:
+            raise ValueError(
+                "other_side_edge_share needs other_side_torques_n_m, and got none of them. Give "
+                "torques of the pinion, or leave it out"
+            )
+        return self
 
 
 class Settings(Section):
