@@ -58,7 +58,7 @@ for note in paper.assumed:
     print(note.field, note.value_text, note.unit, note.origin, note.why)
 ```
 
-### Gears
+## Gears
 
 - Only the gears are required. There are two ways to give them. `gear_set.gear_file` names
   [your gear file](gear_file.md): `gearlube design` writes one, or you fill it in from the machine
@@ -78,7 +78,7 @@ for note in paper.assumed:
   `contact_torques_n_m`. For misaligned gears or other mesh positions run `gearlube contact` and
   name its table as `mesh_table`.
 
-### Values that the file leaves out
+## Values that the file leaves out
 
 - A value in the file counts as **given**. A missing value is **inferred** if it follows from given
   fields. Otherwise it is **assumed**: the default in the tables below. `gearlube axle show` and the
@@ -91,7 +91,7 @@ for note in paper.assumed:
   replaces the preload. The two race diameters replace the pitch diameter. `walther_a` and
   `walther_b` replace the two viscosities. The engine's orders need all three of their lists.
 
-### Bearings, masses and engine
+## Bearings, masses and engine
 
 - A bearing is described by its bore, outside diameter, pitch diameter and contact angle, and by the
   number, mean diameter and effective length of its rollers. The race diameters are the pitch
@@ -109,7 +109,7 @@ for note in paper.assumed:
   `orders` are then the orders of its torque ripple, in periods per revolution of the rotor, at most
   24.
 
-### Friction and losses
+## Friction and losses
 
 - `asperity_table` names a table that `gearlube roughness flow-factors` computed from
   [rough patches](rough_contact.md). It replaces the usual constants of Greenwood and Tripp's law.
@@ -132,7 +132,7 @@ for note in paper.assumed:
   lowers the immersion, and the laws differ by a factor of three. The torque of a seal does not
   depend on speed. `wheel_torque_n_m` is the torque of the seals of both wheels together.
 
-### Scatter and errors in the file
+## Scatter and errors in the file
 
 - `[tolerances]` says how fields vary from part to part. Each field is named with its section:
   `gear_set.backlash_um = { plus_minus = 30.0 }`, or `plus_minus_percent`, or

@@ -50,73 +50,84 @@ HEAD = """# The case files of lubricated line and point contacts and of hypoid f
 The tables and the text are written by `python -m docs.ehl_case_file` from the data models in
 `gearlube_core/ehl/case/`; do not edit them by hand.
 
-`gearlube ehl line my_case.toml` and `gearlube ehl point my_case.toml` read them. Two line contacts
-ship, `jamali_2015` and `jamali_2015_thermal`, and four point contacts, `mourier_2006`,
-`elliptical`, `elliptical_thermal` and `jamali_2015_section`, a part of a line contact whose film
-repeats (`gearlube_core/ehl/case/data/`). `gearlube ehl rough my_case.toml` reads rough line
-contacts; `jamali_2015_a`, `_a_straight`, `_b`, `_c` and `_d` ship, and
-[rough_line_contact.md](rough_line_contact.md) shows what comes out.
-`gearlube ehl line --example` prints one to start from.
-Contact lines of helical pairs come from the pair's [gear file](helical_gear_file.md), whose
-`[film_mesh]` can set the nodes denser where the film leaves the contact. A hypoid
-flank, `gearlube ehl hypoid my_case.toml`, takes its contacts from a mesh table; `mohammadpour_2015`
-ships, its fields stand at the end, and [ehl_hypoid.md](ehl_hypoid.md) shows what comes out. What
-follows is about lines and points.
+These files ship (`gearlube_core/ehl/case/data/`). `gearlube ehl line --example` prints one to start
+from.
 
-- Body 1 lies below the film, body 2 above. Speeds are those of the surfaces against the contact,
-  positive along x; their mean is the entrainment speed, and body 2 less body 1 slides. Against
-  the motion is negative.
-- `reduced_modulus_gpa` is E' = 2 E*, with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. Left out, it is
-  that of the bodies, which are steel where nothing is said.
-- An oil is one of the library at a temperature, or its own numbers. An Eyring stress acts on flow
-  and friction. A limiting stress acts on the friction, and in point contacts of an oil with an
-  Eyring stress on the flow as well: beyond it the film slips.
-- `temperature = "thermal"` solves the energy balance with the film: temperatures across it and of
-  both surfaces, for lines and points. The oil then needs `law = "houpert"`. In point contacts
-  entrainment and sliding point anywhere and either surface may stand; heat is balanced to 1e-6.
+| Command | Contact | Shipped case files |
+|---|---|---|
+| `gearlube ehl line` | line | `jamali_2015`, `jamali_2015_thermal` |
+| `gearlube ehl point` | point | `mourier_2006`, `elliptical`, `elliptical_thermal` |
+| `gearlube ehl point` | part of a line contact with a periodic film | `jamali_2015_section` |
+| `gearlube ehl rough` | rough line | `jamali_2015_a`, `_a_straight`, `_b`, `_c` and `_d` |
+| `gearlube ehl hypoid` | flank of a hypoid pair | `mohammadpour_2015` |
+
+[rough_line_contact.md](rough_line_contact.md) shows results of rough line contacts. A hypoid case
+takes its contacts from a mesh table. Its fields are at the end of this page, and
+[ehl_hypoid.md](ehl_hypoid.md) shows results. Contact lines of helical pairs have no case file. They
+come from the pair's [gear file](helical_gear_file.md), whose `[film_mesh]` can make the mesh finer
+where the film leaves the contact. The rest of this page describes line and point contacts.
+
+- Body 1 is below the film, body 2 above. Speeds are those of the surfaces relative to the contact,
+  positive along x. The entrainment speed is their mean. The sliding speed is that of body 2 minus
+  that of body 1. Speeds against x are negative.
+- `reduced_modulus_gpa` is E' = 2 E*, with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. If it is left
+  out, it is computed from the two bodies. By default the bodies are steel.
+- Give either an oil of the library and a temperature, or the oil's own values. An Eyring stress
+  acts on flow and friction. A limiting stress acts on the friction. In point contacts of an oil
+  with an Eyring stress it acts on the flow too: above the limiting stress the film slips.
+- `temperature = "thermal"` solves the energy balance together with the film, for line and point
+  contacts. The results include the temperatures across the film and of both surfaces. The oil then
+  needs `law = "houpert"`. In point contacts entrainment and sliding may have any direction, and one
+  of the surfaces may stand still. The heat balance is met within 1e-6.
 
 ## Shapes of the gap
 
-The smooth gap is x^2/(2 R) or x^2/(2 R_x) + y^2/(2 R_y). Heights are taken off it: what stands out
-of a surface is positive and narrows the gap. With `holds = "gap"` the file is the whole undeformed
-gap itself, up to a constant: tip relief, crown, a flank from a measuring machine. The radii then
-only choose scales, domain and start.
+The smooth gap is x^2/(2 R) or x^2/(2 R_x) + y^2/(2 R_y). Surface heights are subtracted from it: a
+positive height is a peak and makes the gap smaller. With `holds = "gap"` the file gives the whole
+undeformed gap, up to a constant. Examples are tip relief, crown, or a flank from a measuring
+machine. The radii then only set scales, domain and start.
 
-- A profile is a CSV file, first line `x_mm,height_um`, lines with # left out. Between the places
-  lies a cubic spline.
+- A profile is a CSV file. Its first line is `x_mm,height_um`. Lines with # are comments. A cubic
+  spline interpolates between the points.
 - A height map is a NetCDF file with the dimensions x and y, or an `.npz` file with the arrays `x`
-  (nx), `y` (ny) and `height` (nx, ny); mm, mm and um. Between the places lies a bicubic spline.
-- A file must cover the domain and be at least as fine as the finest grid, and hold finite numbers
-  alone; else the case is refused with both numbers. What is finer than the grid is not averaged:
-  take out wavelengths below about eight nodes first.
-- Ridge, dent and waviness of a point contact add up, with or without a map. Sections of ridge and
-  dent are Gaussian, z = A exp(-4 ln 2 (s/width)^2); waves are cosines.
-- These are steady solutions, so heights are at rest: on a standing surface, or constant along the
-  motion. On a moving surface they would travel and squeeze the film, and the command says so.
-- Formulas and Hertz contacts in the summary are those of the smooth gap.
+  (nx), `y` (ny) and `height` (nx, ny), in mm, mm and um. A bicubic spline interpolates between the
+  points.
+- A file must cover the domain, be at least as fine as the finest grid, and contain finite numbers
+  only. Otherwise the case is refused, and the error gives both numbers. Details finer than the grid
+  are not averaged: filter out wavelengths below about eight nodes first.
+- Ridge, dent and waviness of a point contact are added, with or without a map. Sections of ridge
+  and dent are Gaussian, z = A exp(-4 ln 2 (s/width)^2). Waves are cosines.
+- The solutions are steady, so the heights must not move: they are on a surface that stands still,
+  or constant along the motion. On a moving surface they would travel and squeeze the film. The
+  command warns in this case.
+- Film formulas and Hertz contacts in the summary are computed for the smooth gap.
 
 ## Where the film breaks
 
-By default pressure and its slope vanish where a film breaks, and the gap counts as full behind
-(Reynolds). With `cavitation = "mass_conserving"` what the broken film holds is found as well: there
-oil is carried along with the mean speed of the surfaces, and pressure moves it only where the gap
+By default pressure and its slope are zero where the film breaks, and the gap behind counts as full
+(Reynolds' condition). `cavitation = "mass_conserving"` also computes the oil content of the broken
+film. There the oil moves with the mean speed of the surfaces. Pressure moves it only where the gap
 is full (Jakobsson and Floberg 1957, Olsson 1965, Elrod 1981; pressure and void as complements as in
-Giacopini et al. 2010). What enters the domain leaves it, to the tolerance. A flooded contact has
-the film and the pressure of Reynolds' condition to the error of the grid; what is new is the oil
-behind it, `void` of a line and `fill` of a point contact, and an inlet that is not full:
+Giacopini et al. 2010). Oil mass is conserved within the tolerance. In a flooded contact film and
+pressure agree with those of Reynolds' condition within the error of the grid. Two things are new:
+the oil content behind the contact (`void` of a line contact, `fill` of a point contact), and an
+inlet that is not full:
 
-- a line takes `inlet_fill`, the share of the gap at the inlet;
-- a point contact takes `inlet_layer_um`, the thickness of oil on both surfaces together. As it
-  thins, the edge of the oil moves up to the contact and the central film h falls to the layer, at
-  the density under pressure: with r the layer over the flooded film, at that density, h over the
-  flooded film was found between r/(1 + r^g)^(1/g) with g = 2 and 5 (form of Chevalier et al. 1998).
+- For a line contact set `inlet_fill`, the share of the gap that is filled at the inlet.
+- For a point contact set `inlet_layer_um`, the thickness of oil on both surfaces together. With a
+  thinner layer the edge of the oil moves closer to the contact. The central film h then approaches
+  the layer thickness, corrected for the density under pressure. Let r be this corrected layer
+  thickness divided by the flooded film. The ratio of h to the flooded film was found between
+  r/(1 + r^g)^(1/g) with g = 2 and with g = 5 (form of Chevalier et al. 1998).
 
-Point contacts have it at rest, isothermal, with finite volumes, without touching solids, and for an
-Eyring oil with sliding along x or y. Shear acts on the share of the surface that oil covers.
+In point contacts mass-conserving cavitation is available for steady isothermal films with finite
+volumes and without touching solids. An Eyring oil must slide along x or y. Shear acts only on the
+share of the surface that is covered with oil.
 
 ## Time and memory
 
-Of one core of a small server, from the dry contact on, without the compilation of the first run:
+Measured on one core of a small server, starting from the dry contact. The compilation in the first
+run is not included.
 
 | Contact | Nodes | CPU time | Memory of the process |
 |---|---|---|---|
@@ -129,20 +140,20 @@ Of one core of a small server, from the dry contact on, without the compilation 
 | point, `mourier_2006` | 513 x 513 | 4.0 s | 0.62 GiB |
 | helical line marching, `jamali_2015_a` | 97 x 257 | 0.4 s a step | 0.41 GiB |
 
-0.20 GiB of each are the libraries. A point contact's share grows with the nodes, that of a line
-with their square.
+The libraries take 0.20 GiB in each case. The rest grows with the number of nodes for a point
+contact, and with its square for a line contact.
 
 ## What the commands write
 
 `line.nc` or `point.nc` (pressure, film, shear and history with units, scalars and the outcome as
-attributes), `summary.csv` and `figures/`. Files appear whole or not at all. A contact that does not
-converge is written all the same, is marked so, and ends with exit code 1.
+attributes), `summary.csv` and `figures/`. Files are written completely or not at all. A contact
+that does not converge is written too. It is marked as not converged, and the exit code is 1.
 """
 
 TAIL = """
 ## Errors
 
-Every wrong field is named with its value, its range and its unit:
+The error names every wrong field with its value, its range and its unit:
 
 ```text
 my_case.toml has 1 wrong field(s). oil.viscosity_pa_s must be a number, 0.0001 to 10000 Pa.s, got

@@ -16,7 +16,7 @@ SECTIONS = {
     "pinion.body": "[pinion.body] and [gear.body]",
     "pinion.bearing_1": "[pinion.bearing_1], [pinion.bearing_2], and of the gear",
     "damping": "[damping]",
-    "operation": "[operation]: torque and speed where none are asked for",
+    "operation": "[operation]: default torque and speed",
     "meshing_steps": "[meshing_steps]: the source's steps of a contact line",
     "oil": "[oil]: of the source, for films",
     "film_mesh": "[film_mesh]: nodes of films",
@@ -27,16 +27,18 @@ HEAD = """# The gear file of a helical pair
 The tables are written by `python -m docs.helical_gear_file` from the data model
 (`gearlube_core/helical_geometry/gear_file.py`), the text with them; not edited by hand.
 
-External helical or spur gears on parallel axes, in millimetres and degrees, in one TOML file. From
-it come contact lines, gaps, loaded contact, vibration and the FMU. Three ship: `he_2007`,
-`jamali_2015_a` and `jamali_2015_b` (`gearlube_core/helical_geometry/data/`).
+This file describes an external helical or spur gear pair on parallel axes, in millimetres and
+degrees, in one TOML file. Contact lines, gaps, loaded contact, vibration and the FMU are computed
+from it. Three files ship: `he_2007`, `jamali_2015_a` and `jamali_2015_b`
+(`gearlube_core/helical_geometry/data/`).
 
-- Module and pressure angle are those of the normal or of the transverse section: one of each.
-- Without a root diameter the teeth are 2.25 normal modules deep; without mass or inertia a member
-  is a steel disc as wide as its face and as large as its root circle. Such data count as completed.
+- Give one module and one pressure angle, each either in the normal or in the transverse section.
+- Without a root diameter the teeth are 2.25 normal modules deep. Without mass or inertia a member
+  is taken as a steel disc with its face width and its root diameter. Such values count as
+  completed.
 - Frame, hand and the signs of the slopes: [conventions](conventions.md#frame-of-the-helical-pair).
-- `inferred` and `completed` list fields by their dotted names with the reason; all others count as
-  printed in the source.
+- `inferred` and `completed` list fields by section and name, such as `pair.backlash_mm`, with the
+  reason. All other fields count as printed in the source.
 
 ## Fields
 """
@@ -44,8 +46,8 @@ it come contact lines, gaps, loaded contact, vibration and the FMU. Three ship: 
 TAIL = """
 ## Write your own
 
-Copy a shipped file, change it, and read it: every wrong field is named with its value, its range
-and what to do.
+Copy a shipped file, change it, and read it in Python. An error names every wrong field with its
+value, its range and a remedy.
 
 ```python
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -55,11 +57,14 @@ pair = file.helical_pair()
 print(pair.total_contact_ratio, file.provenance("pair.backlash_mm"))
 ```
 
-`gearlube helical my_pair.toml` analyses it, `gearlube build-fmu --model helical-pair --gear
-my_pair.toml` makes it an FMU. `gearlube ehl helical my_pair.toml` solves the film on its contact
-lines: `[oil]` or `--oil` names what fills it, `[film_mesh]` or `--nodes-across`, `--nodes-along`
-and `--spacing` what it is computed on. A film in motion on 129 x 257 nodes with `spacing = "exit"`
-is as exact as on 182 x 857 uniform ones, for a fraction of the cost (`benchmarks/README.md`).
+Use the file in these commands:
+
+- `gearlube helical my_pair.toml` analyses the pair.
+- `gearlube build-fmu --model helical-pair --gear my_pair.toml` builds an FMU of it.
+- `gearlube ehl helical my_pair.toml` solves the film on its contact lines. `[oil]` or `--oil` names
+  the oil. `[film_mesh]` or `--nodes-across`, `--nodes-along` and `--spacing` set the mesh. A
+  transient film on 129 x 257 nodes with `spacing = "exit"` is as accurate as on 182 x 857 uniform
+  nodes, for a fraction of the computing time (`benchmarks/README.md`).
 """
 
 

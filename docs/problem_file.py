@@ -20,13 +20,13 @@ HEAD = """# The problem file of `gearlube optimise`
 The tables are written by `python -m docs.problem_file` from the data model
 (`gearlube_core/flank_optimisation/problem_file.py`), the text with them; not edited by hand.
 
-What of a gear pair may change, and for which torques and errors it shall be quiet.
-[optimise.md](optimise.md) shows three pairs before and after.
+A problem file says which values of a gear pair may change, and for which torques and assembly
+errors the pair shall be quiet. [optimise.md](optimise.md) shows three pairs before and after.
 
 ```
-gearlube optimise helical --example > my_problem.toml     # or hypoid
-gearlube optimise my_problem.toml --out my_pair
-gearlube helical my_pair/he_2007_quiet.toml               # the better gear file; contact for hypoid
+gearlube optimise helical --example > my_problem.toml     # or hypoid gearlube optimise
+my_problem.toml --out my_pair gearlube helical my_pair/he_2007_quiet.toml               # analyses
+the better pair; for hypoid: gearlube contact
 ```
 
 **Parameters** are fields of the [gear file](gear_file.md) or its [helical
@@ -37,82 +37,95 @@ twin](helical_gear_file.md), each with bounds in the unit of the field:
 pinion.flank.tip_relief_um = { low = 0.0, high = 30.0, start = 8.0 }
 ```
 
-Of a helical pair: `pinion.flank` and `gear.flank`. Of a hypoid pair: reliefs, crowns and twist of
-the flanks that carry (`pinion.drive_flank`, `gear.drive_flank`), `machine` and `cutter`. The blank
-stays. A field that is not named keeps its value: so a gear, or the blades of both, are kept.
-`[settings]` frees the machine settings of the pinion at once, without its blades, within small
-ranges; modified roll and helical motion are named in `[parameters]` where the machine has them.
+For a helical pair the parameters are fields of `pinion.flank` and `gear.flank`. For a hypoid pair
+they are reliefs, crowns and twist of the loaded flanks (`pinion.drive_flank`, `gear.drive_flank`),
+and fields of `machine` and `cutter`. The blank does not change. A field that is not named keeps its
+value. In this way you can keep one member, or the blades of both, unchanged.
+
+`[settings]` makes all machine settings of the pinion parameters, within small ranges. The blades
+are not included. If the machine has modified roll and helical motion, name them in `[parameters]`.
 """
 
 TAIL = """
-## What is made least
+## What is minimised
 
-The loaded transmission error at N mesh phases gives the mesh orders
+The mesh orders follow from the loaded transmission error at N mesh phases,
 
 c_k = (2/N) sum_n theta_n exp(-2 pi i k n/N)
 
-at each torque and error. All orders together, at one torque and error: W^2 = sum |c_k|^2. `mean`
-makes the mean of W^2 over torques and errors least, each torque relative to the pair as it is. The
-mean square holds the scatter: it is the square of the mean plus the variance. So this is the
-robust pair, and `--nominal` finds the one that is best without errors, to compare. `worst` makes
-the highest W^2 of all torques and errors least.
+at each torque and error. All orders together give W^2 = sum |c_k|^2 at one torque and error.
+
+- `mean` minimises the mean of W^2 over torques and errors. Each torque is taken relative to the
+  original pair. The mean of the square includes the scatter: it is the square of the mean plus the
+  variance. So this gives the robust pair.
+- `--nominal` also finds the pair that is best without errors, for comparison.
+- `worst` minimises the highest W^2 of all torques and errors.
 
 ## Limits
 
 | Limit | Measure, at each torque |
 |---|---|
-| `pressure` | highest pressure of all phases and errors |
-| `loss` | sliding power of the normal forces over the pinion's power, mean over phases and errors |
-| `sensitivity` | how far errors move the mesh orders, complex numbers; root mean square |
-| `force_swing` | mesh orders of the normal force over its mean, rms over errors; of hypoid pairs |
-| `edge_share` | largest part of the load in a border along tip, toe and heel of either flank |
+| `pressure` | highest pressure over all phases and errors |
+| `loss` | sliding power of normal forces / power of pinion, mean over phases and errors |
+| `sensitivity` | change of the mesh orders (complex numbers) by the errors, root mean square |
+| `force_swing` | mesh orders of the normal force / its mean, rms over errors; hypoid only |
+| `edge_share` | largest share of the load in a border along tip, toe and heel of either flank |
+| `other_side_pressure` | `pressure` of the other flanks, at each of `other_side_torques_n_m` |
+| `other_side_edge_share` | `edge_share` of the other flanks, at each of these torques |
 
-`force_swing` needs a word. The arm of the mesh force about the pinion's axis swings with the mesh.
-At constant torque so does the force, and bearings feel it though the transmission error does not
-show it. A hypoid pair with less error and no such limit can shake its bearings more than before, at
-low speeds above all; [optimise.md](optimise.md) has an example. A helical pair's force keeps its
-arm.
+`force_swing` limits the variation of the mesh force at constant torque. The lever arm of the mesh
+force about the pinion's axis varies over the mesh cycle. At constant torque the force must vary
+too. The bearings carry this varying force, but the transmission error does not show it. A hypoid
+pair with a smaller transmission error and without this limit can excite its bearings more than
+before, above all at low speeds. [optimise.md](optimise.md) has an example. In a helical pair the
+lever arm is constant.
 
-All but `edge_share` are relative to the pair as it is. The loss is that at one coefficient of
-friction: oil and film are not in it. The root of a flank has no border; of a helical pair both ends
-of the face have.
+All limits except the two edge shares are relative to the original pair. The loss is computed with
+one coefficient of friction, without oil and film. The border includes no strip along the root of a
+flank. In a helical pair it includes both ends of the face.
 
-Both flanks of a hypoid member are cut in one set-up: where machine or cutter may change, the slopes
-between the flanks of the other side at the mean point stay below 4 mrad, and the reference plane of
-the pinion's cutter within 0.05 mm of mid-depth. Name the blade angle of that side as a parameter
-too, so that it can follow, and look at that side with `gearlube contact`.
+Both flanks of a hypoid member are cut in one set-up. So if machine or cutter may change, the coast
+side changes too. Two limits hold there: the slopes between the coast flanks at the mean point stay
+below 4 mrad, and the reference plane of the pinion's cutter stays within 0.05 mm of mid-depth.
+
+These two limits are not enough: the contact may still move to an edge of the coast flanks. Give
+`other_side_torques_n_m` and the limits of that side. These torques are not part of what is
+minimised. With them the fields of the coast flanks, for example `pinion.coast_flank.lead_crown_um`,
+and the blade angle that cuts them can be parameters too.
 
 ## How it is found
 
-1. Cells of the loaded contact are cut once about the contact, 1.25 times wider and for 1.5 times
-   its depth, at every torque, error and phase, and their compliance is kept. For other values
-   only gaps change: removal of reliefs and crowns exactly, machine settings to first order. The
-   contact of these cells is solved anew by an active set, which takes milliseconds.
-2. Rates of rotation, pressure, sliding and edge share follow from the carrying cells' equilibrium.
-   Mesh orders are linear in the rotation. SLSQP (scipy) moves the values within a region under the
-   limits.
-3. Cells are cut anew at what it found. Is the pair better, the next region is larger, else smaller.
-   Limits that a round broke are tightened.
-4. The plain loaded analysis, with its own cells and twice the phases, judges the pair as it is and
-   the better one; all numbers of the report are from it. Where it finds a limit broken, the search
-   goes on with that limit tighter, twice at most.
+1. The region around the contact is divided into cells once, for every torque, error and phase. The
+   region is 1.25 times as wide as the contact and 1.5 times as deep. The compliance of these cells
+   is stored. If values change, only the gaps change: exactly for reliefs and crowns, to first order
+   for machine settings. An active-set method solves the contact of these cells again, which takes
+   milliseconds.
+2. The derivatives of rotation, pressure, sliding loss and edge share follow from the equilibrium of
+   the loaded cells. The mesh orders are linear in the rotation. SLSQP (scipy) changes the values
+   within a trust region under the limits.
+3. The cells are made again at the new values. If the pair is better, the next trust region is
+   larger, otherwise smaller. Limits that were exceeded in a round are tightened.
+4. The standard loaded analysis, with its own cells and twice the number of phases, evaluates the
+   original pair and the better pair. All numbers of the report come from it. If it finds a limit
+   exceeded, the search continues with a tighter limit, at most twice.
 
-The search finds the best near its start, not the best of all: try other starts. The teeth's
-compliance stays that of the pair as it is. Values that stand on a bound, limits that are not kept,
-and a search without success are said in the report.
+The search finds the best pair near its start, not the best of all. Try other starts. The compliance
+of the teeth stays that of the original pair. The report says which values are on a bound, which
+limits are exceeded, and whether the search had no success.
 
 ## Results
 
 | File | |
 |---|---|
 | NAME.toml | gear file with the better values |
-| report.html | dB at each torque, active limits, what got worse, values, all measures |
-| optimise.nc | the same as arrays, error over the mesh, all errors; with `--front` the front |
-| figures/ | transmission error, mesh orders, whine under each error, front |
-| evaluations/, positions/ | what is computed; the same command goes on from there after a stop |
+| report.html | change in dB at each torque, active limits, what became worse, all measures |
+| optimise.nc | the same as arrays, transmission error over the mesh, all errors, Pareto front |
+| figures/ | transmission error, mesh orders, whine under each error, Pareto front |
+| evaluations/, positions/ | intermediate results; after a stop the same command uses them |
 
-`--front N` asks for the least loss under N limits of the mesh orders, from the least to those of
-the pair as it is, on the cells of the search; points that others beat are left out.
+`--front N` computes a Pareto front: the smallest loss under N limits of the mesh orders. The limits
+go from the smallest mesh orders found to those of the original pair. The front is computed with the
+cells of the search. Points that are worse in both measures than another point are left out.
 
 In Python:
 
@@ -123,8 +136,9 @@ found = gl.run_optimise(gl.OptimisationFile.from_toml("my_problem.toml"), folder
 found.dataset["whine"].sel(error="none")  # rad, by design and torque
 ```
 
-What is not here: the mesh orders count at the static loaded error, not at a resonance of the
-driveline; `gearlube map`, `sweep` and the FMU take the better pair's mesh table as any other.
+The mesh orders are those of the static loaded transmission error. Resonances of the driveline are
+not included. To include them, use the mesh table of the better pair in `gearlube sweep` or in the
+FMU. `gearlube map` accepts this table too.
 """
 
 

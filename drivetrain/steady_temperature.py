@@ -73,8 +73,8 @@ def steady_temperature(
     Notes
     -----
     There is one such temperature while the loss falls with temperature. Where asperities carry
-    load the loss can rise; then this is the lowest of them to 1/16 of the range, where oil that
-    starts at the temperature of the air comes to rest.
+    load the loss can rise. Then this is the lowest of them to 1/16 of the range: the one that oil
+    starting at the temperature of the air reaches.
 
     Raises
     ------
@@ -112,8 +112,8 @@ def steady_temperature(
     if not cooled.size:
         left = seen[-1]
         raise ParameterError(
-            f"The oil must come to rest below {oil.temperature_high:g} K, the end of the data of "
-            f"{oil.name}; got {left:.4g} W more lost there than the air takes, with "
+            f"The steady oil temperature must be below {oil.temperature_high:g} K, the end of the "
+            f"data of {oil.name}; got {left:.4g} W more lost there than the air takes, with "
             f"{conductance:.3g} W/K. Take less torque or speed, or a larger conductance."
         )
     at = int(cooled[0])

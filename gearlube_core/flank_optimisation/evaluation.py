@@ -10,6 +10,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.flank_optimisation.held_position import LoadedMeasures
 from gearlube_core.storage.result_store import Record
 
+_OF_OTHER_SIDE = ("pressure", "edge_share", "pressure_rate", "edge_share_rate")
+
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
@@ -21,6 +23,9 @@ class Evaluation:
         As in `LoadedMeasures`: [rad], [Pa], [-], [-], [N].
     rotation_rate, pressure_rate, sliding_rate, edge_share_rate, force_rate
         Of shape (J, S, N, P), per unit of each parameter; P is 0 where rates were not asked.
+    other_pressure, other_edge_share : ndarray of shape (K, S, N)
+        Of the flanks of the other side, at its K torques [Pa], [-].
+    other_pressure_rate, other_edge_share_rate : ndarray of shape (K, S, N, P)
     settings_used : ndarray of shape (3,) or (0,)
         Parts of what the check of a gear file leaves machine settings, -1 to 1: slopes between the
         flanks of the other side, depth of the pinion's cut; empty where no setting may change.
@@ -37,6 +42,10 @@ class Evaluation:
     sliding_rate: Array
     edge_share_rate: Array
     force_rate: Array
+    other_pressure: Array
+    other_edge_share: Array
+    other_pressure_rate: Array
+    other_edge_share_rate: Array
     settings_used: Array
     settings_used_rate: Array
 
@@ -45,18 +54,28 @@ class Evaluation:
         cls,
         rows: list[tuple[LoadedMeasures, LoadedMeasures]],
         shape: tuple[int, int, int],
-        other: tuple[Array, Array] | None = None,
+        settings_used: tuple[Array, Array] | None = None,
     ) -> Evaluation:
         """Return the evaluation of measures and rates in the order of `shape` (J, S, N).
 
-        `other`: `settings_used` and its rates.
+        Rows beyond those are of the other side. `settings_used`: with its rates.
         """
-        count = len(LoadedMeasures._fields)
-        values = np.array([one for one, _ in rows]).reshape(*shape, count)
-        rates = np.array([one for _, one in rows]).reshape(*shape, count, -1)
-        parts = [values[..., k] for k in range(count)] + [rates[..., k, :] for k in range(count)]
-        none = np.empty(0), np.empty((0, rates.shape[-1]))
-        return cls(*[*parts, *(other or none)])
+        count, (own, *each) = len(LoadedMeasures._fields), shape
+        values = np.array([one for one, _ in rows]).reshape(-1, *each, count)
+        rates = np.array([one for _, one in rows])
+        rates = rates.reshape(*values.shape, rates.shape[-1])
+        named = dict(zip(LoadedMeasures._fields, np.moveaxis(values, -1, 0), strict=True))
+        named |= {
+            f"{name}_rate": one
+            for name, one in zip(LoadedMeasures._fields, np.moveaxis(rates, -2, 0), strict=True)
+        }
+        used, used_rate = settings_used or (np.empty(0), np.empty((0, rates.shape[-1])))
+        return cls(
+            **{name: one[:own] for name, one in named.items()},
+            **{f"other_{name}": named[name][own:] for name in _OF_OTHER_SIDE},
+            settings_used=used,
+            settings_used_rate=used_rate,
+        )
 
     @classmethod
     def from_record(cls, record: Record) -> Evaluation:
@@ -110,6 +129,16 @@ class Evaluation:
     def highest_pressure(self) -> Array:
         """Over errors and phases (J,) [Pa]."""
         return np.asarray(self.pressure.max(axis=(1, 2)))
+
+    @property
+    def highest_other_pressure(self) -> Array:
+        """Of the other side, over errors and phases (K,) [Pa]."""
+        return np.asarray(self.other_pressure.max(axis=(1, 2)))
+
+    @property
+    def largest_other_edge_share(self) -> Array:
+        """Of the other side, over errors and phases (K,) [-]."""
+        return np.asarray(self.other_edge_share.max(axis=(1, 2)))
 
     @property
     def mean_sliding(self) -> Array:

@@ -79,6 +79,12 @@ class Goal:
             add(found.mean_sliding / most, found.sliding_rate.mean(axis=(1, 2)) / most[:, None])
         if limits.edge_share is not None:
             add(found.edge_share / limits.edge_share, found.edge_share_rate / limits.edge_share)
+        if limits.other_side_pressure is not None:
+            most = limits.other_side_pressure * self.before.highest_other_pressure[:, None, None]
+            add(found.other_pressure / most, found.other_pressure_rate / most[..., None])
+        if limits.other_side_edge_share is not None:
+            share = limits.other_side_edge_share
+            add(found.other_edge_share / share, found.other_edge_share_rate / share)
         if limits.force_swing is not None:
             swing, rate = found.swing(self.orders)
             most = limits.force_swing * self.before.swing(self.orders)[0]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -32,9 +33,10 @@ from gearlube_core.storage.process_pool import single_threaded
 from gearlube_core.storage.result_store import ARRAYS, Record, ResultStore
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
-_FORMAT = 4  # raise with every change of the model that changes results
+_FORMAT = 5  # raise with every change of the model that changes results
 OTHER_SLOPE = 4e-3  # rad, of flanks that do not carry; gear files are refused beyond 10 mrad
 PLANE = 0.05e-3  # m, pinion cutter's plane from mid-depth; gear files are refused beyond 0.1 mm
+Teeth = Mapping[Side, PairStiffness]  # of the flanks that carry, by their side
 HELICAL_CELLS = HelicalLoaded(strips=HelicalStrips(cells_across=13, cells_along=22))
 HYPOID_CELLS = HypoidLoaded(strips=HypoidStrips(cells_across=14, cells_along=24))
 
@@ -46,8 +48,8 @@ class HeldModel:
     Parameters
     ----------
     problem : Problem
-    stiffness : PairStiffness
-        Of the flanks that carry.
+    stiffness : Teeth
+        Of the sides of the problem's loads; of a helical pair both are alike.
     at : ndarray of shape (P,), optional
         Where cells are cut [unit of each]; None: the pair as its file gives it.
     folder : Path, optional
@@ -57,7 +59,7 @@ class HeldModel:
     """
 
     problem: Problem
-    stiffness: PairStiffness
+    stiffness: Teeth
     at: Array | None
     folder: Path | None = None
     progress: Progress = no_progress
@@ -85,24 +87,32 @@ class HeldModel:
         with single_threaded():
             if not self._positions:
                 self._positions = self._cut()
-            flanks = [self._flanks(values, one) for one in self.problem.scenarios]
-            each = self.shape[2]
+            flanks = {
+                side: [self._flanks(values, one, side) for one in self.problem.scenarios]
+                for side in self._sides
+            }
+            places = product(self.problem.loads, range(self.shape[1]), range(self.shape[2]))
             rows = [
-                position.measures(flanks[(k // each) % len(flanks)])
-                for k, position in enumerate(self._positions)
+                position.measures(flanks[load.side][scenario])
+                for position, (load, scenario, _) in zip(self._positions, places, strict=True)
             ]
-        found = Evaluation.of(rows, self.shape, self._other_side(values))
+        found = Evaluation.of(rows, self.shape, self._settings_used(values))
         store.keep(key, found.record())
         return found
+
+    @property
+    def _sides(self) -> list[Side]:
+        return list(dict.fromkeys(load.side for load in self.problem.loads))
 
     def _key(self, values: Array | None) -> str:
         digest = hashlib.sha256(f"flank optimisation {_FORMAT}".encode())
         digest.update(self.problem.file.model_dump_json().encode())
         given = self.problem.given
-        whole = (given.torques_n_m, given.side, given.positions, given.limits.edge_band)
+        whole = (self.problem.loads, given.positions, given.limits.edge_band)
         digest.update(repr((whole, self.problem.names, self.problem.scenarios)).encode())
-        for part in (self.stiffness.pinion, self.stiffness.gear):
-            digest.update(np.ascontiguousarray(part.image).tobytes())
+        for side in self._sides:
+            for part in (self.stiffness[side].pinion, self.stiffness[side].gear):
+                digest.update(np.ascontiguousarray(part.image).tobytes())
         for one in (self.at, values):
             digest.update(b"given" if one is None else np.round(one, 12).tobytes())
         return digest.hexdigest()[:20]
@@ -115,7 +125,7 @@ class HeldModel:
     def _ends(self, values: Array | None) -> list[tuple[str, float, float]]:
         return [] if values is None else self.problem.ends(values)
 
-    def _flanks(self, values: Array | None, scenario: Scenario) -> Any:
+    def _flanks(self, values: Array | None, scenario: Scenario, side: Side) -> Any:
         file, ends = self._file(values, scenario), self._ends(values)
         ends = [
             (name, low + scenario.added.get(name, 0.0), high + scenario.added.get(name, 0.0))
@@ -127,9 +137,9 @@ class HeldModel:
         if values is not None and self.at is not None:
             settings = [_is_setting(name) for name, _, _ in ends]
             moves = np.where(settings, values - self.at, 0.0)
-        return hypoid_positions.HypoidFlanks.of(file, self.problem.given.side, ends, moves)
+        return hypoid_positions.HypoidFlanks.of(file, side, ends, moves)
 
-    def _other_side(self, values: Array | None) -> tuple[Array, Array] | None:
+    def _settings_used(self, values: Array | None) -> tuple[Array, Array] | None:
         """Return what the check of a gear file leaves settings, and its rates; None: they stay.
 
         Both flanks of a member are cut in one set-up: slopes between those that do not carry, and
@@ -140,7 +150,7 @@ class HeldModel:
         ends = self._ends(values)
         if not any(_is_setting(name) for name, _, _ in ends):
             return None
-        side: Side = "coast" if self.problem.given.side == "drive" else "drive"
+        side = self.problem.other_side
 
         def used(changes: dict[str, float]) -> Array:
             file = unchecked(self.problem.tried(values, self.problem.scenarios[0]), changes)
@@ -156,28 +166,29 @@ class HeldModel:
         return used({}), np.array(rates).T
 
     def _cut(self) -> list[HeldPosition]:
-        torques, band = self.problem.given.torques_n_m, self.problem.given.limits.edge_band
+        loads, band = self.problem.loads, self.problem.given.limits.edge_band
         phases = np.arange(self.shape[2]) / self.shape[2]
-        bodies = [self._body(one) for one in self.problem.scenarios]
+        bodies = {
+            side: [self._body(one, side) for one in self.problem.scenarios] for side in self._sides
+        }
         found = []
-        for torque in torques:
-            for body in bodies:
+        for load in loads:
+            for body in bodies[load.side]:
                 for phase in phases:
-                    found.append(body(float(phase), torque, band))
-                    share = len(found) / (len(torques) * len(bodies) * phases.size)
-                    self.progress(share, f"cells at {torque:g} N.m")
+                    found.append(body(float(phase), load.torque, band))
+                    share = len(found) / (len(loads) * self.shape[1] * phases.size)
+                    self.progress(share, f"cells at {load.torque:g} N.m, {load.side}")
         return found
 
-    def _body(self, scenario: Scenario) -> Any:
+    def _body(self, scenario: Scenario, side: Side) -> Any:
         """Return what cuts a position of a scenario from phase, torque and border."""
         file = self._file(self.at, scenario)
         if not self.problem.is_hypoid:
             modified = file.modified_pair()
             return lambda phase, torque, band: helical_positions.held_position(
-                modified, phase, torque, self.stiffness, HELICAL_CELLS, band
+                modified, phase, torque, self.stiffness[side], HELICAL_CELLS, band
             )
         ends = self._ends(self.at)
-        side = self.problem.given.side
         pair = FlankPair.from_file(file, side, scenario.misalignment)
         about = {
             k: _setting_ends(file, pair, name)
@@ -185,7 +196,7 @@ class HeldModel:
             if _is_setting(name)
         }
         return lambda phase, torque, band: hypoid_positions.held_position(
-            *(pair, about, len(ends), phase, torque, self.stiffness, HYPOID_CELLS, band)
+            *(pair, about, len(ends), phase, torque, self.stiffness[side], HYPOID_CELLS, band)
         )
 
 

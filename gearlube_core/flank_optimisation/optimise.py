@@ -10,7 +10,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.flank_optimisation.evaluation import Evaluation
 from gearlube_core.flank_optimisation.goal import Goal
-from gearlube_core.flank_optimisation.held_model import HeldModel
+from gearlube_core.flank_optimisation.held_model import HeldModel, Teeth
 from gearlube_core.flank_optimisation.plain_check import CheckSettings, plain_check
 from gearlube_core.flank_optimisation.problem import GearFile, Problem
 from gearlube_core.flank_optimisation.problem_file import Limits
@@ -21,7 +21,6 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.tooth_body import pair_stiffness as hypoid_stiffness
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
-from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 
 EVALUATIONS, POSITIONS = "evaluations", "positions"  # folders of what is kept
 
@@ -209,13 +208,15 @@ def _tightened(
         "pressure": after.highest_pressure / before.highest_pressure,
         "loss": after.mean_sliding / before.mean_sliding,
         "edge_share": after.largest_edge_share,
+        "other_side_pressure": after.highest_other_pressure / before.highest_other_pressure,
+        "other_side_edge_share": after.largest_other_edge_share,
         "force_swing": after.swing(orders)[0] / np.maximum(before.swing(orders)[0], 1e-12),
         "sensitivity": after.spread(orders) / spread if spread.all() else np.zeros(1),
     }
     changed = {}
     for name, reached in over.items():
         most = getattr(asked, name)
-        if most is not None and reached.max() > most * KEPT:
+        if most is not None and reached.max(initial=0.0) > most * KEPT:
             changed[name] = getattr(limits, name) * most / float(reached.max())
     return limits.model_copy(update=changed) if changed else None
 
@@ -230,17 +231,18 @@ def _rank(problem: Problem, before: Evaluation, one: Better) -> float:
 
 def _stiffness(
     problem: Problem, settings: OptimiseSettings, cache: Path | None, jobs: int | None
-) -> PairStiffness:
+) -> Teeth:
     file = problem.file
     if isinstance(file, HelicalGearFile):
         pair = file.helical_pair()
-        return helical_stiffness(pair, settings.helical_body, cache=cache, jobs=jobs)
-    return hypoid_stiffness(file, settings.body, cache=cache, jobs=jobs)[problem.given.side]
+        both = helical_stiffness(pair, settings.helical_body, cache=cache, jobs=jobs)
+        return {"drive": both, "coast": both}
+    return hypoid_stiffness(file, settings.body, cache=cache, jobs=jobs)
 
 
 def _search(
     problem: Problem,
-    stiffness: PairStiffness,
+    stiffness: Teeth,
     settings: SearchSettings,
     folder: Path | None,
     progress: Progress,
@@ -267,7 +269,7 @@ def _goal(problem: Problem, before: Evaluation, limits: Limits) -> Goal:
 
 def _front(
     problem: Problem,
-    stiffness: PairStiffness,
+    stiffness: Teeth,
     settings: OptimiseSettings,
     folder: Path | None,
     best: Found,

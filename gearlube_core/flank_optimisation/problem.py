@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from gearlube_core.flank_optimisation.problem_file import (
 )
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_contact.placement import ALIGNED, Misalignment
-from gearlube_core.hypoid_geometry.flank.flank import CURVES
+from gearlube_core.hypoid_geometry.flank.flank import CURVES, Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.gear_file_sections import FlankRelief
 from gearlube_core.input_file.field_notes import field_notes, field_unit
@@ -71,6 +71,13 @@ class Scenario:
     added: dict[str, float] = field(default_factory=dict)
 
 
+class Load(NamedTuple):
+    """A torque of the pinion [N.m] and the flanks that carry it."""
+
+    torque: float
+    side: Side
+
+
 @dataclass(frozen=True)
 class Problem:
     """A gear pair, what may change of it and by what it is judged.
@@ -112,10 +119,15 @@ class Problem:
                 f"limits.force_swing must be of a hypoid pair, got {file.name}, a helical one: its "
                 "force keeps its arm. Leave it out."
             )
+        if given.limits.other_side_torques_n_m and isinstance(file, HelicalGearFile):
+            raise ParameterError(
+                f"limits.other_side_torques_n_m must be of a hypoid pair, got {file.name}, a "
+                "helical one: both its flanks are alike. Leave them out."
+            )
         allowed = {**_free_settings(file, given), **given.parameters}
         names = tuple(allowed)
         for name in names:
-            _check_parameter(file, name, given.side)
+            _check_parameter(file, name, given)
         ranges = list(allowed.values())
         values = [_start(file, name, one) for name, one in allowed.items()]
         problem = cls(
@@ -137,6 +149,19 @@ class Problem:
     def is_hypoid(self) -> bool:
         """Whether the pair is a hypoid one."""
         return isinstance(self.file, HypoidGearFile)
+
+    @property
+    def other_side(self) -> Side:
+        """The flanks that only limits look at."""
+        return "coast" if self.given.side == "drive" else "drive"
+
+    @property
+    def loads(self) -> tuple[Load, ...]:
+        """Operating torques, then those of the other side."""
+        given = self.given
+        own = [Load(one, given.side) for one in given.torques_n_m]
+        other = [Load(one, self.other_side) for one in given.limits.other_side_torques_n_m]
+        return (*own, *other)
 
     @property
     def steps(self) -> Array:
@@ -296,17 +321,20 @@ def _check_number(file: GearFile, name: str) -> None:
         )
 
 
-def _check_parameter(file: GearFile, name: str, side: str) -> None:
+def _check_parameter(file: GearFile, name: str, given: OptimisationFile) -> None:
     _check_number(file, name)
     parts = name.split(".")
     allowed: Sequence[str] = ("flank",)
     if isinstance(file, HypoidGearFile):
-        allowed = (f"{side}_flank", "machine", "cutter")
+        flanks = [f"{given.side}_flank"]
+        if given.limits.other_side_torques_n_m:
+            flanks = ["drive_flank", "coast_flank"]
+        allowed = (*flanks, "machine", "cutter")
     if parts[0] not in ("pinion", "gear") or parts[1] not in allowed:
         sections = ", ".join(f"{role}.{one}" for role in ("pinion", "gear") for one in allowed)
         raise ParameterError(
             f"A parameter must be a field of {sections}, got {name!r}: the blank stays, and so do "
-            "flanks that do not carry."
+            "flanks that do not carry. limits.other_side_torques_n_m lets the other flanks carry."
         )
 
 

@@ -27,8 +27,8 @@ _RANGE = ("low", "high", "start")
 class Range(Section):
     """Between which values one field may change, in the unit of the field."""
 
-    low: Number = Field(description="Least value")
-    high: Number = Field(description="Largest value")
+    low: Number = Field(description="Lower bound")
+    high: Number = Field(description="Upper bound")
     start: Number | None = Field(
         default=None, description="Where the search starts; absent: the value of the gear file"
     )
@@ -62,22 +62,22 @@ def _flat(data: Any, prefix: str = "") -> Any:
 class Errors(Section):
     """Errors of assembly and making; each is taken with both signs, one at a time."""
 
-    pinion_offset_um: Length = Field(default=0.0, description="E of a hypoid pair, of the offset")
+    pinion_offset_um: Length = Field(default=0.0, description="Hypoid pair: error E of the offset")
     pinion_axial_um: Length = Field(
-        default=0.0, description="P of a hypoid pair, of the pinion's place"
+        default=0.0, description="Hypoid pair: error P of the pinion's axial position"
     )
     gear_axial_um: Length = Field(
-        default=0.0, description="G of a hypoid pair, of the gear's place"
+        default=0.0, description="Hypoid pair: error G of the gear's axial position"
     )
     shaft_angle_mrad: Angle = Field(
-        default=0.0, description="Sigma of a hypoid pair, of the shaft angle"
+        default=0.0, description="Hypoid pair: error Sigma of the shaft angle"
     )
     lead_slope_um: Length = Field(
         default=0.0,
-        description="Of a helical pair: misalignment in the plane of contact over the face",
+        description="Helical pair: misalignment in the plane of contact over the face",
     )
     profile_slope_um: Length = Field(
-        default=0.0, description="Of a helical pair: pressure angle of a gear"
+        default=0.0, description="Helical pair: error of the pressure angle of a gear"
     )
     fields: Annotated[dict[Text, Number], BeforeValidator(_flat)] = Field(
         default={}, description="Tolerances of fields of the gear file, by their dotted names"
@@ -94,7 +94,7 @@ class Limits(Section):
         default=1.0, description="Sliding loss at one coefficient of friction, times that before"
     )
     sensitivity: Times | None = Field(
-        default=1.0, description="How far errors move the mesh orders, times that before"
+        default=1.0, description="Change of the mesh orders by the errors, times that before"
     )
     force_swing: Times | None = Field(
         default=None,
@@ -103,12 +103,36 @@ class Limits(Section):
     )
     edge_share: Share | None = Field(
         default=None,
-        description="Largest part of the load in the border of the flanks; absent: no limit",
+        description="Largest share of the load in the border of the flanks; absent: no limit",
     )
     edge_band: Band = Field(
         default=0.05,
         description="Width of that border at tip, toe and heel, in parts of height and face width",
     )
+    other_side_torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False)] = Field(
+        default=(),
+        description="Torques on the other flanks of a hypoid pair, for the next two limits alone: "
+        "of coast where side is drive",
+    )
+    other_side_pressure: Times | None = Field(
+        default=1.0, description="Highest pressure there, errors included, times that before"
+    )
+    other_side_edge_share: Share | None = Field(
+        default=None,
+        description="Largest part of the load in the border there; absent: no limit",
+    )
+
+    @model_validator(mode="after")
+    def _check_other_side(self) -> Limits:
+        torques = self.other_side_torques_n_m
+        if any(later <= earlier for earlier, later in pairwise(torques)):
+            raise ValueError(f"other_side_torques_n_m must rise, got {list(torques)}")
+        if self.other_side_edge_share is not None and not torques:
+            raise ValueError(
+                "other_side_edge_share needs other_side_torques_n_m, and got none of them. Give "
+                "torques of the pinion, or leave it out"
+            )
+        return self
 
 
 class Settings(Section):
@@ -116,16 +140,17 @@ class Settings(Section):
 
     members: Annotated[tuple[Literal["pinion", "gear"], ...], Field(strict=False, min_length=1)] = (
         Field(
-            default=("pinion",), description="Whose settings may change; the other member is kept"
+            default=("pinion",),
+            description="Member whose settings may change; the other member is kept",
         )
     )
     blades: bool = Field(
         default=False, description="Whether their cutters may change too; false: blades are kept"
     )
-    within_mm: Span = Field(default=0.5, description="Lengths: so much less and more")
-    within_deg: Span = Field(default=0.5, description="Angles: so much less and more")
+    within_mm: Span = Field(default=0.5, description="Range of lengths, plus and minus")
+    within_deg: Span = Field(default=0.5, description="Range of angles, plus and minus")
     within_ratio: Ratio = Field(
-        default=0.01, description="Ratio of roll: this part of itself less and more"
+        default=0.01, description="Range of the ratio of roll, plus and minus, as a fraction of it"
     )
 
 
@@ -141,15 +166,15 @@ class OptimisationFile(InputFile):
     package: ClassVar[str] = "gearlube_core.flank_optimisation"
     title: ClassVar[str] = "problem file"
 
-    name: Text = Field(description="What the better pair is called")
+    name: Text = Field(description="Name of the better pair")
     gear: Text = Field(description="A shipped gear pair or a gear file (TOML)")
     torques_n_m: Annotated[tuple[Torque, ...], Field(strict=False, min_length=1)] = Field(
-        description="Operating torques of the pinion; all count alike"
+        description="Operating torques of the pinion, all with the same weight"
     )
     side: Literal["drive", "coast"] = Field(default="drive", description="Flanks of a hypoid pair")
     orders: Annotated[tuple[Order, ...], Field(strict=False, min_length=1)] = Field(
         default=(1, 2, 3),
-        description="Mesh orders of the loaded transmission error that count, all alike",
+        description="Mesh orders of the loaded transmission error to minimise, with equal weights",
     )
     aim: Literal["mean", "worst"] = Field(
         default="mean",

@@ -14,7 +14,7 @@ from gearlube_core.flank_optimisation.problem_file import Limits, OptimisationFi
 from gearlube_core.flank_optimisation.search import SearchSettings, search
 from tests.helpers.helical_contact_cases import stiff_teeth
 
-TEETH = stiff_teeth(1.1e11)
+TEETH = dict.fromkeys(("drive", "coast"), stiff_teeth(1.1e11))
 SLOPE = 12.0  # um
 
 

@@ -17,8 +17,8 @@ def test_a_blade_of_the_coast_flank_turns_it_by_its_angle_alone():
     data = {"name": "p", "gear": "mohammadpour_2015", "torques_n_m": [50.0]}
     bounds = {BLADE: {"low": 15.0, "high": 19.0}, TILT: {"low": 31.0, "high": 32.5}}
     given = Problem.of(OptimisationFile.from_data({**data, "parameters": bounds}, "p"))
-    model = HeldModel(given, stiffness(), given.start)
-    used, rates = model._other_side(given.start)
+    model = HeldModel(given, {"drive": stiffness()}, given.start)
+    used, rates = model._settings_used(given.start)
     assert np.abs(used).max() < 1.0  # the shipped pair is within the limits
     slopes, rates = OTHER_SLOPE * used[:2], OTHER_SLOPE * rates[:2]
     assert slopes == pytest.approx(side_slopes(given.file, "coast"), rel=1e-9)

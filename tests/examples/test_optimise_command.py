@@ -58,7 +58,7 @@ def test_a_better_pair_is_written_and_a_second_run_computes_nothing(
     tmp_path, monkeypatch, errors, options, designs
 ):
     # rigid teeth: the elastic ones take half a minute
-    monkeypatch.setattr(optimise, "_stiffness", lambda *_: stiff_teeth(1.1e11))
+    monkeypatch.setattr(optimise, "_stiffness", lambda *_: {"drive": stiff_teeth(1.1e11)})
     coarse = CheckSettings(positions=6, helical=held_model.HELICAL_CELLS)
 
     def quick_check(problem, file, stiffness, settings, **more):

@@ -119,7 +119,7 @@ def test_steady_oil_beyond_its_data_is_a_failed_point_that_says_so(axle_folder):
     point = run_point(axle_folder, 60.0, 2500.0, settings)
     assert int(point["status"]) == 0
     said = str(point["message"].values)
-    assert "must come to rest below 423.15 K" in said
+    assert "steady oil temperature must be below 423.15 K" in said
     assert "a larger conductance" in said
 
 

@@ -98,7 +98,7 @@ def test_the_command_writes_the_steady_temperature(tmp_path, caplog):
     ended = CliRunner().invoke(command_line(COMMANDS), [*WORDS, *more])
     assert ended.exit_code == 0, ended.output
     heat = gl.SumpHeat(conductance_at_rest=0.5, conductance_at_100_kmh=6.0)
-    with pytest.raises(ParameterError, match="come to rest"):
+    with pytest.raises(ParameterError, match="steady oil temperature must be below"):
         gl.steady_temperature(
             CAR, torque=300.0, speed=2000.0 * np.pi / 30.0, air_temperature=283.15, heat=heat
         )

@@ -94,8 +94,8 @@ def loss_map(
         bool,
         typer.Option(
             "--steady-temperature",
-            help="Also find the oil temperature at which each torque and speed comes to rest in "
-            "the car, and the loss there.",
+            help="Also find the steady oil temperature of each torque and speed in the car, where "
+            "heat in and out balance, and the loss there.",
         ),
     ] = False,
     air_temperature: AirTemperatureOption = None,

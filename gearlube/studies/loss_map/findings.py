@@ -226,7 +226,7 @@ def _steady(dataset: xr.Dataset) -> list[Finding]:
         found.append(
             Finding(
                 NOTE,
-                f"At constant running the oil comes to rest between {known.min():.0f} and "
+                f"The steady oil temperature is between {known.min():.0f} and "
                 f"{known.max():.0f} °C, with air of {dataset.attrs['air_temperature_degc']:g} °C.",
             )
         )

@@ -41,8 +41,8 @@ class LossMapSettings:
     uncertain : tuple of Uncertain, optional
         Default: `uncertain_of` the axle.
     cooling : Cooling, optional
-        Of the axle in a car; with it the map has the oil temperature at which each torque and
-        speed comes to rest, and the loss there.
+        Of the axle in a car; with it the map has the steady oil temperature of each torque
+        and speed, where heat in and out balance, and the loss there.
 
     Examples
     --------

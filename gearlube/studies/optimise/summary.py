@@ -46,7 +46,7 @@ class MeasureRow(NamedTuple):
         """The most that the limit allows, in the unit of the measure; infinite without limit."""
         if self.limit is None:
             return math.inf
-        return self.limit if self.what == EDGE else self.limit * self.before
+        return self.limit if self.what.startswith(EDGE) else self.limit * self.before
 
 
 EDGE = "largest share of load in the border"
@@ -85,6 +85,14 @@ def measure_rows(found: Optimised, after: Evaluation | None = None) -> list[Meas
             swing = [one.swing(given.orders)[0][j] for one in pair]
             add("mesh orders of the force over its mean", "1", swing, limits.force_swing)
         add(EDGE, "1", [one.largest_edge_share[j] for one in pair], limits.edge_share)
+    for k, torque in enumerate(limits.other_side_torques_n_m):
+        old, new = (1e-9 * float(one.highest_other_pressure[k]) for one in pair)
+        what = f"highest pressure, {problem.other_side} flanks"
+        most = limits.other_side_pressure
+        rows.append(MeasureRow(torque, what, "GPa", old, new, most))
+        old, new = (float(one.largest_other_edge_share[k]) for one in pair)
+        what = f"{EDGE}, {problem.other_side} flanks"
+        rows.append(MeasureRow(torque, what, "1", old, new, limits.other_side_edge_share))
     return rows
 
 

@@ -85,7 +85,8 @@ class Critical:
     force : float
         Of that order there, all bearings and directions, rms [N]; NaN outside.
     hurry : float
-        How fast the order passes the mode, over the fastest that lets it swing up [-].
+        Rate at which the order passes the mode, divided by the highest rate at which the
+        resonance still builds up [-].
     """
 
     mesh_order: int

@@ -1,4 +1,4 @@
-"""The oil temperature at which a point of a sweep comes to rest."""
+"""The steady oil temperature of a point of a sweep, where heat in and out balance."""
 
 from __future__ import annotations
 
