@@ -9,10 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
+from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.kernels.by_class import by_class
+from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
 
@@ -41,3 +44,57 @@ FlankLawMaker = Callable[[SurfaceParameters, SolidParameters], FlankLaw]
 
 # of the law that is given; see `kernels.by_class`
 flank_state = by_class()(FlankLaw.flank_state)
+
+
+@kernel
+def _unbounded(
+    law: FlankLaw,
+    load: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    geometry: ContactGeometry,
+    ellipse: FlankEllipse,
+    oil: LubricantState,
+    film_model: Array,
+    angle: float,
+    asked: float,
+    kept: Array,
+) -> BoundedFlank:
+    state = flank_state(law, load, entrainment_speed, sliding_speed, geometry, oil)
+    return BoundedFlank(state, 0.0, 0.0, 0.0)
+
+
+@by_class(_unbounded)
+def bounded_flank(
+    law: FlankLaw,
+    load: float,
+    entrainment_speed: float,
+    sliding_speed: float,
+    geometry: ContactGeometry,
+    ellipse: FlankEllipse,
+    oil: LubricantState,
+    film_model: Array,
+    angle: float,
+    asked: float,
+    kept: Array,
+) -> BoundedFlank:
+    """Return the state of a flank with its bounds; a law without this kernel has no bounds.
+
+    Parameters
+    ----------
+    law
+        The law of friction.
+    load, entrainment_speed, sliding_speed, geometry, oil
+        As in `FlankLaw.flank_state`.
+    ellipse
+        The rest of the contact's geometry at this position.
+    film_model : ndarray
+        Numbers of the film model; empty where none is in use.
+    angle
+        Of the pinion [rad].
+    asked
+        How a film model is asked, see `flank_bound`.
+    kept : ndarray, shape (N_KEPT,)
+        What is kept of it between calls, see `kept_corrections`.
+    """
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name

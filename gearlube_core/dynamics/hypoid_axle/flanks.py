@@ -9,12 +9,16 @@ from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import (
     ARM_G,
+    ACROSS_FLOW,
     ARM_P,
+    DELTA,
     ENTRAIN,
     LINE_LENGTH,
     LINE_RADIUS,
+    LOG_ELLIPTICITY,
     N_CHANNELS,
     PRESSURE,
+    PSI,
     R_E,
     ROLL,
     SHARE,
@@ -23,8 +27,10 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Y,
     XI_Z,
 )
-from gearlube_core.friction.flank_data import ContactGeometry, FlankState
-from gearlube_core.friction.flank_law import flank_state
+from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse
+from gearlube_core.friction.flank_data import ContactGeometry
+from gearlube_core.friction.flank_law import bounded_flank
+from gearlube_core.friction.kept_corrections import N_KEPT, forget
 from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
@@ -32,6 +38,18 @@ from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant_state import LubricantState
 
 _PAIRS = PAIRS
+# places of what `flank_sum` keeps
+BOUND = 3 * PAIRS  # of the friction coefficient of each pair
+BOUND_POWER = 4 * PAIRS  # of the power lost in friction
+KEPT = BOUND_POWER + 1  # corrections of the film model, of each pair
+N_FRICTION = KEPT + PAIRS * N_KEPT
+
+
+@kernel
+def kept_of(friction: Array, pair: int) -> Array:
+    """Return the corrections of the film model of one pair in what `flank_sum` keeps."""
+    first = KEPT + pair * N_KEPT
+    return friction[first : first + N_KEPT]
 
 
 class FlankSum(NamedTuple):
@@ -71,15 +89,33 @@ def pair_friction(
     channels: Array,
     oil: LubricantState,
     p: AxleParameters,
-) -> FlankState:
-    """Return the state of one flank under `load` [N] that slides at `sliding` [m/s]."""
-    return flank_state(
+    film_model: Array,
+    asked: float,
+    kept: Array,
+) -> BoundedFlank:
+    """Return the state of one flank under `load` [N] that slides at `sliding` [m/s].
+
+    The last three are those of `bounded_flank`.
+    """
+    return bounded_flank(
         p.flank_law,
         load,
         channels[ENTRAIN] * s[W_P],
         sliding,
         ContactGeometry(channels[R_E], channels[SIDE_FLOW], channels[PRESSURE]),
+        FlankEllipse(
+            channels[LINE_RADIUS],
+            channels[ACROSS_FLOW],
+            abs(channels[ROLL] / channels[ENTRAIN]),
+            channels[PSI],
+            channels[DELTA],
+            channels[LOG_ELLIPTICITY],
+        ),
         oil,
+        film_model,
+        s[PHI_P],
+        asked,
+        kept,
     )
 
 
@@ -114,6 +150,7 @@ def flank_sum(
     refresh: float,
     friction: Array,
     channels: Array,
+    film_model: Array,
 ) -> FlankSum:
     """Return friction and rolling losses of all pairs that share the mesh force `force` [N].
 
@@ -128,12 +165,17 @@ def flank_sum(
     oil : LubricantState
     p : AxleParameters
     refresh : float
-        Not 0: evaluate film and traction anew; else keep the coefficients in `friction`, with
-        the loads, arms and directions of this state.
-    friction : ndarray of shape (3 PAIRS,)
-        Viscous and boundary friction over load of each pair [-], then the rolling forces [N].
+        0: keep the coefficients in `friction`, with the loads, arms and directions of this state;
+        else evaluate film and traction anew, a film model as ALONE, AGAIN or CARRIED says, see
+        `flank_bound`.
+    friction : ndarray of shape (N_FRICTION,)
+        Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
+        of the friction over load [-], that of the power lost in friction, always anew [W], and
+        `kept_of` each pair.
     channels : ndarray of shape (N_CHANNELS,)
         Work space.
+    film_model : ndarray
+        Numbers of the film model, or empty.
 
     References
     ----------
@@ -152,6 +194,7 @@ def flank_sum(
     viscous = 0.0
     boundary = 0.0
     rolled = 0.0
+    doubt = 0.0
     if (p.friction != 0.0 or p.rolling != 0.0) and force != 0.0:
         for pair in range(_PAIRS):
             pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
@@ -160,9 +203,23 @@ def flank_sum(
                 sliding = sliding_speed(s, channels)
                 if p.friction != 0.0:
                     if refresh != 0.0:
-                        flank = pair_friction(s, load, sliding, channels, oil, p)
+                        bounded = pair_friction(
+                            s,
+                            load,
+                            sliding,
+                            channels,
+                            oil,
+                            p,
+                            film_model,
+                            refresh,
+                            kept_of(friction, pair),
+                        )
+                        flank = bounded.state
                         friction[2 * pair] = flank.viscous_friction / load
                         friction[2 * pair + 1] = flank.boundary_friction / load
+                        friction[BOUND + pair] = bounded.friction_bound * (
+                            friction[2 * pair] + friction[2 * pair + 1]
+                        )
                     f_v = friction[2 * pair] * load
                     f_b = friction[2 * pair + 1] * load
                     f = f_v + f_b
@@ -175,6 +232,7 @@ def flank_sum(
                     f_z -= f * channels[XI_Z]
                     viscous += f_v * abs(sliding)
                     boundary += f_b * abs(sliding)
+                    doubt += friction[BOUND + pair] * load * abs(sliding)
                 if p.rolling != 0.0:
                     speed = s[W_P] + p.ratio * s[W_G]
                     rolling = 0.5 * channels[ROLL] * speed
@@ -192,8 +250,13 @@ def flank_sum(
                 friction[2 * pair] = 0.0
                 friction[2 * pair + 1] = 0.0
                 friction[2 * _PAIRS + pair] = 0.0
+                friction[BOUND + pair] = 0.0
+                forget(kept_of(friction, pair))
     elif refresh != 0.0:
         # teeth may touch before the next refresh: what stands here is then used
-        for i in range(3 * _PAIRS):
+        for i in range(BOUND_POWER):
             friction[i] = 0.0
+        for pair in range(_PAIRS):
+            forget(kept_of(friction, pair))
+    friction[BOUND_POWER] = doubt
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary, rolled)

@@ -9,17 +9,20 @@ from gearlube_core.arrays import Array
 from gearlube_core.drag.churning import churning_torque
 from gearlube_core.drag.seals import seal_drag
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import PALMGREN, BearingDrag, bearing_drag
+from gearlube_core.dynamics.hypoid_axle.flanks import BOUND_POWER
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshAtLoad,
     MeshLevels,
     blend_mesh,
     follow_flank,
+    place_at_load,
     series_size,
 )
 from gearlube_core.dynamics.hypoid_axle.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
 from gearlube_core.dynamics.hypoid_axle.state import (
+    FRICTION_BOUND,
     LOAD_TORQUE,
     MICRO,
     N_ENERGIES,
@@ -39,6 +42,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.friction.flank_bound import AGAIN, ALONE, CARRIED
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
@@ -49,6 +53,7 @@ TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
 MAX_STEPS = 200_000  # in one communication interval; half a second of computing
+STEPS_PER_CORRECTION = 3  # integrator steps from one evaluation of a film model to the next
 STEPS_PER_EXPANSION = 12  # integrator steps that share an expansion of the bearing forces, at most
 # um at 1 step per highest period, displacement from where they were expanded that ends it sooner;
 # 0.07 um at 17 steps. It falls with the square of the step, so that what is left out, of second
@@ -98,6 +103,7 @@ def rk4_step(
     h: float,
     first: float,
     expand: float,
+    middle: float,
     inputs: StepInputs,
     mesh: MeshAtLoad,
     oil: LubricantState,
@@ -111,6 +117,8 @@ def rk4_step(
     stages until the next such step; with `first`, at the first stage. Tractions are evaluated at
     the first middle and the last stage, with `first` also at the first; the stages after these
     keep them, which lie within O(h^2) of them. Everything else is evaluated at every stage.
+    `middle` says how a film model is asked at the first middle stage; at the last one its
+    corrections are carried on.
 
     Parameters
     ----------
@@ -126,7 +134,7 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, 1.0, expand, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, middle, expand, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
@@ -134,7 +142,7 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, 1.0, 0.0, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, CARRIED, 0.0, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
@@ -250,7 +258,7 @@ def advance(
     at_window = at_series + series_size(table)
     stages = work[0:at_scratch]
     scratch = work[at_scratch:at_series]
-    mesh = MeshAtLoad(work[at_series:at_window], table.n_orders, work[at_window:], table.n_nodes)
+    mesh = place_at_load(table, work[at_series:at_window], work[at_window:])
     oil = lubricant_state(p.oil, oil_temperature)
     blend_mesh(s[LOAD_TORQUE], s[SIDE], table, mesh)
     wanted = duration / step_limit(p, control, s[W_P], mesh.series[K_M])
@@ -261,6 +269,7 @@ def advance(
     for i in range(N_ENERGIES):
         s[WORK_MARK + i] = s[PINION_WORK + i]
     s[TIME_IN_STEP] = duration
+    s[FRICTION_BOUND] = 0.0
     reach = EXPANSION_REACH / control.steps_per_highest_period**2
     expanded_at = displacements(s, 0.0)
     age = 0
@@ -280,8 +289,9 @@ def advance(
         rk4_step(
             s,
             h,
-            1.0 if k == 0 else 0.0,
+            ALONE if k == 0 else 0.0,
             expand,
+            AGAIN if k % STEPS_PER_CORRECTION == 0 else CARRIED,
             inputs,
             mesh,
             oil,
@@ -289,6 +299,7 @@ def advance(
             scratch,
             stages,
         )
+        s[FRICTION_BOUND] += h * scratch[BOUND_POWER]
         if max(abs(s[W_P]), abs(s[W_G])) > MAX_SPEED:
             return NOT_FINITE if abs(s[X]) > DIVERGED_UM else TOO_FAST
         if table.levels[0] < 0.0:

@@ -28,6 +28,7 @@ from gearlube_core.dynamics.hypoid_axle.mesh_at_load import (
     MeshFields,
     MeshLevels,
     blend_mesh,
+    place_at_load,
 )
 from gearlube_core.dynamics.hypoid_axle.outputs import FLANKS, RANGES, write_outputs
 from gearlube_core.dynamics.hypoid_axle.rhs import SCRATCH, StepInputs, axle_rhs
@@ -165,7 +166,7 @@ def mesh_cycle(
         pinion [N.m]: `torque` less friction and drag on the pinion.
     """
     at_window = _AT_SERIES + N_SERIES * (2 * table.n_orders + 1)
-    data = MeshAtLoad(work[_AT_SERIES:at_window], table.n_orders, work[at_window:], table.n_nodes)
+    data = place_at_load(table, work[_AT_SERIES:at_window], work[at_window:])
     mean = work[_AT_MEAN:_AT_REST]
     oil = lubricant_state(p.oil, oil_temperature)
     # drag that takes the load of each roller feels the last hundredth of a micrometre
@@ -289,9 +290,7 @@ def cycle_kernels(bearing: type[ShaftBearings], law: type[FlankLaw]) -> CycleKer
                 found[k, 1] = oil_temperature
                 found[k, 2] = 0.0
                 at_window = _AT_SERIES + N_SERIES * (2 * table.n_orders + 1)
-                data = MeshAtLoad(
-                    work[_AT_SERIES:at_window], table.n_orders, work[at_window:], table.n_nodes
-                )
+                data = place_at_load(table, work[_AT_SERIES:at_window], work[at_window:])
                 torque = (torques[k], 0.0)
                 for j in range(4):
                     s[PHI_P] = 0.5 * math.pi * j / p.mesh.z_p

@@ -26,5 +26,6 @@ LOAD_TORQUE = 29  # filtered abs(pinion torque) that selects the load level [N.m
 TIME_IN_STEP = 30  # length of the last communication step [s]
 WORK_MARK = 31  # these energies at the start of the last communication step [J]
 SIDE = WORK_MARK + N_ENERGIES  # below 0: the mesh data are those of the coast flanks [-]
-N_STATE = SIDE + 1
+FRICTION_BOUND = SIDE + 1  # of the flank friction losses of the last communication step [J]
+N_STATE = FRICTION_BOUND + 1
 N_CONTINUOUS = LOAD_TORQUE + 1  # the integrated states and the load level: no jumps but at events
