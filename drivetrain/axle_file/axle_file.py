@@ -49,13 +49,14 @@ _AS_PINION = "as the pinion's"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CarAxle:
-    """An axle in its car, as an axle file gives them.
+    """An axle and its car, as `read_axle` returns them from an axle file.
 
     Parameters
     ----------
     name, source : str
-        Of the file.
+        Name and source in the file.
     axle : HypoidAxleParameters
+        Parameters of the axle model.
     driveline : DrivelineParameters
         The car from the crankshaft to the road; its final drive has the teeth of the mesh table.
     inputs : tuple of InputNote

@@ -129,7 +129,7 @@ class OperationSection(Section):
 
 
 class BearingFile(InputFile):
-    """A tapered roller bearing as a drawing and a catalogue describe it.
+    """Bearing file: a tapered roller bearing as a drawing and a catalogue describe it.
 
     Examples
     --------

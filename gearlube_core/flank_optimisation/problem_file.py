@@ -169,7 +169,7 @@ class Settings(Section):
 
 
 class OptimisationFile(InputFile):
-    """What to make better of a gear pair, and within which bounds.
+    """Problem file of an optimisation: what may change on a gear pair, and what limits it.
 
     Examples
     --------

@@ -44,12 +44,12 @@ _ABSENT = {
 
 
 class HelicalGearFile(InputFile):
-    """A helical or spur gear pair as its source describes it.
+    """Gear file of a helical or spur pair: geometry, flank modifications, bodies and bearings.
 
     Notes
     -----
-    What a file leaves out is completed: roots from the basic rack, inertia as a steel disc.
-    `provenance` says of every field whether its source prints it.
+    Values that a file leaves out are completed: root diameters from the basic rack, inertia from
+    a steel disc. `provenance` tells for every field whether its source prints it.
 
     Examples
     --------

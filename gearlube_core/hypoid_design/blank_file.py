@@ -38,7 +38,7 @@ _OWN = "this package's choice"
 
 
 class BlankFile(InputFile):
-    """Teeth, offset, size, spiral angle and cutter of a pair that is to be designed.
+    """Blank file of a hypoid or bevel pair to be designed: teeth, offset, size, spiral, cutter.
 
     References
     ----------

@@ -36,7 +36,7 @@ Origin = Literal["table", "inferred", "completed"]
 
 
 class HypoidGearFile(InputFile):
-    """A hypoid gear pair as a workshop describes it.
+    """Gear file of a hypoid pair: blanks, cutters and machine settings as a workshop has them.
 
     References
     ----------

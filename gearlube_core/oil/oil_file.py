@@ -55,19 +55,19 @@ _LIBRARY_UNITS = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DescribedOil:
-    """An oil and where its numbers are from.
+    """An oil and where its numbers come from, as `read_oil` returns it.
 
     Parameters
     ----------
     name, source : str
     lubricant : Lubricant
-        What every computation takes.
+        The oil as all computations take it.
     inputs : tuple of InputNote
         Every number with value, unit, and whether it is given, inferred or assumed.
     limiting_coefficient : float
-        Limiting shear stress of the film over pressure [-]; nan of a shipped oil.
+        Limiting shear stress of the film divided by pressure [-]; nan for an oil of the library.
     density_slope : float
-        d rho/dT [kg/(m3 K)]; nan of a shipped oil, whose density is one number.
+        d rho/dT [kg/(m3 K)]; nan for an oil of the library, whose density is constant.
 
     Examples
     --------
@@ -228,12 +228,13 @@ def described_library_oil(name: str) -> DescribedOil:
 
 
 def read_oil(name: str | Path) -> DescribedOil:
-    """Return the oil of an oil file, of a shipped oil file or of the library, by path or name.
+    """Return an oil from an oil file or the library, by the path or the name.
 
     Raises
     ------
     ParameterError
-        The file is missing or wrong, all wrong fields are named; or there is no such oil.
+        The file is missing or wrong (the message names all wrong fields), or there is no oil of
+        this name.
 
     Examples
     --------

@@ -52,22 +52,22 @@ def export_results(
     to : str
         csv, mat, uff58, mdf4 or vtk.
     out : str or Path, optional
-        File, with csv and vtk a folder. Default: the name of the dataset, in this folder.
+        File to write; with csv and vtk a folder. Default: the name of the dataset, in this folder.
     variables : iterable of str
-        Names; empty: all.
+        Names of variables; empty: all.
     spans : mapping
-        First and last value as text, both inside, by dimension or variable over one dimension,
-        {"time": ("2", "5")}; in the unit of the dataset.
+        First and last value as text, both included, for a dimension or a variable over one
+        dimension, {"time": ("2", "5")}; in the unit of the dataset.
     overwrite : bool
-        Write also where `out` is there.
+        True: write even if `out` exists.
 
     Raises
     ------
     ParameterError
-        An unknown format, variable or span, a dataset that the format cannot hold, or `out` is
-        there.
+        The format, a variable or a span is not known, the format cannot hold the dataset, or `out`
+        exists.
     FileError
-        No dataset, or a package is missing.
+        There is no dataset, or a package is missing.
 
     Examples
     --------

@@ -124,7 +124,7 @@ class ContactCase(FilmCase):
 
 
 class LineCase(ContactCase):
-    """A lubricated line contact.
+    """Case of a lubricated line contact, for `run_line`: contact, oil, speeds, load, grid.
 
     Examples
     --------
@@ -202,7 +202,7 @@ class LineCase(ContactCase):
 
 
 class PointCase(ContactCase):
-    """A lubricated point contact.
+    """Case of a lubricated point contact, for `run_point`: contact, oil, speeds, load, grid.
 
     Examples
     --------

@@ -50,7 +50,7 @@ class HypoidSolver(Section):
 
 
 class HypoidCase(FilmCase):
-    """One tooth pair of a hypoid axle through its engagement.
+    """Case of one tooth pair of a hypoid axle, from entry to exit, for `run_hypoid`.
 
     Examples
     --------

@@ -143,7 +143,7 @@ class RoughFrames(Section):
 
 
 class RoughCase(ContactCase):
-    """A part of a line contact between rough surfaces in motion.
+    """Case of a line contact between rough surfaces in motion, for `run_rough`; a part of the line.
 
     Examples
     --------

@@ -27,7 +27,7 @@ Text = Annotated[str, Field(min_length=1)]
 
 
 class MeasuredFile(InputFile):
-    """Measured flanks of a hypoid pair, as a measuring machine hands them out.
+    """Measured-gear file: flanks, pitch and waves of a hypoid pair from a measuring machine.
 
     Examples
     --------
