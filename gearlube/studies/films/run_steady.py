@@ -40,20 +40,20 @@ def run_line(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the film of a line contact; the case chooses isothermal or thermal.
+    """Return the film of a line contact, isothermal or thermal as the case says.
 
     Parameters
     ----------
     case
-        `LineCase.named` of a shipped case, `LineCase.from_toml` of a file or
-        `LineCase.from_data` of numbers.
+        `LineCase.named` for a shipped case, `LineCase.from_toml` for a file or
+        `LineCase.from_data` for numbers.
     film_error
-        Relative error of the films that is wanted [-]: the spacing is halved until the estimate
-        is below it. None: the grid of the case.
+        Wanted relative error of the films [-]: the spacing is halved until the estimate is below
+        it. None: the grid of the case.
     folder
-        Where line.nc, summary.csv and figures are written; None: nothing is written.
+        Folder for line.nc, summary.csv and figures; None: nothing is written.
     progress
-        Called with the share done and what is done now.
+        Called with the share done and a sentence on what runs.
 
     Returns
     -------
@@ -89,7 +89,7 @@ def run_point(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return the film of a point contact; the case chooses isothermal or thermal.
+    """Return the film of a point contact, isothermal or thermal as the case says.
 
     Parameters
     ----------
