@@ -17,7 +17,13 @@ from gearlube_core.friction.flank_film import (
     flank_film_place,
     reference_place,
 )
-from gearlube_core.friction.kept_corrections import carried, is_kept, keep, keep_bound, kept_bound
+from gearlube_core.friction.kept_corrections import (
+    can_carry,
+    carried_corrections,
+    keep_bound,
+    keep_corrections,
+    kept_bound,
+)
 from gearlube_core.friction.mixed_friction import (
     SPEED_FLOOR,
     asperity_contact,
@@ -88,12 +94,13 @@ def solved_flank_friction(
     speed = max(abs(entrainment_speed), SPEED_FLOOR)
     slip = abs(sliding_speed)
     inlet = flank_film_inlet(lubricant, solid, limiting_slope, film_model)
-    fresh = asked != CARRIED or not is_kept(kept)
+    fresh = asked != CARRIED or not can_carry(kept, F_film)
     if fresh:
         place = flank_film_place(geometry, ellipse, solid)
         corrections = film_corrections(film_model, F_film, speed, slip, place, inlet)
-        keep(kept, corrections, angle, asked == AGAIN)
-    corrections = carried(kept, angle)
+        keep_corrections(kept, corrections, F_film, angle, asked == AGAIN)
+    else:
+        corrections = carried_corrections(kept, angle)
     place = reference_place(geometry, ellipse)
     found = corrected_film(film_model, F_film, speed, slip, place, inlet, corrections)
     w = found.outside

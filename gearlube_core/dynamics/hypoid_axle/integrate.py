@@ -42,7 +42,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
-from gearlube_core.friction.flank_bound import AGAIN, ALONE, CARRIED
+from gearlube_core.friction.flank_bound import AGAIN, ALONE, CARRIED, EXTENDED
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
@@ -53,7 +53,7 @@ TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
 MAX_STEPS = 200_000  # in one communication interval; half a second of computing
-STEPS_PER_CORRECTION = 3  # integrator steps from one evaluation of a film model to the next
+STEPS_PER_CORRECTION = 4  # integrator steps from one evaluation of a film model to the next
 STEPS_PER_EXPANSION = 12  # integrator steps that share an expansion of the bearing forces, at most
 # um at 1 step per highest period, displacement from where they were expanded that ends it sooner;
 # 0.07 um at 17 steps. It falls with the square of the step, so that what is left out, of second
@@ -142,7 +142,7 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, CARRIED, 0.0, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, EXTENDED, 0.0, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
