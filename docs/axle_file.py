@@ -23,6 +23,7 @@ SECTIONS = {
     "housing": "[housing]: the gear in its oil",
     "seals": "[seals]: of the shafts",
     "model": "[model]: how the axle is computed",
+    "film": "[film]: film and friction of the oil on the flanks",
     "vehicle": "[vehicle]",
     "tyre": "[tyre]",
     "gearbox": "[gearbox]",
@@ -205,6 +206,8 @@ _FIELDS = {
     "pinion_seal_torque": "`seals.pinion_torque_n_m`",
     "wheel_seal_torque": "`seals.wheel_torque_n_m`",
     "rolling": "`model.flank_rolling`",
+    "film": "`film.model`",
+    "film_limiting_slope": "`film.limiting_slope`",
     "bearing_approach": "`model.bearing_approach`",
 }
 

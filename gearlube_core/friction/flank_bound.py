@@ -7,8 +7,8 @@ from typing import NamedTuple
 from gearlube_core.friction.flank_data import FlankState
 
 # how a film model is asked: for this contact alone; likewise, and for how it changes since the last
-# time; not at all, but by carrying its last answers on; or even the friction coefficients
-ALONE, AGAIN, CARRIED, EXTENDED = 1.0, 2.0, 3.0, 4.0
+# time; not at all, but by carrying its last answers on
+ALONE, AGAIN, CARRIED = 1.0, 2.0, 3.0
 
 
 class FlankEllipse(NamedTuple):

@@ -23,7 +23,6 @@ from gearlube_core.friction.solved_flank import solved_flank_friction
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
-
 FORMULA, SOLVED = range(2)  # places in FILM_MODELS
 FILM_MODELS = ("formula", "solved")  # where film and friction of the oil are from
 

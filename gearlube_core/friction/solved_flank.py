@@ -10,7 +10,7 @@ from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model.solved_film import corrected_film, film_corrections
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
 from gearlube_core.friction.flank import LOAD_FLOOR, flank_friction
-from gearlube_core.friction.flank_bound import CARRIED, AGAIN, BoundedFlank, FlankEllipse
+from gearlube_core.friction.flank_bound import AGAIN, CARRIED, BoundedFlank, FlankEllipse
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.friction.flank_film import (
     flank_film_inlet,
@@ -94,11 +94,11 @@ def solved_flank_friction(
     speed = max(abs(entrainment_speed), SPEED_FLOOR)
     slip = abs(sliding_speed)
     inlet = flank_film_inlet(lubricant, solid, limiting_slope, film_model)
-    fresh = asked != CARRIED or not can_carry(kept, F_film)
+    fresh = asked != CARRIED or not can_carry(kept)
     if fresh:
         place = flank_film_place(geometry, ellipse, solid)
         corrections = film_corrections(film_model, F_film, speed, slip, place, inlet)
-        keep_corrections(kept, corrections, F_film, angle, asked == AGAIN)
+        keep_corrections(kept, corrections, angle, asked == AGAIN)
     else:
         corrections = carried_corrections(kept, angle)
     place = reference_place(geometry, ellipse)

@@ -8,8 +8,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_axle.state import PHI_P, V_G, V_P, W_G, W_P
 from gearlube_core.dynamics.packed_mesh import (
-    ARM_G,
     ACROSS_FLOW,
+    ARM_G,
     ARM_P,
     DELTA,
     ENTRAIN,
@@ -27,17 +27,11 @@ from gearlube_core.dynamics.packed_mesh import (
     XI_Y,
     XI_Z,
 )
-from gearlube_core.friction.flank_bound import ALONE, EXTENDED, BoundedFlank, FlankEllipse
+from gearlube_core.friction.flank_bound import BoundedFlank, FlankEllipse
 from gearlube_core.friction.flank_data import ContactGeometry
 from gearlube_core.friction.flank_law import bounded_flank
-from gearlube_core.friction.kept_corrections import (
-    N_KEPT,
-    can_carry_coefficients,
-    carried_coefficients,
-    forget,
-    keep_coefficients,
-)
 from gearlube_core.friction.flank_rolling import RollingGeometry, flank_rolling_force
+from gearlube_core.friction.kept_corrections import N_KEPT, forget
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
@@ -173,8 +167,7 @@ def flank_sum(
     refresh : float
         0: keep the coefficients in `friction`, with the loads, arms and directions of this state;
         else evaluate film and traction anew, a film model as ALONE, AGAIN or CARRIED says, see
-        `flank_bound`. With a film model the coefficients are carried on in place of being kept,
-        and with EXTENDED too.
+        `flank_bound`.
     friction : ndarray of shape (N_FRICTION,)
         Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
         of the friction over load [-], that of the power lost in friction, always anew [W], and
@@ -202,7 +195,6 @@ def flank_sum(
     boundary = 0.0
     rolled = 0.0
     doubt = 0.0
-    by_model = film_model.size > 0
     if (p.friction != 0.0 or p.rolling != 0.0) and force != 0.0:
         for pair in range(_PAIRS):
             pair_channels(window, n_nodes, p.mesh.z_p, s[PHI_P], pair, N_CHANNELS, channels)
@@ -210,9 +202,7 @@ def flank_sum(
             if load > 0.0:
                 sliding = sliding_speed(s, channels)
                 if p.friction != 0.0:
-                    kept = kept_of(friction, pair)
-                    extended = by_model and can_carry_coefficients(kept, load)
-                    if refresh != 0.0 and not (extended and refresh == EXTENDED):
+                    if refresh != 0.0:
                         bounded = pair_friction(
                             s,
                             load,
@@ -222,26 +212,13 @@ def flank_sum(
                             p,
                             film_model,
                             refresh,
-                            kept,
+                            kept_of(friction, pair),
                         )
                         flank = bounded.state
                         friction[2 * pair] = flank.viscous_friction / load
                         friction[2 * pair + 1] = flank.boundary_friction / load
                         friction[BOUND + pair] = bounded.friction_bound * (
                             friction[2 * pair] + friction[2 * pair + 1]
-                        )
-                        if by_model:
-                            keep_coefficients(
-                                kept,
-                                friction[2 * pair],
-                                friction[2 * pair + 1],
-                                load,
-                                s[PHI_P],
-                                refresh != ALONE,
-                            )
-                    elif extended:
-                        friction[2 * pair], friction[2 * pair + 1] = carried_coefficients(
-                            kept, s[PHI_P]
                         )
                     f_v = friction[2 * pair] * load
                     f_b = friction[2 * pair + 1] * load

@@ -42,7 +42,7 @@ from gearlube_core.dynamics.hypoid_axle.state import (
 )
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import MAX_SPEED
-from gearlube_core.friction.flank_bound import AGAIN, ALONE, CARRIED, EXTENDED
+from gearlube_core.friction.flank_bound import AGAIN, ALONE, CARRIED
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
@@ -53,7 +53,6 @@ TOO_MANY_STEPS = 2
 TOO_FAST = 3
 
 MAX_STEPS = 200_000  # in one communication interval; half a second of computing
-STEPS_PER_CORRECTION = 4  # integrator steps from one evaluation of a film model to the next
 STEPS_PER_EXPANSION = 12  # integrator steps that share an expansion of the bearing forces, at most
 # um at 1 step per highest period, displacement from where they were expanded that ends it sooner;
 # 0.07 um at 17 steps. It falls with the square of the step, so that what is left out, of second
@@ -103,7 +102,6 @@ def rk4_step(
     h: float,
     first: float,
     expand: float,
-    middle: float,
     inputs: StepInputs,
     mesh: MeshAtLoad,
     oil: LubricantState,
@@ -117,8 +115,8 @@ def rk4_step(
     stages until the next such step; with `first`, at the first stage. Tractions are evaluated at
     the first middle and the last stage, with `first` also at the first; the stages after these
     keep them, which lie within O(h^2) of them. Everything else is evaluated at every stage.
-    `middle` says how a film model is asked at the first middle stage; at the last one its
-    corrections are carried on.
+    A film model is evaluated at the first middle stage alone, with `first` also at the first; at
+    the last stage its corrections are carried on.
 
     Parameters
     ----------
@@ -134,7 +132,7 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] = slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, middle, expand, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, AGAIN, expand, scratch, slope)
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + 0.5 * h * slope[i]
@@ -142,7 +140,7 @@ def rk4_step(
     for i in range(N_ODE):
         total[i] += 2.0 * slope[i]
         trial[i] = s[i] + h * slope[i]
-    axle_rhs(trial, inputs, mesh, oil, p, EXTENDED, 0.0, scratch, slope)
+    axle_rhs(trial, inputs, mesh, oil, p, CARRIED, 0.0, scratch, slope)
     for i in range(N_ODE):
         s[i] += h / 6.0 * (total[i] + slope[i])
     s[LOAD_TORQUE] += -math.expm1(-h / LOAD_FILTER_TIME) * (
@@ -291,7 +289,6 @@ def advance(
             h,
             ALONE if k == 0 else 0.0,
             expand,
-            AGAIN if k % STEPS_PER_CORRECTION == 0 else CARRIED,
             inputs,
             mesh,
             oil,

@@ -29,12 +29,14 @@ from gearlube_core.mesh_table.kernels import (
     transmission_error,
 )
 
-
 NO_FILM_MODEL = np.zeros(0)
 
 
 class MeshLevels(NamedTuple):
-    """The mesh table at all its loads, and the film model of its flanks; shapes as in `packed_mesh.PackedMesh`."""
+    """The mesh table at all its loads, and the film model of its flanks.
+
+    Shapes as in `packed_mesh.PackedMesh`.
+    """
 
     levels: Array  # signed pinion torque [N.m]
     series: Array  # Fourier coefficients

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal, get_args
 
+from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
-from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.contact.greenwood_tripp_1971 import (
     FLANK_SIGMA_OVER_BETA,
@@ -23,12 +23,12 @@ from gearlube_core.contact.solid import (
 from gearlube_core.drag.churning import CHURNING_LAWS, ChurningConstants, ChurningLaw
 from gearlube_core.dynamics.hypoid_axle.bearing_drag import TORQUE_LOSSES, TorqueLoss
 from gearlube_core.dynamics.hypoid_axle.kernel_parameters import AxleParameters, AxleScalars
+from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL
 from gearlube_core.dynamics.hypoid_axle.mesh_force import (
     MeshForceConstants,
     equivalent_mass,
     modal_damping,
 )
-from gearlube_core.dynamics.hypoid_axle.mesh_at_load import NO_FILM_MODEL
 from gearlube_core.dynamics.model_ranges import model_ranges
 from gearlube_core.dynamics.packed_mesh import STIFFNESS_SERIES
 from gearlube_core.dynamics.ranges import Range, range_limits
@@ -66,8 +66,8 @@ NO_MODAL_LOSS = (
 # friction laws whose parts besides the film's are consistent, so that a solved film can stand in
 FRICTION_WITH_SOLVED_FILM = ("consistent", "off", "zhou_hoeprich_1991")
 PRINTED_WITH_SOLVED_FILM = (
-    "film 'solved' must come with friction 'consistent', 'zhou_hoeprich_1991' or 'off': the printed "
-    "laws have a film formula of their own. Change one of the two."
+    "a solved film must come with the friction law consistent, zhou_hoeprich_1991 or off: the "
+    "others have films of their own. Change one of the two."
 )
 FILM_MODEL = "hypoid_flank"  # of the package, for flanks of steel
 REFERENCE_TORQUE = 50.0  # N.m at the pinion, Karagiannis et al. 2012
@@ -192,8 +192,6 @@ class HypoidAxleParameters(AxleScalars):
             check_option("friction", self.friction, get_args(Friction))
         check_option("bearing_torque_loss", self.bearing_torque_loss, TORQUE_LOSSES)
         check_option("film", self.film, FILM_MODELS)
-        if self.film == "solved" and self.friction not in FRICTION_WITH_SOLVED_FILM:
-            raise ParameterError(f"{PRINTED_WITH_SOLVED_FILM} Got {self.friction!r}.")
         check_option("rolling", self.rolling, FLANK_ROLLING_LAWS)
         check_option("churning", self.churning, CHURNING_LAWS)
         check_scalars(self)
@@ -285,9 +283,17 @@ class HypoidAxleParameters(AxleScalars):
         return law
 
     def film_model(self) -> Array:
-        """Return the numbers of the film model for one axle; empty with the formulas."""
+        """Return the numbers of the film model for one axle; empty with the formulas.
+
+        Raises
+        ------
+        ParameterError
+            The film is solved and the friction law has a film of its own.
+        """
         if self.film == "formula":
             return NO_FILM_MODEL
+        if self.friction not in FRICTION_WITH_SOLVED_FILM:
+            raise ParameterError(f"{PRINTED_WITH_SOLVED_FILM} Got {self.friction!r}.")
         return flank_film_model(FilmModel.named(FILM_MODEL))
 
     def kernel_parameters(self) -> AxleParameters:
