@@ -134,7 +134,7 @@ COMMANDS = (
     LazyCommand(
         name="export",
         target="gearlube.cli.export:export",
-        summary="Write results of any study for other tools: CSV, MATLAB, UFF58, VTK.",
+        summary="Write results of any study for other tools: CSV, MATLAB, UFF58, MDF4, VTK.",
         panel=_STUDIES,
     ),
     LazyCommand(
