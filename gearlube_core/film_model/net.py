@@ -60,6 +60,7 @@ def take_groups(numbers: Array, g: FilmGroups) -> None:
     numbers[SCRATCH + 12] = g.conductivity
     numbers[SCRATCH + 13] = g.capacity
     numbers[SCRATCH + 14] = g.heat
+    numbers[SCRATCH + 15] = g.thickness
 
 
 @kernel
