@@ -80,7 +80,7 @@ def stability(unstable_from):
 def film(ratio):
     return xr.Dataset(
         {
-            "film_ratio": ("point", np.array([2.0, ratio, 0.1])),
+            "film_ratio": ("point", np.array([4.0, ratio, 0.1])),
             "line_load": ("point", np.array([1.0, 1.0, 0.0])),  # the last carries nothing
         },
         attrs={
